@@ -1,0 +1,274 @@
+#include "exact/algebraic_number.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace touchstone::exact {
+namespace {
+
+constexpr unsigned long levels_before_zero_test = 8;
+
+/// den·t − num, primitive because num/den is in lowest terms.
+Polynomial linear_factor(const Rational& root) {
+  return {Integer(-root.get_num()), Integer(root.get_den())};
+}
+
+/// Sign of Σ a_i y^i at y = index/2^level.
+int sign_at_dyadic(const std::vector<Integer>& a, const Integer& index, unsigned long level) {
+  Integer value = 0;
+  for (std::size_t i = a.size(); i-- > 0;) {
+    value *= index;
+    value += Integer(a[i] << (level * (a.size() - 1 - i)));
+  }
+  return sgn(value);
+}
+
+DyadicCell half(const DyadicCell& cell, bool upper) {
+  return {2 * cell.index + (upper ? 1 : 0), cell.level + 1};
+}
+
+/// Isolates by bisection; a root met at a midpoint is divided out, which leaves a squarefree
+/// polynomial without roots at the ends of the cells still to come.
+void isolate(const Polynomial& p, const DyadicCell& cell, std::vector<AlgebraicNumber>& roots,
+             std::vector<Rational>& met) {
+  const int changes = sign_changes(bernstein_form(p, cell));
+  if (changes == 0) return;
+  if (changes == 1) {
+    roots.emplace_back(p, cell);
+    return;
+  }
+  const DyadicCell lower = half(cell, false), upper = half(cell, true);
+  if (sign_at(p, lower.upper()) == 0) {
+    met.push_back(lower.upper());
+    return;
+  }
+  isolate(p, lower, roots, met);
+  if (met.empty()) isolate(p, upper, roots, met);
+}
+
+RationalInterval evaluate(const Polynomial& p, const RationalInterval& x) {
+  // Horner's rule in interval arithmetic for 0 ≤ x.
+  RationalInterval value{0, 0};
+  for (auto c = p.end(); c != p.begin();) {
+    --c;
+    const Rational& low_factor = sgn(value.lower) >= 0 ? x.lower : x.upper;
+    const Rational& high_factor = sgn(value.upper) >= 0 ? x.upper : x.lower;
+    value = {value.lower * low_factor + *c, value.upper * high_factor + *c};
+  }
+  return value;
+}
+
+RationalInterval quotient(const RationalInterval& a, const RationalInterval& b) {
+  const auto [least, greatest] =
+      std::minmax({Rational(a.lower / b.lower), Rational(a.lower / b.upper),
+                   Rational(a.upper / b.lower), Rational(a.upper / b.upper)});
+  return {least, greatest};
+}
+
+}  // namespace
+
+AlgebraicNumber::AlgebraicNumber(const Rational& value)
+    : polynomial_(linear_factor(value)), rational_(value) {}
+
+AlgebraicNumber::AlgebraicNumber(Polynomial squarefree, DyadicCell cell)
+    : polynomial_(std::move(squarefree)), cell_(std::move(cell)) {
+  if (polynomial_.degree() == 1) {
+    Rational root(-polynomial_[0], polynomial_[1]);
+    root.canonicalize();
+    become(root);
+    return;
+  }
+  sign_below_ = sign_at(polynomial_, cell_.lower());
+}
+
+void AlgebraicNumber::become(const Rational& value) { rational_ = value; }
+
+RationalInterval AlgebraicNumber::interval() const {
+  if (rational_) return {*rational_, *rational_};
+  return {cell_.lower(), cell_.upper()};
+}
+
+void AlgebraicNumber::halve() {
+  const DyadicCell lower = half(cell_, false);
+  const Rational middle = lower.upper();
+  const int sign = sign_at(polynomial_, middle);
+  if (sign == 0) {
+    become(middle);
+  } else {
+    cell_ = half(cell_, sign == sign_below_);
+  }
+}
+
+bool AlgebraicNumber::narrow(unsigned long bits) {
+  const std::vector<Integer> a = local_coefficients(polynomial_, cell_);
+  const Integer parts = Integer(1) << bits;
+  // Where the secant through both ends crosses zero, to the nearest of the 2^bits grid points.
+  Integer rise = -a[0];
+  for (const Integer& c : a) rise += c;  // value at the upper end minus value at the lower end
+  Integer guess;
+  const Integer numerator = (Integer(-a[0]) << (bits + 1)) + rise, denominator = 2 * rise;
+  mpz_fdiv_q(guess.get_mpz_t(), numerator.get_mpz_t(), denominator.get_mpz_t());
+  guess = std::clamp(guess, Integer(1), Integer(parts - 1));
+
+  const auto settle = [&](const Integer& below) {
+    cell_ = {(cell_.index << bits) + below, cell_.level + bits};
+    return true;
+  };
+  const auto meet = [&](const Integer& point) {
+    become(DyadicCell{(cell_.index << bits) + point, cell_.level + bits}.lower());
+    return true;
+  };
+  const int sign = sign_at_dyadic(a, guess, bits);
+  if (sign == 0) return meet(guess);
+  const bool above = sign == sign_below_;
+  const Integer neighbour = guess + (above ? 1 : -1);
+  const Integer below = above ? guess : neighbour;
+  if (neighbour == 0 || neighbour == parts) return settle(below);
+  const int neighbour_sign = sign_at_dyadic(a, neighbour, bits);
+  if (neighbour_sign == 0) return meet(neighbour);
+  if (neighbour_sign == sign) return false;
+  return settle(below);
+}
+
+void AlgebraicNumber::refine_to_level(unsigned long level) {
+  unsigned long bits = 1;
+  while (!rational_ && cell_.level < level) {
+    if (bits == 1) {
+      halve();
+      bits = 2;
+    } else if (narrow(std::min(bits, level - cell_.level + 1))) {
+      bits *= 2;
+    } else {
+      bits /= 2;
+    }
+  }
+}
+
+void AlgebraicNumber::refine(const Rational& width) {
+  if (sgn(width) <= 0)
+    throw std::invalid_argument("the width of an isolating interval must be positive");
+  unsigned long level = cell_.level;
+  while (power_of_two(-static_cast<long>(level)) > width) {
+    // log2 of the width to within 2, then step by step.
+    const long estimate = static_cast<long>(mpz_sizeinbase(width.get_den_mpz_t(), 2)) -
+                          static_cast<long>(mpz_sizeinbase(width.get_num_mpz_t(), 2)) - 1;
+    level = std::max(level + 1, static_cast<unsigned long>(std::max(estimate, 0L)));
+  }
+  refine_to_level(level);
+}
+
+int AlgebraicNumber::sign_of(const Polynomial& q) {
+  if (q.degree() == 0) return sgn(q[0]);
+  bool known_nonzero = false;
+  for (unsigned long step = 1;; step *= 2) {
+    if (rational_) return sign_at(q, *rational_);
+    if (const int sign = sign_on(q, cell_); sign != 0) return sign;
+    if (!known_nonzero && step >= levels_before_zero_test) {
+      if (is_root_of(q)) return 0;
+      known_nonzero = true;
+    }
+    refine_to_level(cell_.level + step);
+  }
+}
+
+bool AlgebraicNumber::is_root_of(const Polynomial& q) const {
+  if (q.is_zero()) return true;
+  if (rational_) return sign_at(q, *rational_) == 0;
+  const Polynomial rest = q.degree() < polynomial_.degree() ? q : pseudo_remainder(q, polynomial_);
+  if (rest.is_zero()) return true;
+  const Polynomial divisor = greatest_common_divisor(polynomial_, rest);
+  if (divisor.degree() == 0) return false;
+  return sign_at(divisor, cell_.lower()) != sign_at(divisor, cell_.upper());
+}
+
+DoubleInterval AlgebraicNumber::enclosure() const {
+  AlgebraicNumber number = *this;
+  for (unsigned long level = 64;; level *= 2) {
+    number.refine_to_level(level);
+    const auto [lower, upper] = number.interval();
+    double below = round_down(lower);
+    const double above = round_up(upper);
+    if (below == above) return {below, above};
+    const double next = std::nextafter(below, std::numeric_limits<double>::infinity());
+    if (next >= above) return {below, above};
+    // At most one double strictly inside: the number is on one side of it, or is it.
+    if (std::nextafter(next, std::numeric_limits<double>::infinity()) < above) continue;
+    const auto order = number <=> Rational(next);
+    if (order == 0) return {next, next};
+    return order < 0 ? DoubleInterval{below, next} : DoubleInterval{next, above};
+  }
+}
+
+std::strong_ordering operator<=>(const AlgebraicNumber& a, const Rational& b) {
+  const auto ordering = [](int sign) { return sign <=> 0; };
+  if (a.rational_) return ordering(cmp(*a.rational_, b));
+  if (b <= a.cell_.lower()) return std::strong_ordering::greater;
+  if (b >= a.cell_.upper()) return std::strong_ordering::less;
+  const int sign = sign_at(a.polynomial_, b);
+  if (sign == 0) return std::strong_ordering::equal;
+  return sign == a.sign_below_ ? std::strong_ordering::greater : std::strong_ordering::less;
+}
+
+std::strong_ordering operator<=>(const AlgebraicNumber& a, const AlgebraicNumber& b) {
+  if (b.rational_) return a <=> *b.rational_;
+  if (a.rational_) return 0 <=> (b <=> *a.rational_);
+  AlgebraicNumber x = a, y = b;
+  bool known_different = false;
+  for (unsigned long step = 1;; step *= 2) {
+    if (x.rational_ || y.rational_) return x <=> y;
+    const Rational lower = std::max(x.cell_.lower(), y.cell_.lower());
+    const Rational upper = std::min(x.cell_.upper(), y.cell_.upper());
+    if (lower >= upper) return cmp(x.cell_.lower(), y.cell_.lower()) <=> 0;
+    if (!known_different && step >= levels_before_zero_test) {
+      const Polynomial divisor = greatest_common_divisor(x.polynomial_, y.polynomial_);
+      if (divisor.degree() > 0 && sign_at(divisor, lower) != sign_at(divisor, upper)) {
+        return std::strong_ordering::equal;
+      }
+      known_different = true;
+    }
+    x.refine_to_level(x.cell_.level + step);
+    y.refine_to_level(y.cell_.level + step);
+  }
+}
+
+std::vector<AlgebraicNumber> roots_in_unit_interval(const Polynomial& p) {
+  if (p.is_zero()) throw std::invalid_argument("every number is a root of the zero polynomial");
+  Polynomial rest = squarefree_part(p);
+  std::vector<AlgebraicNumber> rational_roots, roots;
+  const auto split_off = [&](const Rational& root) {
+    rational_roots.emplace_back(root);
+    rest = exact_quotient(rest, linear_factor(root));
+  };
+  for (const Rational& end : {Rational(0), Rational(1)}) {
+    if (rest.degree() > 0 && sign_at(rest, end) == 0) split_off(end);
+  }
+  while (rest.degree() > 0) {
+    std::vector<Rational> met;
+    roots.clear();
+    isolate(rest, DyadicCell{}, roots, met);
+    if (met.empty()) break;
+    split_off(met.front());
+    roots.clear();
+  }
+  roots.insert(roots.end(), rational_roots.begin(), rational_roots.end());
+  std::ranges::sort(roots, [](const auto& a, const auto& b) { return a < b; });
+  return roots;
+}
+
+RationalInterval enclose_quotient(const Polynomial& numerator, const Polynomial& denominator,
+                                  AlgebraicNumber alpha, const Rational& width) {
+  for (unsigned long level = 64;; level *= 2) {
+    const RationalInterval t = alpha.interval();
+    const RationalInterval below = evaluate(denominator, t);
+    if (sgn(below.lower) * sgn(below.upper) > 0) {
+      RationalInterval result = quotient(evaluate(numerator, t), below);
+      if (result.upper - result.lower <= width) return result;
+    }
+    alpha.refine_to_level(level);
+  }
+}
+
+}  // namespace touchstone::exact

@@ -1,0 +1,131 @@
+#pragma once
+
+/// \file
+/// The one definition of the problem that every room works on.
+///
+/// Four points move on straight lines from t=0 to t=1. For u, v in the domain of the kind,
+///
+///     vertex_face:  F(t,u,v) = v(t) − ((1−u−v) f0(t) + u f1(t) + v f2(t)),   u, v ≥ 0, u+v ≤ 1
+///     edge_edge:    F(t,u,v) = ((1−u) ea0(t) + u ea1(t)) − ((1−v) eb0(t) + v eb1(t)),   u, v ∈
+///     [0,1]
+///
+/// and x(t) = (1−t) x(0) + t x(1). A query *collides* iff F has a root with t ∈ [0,1] and (u,v) in
+/// the closed domain: contact at t=0, at t=1 and on the boundary counts. Its *time of impact* (toi)
+/// is the smallest t of a root. (Wang et al. 2021, section 3, equations 3 and 4.)
+///
+/// For fixed t, F is affine in (u,v), so its image is the convex hull of its values at the vertices
+/// of the domain: the *corners* w_i(t), three for vertex_face, four (a parallelogram, in cyclic
+/// order) for edge_edge. Hence a query collides iff 0 ∈ conv{w_i(t)} for some t ∈ [0,1].
+///
+/// This header is all of exact/ that fast code may see: it needs Eigen and nothing else.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <type_traits>
+
+namespace touchstone {
+
+/// Which two primitives a query holds.
+enum class Kind : std::uint8_t { vertex_face, edge_edge };
+
+/// Number of points that move, and number of points in a query (start and end of each).
+inline constexpr std::size_t moving_points = 4;
+inline constexpr std::size_t query_points = 2 * moving_points;
+
+/// Eight points as 24 contiguous doubles, in the order of the benchmark datasets:
+/// at t=0 then at t=1; vertex_face: v, f0, f1, f2; edge_edge: ea0, ea1, eb0, eb1; x, y, z each.
+///
+/// The layout is the file layout of a float64 array of shape (N, 8, 3), so such an array in memory
+/// is a `std::span<const Query>` without a copy. The kind is not part of it: a batch has one kind.
+struct Query {
+  std::array<double, 3 * query_points> coordinates;
+
+  /// Coordinate `axis` (0..2) of point `point` (0..3, in the order above) at time `end` (0 or 1).
+  [[nodiscard]] double at(std::size_t end, std::size_t point, std::size_t axis) const {
+    return coordinates[index(end, point, axis)];
+  }
+  [[nodiscard]] double& at(std::size_t end, std::size_t point, std::size_t axis) {
+    return coordinates[index(end, point, axis)];
+  }
+
+  /// The same point as an Eigen vector that refers to this query's memory.
+  [[nodiscard]] Eigen::Map<const Eigen::Vector3d> point(std::size_t end, std::size_t point) const {
+    return Eigen::Map<const Eigen::Vector3d>(&coordinates[index(end, point, 0)]);
+  }
+  [[nodiscard]] Eigen::Map<Eigen::Vector3d> point(std::size_t end, std::size_t point) {
+    return Eigen::Map<Eigen::Vector3d>(&coordinates[index(end, point, 0)]);
+  }
+
+  friend bool operator==(const Query&, const Query&) = default;
+
+ private:
+  static constexpr std::size_t index(std::size_t end, std::size_t point, std::size_t axis) {
+    return 3 * (moving_points * end + point) + axis;
+  }
+};
+static_assert(sizeof(Query) == 3 * query_points * sizeof(double));
+static_assert(std::is_trivially_copyable_v<Query> && std::is_standard_layout_v<Query> &&
+              std::is_aggregate_v<Query>);
+
+/// Queries of one kind. Does not own them.
+struct QueryBatch {
+  Kind kind;
+  std::span<const Query> queries;
+};
+
+/// A corner of F: the difference of point `plus` and point `minus` (0..3).
+struct Corner {
+  std::size_t plus;
+  std::size_t minus;
+};
+
+/// The corners of a kind: v−f0, v−f1, v−f2, or ea0−eb0, ea1−eb0, ea1−eb1, ea0−eb1 in cyclic order.
+/// Their parameters (u,v) are (0,0), (1,0), (0,1), or (0,0), (1,0), (1,1), (0,1).
+[[nodiscard]] inline std::span<const Corner> corners(Kind kind) {
+  static constexpr std::array<Corner, 3> vertex_face{{{0, 1}, {0, 2}, {0, 3}}};
+  static constexpr std::array<Corner, 4> edge_edge{{{0, 2}, {1, 2}, {1, 3}, {0, 3}}};
+  if (kind == Kind::vertex_face) return vertex_face;
+  return edge_edge;
+}
+
+/// F(t,u,v), evaluated with the operations of `Scalar` in the order of the formulas above: the
+/// value itself if they are exact (rationals), an unfiltered approximation if they are not.
+/// `Scalar` must be constructible from double and have +, − and *.
+template <class Scalar>
+[[nodiscard]] std::array<Scalar, 3> contact_function(Kind kind, const Query& query, const Scalar& t,
+                                                     const Scalar& u, const Scalar& v) {
+  const Scalar one(1.0);
+  std::array<Scalar, 3> value;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto position = [&](std::size_t point) {
+      return Scalar((one - t) * Scalar(query.at(0, point, axis)) +
+                    t * Scalar(query.at(1, point, axis)));
+    };
+    const Scalar a = position(0), b = position(1), c = position(2), d = position(3);
+    value[axis] = kind == Kind::vertex_face
+                      ? Scalar(a - ((one - u - v) * b + u * c + v * d))
+                      : Scalar(((one - u) * a + u * b) - ((one - v) * c + v * d));
+  }
+  return value;
+}
+
+/// "vertex-face" or "edge-edge", as datasets and the command line spell them.
+[[nodiscard]] inline std::string_view to_string(Kind kind) {
+  return kind == Kind::vertex_face ? "vertex-face" : "edge-edge";
+}
+
+/// The inverse of to_string.
+/// \throws std::invalid_argument for any other text.
+[[nodiscard]] inline Kind kind_from_string(std::string_view text) {
+  if (text == to_string(Kind::vertex_face)) return Kind::vertex_face;
+  if (text == to_string(Kind::edge_edge)) return Kind::edge_edge;
+  throw std::invalid_argument("kind must be vertex-face or edge-edge");
+}
+
+}  // namespace touchstone

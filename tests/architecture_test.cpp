@@ -1,0 +1,392 @@
+/// \file
+/// The rules of the house that a compiler does not check: which room may see which, that every
+/// header has a test, and how a header begins. Each rule is a function of paths and texts, so that
+/// the same function that reads the source tree is shown to find planted faults.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace touchstone::tests {
+namespace {
+
+/// Files by their path from the project root, with '/' between the parts.
+using Tree = std::map<std::string, std::string, std::less<>>;
+using Violations = std::vector<std::string>;
+
+/// What may be included from where. Both are beginnings of paths if they end with '/', and whole
+/// paths if not. The standard library is allowed everywhere and not listed.
+struct Permission {
+  std::string_view from;
+  std::string_view target;
+};
+
+/// A file obeys the lines of the longest `from` that fits its path.
+///
+/// filters/ is to be two targets: the expressions and their bounds, which simulators include and
+/// which stay as they are here, and the derivation of the bounds, which may use MPFR and CGAL and
+/// gets its own lines when it comes.
+constexpr auto permissions = std::to_array<Permission>({
+    {"exact/query.hpp", "Eigen/"},
+
+    {"exact/", "exact/"},
+    {"exact/", "CGAL/"},
+    {"exact/", "Eigen/"},
+    {"exact/", "gmp.h"},
+    {"exact/", "gmpxx.h"},
+    {"exact/", "mpfr.h"},
+
+    {"filters/", "filters/"},
+
+    {"fast/", "fast/"},
+    {"fast/", "filters/"},
+    {"fast/", "exact/query.hpp"},
+    {"fast/", "Eigen/"},
+    {"fast/", "hwy/"},
+    {"fast/", "oneapi/tbb/"},
+
+    {"verify/", "exact/"},
+    {"verify/", "filters/"},
+    {"verify/", "fast/"},
+    {"verify/", "verify/"},
+    {"verify/", "CLI/"},
+    {"verify/", "Eigen/"},
+    {"verify/", "fmt/"},
+    {"verify/", "gmp.h"},
+    {"verify/", "gmpxx.h"},
+    {"verify/", "nlohmann/"},
+    {"verify/", "oneapi/tbb/"},
+    // POSIX: files, memory maps, terminals, clocks.
+    {"verify/", "fcntl.h"},
+    {"verify/", "sys/"},
+    {"verify/", "time.h"},
+    {"verify/", "unistd.h"},
+});
+
+/// Headers without a test file of their own, each with its reason.
+struct Exception {
+  std::string_view header;
+  std::string_view reason;
+};
+constexpr auto headers_without_test = std::to_array<Exception>({
+    {"filters/strict_arithmetic.hpp", "tested by compilation, in tests/filters/CMakeLists.txt"},
+    {"verify/query_source.hpp", "an interface without code"},
+});
+
+constexpr std::array<std::string_view, 4> rooms{"exact", "filters", "fast", "verify"};
+
+// ---- The rules ----------------------------------------------------------------------------------
+
+bool fits(std::string_view path, std::string_view pattern) {
+  return pattern.ends_with('/') ? path.starts_with(pattern) : path == pattern;
+}
+
+bool is_header(std::string_view path) { return path.ends_with(".hpp"); }
+
+/// The longest `from` that fits the path; empty where no line is about it.
+std::string_view rule_for(std::string_view path) {
+  std::string_view longest;
+  for (const auto& [from, target] : permissions) {
+    if (fits(path, from) && from.size() > longest.size()) longest = from;
+  }
+  return longest;
+}
+
+/// An include: the name between the brackets or quotes, or nothing where it is neither.
+struct Include {
+  std::string name;
+  bool angle = false;
+};
+
+bool is_standard_library(const Include& include) {
+  return include.angle && !include.name.empty() &&
+         include.name.find_first_of("/.") == std::string::npos;
+}
+
+bool is_permitted(std::string_view path, const Include& include) {
+  if (is_standard_library(include)) return true;
+  if (include.name.find("..") != std::string::npos) return false;
+  const std::string_view rule = rule_for(path);
+  return std::ranges::any_of(permissions, [&](const Permission& permission) {
+    return permission.from == rule && fits(include.name, permission.target);
+  });
+}
+
+std::string_view without_leading_space(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  return text;
+}
+
+/// Takes the preprocessor's directive from the front of a line; empty for other lines.
+std::string_view take_directive(std::string_view& line) {
+  line = without_leading_space(line);
+  if (!line.starts_with('#')) return {};
+  line = without_leading_space(line.substr(1));
+  const auto is_word = [](char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+  };
+  const auto end = std::ranges::find_if_not(line, is_word);
+  const std::string_view word = line.substr(0, static_cast<std::size_t>(end - line.begin()));
+  line = without_leading_space(line.substr(word.size()));
+  return word;
+}
+
+/// What stands behind #include.
+Include parse_target(std::string_view text) {
+  if (!text.starts_with('<') && !text.starts_with('"')) return {};
+  const bool angle = text.front() == '<';
+  const std::size_t end = text.find(angle ? '>' : '"', 1);
+  if (end == std::string_view::npos) return {};
+  return {.name = std::string(text.substr(1, end - 1)), .angle = angle};
+}
+
+/// Every include of a file that its room may not make, as "path:line: name".
+Violations forbidden_includes(const std::string& path, std::string_view text) {
+  Violations result;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view directive = take_directive(line);
+    const bool extension = directive == "include_next" || directive == "import";
+    if (directive != "include" && !extension) continue;
+    const Include include = parse_target(line);
+    if (extension || !is_permitted(path, include)) {
+      std::string violation = path;
+      violation.append(":").append(std::to_string(number)).append(": ").append(include.name);
+      result.push_back(std::move(violation));
+    }
+  }
+  return result;
+}
+
+std::string test_of(std::string_view header) {
+  std::string result = "tests/";
+  result.append(header.substr(0, header.rfind('.'))).append("_test.cpp");
+  return result;
+}
+
+bool is_excepted(std::string_view header) {
+  return std::ranges::any_of(
+      headers_without_test, [&](const Exception& exception) { return exception.header == header; });
+}
+
+bool is_in_a_room(std::string_view path) { return !rule_for(path).empty(); }
+
+/// The headers of the rooms that have no test file, and no reason for it.
+Violations untested_headers(const Tree& tree) {
+  Violations result;
+  for (const auto& [path, text] : tree) {
+    if (!is_in_a_room(path) || !is_header(path) || is_excepted(path)) continue;
+    if (!tree.contains(test_of(path))) result.push_back(path);
+  }
+  return result;
+}
+
+/// The headers, of rooms and tests, that do not begin as they should.
+Violations malformed_headers(const Tree& tree) {
+  Violations result;
+  for (const auto& [path, text] : tree) {
+    if (!is_header(path)) continue;
+    if (!text.starts_with("#pragma once\n")) result.push_back(path + ": no #pragma once");
+    if (text.find("\n/// \\file\n") == std::string::npos) result.push_back(path + ": no \\file");
+  }
+  return result;
+}
+
+/// C or C++ under an extension that is not of this house.
+Violations foreign_extensions(const Tree& tree) {
+  static constexpr std::array<std::string_view, 12> foreign{
+      ".h", ".hh", ".hxx", ".c", ".cc", ".cxx", ".inc", ".inl", ".ipp", ".ixx", ".tpp", ".cppm"};
+  Violations result;
+  for (const auto& [path, text] : tree) {
+    if (std::ranges::any_of(foreign, [&](auto extension) { return path.ends_with(extension); }))
+      result.push_back(path);
+  }
+  return result;
+}
+
+// ---- The source tree ----------------------------------------------------------------------------
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+Tree read_source_tree() {
+  const std::filesystem::path root = TOUCHSTONE_SOURCE_DIR;
+  std::vector<std::string> folders(rooms.begin(), rooms.end());
+  folders.emplace_back("tests");
+  Tree tree;
+  for (const std::string& folder : folders) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) {
+      if (!entry.is_regular_file()) continue;
+      tree.emplace(entry.path().lexically_relative(root).generic_string(), read(entry.path()));
+    }
+  }
+  return tree;
+}
+
+const Tree& source_tree() {
+  static const Tree tree = read_source_tree();
+  return tree;
+}
+
+TEST(SourceTree, HasAHeaderInEveryRoom) {
+  for (const std::string_view room : rooms) {
+    EXPECT_TRUE(std::ranges::any_of(source_tree(), [&](const auto& file) {
+      return file.first.starts_with(std::string(room) + "/") && is_header(file.first);
+    })) << room;
+  }
+  EXPECT_TRUE(source_tree().contains("exact/query.hpp"));
+  EXPECT_TRUE(source_tree().contains("tests/architecture_test.cpp"));
+}
+
+TEST(SourceTree, RoomsIncludeOnlyWhatTheyMay) {
+  for (const auto& [path, text] : source_tree()) {
+    if (is_in_a_room(path)) {
+      EXPECT_EQ(forbidden_includes(path, text), Violations{}) << path;
+    }
+  }
+}
+
+TEST(SourceTree, EveryHeaderHasATest) { EXPECT_EQ(untested_headers(source_tree()), Violations{}); }
+
+TEST(SourceTree, ExceptionsAreNeeded) {
+  for (const auto& [header, reason] : headers_without_test) {
+    EXPECT_TRUE(source_tree().contains(header)) << header;
+    EXPECT_FALSE(source_tree().contains(test_of(header))) << header;
+    EXPECT_FALSE(reason.empty()) << header;
+  }
+}
+
+TEST(SourceTree, EveryHeaderBeginsWithPragmaOnceAndItsIdea) {
+  EXPECT_EQ(malformed_headers(source_tree()), Violations{});
+}
+
+TEST(SourceTree, HasNoSourceOfAnotherExtension) {
+  EXPECT_EQ(foreign_extensions(source_tree()), Violations{});
+}
+
+// ---- Planted faults -----------------------------------------------------------------------------
+
+struct Planted {
+  std::string path;
+  std::string_view text;
+};
+
+TEST(PlantedFault, EachForbiddenIncludeIsFound) {
+  const std::vector<Planted> faults{
+      {"fast/solver.cpp", "#include \"exact/oracle.hpp\"\n"},
+      {"fast/solver.cpp", "#include \"exact/number.hpp\"\n"},
+      {"fast/solver.cpp", "#include <exact/number.hpp>\n"},
+      {"fast/solver.cpp", "#include <gmpxx.h>\n"},
+      {"fast/solver.cpp", "#include <gmp.h>\n"},
+      {"fast/solver.cpp", "#include <CGAL/gmpxx.h>\n"},
+      {"fast/solver.cpp", "#include <mpfr.h>\n"},
+      {"fast/solver.cpp", "#include \"verify/dataset.hpp\"\n"},
+      {"fast/solver.cpp", "#include <unistd.h>\n"},
+      {"fast/solver.cpp", "#include <fmt/format.h>\n"},
+      {"fast/solver.hpp", "#include \"exact/query.hpp.in\"\n"},
+      {"fast/deep/er.hpp", "#include \"exact/oracle.hpp\"\n"},
+      {"exact/query.hpp", "#include \"exact/number.hpp\"\n"},
+      {"exact/query.hpp", "#include <gmpxx.h>\n"},
+      {"exact/query.hpp", "#include <CGAL/Polynomial.h>\n"},
+      {"exact/oracle.cpp", "#include \"fast/solver.hpp\"\n"},
+      {"exact/oracle.cpp", "#include \"filters/strict_arithmetic.hpp\"\n"},
+      {"exact/oracle.cpp", "#include \"verify/dataset.hpp\"\n"},
+      {"exact/oracle.cpp", "#include <oneapi/tbb/info.h>\n"},
+      {"filters/bound.hpp", "#include \"exact/query.hpp\"\n"},
+      {"filters/bound.hpp", "#include \"fast/solver.hpp\"\n"},
+      {"filters/bound.hpp", "#include <Eigen/Core>\n"},
+      {"filters/bound.hpp", "#include <mpfr.h>\n"},
+      {"verify/dataset.cpp", "#include <boost/any.hpp>\n"},
+      {"verify/dataset.cpp", "#include <stdio.h>\n"},
+      {"verify/dataset.cpp", "#include \"tests/support/random.hpp\"\n"},
+      {"exact/oracle.cpp", "#include \"tests/support/random.hpp\"\n"},
+      {"fast/solver.cpp", "#include \"tests/support/random.hpp\"\n"},
+      {"filters/bound.hpp", "#include \"tests/support/random.hpp\"\n"},
+  };
+  for (const auto& [path, text] : faults) {
+    EXPECT_EQ(forbidden_includes(path, text).size(), 1U) << path << ": " << text;
+  }
+}
+
+TEST(PlantedFault, NoSpellingHidesAnInclude) {
+  for (const std::string_view text :
+       {"#include<gmpxx.h>", "  #include <gmpxx.h>", "#\tinclude <gmpxx.h>",
+        "# include \"gmpxx.h\" // why", "#include \"fast/../exact/oracle.hpp\"",
+        "#include \"../exact/oracle.hpp\"", "#include \"solver.hpp\"", "#include \"vector\"",
+        "#include ORACLE", "#include <vector", "#include", "#include_next <vector>",
+        "#import <vector>", "#include <>"}) {
+    EXPECT_EQ(forbidden_includes("fast/solver.cpp", text).size(), 1U) << text;
+  }
+}
+
+TEST(PlantedFault, IsReportedWithItsLine) {
+  static constexpr std::string_view text =
+      "#include \"fast/solver.hpp\"\n\n#include <vector>\n#include <gmp.h>\nint x;\n"
+      "#include \"exact/oracle.hpp\"";
+  EXPECT_EQ(forbidden_includes("fast/solver.cpp", text),
+            (Violations{"fast/solver.cpp:4: gmp.h", "fast/solver.cpp:6: exact/oracle.hpp"}));
+}
+
+TEST(PlantedFault, PermittedIncludesAreNone) {
+  const std::vector<Planted> files{
+      {"exact/query.hpp", "#include <Eigen/Core>\n#include <span>\n"},
+      {"exact/oracle.cpp",
+       "#include \"exact/query.hpp\"\n#include <CGAL/gmpxx.h>\n#include <mpfr.h>"},
+      {"filters/bound.hpp", "#include \"filters/strict_arithmetic.hpp\"\n#include <cmath>\n"},
+      {"fast/solver.cpp", "#include \"exact/query.hpp\"\n#include <hwy/highway.h>\n"},
+      {"fast/solver.cpp", "#include \"filters/bound.hpp\"\n#include <oneapi/tbb/info.h>\n"},
+      {"verify/dataset.cpp", "#include \"fast/solver.hpp\"\n#include \"exact/oracle.hpp\"\n"},
+      {"verify/dataset.cpp", "#include <fmt/format.h>\n#include <sys/mman.h>\n#include <vector>\n"},
+      {"fast/solver.cpp", "// #include <gmp.h>\nint included;\n#define X \"#include <gmp.h>\"\n"},
+  };
+  for (const auto& [path, text] : files) {
+    EXPECT_EQ(forbidden_includes(path, text), Violations{}) << path;
+  }
+}
+
+TEST(PlantedFault, AHeaderWithoutATestIsFound) {
+  const Tree tree{{"exact/new.hpp", ""},
+                  {"exact/old.hpp", ""},
+                  {"exact/old.cpp", ""},
+                  {"exact/lonely.cpp", ""},
+                  {"tests/exact/old_test.cpp", ""},
+                  {"verify/deep/er.hpp", ""},
+                  {"tests/verify/er_test.cpp", ""},
+                  {"tests/support/random.hpp", ""},
+                  {"verify/query_source.hpp", ""}};
+  EXPECT_EQ(untested_headers(tree), (Violations{"exact/new.hpp", "verify/deep/er.hpp"}));
+}
+
+TEST(PlantedFault, AMalformedHeaderIsFound) {
+  const Tree tree{{"exact/good.hpp", "#pragma once\n\n/// \\file\n/// Idea.\n"},
+                  {"fast/late.hpp", "// Comment\n#pragma once\n\n/// \\file\n"},
+                  {"fast/mute.hpp", "#pragma once\n\n// Names no \\file.\n"},
+                  {"fast/plain.cpp", "int x;\n"},
+                  {"tests/support/bare.hpp", ""}};
+  EXPECT_EQ(
+      malformed_headers(tree),
+      (Violations{"fast/late.hpp: no #pragma once", "fast/mute.hpp: no \\file",
+                  "tests/support/bare.hpp: no #pragma once", "tests/support/bare.hpp: no \\file"}));
+}
+
+TEST(PlantedFault, ASourceOfAnotherExtensionIsFound) {
+  const Tree tree{{"exact/a.hpp", ""},   {"exact/a.cpp", ""}, {"exact/CMakeLists.txt", ""},
+                  {"fast/hidden.h", ""}, {"fast/b.cc", ""},   {"tests/data.csv", ""}};
+  EXPECT_EQ(foreign_extensions(tree), (Violations{"fast/b.cc", "fast/hidden.h"}));
+}
+
+}  // namespace
+}  // namespace touchstone::tests

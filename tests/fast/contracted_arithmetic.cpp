@@ -1,0 +1,18 @@
+// Built with contraction on: succeeds iff the self-check refuses this build and says why.
+
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "fast/arithmetic_check.hpp"
+
+int main() {
+  try {
+    touchstone::fast::require_strict_arithmetic();
+  } catch (const std::runtime_error& error) {
+    std::cout << error.what() << '\n';
+    return std::string(error.what()).find("contracted") == std::string::npos ? 1 : 0;
+  }
+  std::cout << "a contracted build was accepted\n";
+  return 1;
+}

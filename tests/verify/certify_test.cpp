@@ -1,0 +1,265 @@
+#include "verify/certify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "tests/support/memory_source.hpp"
+#include "verify/dataset.hpp"
+#include "verify/families.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using exact::Rational;
+using tests::MemorySource;
+
+/// A vertex falls from height `above` to height −`below` through the middle of a resting triangle:
+/// they collide iff below ≥ 0, at above/(above + below).
+Query falling_vertex(double above, double below) {
+  return {{1, 1, above,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
+           1, 1, -below, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+}
+
+/// Hits at t=1/4, and misses where the index is divisible by 3, all recorded truly.
+std::vector<RecordedQuery> true_records(std::uint64_t count) {
+  std::vector<RecordedQuery> records;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const bool hit = i % 3 != 0;
+    records.push_back({.query = hit ? falling_vertex(1, 3) : falling_vertex(1, -0.5),
+                       .index = i,
+                       .collides = hit,
+                       .toi = hit ? std::optional(Rational(1, 4)) : std::nullopt});
+  }
+  return records;
+}
+
+CertifyResult certify_records(std::vector<RecordedQuery> records,
+                              const CertifyOptions& options = {}) {
+  MemorySource source(Kind::vertex_face, std::move(records));
+  return certify(source, options);
+}
+
+TEST(Certify, CountsWhatIsThere) {
+  const CertifyResult result = certify_records(true_records(300));
+  EXPECT_EQ(result.name, "memory");
+  EXPECT_EQ(result.queries, 300U);
+  EXPECT_EQ(result.collisions, 200U);
+  EXPECT_EQ(result.labels, 300U);
+  EXPECT_EQ(result.tois, 200U);
+  EXPECT_EQ(result.label_mismatches, 0U);
+  EXPECT_EQ(result.toi_mismatches, 0U);
+  EXPECT_TRUE(result.mismatches.empty());
+  EXPECT_EQ(result.skipped, 3U);
+  EXPECT_EQ(result.rounded, 5U);
+  EXPECT_FALSE(result.error);
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_GT(result.microseconds, 0.0);
+  EXPECT_DOUBLE_EQ(result.microseconds_per_query(), result.microseconds / 300);
+}
+
+TEST(Certify, FindsPlantedWrongLabelsOfBothKinds) {
+  auto records = true_records(300);
+  records[6].collides = true;     // a false positive
+  records[200].collides = false;  // a false negative
+  records[200].toi.reset();
+  const CertifyResult result = certify_records(std::move(records));
+  EXPECT_EQ(result.label_mismatches, 2U);
+  EXPECT_EQ(result.toi_mismatches, 0U);
+  ASSERT_EQ(result.mismatches.size(), 2U);
+  EXPECT_EQ(result.mismatches[0].index, 6U);
+  EXPECT_EQ(result.mismatches[0].of, Mismatch::Of::label);
+  EXPECT_EQ(result.mismatches[0].recorded, "collision");
+  EXPECT_EQ(result.mismatches[0].truth, "no collision");
+  EXPECT_EQ(result.mismatches[1].index, 200U);
+  EXPECT_EQ(result.mismatches[1].truth, "collision");
+}
+
+TEST(Certify, HoldsTimesOfImpactToTheTolerance) {
+  auto records = true_records(4);
+  const Rational quarter(1, 4), just_inside = exact::rational_from_decimal("0.99e-40"),
+                                just_outside = exact::rational_from_decimal("1.01e-40");
+  records[1].toi = quarter + just_inside;
+  EXPECT_EQ(certify_records(records).toi_mismatches, 0U);
+  records[1].toi = quarter - just_inside;
+  EXPECT_EQ(certify_records(records).toi_mismatches, 0U);
+  records[1].toi = quarter + just_outside;
+  EXPECT_EQ(certify_records(records).toi_mismatches, 1U);
+  records[1].toi = quarter - just_outside;
+  const CertifyResult result = certify_records(records);
+  ASSERT_EQ(result.mismatches.size(), 1U);
+  EXPECT_EQ(result.mismatches[0].of, Mismatch::Of::toi);
+  EXPECT_EQ(result.mismatches[0].index, 1U);
+  EXPECT_EQ(result.mismatches[0].truth, "2.5E-1");
+}
+
+TEST(Certify, ToleranceZeroAsksForEquality) {
+  CertifyOptions options;
+  options.toi_tolerance = 0;
+  auto records = true_records(4);
+  EXPECT_EQ(certify_records(records, options).toi_mismatches, 0U);
+  records[1].toi = *records[1].toi + exact::power_of_two(-2000);
+  EXPECT_EQ(certify_records(records, options).toi_mismatches, 1U);
+}
+
+TEST(Certify, ATimeOfImpactOfAMissIsAMismatch) {
+  auto records = true_records(4);
+  records[3].toi = Rational(1, 2);
+  const CertifyResult result = certify_records(std::move(records));
+  ASSERT_EQ(result.toi_mismatches, 1U);
+  EXPECT_EQ(result.mismatches[0].index, 3U);
+  EXPECT_EQ(result.mismatches[0].truth, "no collision");
+}
+
+TEST(Certify, UnrecordedAnswersAreNoMismatch) {
+  auto records = true_records(10);
+  for (RecordedQuery& record : records) {
+    record.collides.reset();
+    record.toi.reset();
+  }
+  const CertifyResult result = certify_records(std::move(records));
+  EXPECT_EQ(result.labels, 0U);
+  EXPECT_EQ(result.tois, 0U);
+  EXPECT_EQ(result.collisions, 6U);
+  EXPECT_TRUE(result.mismatches.empty());
+}
+
+TEST(Certify, TruthComesInOrderWhateverTheNumberOfThreads) {
+  for (const unsigned threads : {1U, 2U, 7U}) {
+    std::vector<Truth> truths;
+    double last_progress = 0.0;
+    CertifyOptions options;
+    options.threads = threads;
+    options.on_truth = [&](const Truth& truth) { truths.push_back(truth); };
+    options.on_progress = [&](double fraction) {
+      EXPECT_GE(fraction, last_progress);
+      last_progress = fraction;
+    };
+    EXPECT_EQ(certify_records(true_records(2000), options).queries, 2000U);
+    EXPECT_EQ(last_progress, 1.0);
+    ASSERT_EQ(truths.size(), 2000U);
+    for (std::uint64_t i = 0; i < truths.size(); ++i) {
+      ASSERT_EQ(truths[i].index, i);
+      ASSERT_EQ(truths[i].collides, i % 3 != 0);
+      ASSERT_EQ(truths[i].toi.has_value(), truths[i].collides);
+      const exact::DoubleInterval quarter{0.25, 0.25};
+      ASSERT_EQ(truths[i].toi.value_or(quarter), quarter);
+    }
+  }
+}
+
+TEST(Certify, AnErrorLosesNothingThatWasReadBefore) {
+  auto records = true_records(500);
+  records[100].collides = !*records[100].collides;
+  MemorySource source(Kind::vertex_face, records);
+  source.fail_at(333, "row 2670 is broken");
+  const CertifyResult result = certify(source);
+  EXPECT_EQ(result.error, "row 2670 is broken");
+  EXPECT_EQ(result.queries, 333U);
+  EXPECT_EQ(result.label_mismatches, 1U);
+}
+
+TEST(Certify, StopsWhenAskedAndKeepsWhatIsDone) {
+  std::atomic<bool> stop = false;
+  std::uint64_t seen = 0;
+  CertifyOptions options;
+  options.stop = &stop;
+  options.on_truth = [&](const Truth&) { stop = ++seen > 100; };
+  const CertifyResult result = certify_records(true_records(100000), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.queries, seen);
+  EXPECT_GT(result.queries, 100U);
+  EXPECT_LT(result.queries, 10000U);
+}
+
+TEST(Certify, TotalIsTheSum) {
+  auto wrong = true_records(30);
+  wrong[1].collides = false;
+  const CertifyResult sum = total({certify_records(true_records(300)), certify_records(wrong)});
+  EXPECT_EQ(sum.queries, 330U);
+  EXPECT_EQ(sum.collisions, 220U);
+  EXPECT_EQ(sum.labels, 330U);
+  EXPECT_EQ(sum.label_mismatches, 1U);
+  EXPECT_EQ(sum.tois, 220U);
+  EXPECT_EQ(sum.skipped, 6U);
+  EXPECT_EQ(sum.rounded, 10U);
+}
+
+/// Every family's truth is known without the oracle; here the two meet. Times of impact must be
+/// equal, not near, and the oracle's contact must agree where the construction knows a unique one.
+class BuiltInSet : public ::testing::TestWithParam<Family> {};
+
+TEST_P(BuiltInSet, AgreesWithTheOracle) {
+  const char* soak = std::getenv("TOUCHSTONE_SOAK");
+  const std::uint64_t count = soak != nullptr ? 50000 : 1000;
+  CertifyOptions options;
+  options.toi_tolerance = 0;
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    if (!supports(GetParam(), kind)) continue;
+    const auto source = open_family(GetParam(), kind, 1, count);
+    const CertifyResult result = certify(*source, options);
+    EXPECT_EQ(result.queries, count);
+    EXPECT_EQ(result.labels, count);
+    EXPECT_EQ(result.label_mismatches, 0U);
+    EXPECT_EQ(result.toi_mismatches, 0U);
+    for (const Mismatch& mismatch : result.mismatches) {
+      ADD_FAILURE() << to_string(kind) << " query " << mismatch.index << ": recorded "
+                    << mismatch.recorded << ", truth " << mismatch.truth;
+    }
+  }
+}
+
+std::string family_name(const ::testing::TestParamInfo<Family>& info) {
+  std::string name(info.param.name);
+  std::erase(name, '-');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet,
+                         ::testing::ValuesIn(families().begin(), families().end()), family_name);
+
+/// The public benchmark data, or nothing where they are missing.
+std::vector<CertifyResult> certify_public(const std::string& folder) {
+  const char* data = std::getenv("TOUCHSTONE_DATA");
+  const std::filesystem::path root =
+      data != nullptr ? data : TOUCHSTONE_SOURCE_DIR "/../shared/datasets";
+  if (!std::filesystem::exists(root)) {
+    std::cerr << "\n*** WARNING: public data missing at " << root
+              << " (set TOUCHSTONE_DATA): the oracle is NOT held against it ***\n\n";
+    return {};
+  }
+  std::vector<CertifyResult> results;
+  const std::vector<std::filesystem::path> paths{root / folder};
+  for (const auto& file : find_datasets(paths)) results.push_back(certify(*open_dataset(file)));
+  return results;
+}
+
+TEST(PublicData, HandcraftedQueriesAgree) {
+  const auto results = certify_public("handcrafted");
+  if (results.empty()) GTEST_SKIP() << "public data missing";
+  const CertifyResult sum = total(results);
+  EXPECT_EQ(sum.queries, 4884U);
+  EXPECT_EQ(sum.labels, 4884U);
+  EXPECT_EQ(sum.label_mismatches, 0U);
+  EXPECT_EQ(sum.skipped, 0U);
+}
+
+TEST(PublicData, SimulationQueriesAndTimesOfImpactAgree) {
+  const auto results = certify_public("simulation");
+  if (results.empty()) GTEST_SKIP() << "public data missing";
+  const CertifyResult sum = total(results);
+  EXPECT_EQ(sum.queries, 4652U + 92U + 263U);
+  EXPECT_EQ(sum.labels, sum.queries);
+  EXPECT_EQ(sum.collisions, 4650U + 27U + 107U);
+  EXPECT_EQ(sum.tois, sum.collisions);
+  EXPECT_EQ(sum.label_mismatches, 0U);
+  EXPECT_EQ(sum.toi_mismatches, 0U);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

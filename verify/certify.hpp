@@ -1,0 +1,88 @@
+#pragma once
+
+/// \file
+/// The main job: hold what a source records of its queries against the exact truth.
+///
+/// Queries stream from the source through the oracle, many at a time on all cores, and come out in
+/// the order they went in: the output does not depend on the number of threads. Time is the
+/// processor time that the oracle takes, so that it does not depend on them either, nor on reading.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exact/number.hpp"
+#include "exact/query.hpp"
+#include "verify/query_source.hpp"
+
+namespace touchstone::verify {
+
+/// What is true of one query.
+struct Truth {
+  std::uint64_t index;
+  bool collides;
+  /// On collision neighbouring doubles around the exact time of impact, or the double that it is.
+  std::optional<exact::DoubleInterval> toi;
+};
+
+/// A recorded answer that is not the truth.
+struct Mismatch {
+  enum class Of : std::uint8_t { label, toi };
+
+  Of of;
+  std::uint64_t index;
+  std::string recorded;
+  std::string truth;
+};
+
+struct CertifyOptions {
+  /// Cores to use; 0: all of them.
+  unsigned threads = 0;
+  /// A recorded time of impact may be off by this much; 0: not at all.
+  exact::Rational toi_tolerance = default_toi_tolerance();
+  /// Called for every query, in order, never from two threads at once.
+  std::function<void(const Truth&)> on_truth = nullptr;
+  /// Called now and then with the fraction of the source that is read; never from two threads at
+  /// once.
+  std::function<void(double)> on_progress = nullptr;
+  /// Once true, no further queries are read and the result is that of those read so far.
+  const std::atomic<bool>* stop = nullptr;
+
+  /// 1e-40: what the 45 digits of published times of impact have to offer.
+  static exact::Rational default_toi_tolerance();
+};
+
+/// The judgement on one source.
+struct CertifyResult {
+  std::string name;
+  Kind kind = Kind::vertex_face;
+  std::uint64_t queries = 0;     ///< decided
+  std::uint64_t collisions = 0;  ///< of these, by the truth
+  std::uint64_t labels = 0;      ///< queries with a recorded verdict
+  std::uint64_t label_mismatches = 0;
+  std::uint64_t tois = 0;  ///< queries with a recorded time of impact
+  std::uint64_t toi_mismatches = 0;
+  std::uint64_t skipped = 0;  ///< in error, left out
+  std::uint64_t rounded = 0;  ///< coordinates rounded to double
+  double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
+  std::vector<Mismatch> mismatches;
+  /// The error that ended the reading before the source's end; all of the above holds up to there.
+  std::optional<std::string> error;
+  bool interrupted = false;
+
+  /// Mean time of the oracle; 0 if there are no queries.
+  [[nodiscard]] double microseconds_per_query() const;
+};
+
+/// Decides every query of the source and compares. Errors of the source end up in the result.
+/// A recorded time of impact of a query that does not collide is a mismatch; a collision without a
+/// recorded time of impact is not.
+[[nodiscard]] CertifyResult certify(QuerySource& source, const CertifyOptions& options = {});
+
+/// Sums of all counts; the mismatches stay with their sources.
+[[nodiscard]] CertifyResult total(const std::vector<CertifyResult>& results);
+
+}  // namespace touchstone::verify

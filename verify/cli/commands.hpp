@@ -1,0 +1,25 @@
+#pragma once
+
+/// \file
+/// The subcommands of `touchstone`. Each adds itself to the command line; its callback runs the
+/// command and leaves the exit status behind.
+
+#include <CLI/CLI.hpp>
+
+namespace touchstone::verify::cli {
+
+/// How a run ended; the process's exit status.
+enum class Status : int {
+  all_well = 0,
+  wrong_answers = 1,  ///< a recorded answer is not the truth
+  bad_input = 2,      ///< input in error, or a command line that makes no sense
+  interrupted = 130,  ///< by a signal, with what was done until then reported
+};
+
+/// `touchstone certify`
+void add_certify_command(CLI::App& app, Status& status);
+
+/// `touchstone generate`
+void add_generate_command(CLI::App& app, Status& status);
+
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,46 @@
+#pragma once
+
+/// \file
+/// The one error of all dataset readers and writers: where it is, and what is wrong there.
+
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace touchstone::verify {
+
+/// A place in a file; 0 means that the error has no such part.
+struct FilePosition {
+  /// Counted from 1.
+  std::uint64_t line = 0;
+  /// Counted from 1: number of the field in a CSV file, of the byte in the line of a JSON file.
+  std::uint64_t column = 0;
+
+  friend bool operator==(const FilePosition&, const FilePosition&) = default;
+};
+
+/// Bad data, or a file that cannot be read or written. what() is "path:line:column: reason",
+/// without the parts that are 0.
+class DatasetError : public std::runtime_error {
+ public:
+  DatasetError(std::filesystem::path path, FilePosition position, std::string reason);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Line counted from 1, 0 if the error belongs to no line.
+  [[nodiscard]] std::uint64_t line() const { return position_.line; }
+  /// Column as FilePosition counts it, 0 if the error belongs to no column.
+  [[nodiscard]] std::uint64_t column() const { return position_.column; }
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+
+ private:
+  std::filesystem::path path_;
+  FilePosition position_;
+  std::string reason_;
+};
+
+/// The text in double quotes for a message: cut after 40 bytes, unprintable bytes as '?'.
+[[nodiscard]] std::string quote(std::string_view text);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,101 @@
+#pragma once
+
+/// \file
+/// Files read front to back in bounded memory.
+///
+/// LineReader keeps no more of its file than one chunk and one line, and a line has an upper limit:
+/// a file without line ends cannot fill the memory, it is one line that is too long.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace touchstone::verify {
+
+/// A file open for reading. Owns its descriptor.
+class InputFile {
+ public:
+  /// \throws DatasetError if the file cannot be opened or is a folder.
+  explicit InputFile(std::filesystem::path path);
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  InputFile(InputFile&&) = delete;
+  InputFile& operator=(InputFile&&) = delete;
+  ~InputFile();
+
+  /// Reads at least one byte into the buffer, or none at the end of the file. Returns how many.
+  /// \throws DatasetError if the system reports an error; the file then counts as ended, so that a
+  /// reader that keeps going cannot stay at the same error for ever.
+  [[nodiscard]] std::size_t read(std::span<char> buffer);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Size in bytes when the file was opened; 0 where it has none (a pipe).
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  /// The system's handle, valid as long as this object.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  /// Bytes read so far as a fraction of the size, 0 to 1.
+  [[nodiscard]] double progress() const;
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
+  std::uint64_t size_ = 0;
+  std::uint64_t consumed_ = 0;
+  bool failed_ = false;
+};
+
+/// A line of a text file, without its line end (LF or CRLF).
+struct Line {
+  /// Refers to the reader's buffer: valid until the reader's next call. Empty if too long.
+  std::string_view text;
+  /// Counted from 1.
+  std::uint64_t number;
+  /// Longer than LineReader::longest_line; its text was passed over.
+  bool too_long;
+};
+
+/// The lines of a text file. Blank lines (nothing, or spaces and tabs) at the end of the file are
+/// no lines; all others are.
+class LineReader {
+ public:
+  /// Bytes that a line may have without its line end.
+  static constexpr std::size_t longest_line = std::size_t{1} << 20U;
+
+  /// \throws DatasetError if the file cannot be opened.
+  explicit LineReader(std::filesystem::path path);
+
+  /// The next line, or nothing at the end.
+  /// \throws DatasetError if the system reports an error on reading.
+  [[nodiscard]] std::optional<Line> next();
+
+  /// True if next() has no more lines. Invalidates the text of the last line.
+  /// \throws DatasetError if the system reports an error on reading.
+  [[nodiscard]] bool at_end();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+  /// Fraction read so far, 0 to 1.
+  [[nodiscard]] double progress() const { return file_.progress(); }
+
+ private:
+  std::optional<Line> read_line();
+  Line take_line(std::size_t length, std::size_t terminator);
+  void pass_over_line();
+  bool fill();
+
+  InputFile file_;
+  std::unique_ptr<char[]> buffer_;  // NOLINT(modernize-avoid-c-arrays): std::vector would fill it
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  std::uint64_t line_number_ = 0;
+  std::optional<Line> ahead_;
+  std::uint64_t blank_lines_ahead_ = 0;
+};
+
+/// The text without spaces and tabs at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+}  // namespace touchstone::verify

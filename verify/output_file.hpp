@@ -1,0 +1,54 @@
+#pragma once
+
+/// \file
+/// Files that appear whole or not at all.
+///
+/// The data goes to a temporary name in the target's folder and takes the target's name when it is
+/// complete; a file that was there before stays as it was until then. The temporary name has an
+/// extension of its own, so that a search for datasets does not find what an interrupted run left.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace touchstone::verify {
+
+/// A file open for writing, buffered. Without close() nothing remains of it.
+class OutputFile {
+ public:
+  /// \throws DatasetError if no file can be made in the target's folder.
+  explicit OutputFile(std::filesystem::path path);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  OutputFile(OutputFile&&) = delete;
+  OutputFile& operator=(OutputFile&&) = delete;
+  /// Removes the temporary file unless close() gave it the target's name.
+  ~OutputFile();
+
+  /// Appends bytes.
+  /// \throws DatasetError if they cannot be written.
+  void write(std::string_view bytes);
+
+  /// Replaces bytes at an offset (in bytes from the start); they must lie inside what was written.
+  /// \throws DatasetError if they cannot be written.
+  void overwrite(std::uint64_t offset, std::string_view bytes);
+
+  /// Writes all that is left and gives the file its name. To be called once, as the last call.
+  /// \throws DatasetError if either fails; the target is then as it was.
+  void close();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  void flush();
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  int descriptor_ = -1;
+  std::string buffer_;
+};
+
+}  // namespace touchstone::verify
