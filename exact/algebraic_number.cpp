@@ -13,7 +13,7 @@ constexpr unsigned long levels_before_zero_test = 8;
 
 /// den·t − num, primitive because num/den is in lowest terms.
 Polynomial linear_factor(const Rational& root) {
-  return {Integer(-root.get_num()), Integer(root.get_den())};
+  return Polynomial(Integer(-root.get_num()), Integer(root.get_den()));
 }
 
 /// Sign of Σ a_i y^i at y = index/2^level.
@@ -52,11 +52,10 @@ void isolate(const Polynomial& p, const DyadicCell& cell, std::vector<AlgebraicN
 RationalInterval evaluate(const Polynomial& p, const RationalInterval& x) {
   // Horner's rule in interval arithmetic for 0 ≤ x.
   RationalInterval value{0, 0};
-  for (auto c = p.end(); c != p.begin();) {
-    --c;
+  for (std::size_t i = p.degree() + 1; i-- > 0;) {
     const Rational& low_factor = sgn(value.lower) >= 0 ? x.lower : x.upper;
     const Rational& high_factor = sgn(value.upper) >= 0 ? x.upper : x.lower;
-    value = {value.lower * low_factor + *c, value.upper * high_factor + *c};
+    value = {value.lower * low_factor + p[i], value.upper * high_factor + p[i]};
   }
   return value;
 }

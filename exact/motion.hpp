@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "exact/algebraic_number.hpp"
 #include "exact/number.hpp"
@@ -88,13 +90,13 @@ template <std::size_t degree>
 template <std::size_t degree>
 [[nodiscard]] Polynomial to_polynomial(const Form<degree>& form) {
   // With s = 1−t, one factor s at a time: Σ c_k s^(n−k) t^k by Horner's rule in s.
-  std::array<Integer, degree + 1> a;
+  std::vector<Integer> a(degree + 1);
   a[0] = form.c[0];
   for (std::size_t k = 1; k <= degree; ++k) {
     for (std::size_t i = k; i > 0; --i) a[i] -= a[i - 1];
     a[k] += form.c[k];
   }
-  return Polynomial(a.begin(), a.end());
+  return Polynomial(std::move(a));
 }
 
 /// Sign of the form at a number in [0,1]. The coefficients settle most cases at once: on (0,1) a

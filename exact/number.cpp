@@ -1,5 +1,6 @@
 #include "exact/number.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
@@ -101,10 +102,12 @@ Rational rational_from_decimal(std::string_view text) {
     ++at;
     const bool negative_exponent = sign();
     std::string value;
-    if (digits(value) == 0 || value.size() > 9) fail();
+    if (digits(value) == 0) fail();
+    value.erase(0, std::min(value.find_first_not_of('0'), value.size() - 1));
+    if (value.size() > 5 || std::stol(value) > exponent_limit) fail();
     exponent += negative_exponent ? -std::stol(value) : std::stol(value);
   }
-  if (at != text.size() || std::labs(exponent) > exponent_limit + count) fail();
+  if (at != text.size()) fail();
 
   Integer scale;
   mpz_ui_pow_ui(scale.get_mpz_t(), 10, static_cast<unsigned long>(std::labs(exponent)));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -11,19 +10,6 @@
 
 namespace touchstone::exact {
 namespace {
-
-struct Pair {
-  std::size_t i;
-  std::size_t j;
-};
-
-/// The edges in cyclic order, then for the parallelogram the diagonal that makes it two triangles.
-std::span<const Pair> corner_pairs(Kind kind) {
-  static constexpr std::array<Pair, 3> triangle{{{0, 1}, {1, 2}, {2, 0}}};
-  static constexpr std::array<Pair, 5> parallelogram{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}}};
-  if (kind == Kind::vertex_face) return triangle;
-  return parallelogram;
-}
 
 /// (u,v) at each corner: the vertices of F's domain.
 std::array<int, 2> corner_parameters(Kind kind, std::size_t corner) {
@@ -42,8 +28,7 @@ struct ContactForms {
 /// The sign rules of the theorem at given times, each polynomial made when it is first needed.
 class ContainsOrigin {
  public:
-  explicit ContainsOrigin(const Motion& motion)
-      : motion_(motion), pairs_(corner_pairs(motion.kind)) {}
+  explicit ContainsOrigin(const Motion& motion) : motion_(motion) {}
 
   /// Is the origin in conv{w_i(t)}? If so, where. \pre det vanishes at t.
   std::optional<ContactForms> at(AlgebraicNumber& t) {
@@ -54,16 +39,20 @@ class ContainsOrigin {
     return in_segment(t);
   }
 
-  /// Every polynomial of the rules that is not identically zero.
-  std::vector<Polynomial> polynomials() {
+  /// For motion in a common plane: polynomials between whose roots the answer does not change.
+  std::vector<Polynomial> planar_polynomials() {
     std::vector<Polynomial> result;
-    const auto keep = [&](const Form<2>& form) {
-      if (!form.is_zero()) result.push_back(to_polynomial(form));
-    };
-    for (std::size_t axis = 0; axis < 3; ++axis) keep(normal(axis));
-    for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
-      for (std::size_t axis = 0; axis < 3; ++axis) keep(cross(pair, axis));
-      keep(dot(motion_, pairs_[pair].i, pairs_[pair].j));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (normal(axis).is_zero()) continue;
+      result.push_back(to_polynomial(normal(axis)));
+      for (std::size_t edge = 0; edge < edges(); ++edge) append(cross(edge, axis), result);
+      return result;
+    }
+    for (std::size_t edge = 0; edge < edges(); ++edge) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (append(cross(edge, axis), result)) break;
+      }
+      append(dot(motion_, edge, next(edge)), result);
     }
     return result;
   }
@@ -74,30 +63,40 @@ class ContainsOrigin {
     if (!form) form = normal_component(motion_, axis);
     return *form;
   }
-  const Form<2>& cross(std::size_t pair, std::size_t axis) {
-    auto& form = crosses_.at(pair).at(axis);
-    if (!form) form = cross_component(motion_, pairs_[pair].i, pairs_[pair].j, axis);
+  /// Component `axis` of w_i × w_j, where corners i and j end an edge.
+  const Form<2>& cross(std::size_t edge, std::size_t axis) {
+    auto& form = crosses_.at(edge).at(axis);
+    if (!form) form = cross_component(motion_, edge, next(edge), axis);
     return *form;
+  }
+
+  [[nodiscard]] std::size_t edges() const { return motion_.corner_count; }
+  [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % edges(); }
+
+  /// Is it not identically zero, and so appended?
+  static bool append(const Form<2>& form, std::vector<Polynomial>& result) {
+    if (form.is_zero()) return false;
+    result.push_back(to_polynomial(form));
+    return true;
   }
 
   /// N_axis ≠ 0. Cramer's rule: u N = w_last × w_0 and v N = w_0 × w_1.
   std::optional<ContactForms> in_polygon(AlgebraicNumber& t, std::size_t axis, int orientation) {
-    const std::size_t edges = motion_.corner_count;
-    for (std::size_t edge = 0; edge < edges; ++edge) {
+    for (std::size_t edge = 0; edge < edges(); ++edge) {
       if (sign_at(cross(edge, axis), t) * orientation < 0) return std::nullopt;
     }
     const auto oriented = [&](const Form<2>& form) { return orientation > 0 ? form : -form; };
-    return ContactForms{oriented(cross(edges - 1, axis)), oriented(cross(0, axis)),
+    return ContactForms{oriented(cross(edges() - 1, axis)), oriented(cross(0, axis)),
                         oriented(normal(axis))};
   }
 
   /// N = 0.
   std::optional<ContactForms> in_segment(AlgebraicNumber& t) {
-    for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
-      const auto vanishes = [&](std::size_t axis) { return sign_at(cross(pair, axis), t) == 0; };
-      const auto& [i, j] = pairs_[pair];
-      if (vanishes(0) && vanishes(1) && vanishes(2) && sign_at(dot(motion_, i, j), t) <= 0) {
-        return on_segment(t, i, j);
+    for (std::size_t edge = 0; edge < edges(); ++edge) {
+      const auto vanishes = [&](std::size_t axis) { return sign_at(cross(edge, axis), t) == 0; };
+      if (vanishes(0) && vanishes(1) && vanishes(2) &&
+          sign_at(dot(motion_, edge, next(edge)), t) <= 0) {
+        return on_segment(t, edge, next(edge));
       }
     }
     return std::nullopt;
@@ -126,9 +125,8 @@ class ContainsOrigin {
   }
 
   const Motion& motion_;
-  std::span<const Pair> pairs_;
   std::array<std::optional<Form<2>>, 3> normals_;
-  std::array<std::array<std::optional<Form<2>>, 3>, 5> crosses_;
+  std::array<std::array<std::optional<Form<2>>, 3>, 4> crosses_;
 };
 
 /// The denominator times F(t,u,v), component `axis`, from the eight points.
@@ -175,7 +173,7 @@ void check_contact(const Motion& motion, const ContactForms& contact, AlgebraicN
 /// Candidates of motion in a common plane, in ascending order.
 std::vector<AlgebraicNumber> planar_candidates(ContainsOrigin& contains_origin) {
   std::vector<Polynomial> distinct;
-  for (const Polynomial& p : contains_origin.polynomials()) {
+  for (const Polynomial& p : contains_origin.planar_polynomials()) {
     Polynomial squarefree = squarefree_part(p);
     if (std::ranges::find(distinct, squarefree) == distinct.end()) {
       distinct.push_back(std::move(squarefree));
@@ -187,8 +185,7 @@ std::vector<AlgebraicNumber> planar_candidates(ContainsOrigin& contains_origin) 
     std::ranges::move(roots, std::back_inserter(candidates));
   }
   std::ranges::sort(candidates, [](const auto& a, const auto& b) { return a < b; });
-  const auto repeated = std::ranges::unique(candidates);
-  candidates.erase(repeated.begin(), repeated.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   return candidates;
 }
 

@@ -9,17 +9,56 @@
 /// number of sign changes among them bounds the number of roots in the open cell and has its
 /// parity; none means no root and the sign of the c_j throughout, one means exactly one root.
 
-#include <CGAL/Polynomial.h>
-#include <CGAL/gmpxx.h>
-
+#include <concepts>
+#include <cstddef>
+#include <iosfwd>
 #include <vector>
 
 #include "exact/number.hpp"
 
 namespace touchstone::exact {
 
-/// CGAL's polynomial over the integers; the zero polynomial has degree 0 and `is_zero()`.
-using Polynomial = CGAL::Polynomial<Integer>;
+/// A polynomial with integer coefficients and no leading zeros; the zero polynomial is the constant
+/// 0.
+///
+/// CGAL's own class will not do: copies share one representation, whose counter (CGAL 5.5) is not
+/// atomic, so verdicts could not be used by several threads. exact/cgal.hpp converts.
+class Polynomial {
+ public:
+  /// Zero.
+  Polynomial() : coefficients_(1) {}
+
+  /// Coefficients from the constant one upwards.
+  explicit Polynomial(std::vector<Integer> coefficients);
+  template <std::same_as<Integer>... Rest>
+  explicit Polynomial(const Integer& constant, const Rest&... rest)
+      : Polynomial(std::vector<Integer>{constant, rest...}) {}
+
+  /// 0 for a constant, zero included.
+  [[nodiscard]] std::size_t degree() const { return coefficients_.size() - 1; }
+  [[nodiscard]] bool is_zero() const { return degree() == 0 && sgn(coefficients_.front()) == 0; }
+  [[nodiscard]] const Integer& operator[](std::size_t i) const { return coefficients_[i]; }
+  [[nodiscard]] const Integer& leading() const { return coefficients_.back(); }
+
+  /// All coefficients, the constant one first; never empty.
+  [[nodiscard]] const std::vector<Integer>& coefficients() const { return coefficients_; }
+
+  friend bool operator==(const Polynomial&, const Polynomial&) = default;
+
+ private:
+  std::vector<Integer> coefficients_;
+};
+
+[[nodiscard]] Polynomial operator-(const Polynomial& p);
+[[nodiscard]] Polynomial operator+(const Polynomial& p, const Polynomial& q);
+[[nodiscard]] Polynomial operator-(const Polynomial& p, const Polynomial& q);
+[[nodiscard]] Polynomial operator*(const Polynomial& p, const Polynomial& q);
+
+/// As a sum of terms in t, the highest first: "3 t^2 - t + 5".
+std::ostream& operator<<(std::ostream& out, const Polynomial& p);
+
+/// dp/dt.
+[[nodiscard]] Polynomial derivative(const Polynomial& p);
 
 /// The cell [index/2^level, (index+1)/2^level].
 struct DyadicCell {
@@ -58,10 +97,11 @@ struct DyadicCell {
 /// The primitive polynomial with the same roots as p ≠ 0, all of them simple.
 [[nodiscard]] Polynomial squarefree_part(const Polynomial& p);
 
-/// Remainder of a positive multiple of p under division by q, q of degree at least 1.
+/// Remainder of a positive multiple of p under division by q ≠ 0.
 [[nodiscard]] Polynomial pseudo_remainder(const Polynomial& p, const Polynomial& q);
 
-/// p / q, where q divides p over the rationals and is primitive.
+/// p / q, where q ≠ 0 divides p over the integers (any primitive divisor over the rationals does:
+/// Gauss). \throws std::invalid_argument if it does not.
 [[nodiscard]] Polynomial exact_quotient(const Polynomial& p, const Polynomial& q);
 
 }  // namespace touchstone::exact

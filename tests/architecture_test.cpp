@@ -134,8 +134,9 @@ std::string_view take_directive(std::string_view& line) {
   const auto is_word = [](char c) {
     return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
   };
-  const auto end = std::ranges::find_if_not(line, is_word);
-  const std::string_view word = line.substr(0, static_cast<std::size_t>(end - line.begin()));
+  std::size_t length = 0;
+  while (length < line.size() && is_word(line[length])) ++length;
+  const std::string_view word = line.substr(0, length);
   line = without_leading_space(line.substr(word.size()));
   return word;
 }
@@ -208,7 +209,8 @@ Violations foreign_extensions(const Tree& tree) {
   static constexpr std::array<std::string_view, 12> foreign{
       ".h", ".hh", ".hxx", ".c", ".cc", ".cxx", ".inc", ".inl", ".ipp", ".ixx", ".tpp", ".cppm"};
   Violations result;
-  for (const auto& [path, text] : tree) {
+  for (const auto& file : tree) {
+    const std::string& path = file.first;
     if (std::ranges::any_of(foreign, [&](auto extension) { return path.ends_with(extension); }))
       result.push_back(path);
   }

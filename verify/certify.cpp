@@ -4,8 +4,8 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
-#include <time.h>
 
+#include <ctime>
 #include <exception>
 #include <memory>
 #include <utility>

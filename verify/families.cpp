@@ -50,11 +50,30 @@ const Definition& find_definition(std::string_view name) {
   return *found;
 }
 
-/// Every query has its own stream, whatever was drawn for other queries.
-Random stream_of(std::string_view name, Kind kind, std::uint64_t seed, std::uint64_t index) {
+/// Every attempt at every query has its own stream, whatever was drawn for others.
+Random stream_of(std::string_view name, Kind kind, std::uint64_t seed, std::uint64_t index,
+                 std::uint64_t attempt) {
   std::uint64_t state = mix(seed ^ hash(name));
   state = mix(state + (kind == Kind::vertex_face ? 1 : 2));
-  return Random(mix(state + index));
+  state = mix(state + index);
+  return Random(mix(state + attempt));
+}
+
+/// Random significands end in zeros now and then: a query that is to be full but has too many of
+/// those (about one in ten thousand) is drawn again.
+KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t index) {
+  for (std::uint64_t attempt = 0;; ++attempt) {
+    Recipe recipe{.kind = kind,
+                  .index = index,
+                  .variant = index / 2,
+                  .full = index % 2 == 1,
+                  .random = stream_of(definition.family.name, kind, seed, index, attempt)};
+    KnownQuery known = definition.build(recipe);
+    if (recipe.full && !uses_full_significands(known.query)) continue;
+    known.full_significands = recipe.full;
+    if (!recipe.as_printed) apply_random_symmetry(kind, recipe.random, known);
+    return known;
+  }
 }
 
 /// The stream of queries behind open_family.
@@ -119,15 +138,7 @@ KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::
     throw std::invalid_argument(std::string(family.name) + " has no " +
                                 std::string(to_string(kind)) + " queries");
   }
-  builtin::Recipe recipe{.kind = kind,
-                         .index = index,
-                         .variant = index / 2,
-                         .full = index % 2 == 1,
-                         .random = builtin::stream_of(family.name, kind, seed, index)};
-  KnownQuery known = builtin::find_definition(family.name).build(recipe);
-  known.full_significands = recipe.full;
-  if (!recipe.as_printed) builtin::apply_random_symmetry(kind, recipe.random, known);
-  return known;
+  return builtin::build(builtin::find_definition(family.name), kind, seed, index);
 }
 
 std::unique_ptr<QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,

@@ -64,7 +64,6 @@ LineReader::LineReader(std::filesystem::path path)
 
 bool LineReader::at_end() {
   if (ahead_) return false;
-  blank_lines_ahead_ = 0;
   ahead_ = read_line();
   while (ahead_ && !ahead_->too_long && trimmed(ahead_->text).empty()) {
     ++blank_lines_ahead_;

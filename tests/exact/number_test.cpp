@@ -129,7 +129,7 @@ TEST(Rounding, DirectedRoundingsAreTheNeighboursOfWhatLiesBetween) {
     const double x = random.finite_double();
     const double y = std::nextafter(x, infinity);
     if (y == infinity) continue;
-    const Rational part(random.between(1, 999), 1000);
+    const Rational part = Rational(random.between(1, 999)) / 1000;
     const Rational between = Rational(x) + (Rational(y) - Rational(x)) * part;
     EXPECT_EQ(round_down(between), x);
     EXPECT_EQ(round_up(between), y);
@@ -195,7 +195,7 @@ TEST(Rounding, NumbersPastTheFiniteRange) {
 
 /// GMP's own reading of "numerator/denominator".
 Rational fraction(const std::string& text) {
-  Rational x(text);
+  Rational x(text, 10);
   x.canonicalize();
   return x;
 }
@@ -288,7 +288,14 @@ TEST(RationalFromDecimal, ExponentsGoToTenThousand) {
   mpz_ui_pow_ui(power.get_mpz_t(), 10, 10000);
   EXPECT_EQ(rational_from_decimal("1e10000"), Rational(power));
   EXPECT_EQ(rational_from_decimal("1e-10000"), Rational(Integer(1), power));
-  EXPECT_EQ(rational_from_decimal("-3e0000000000000010000"), Rational(-3 * power));
+}
+
+TEST(RationalFromDecimal, AnExponentMayHaveLeadingZeros) {
+  EXPECT_EQ(rational_from_decimal("-3e00000000000000002"), -300);
+  EXPECT_EQ(rational_from_decimal("-3e-00000000000000002"), Rational(-3, 100));
+}
+
+TEST(RationalFromDecimal, GreaterExponentsAreErrors) {
   for (const std::string_view text :
        {"1e10001", "1e-10001", "123456789e10001", "0e10001", "1e20000", "1e999999999",
         "1e9999999999", "1e-99999999999999999999", "1e18446744073709551617"}) {

@@ -2,8 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <initializer_list>
 #include <numeric>
+#include <span>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "exact/number.hpp"
@@ -184,6 +190,12 @@ TEST(ContactFunction, HasTheValuesComputedByHand) {
             (Vector{Rational(-25, 12), Rational(-65, 12), Rational(25, 12)}));
 }
 
+std::string join(std::initializer_list<std::string_view> parts) {
+  std::string result;
+  for (const std::string_view part : parts) result += part;
+  return result;
+}
+
 /// A scalar that writes down the operations made on it.
 struct Recorded {
   Recorded() = default;
@@ -193,31 +205,31 @@ struct Recorded {
   std::string text;
 };
 
-Recorded combine(const Recorded& a, char operation, const Recorded& b) {
-  std::string text = "(";
-  text.append(a.text).append(1, operation).append(b.text).append(1, ')');
-  return Recorded(std::move(text));
+Recorded operator+(const Recorded& a, const Recorded& b) {
+  return Recorded(join({"(", a.text, "+", b.text, ")"}));
 }
-Recorded operator+(const Recorded& a, const Recorded& b) { return combine(a, '+', b); }
-Recorded operator-(const Recorded& a, const Recorded& b) { return combine(a, '-', b); }
-Recorded operator*(const Recorded& a, const Recorded& b) { return combine(a, '*', b); }
+Recorded operator-(const Recorded& a, const Recorded& b) {
+  return Recorded(join({"(", a.text, "-", b.text, ")"}));
+}
+Recorded operator*(const Recorded& a, const Recorded& b) {
+  return Recorded(join({"(", a.text, "*", b.text, ")"}));
+}
 
 TEST(ContactFunction, PerformsTheOperationsInTheOrderOfItsFormula) {
   const Recorded t(std::string("t")), u(std::string("u")), v(std::string("v"));
-  const auto value = [&](Kind kind, std::size_t axis) {
-    return contact_function(kind, counting_query(), t, u, v)[axis].text;
+  const auto value = [&](Kind kind, int axis) {
+    return contact_function(kind, counting_query(), t, u, v)[static_cast<std::size_t>(axis)].text;
   };
   const auto position = [](int start, int end) {
-    return "(((1-t)*" + std::to_string(start) + ")+(t*" + std::to_string(end) + "))";
+    return join({"(((1-t)*", std::to_string(start), ")+(t*", std::to_string(end), "))"});
   };
   for (int axis = 0; axis < 3; ++axis) {
     const std::string a = position(1 + axis, 13 + axis), b = position(4 + axis, 16 + axis),
                       c = position(7 + axis, 19 + axis), d = position(10 + axis, 22 + axis);
-    const auto k = static_cast<std::size_t>(axis);
-    EXPECT_EQ(value(Kind::vertex_face, k),
-              "(" + a + "-(((((1-u)-v)*" + b + ")+(u*" + c + "))+(v*" + d + ")))");
-    EXPECT_EQ(value(Kind::edge_edge, k),
-              "((((1-u)*" + a + ")+(u*" + b + "))-(((1-v)*" + c + ")+(v*" + d + ")))");
+    EXPECT_EQ(value(Kind::vertex_face, axis),
+              join({"(", a, "-(((((1-u)-v)*", b, ")+(u*", c, "))+(v*", d, ")))"}));
+    EXPECT_EQ(value(Kind::edge_edge, axis),
+              join({"((((1-u)*", a, ")+(u*", b, "))-(((1-v)*", c, ")+(v*", d, ")))"}));
   }
 }
 

@@ -38,8 +38,7 @@ using FourPoints = std::array<double, 3 * moving_points>;
 /// The query whose points are at `start` at t=0 and at `end` at t=1.
 [[nodiscard]] inline Query moving(const FourPoints& start, const FourPoints& end) {
   Query query{};
-  const auto middle = std::ranges::copy(start, query.coordinates.begin()).out;
-  std::ranges::copy(end, middle);
+  std::ranges::copy(end, std::ranges::copy(start, query.coordinates.begin()).out);
   return query;
 }
 
@@ -49,6 +48,44 @@ using FourPoints = std::array<double, 3 * moving_points>;
 
 [[nodiscard]] inline PosedQuery edge_edge(const FourPoints& start, const FourPoints& end) {
   return {Kind::edge_edge, moving(start, end)};
+}
+
+/// The points of a vertex-face query at one time: the vertex (x,y,z), then the face.
+[[nodiscard]] constexpr FourPoints with_vertex(double x, double y, double z,
+                                               const std::array<double, 9>& face) {
+  FourPoints points{x, y, z};
+  std::ranges::copy(face, points.begin() + 3);
+  return points;
+}
+
+/// A vertex that moves from height z0 to z1 over (x,y), and the triangle x, y ≥ 0, x + y ≤ 4 in the
+/// plane z=0: they touch at z0/(z0 − z1), u = x/4, v = y/4.
+[[nodiscard]] inline PosedQuery over_triangle(double x, double y, double z0, double z1) {
+  constexpr std::array<double, 9> face{0, 0, 0, 4, 0, 0, 0, 4, 0};
+  return vertex_face(with_vertex(x, y, z0, face), with_vertex(x, y, z1, face));
+}
+
+/// The edge from (0,0,0) to (4,0,0), and one parallel to the y axis from (x,−y) to (x,4−y) that
+/// moves from height z0 to z1: they touch at z0/(z0 − z1), u = x/4, v = y/4.
+[[nodiscard]] inline PosedQuery over_edge(double x, double y, double z0, double z1) {
+  return edge_edge({0, 0, 0, 4, 0, 0, x, -y, z0, x, 4 - y, z0},
+                   {0, 0, 0, 4, 0, 0, x, -y, z1, x, 4 - y, z1});
+}
+
+/// The triangle (0,0,0), (s,st,0), (0,0,1), which turns about the z axis, and a vertex at height
+/// 1/4 that moves from (x0,y) to (x1,y): in the triangle's plane where t x = y; there u = x/s, v =
+/// 1/4.
+[[nodiscard]] inline PosedQuery turning_triangle(double s, double x0, double x1, double y) {
+  return vertex_face({x0, y, 0.25, 0, 0, 0, s, 0, 0, 0, 0, 1},
+                     {x1, y, 0.25, 0, 0, 0, s, s, 0, 0, 0, 1});
+}
+
+/// The triangle (0,0,0), (1,t,0), (t,0,1) with normal (t, −1, −t²), and a vertex that moves from
+/// `start` to `end`: at (x,y,z) in its plane, v = z and u = x − t z.
+[[nodiscard]] inline PosedQuery twisting_triangle(const std::array<double, 3>& start,
+                                                  const std::array<double, 3>& end) {
+  return vertex_face(with_vertex(start[0], start[1], start[2], {0, 0, 0, 1, 0, 0, 0, 0, 1}),
+                     with_vertex(end[0], end[1], end[2], {0, 0, 0, 1, 1, 0, 1, 0, 1}));
 }
 
 /// The families of random queries.

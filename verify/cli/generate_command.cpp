@@ -40,6 +40,7 @@ struct Written {
 std::vector<Family> chosen(const std::vector<std::string>& names) {
   if (names.empty()) return {families().begin(), families().end()};
   std::vector<Family> result;
+  result.reserve(names.size());
   for (const std::string& name : names) result.push_back(family_from_name(name));
   return result;
 }

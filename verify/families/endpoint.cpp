@@ -22,14 +22,13 @@ constexpr Zone upper{1.0, 1.5};
 
 /// Which points of a kind are the pair and the rest.
 struct Roles {
-  std::size_t first;
+  std::size_t first = 0;
   std::size_t second;
   std::size_t rest_begin_of_second;
   bool first_has_rest;
 
   explicit Roles(Kind kind)
-      : first(0),
-        second(kind == Kind::vertex_face ? 1 : 2),
+      : second(kind == Kind::vertex_face ? 1 : 2),
         rest_begin_of_second(second + 1),
         first_has_rest(kind == Kind::edge_edge) {}
 };

@@ -16,7 +16,7 @@ std::int64_t draw_bound(Random& random, int bits) {
 }
 
 Integer minor(const Vector& a, const Vector& b, std::size_t i, std::size_t j) {
-  return Integer(Integer(a.at(i)) * Integer(b.at(j)) - Integer(a.at(j)) * Integer(b.at(i)));
+  return {Integer(a.at(i)) * Integer(b.at(j)) - Integer(a.at(j)) * Integer(b.at(i))};
 }
 
 std::size_t first_of_second(Kind kind) { return kind == Kind::vertex_face ? 1 : 2; }
@@ -36,8 +36,8 @@ Vector operator*(std::int64_t factor, const Vector& a) {
 }
 
 Integer determinant(const Vector& a, const Vector& b, const Vector& c) {
-  return Integer(minor(a, b, 0, 1) * Integer(c[2]) - minor(a, b, 0, 2) * Integer(c[1]) +
-                 minor(a, b, 1, 2) * Integer(c[0]));
+  return {minor(a, b, 0, 1) * Integer(c[2]) - minor(a, b, 0, 2) * Integer(c[1]) +
+          minor(a, b, 1, 2) * Integer(c[0])};
 }
 
 bool parallel(const Vector& a, const Vector& b) {

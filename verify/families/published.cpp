@@ -65,7 +65,9 @@ Query draw_hourglass(Recipe& recipe) {
       set(query, 1, axis, sampler.within(axis, {1.0, 3.0}));
     }
   }
-  set_heights(recipe.kind, sampler.within(2, centre), sampler.from_to(2, right, left), query);
+  const Line first = sampler.within(2, centre);
+  const Line second = sampler.from_to(2, right, left);
+  set_heights(recipe.kind, first, second, query);
   return query;
 }
 

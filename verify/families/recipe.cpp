@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace touchstone::verify::builtin {
@@ -109,7 +110,7 @@ Rational corner_at(const Query& query, const Corner& corner, std::size_t axis, c
                     Rational(query.at(end, corner.minus, axis)));
   };
   const Rational start = difference(0);
-  return Rational(start + t * (difference(1) - start));
+  return {start + t * (difference(1) - start)};
 }
 
 std::optional<Contact> planar_contact(Kind kind, const Query& query, const Rational& t,
@@ -125,6 +126,24 @@ std::optional<Contact> planar_contact(Kind kind, const Query& query, const Ratio
   if (area == 0) return std::nullopt;
   return Contact{Rational((along_v[0] * w0[1] - along_v[1] * w0[0]) / area),
                  Rational((along_u[1] * w0[0] - along_u[0] * w0[1]) / area)};
+}
+
+bool uses_full_significands(const Query& query) {
+  constexpr int bits = 45;
+  std::set<double> magnitudes;
+  std::set<int> exponents;
+  for (const double coordinate : query.coordinates) {
+    if (coordinate == 0) continue;
+    magnitudes.insert(std::abs(coordinate));
+    exponents.insert(std::ilogb(coordinate));
+  }
+  const auto is_full = [](double magnitude) {
+    // A number of at most 44 bits is an integer when its leading bit stands for 2^43.
+    const double shortened = std::ldexp(magnitude, bits - 2 - std::ilogb(magnitude));
+    return shortened != std::floor(shortened);
+  };
+  const auto full = std::count_if(magnitudes.begin(), magnitudes.end(), is_full);
+  return exponents.size() > 1 && 2 * static_cast<std::size_t>(full) > magnitudes.size();
 }
 
 void apply_random_symmetry(Kind kind, Random& random, KnownQuery& known) {

@@ -78,6 +78,10 @@ using Contact = std::array<exact::Rational, 2>;
                                                     const exact::Rational& t,
                                                     const std::array<std::size_t, 2>& axes);
 
+/// Do more than half of the different magnitudes among the coordinates need 45 bits or more, and do
+/// they have at least two binary exponents? Zeros do not count.
+[[nodiscard]] bool uses_full_significands(const Query& query);
+
 /// Replaces a query by one of its mirror images: axes permuted and mirrored, the face's vertices or
 /// the edges' ends permuted, the two edges exchanged. Verdict and toi stay; (u,v) and the
 /// separating direction follow. Every coordinate keeps its significand.

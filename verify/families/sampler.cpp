@@ -38,10 +38,6 @@ std::optional<Rational> meeting_time(const Line& a, const Line& b) {
   return Rational(start / (start - end));
 }
 
-Rational line_at(const Line& a, const Rational& t) {
-  return Rational((1 - t) * Rational(a.start) + t * Rational(a.end));
-}
-
 Line scaled(const Line& line, int exponent) {
   return {std::ldexp(line.start, exponent), std::ldexp(line.end, exponent)};
 }

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "exact/number.hpp"
 #include "exact/query.hpp"
@@ -33,9 +34,6 @@ struct Zone {
 
 /// The t at which two lines are equal, exactly, if there is exactly one in [0,1].
 [[nodiscard]] std::optional<exact::Rational> meeting_time(const Line& a, const Line& b);
-
-/// Line `a` at time t.
-[[nodiscard]] exact::Rational line_at(const Line& a, const exact::Rational& t);
 
 /// The line times 2^exponent, which must be exact.
 [[nodiscard]] Line scaled(const Line& line, int exponent);

@@ -1,0 +1,782 @@
+/// \file
+/// The oracle against answers known beforehand, and against a second way to decide a moment.
+///
+/// The second way knows nothing of corners, normals and signs. For a fixed rational t, F(t,u,v) = 0
+/// is three linear equations in (u,v). Elimination leaves a point, a line or the whole plane, or
+/// shows that there is no solution; what is left is clipped against the domain. At the time of
+/// impact this must find contact, and at no time before.
+
+#include "exact/oracle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <latch>
+#include <limits>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+
+namespace touchstone::exact {
+namespace {
+
+using tests::edge_edge;
+using tests::Family;
+using tests::FourPoints;
+using tests::over_edge;
+using tests::over_triangle;
+using tests::PosedQuery;
+using tests::Random;
+using tests::random_query;
+using tests::turning_triangle;
+using tests::twisting_triangle;
+using tests::vertex_face;
+using tests::with_vertex;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double greatest = std::numeric_limits<double>::max();
+constexpr double least = std::numeric_limits<double>::denorm_min();
+
+Rational ratio(long numerator, long denominator) {
+  Rational result(numerator, denominator);
+  result.canonicalize();
+  return result;
+}
+
+Verdict decide(const PosedQuery& posed) { return exact::decide(posed.kind, posed.query); }
+
+// ------------------------------------------------------------------ contact at a fixed time
+
+/// a u + b v + c: required to be zero (a row of F) or not negative (a side of the domain).
+struct Affine {
+  Rational a, b, c;
+
+  [[nodiscard]] Rational at(const Rational& u, const Rational& v) const {
+    return a * u + b * v + c;
+  }
+};
+
+std::vector<Affine> domain_sides(Kind kind) {
+  if (kind == Kind::vertex_face) return {{1, 0, 0}, {0, 1, 0}, {-1, -1, 1}};
+  return {{1, 0, 0}, {-1, 0, 1}, {0, 1, 0}, {0, -1, 1}};
+}
+
+std::vector<Affine> contact_equations(const PosedQuery& posed, const Rational& t) {
+  const auto value = [&](int u, int v) {
+    return contact_function<Rational>(posed.kind, posed.query, t, Rational(u), Rational(v));
+  };
+  const auto origin = value(0, 0), along_u = value(1, 0), along_v = value(0, 1);
+  std::vector<Affine> rows;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    rows.push_back(
+        {along_u.at(axis) - origin.at(axis), along_v.at(axis) - origin.at(axis), origin.at(axis)});
+  }
+  return rows;
+}
+
+bool all_zero(const std::vector<Affine>& rows, const Rational& u, const Rational& v) {
+  return std::ranges::all_of(rows, [&](const Affine& row) { return sgn(row.at(u, v)) == 0; });
+}
+
+bool in_domain(Kind kind, const Rational& u, const Rational& v) {
+  const std::vector<Affine> sides = domain_sides(kind);
+  return std::ranges::all_of(sides, [&](const Affine& side) { return sgn(side.at(u, v)) >= 0; });
+}
+
+/// Does the line through (u,v) in direction (du,dv) meet the domain?
+bool line_meets_domain(Kind kind, const Rational& u, const Rational& v, const Rational& du,
+                       const Rational& dv) {
+  std::optional<Rational> low, high;
+  for (const Affine& side : domain_sides(kind)) {
+    const Rational value = side.at(u, v), slope = side.a * du + side.b * dv;
+    if (sgn(slope) == 0) {
+      if (sgn(value) < 0) return false;
+      continue;
+    }
+    const Rational crossing = -value / slope;
+    if (sgn(slope) > 0 && (!low || crossing > *low)) low = crossing;
+    if (sgn(slope) < 0 && (!high || crossing < *high)) high = crossing;
+  }
+  return *low <= *high;
+}
+
+/// Do the primitives touch at the time t?
+bool touches_at(const PosedQuery& posed, const Rational& t) {
+  const std::vector<Affine> rows = contact_equations(posed, t);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Affine &p = rows.at(i), &q = rows.at((i + 1) % 3);
+    const Rational minor = p.a * q.b - q.a * p.b;
+    if (sgn(minor) == 0) continue;
+    const Rational u = (p.b * q.c - q.b * p.c) / minor, v = (q.a * p.c - p.a * q.c) / minor;
+    return all_zero(rows, u, v) && in_domain(posed.kind, u, v);
+  }
+  for (const Affine& row : rows) {
+    const Rational norm = row.a * row.a + row.b * row.b;
+    if (sgn(norm) == 0) continue;
+    const Rational u = -row.c * row.a / norm, v = -row.c * row.b / norm;
+    return all_zero(rows, u, v) && line_meets_domain(posed.kind, u, v, -row.b, row.a);
+  }
+  return all_zero(rows, 0, 0);
+}
+
+// ------------------------------------------------------------------ what holds for every impact
+
+Rational middle(const RationalInterval& x) { return (x.lower + x.upper) / 2; }
+
+bool is_exact(const RationalInterval& x) { return x.lower == x.upper; }
+
+Rational greatest_coordinate(const Query& query) {
+  Rational result = 0;
+  for (const double x : query.coordinates) result = std::max(result, Rational(std::abs(x)));
+  return result;
+}
+
+/// (u,v) at the exact toi lies in the domain, whatever is known of it numerically.
+void expect_parameters_in_domain(Kind kind, const Impact& impact) {
+  AlgebraicNumber t = impact.toi;
+  const auto& [u, v, denominator] = impact.contact;
+  EXPECT_EQ(t.sign_of(denominator), 1);
+  for (const Affine& side : domain_sides(kind)) {
+    // The sides' coefficients are −1, 0 and 1.
+    const Polynomial value = u * Polynomial(side.a.get_num()) + v * Polynomial(side.b.get_num()) +
+                             denominator * Polynomial(side.c.get_num());
+    EXPECT_GE(t.sign_of(value), 0);
+  }
+}
+
+/// F in the middle of the box of width 2^-bits: zero if the box is a point, and otherwise at most
+/// the width times a bound on the sum of F's derivatives (4M, 2M and 2M for coordinates up to M,
+/// doubled because the box may reach out of the domain).
+void expect_root_of_contact_function(const PosedQuery& posed, const Impact& impact, long bits) {
+  const Rational width = power_of_two(-bits);
+  AlgebraicNumber t = impact.toi;
+  t.refine(width);
+  const RationalInterval time = t.interval();
+  const auto [u, v] = contact_parameters(impact, width);
+  EXPECT_LE(Rational(time.upper - time.lower), width);
+  EXPECT_LE(Rational(u.upper - u.lower), width);
+  EXPECT_LE(Rational(v.upper - v.lower), width);
+
+  const bool is_point = is_exact(time) && is_exact(u) && is_exact(v);
+  const Rational bound =
+      is_point ? Rational(0) : Rational(16 * greatest_coordinate(posed.query) * width);
+  for (const Rational& component :
+       contact_function<Rational>(posed.kind, posed.query, middle(time), middle(u), middle(v))) {
+    EXPECT_LE(Rational(abs(component)), bound);
+  }
+}
+
+void expect_tight_enclosure(const AlgebraicNumber& toi) {
+  const auto [lower, upper] = toi.enclosure();
+  if (lower == upper) {
+    EXPECT_TRUE(toi == Rational(lower));
+  } else {
+    EXPECT_EQ(std::nextafter(lower, infinity), upper);
+    EXPECT_TRUE(toi > Rational(lower));
+    EXPECT_TRUE(toi < Rational(upper));
+  }
+}
+
+void check_impact(const PosedQuery& posed, const Impact& impact) {
+  EXPECT_TRUE(impact.toi >= Rational(0));
+  EXPECT_TRUE(impact.toi <= Rational(1));
+  EXPECT_TRUE(impact.toi.is_root_of(impact.toi.polynomial()));
+  expect_tight_enclosure(impact.toi);
+  expect_parameters_in_domain(posed.kind, impact);
+  for (const long bits : {10, 100, 300}) expect_root_of_contact_function(posed, impact, bits);
+  if (impact.toi.rational()) {
+    EXPECT_TRUE(touches_at(posed, *impact.toi.rational()));
+  }
+}
+
+void expect_miss(const PosedQuery& posed) {
+  SCOPED_TRACE(posed);
+  EXPECT_FALSE(decide(posed).collides());
+}
+
+/// A hit at a rational time.
+void expect_toi(const PosedQuery& posed, const Rational& toi) {
+  SCOPED_TRACE(posed);
+  const Verdict verdict = decide(posed);
+  ASSERT_TRUE(verdict.collides());
+  EXPECT_TRUE(verdict.impact->toi == toi)
+      << toi << " expected, near " << verdict.impact->toi.enclosure().lower;
+  EXPECT_TRUE(touches_at(posed, toi));
+  check_impact(posed, *verdict.impact);
+}
+
+/// A hit at a rational time where contact is a single point.
+void expect_contact(const PosedQuery& posed, const Rational& toi, const Rational& u,
+                    const Rational& v) {
+  expect_toi(posed, toi);
+  const Verdict verdict = decide(posed);
+  ASSERT_TRUE(verdict.collides());
+  const Rational width = power_of_two(-200);
+  const ContactParameters parameters = contact_parameters(*verdict.impact, width);
+  const auto expect_encloses = [&](const RationalInterval& enclosure, const Rational& value) {
+    EXPECT_LE(enclosure.lower, value);
+    EXPECT_GE(enclosure.upper, value);
+    EXPECT_LE(Rational(enclosure.upper - enclosure.lower), width);
+    if (verdict.impact->toi.rational()) {
+      EXPECT_TRUE(is_exact(enclosure));
+    }
+  };
+  expect_encloses(parameters.u, u);
+  expect_encloses(parameters.v, v);
+}
+
+/// A hit at the irrational root of `polynomial` that has this decimal value.
+void expect_irrational_toi(const PosedQuery& posed, const Polynomial& polynomial,
+                           std::string_view decimal) {
+  SCOPED_TRACE(posed);
+  const Verdict verdict = decide(posed);
+  ASSERT_TRUE(verdict.collides());
+  const AlgebraicNumber& toi = verdict.impact->toi;
+  EXPECT_FALSE(toi.rational());
+  EXPECT_TRUE(toi.is_root_of(polynomial));
+  const Rational value = rational_from_decimal(decimal), ulp = rational_from_decimal("1e-18");
+  EXPECT_TRUE(toi > Rational(value - ulp));
+  EXPECT_TRUE(toi < Rational(value + ulp));
+  check_impact(posed, *verdict.impact);
+}
+
+Polynomial polynomial(std::initializer_list<int> coefficients) {
+  return Polynomial(std::vector<Integer>(coefficients.begin(), coefficients.end()));
+}
+
+// ------------------------------------------------------------------ the published queries
+
+TEST(Oracle, FindsTheHourglassContactAtOneMinusTheDoubleNearOneTenth) {
+  const double x = 0.1;
+  expect_contact(vertex_face({x, x, x, 0, 0, 1, 1, 0, 1, 0, 1, 1},  //
+                             {x, x, x, 0, 0, 0, 0, 1, 0, 1, 0, 0}),
+                 1 - Rational(x), Rational(x), Rational(x));
+}
+
+TEST(Oracle, FindsThatTheInflectionQueryMisses) {
+  expect_miss(vertex_face({1, 1, 0, 0, 0, 5, 2, 0, 2, 0, 1, 0},  //
+                          {1, 1, 0, 0, 0, -1, 0, 0, -2, 0, 7, 0}));
+}
+
+TEST(Oracle, FindsTheCoplanarContactAtTheQuotientOfItsDoubles) {
+  const Rational start(0.57), end(0.28);
+  expect_contact(vertex_face({1, 0.5, 1, 0, 0.57, 1, 1, 0.57, 1, 1, 1.57, 1},
+                             {1, 0.5, 1, 0, 0.28, 1, 1, 0.28, 1, 1, 1.28, 1}),
+                 (start - Rational(0.5)) / (start - end), 1, 0);
+}
+
+// ------------------------------------------------------------------ contacts in general position
+
+struct Crossing {
+  double from;
+  double to;
+  long numerator;
+  long denominator;
+};
+constexpr std::array<Crossing, 6> crossings{
+    {{0, 3, 0, 1}, {1, -1, 1, 2}, {1, -2, 1, 3}, {-2, 5, 2, 7}, {3, 0, 1, 1}, {0, 0, 0, 1}}};
+
+TEST(Oracle, FindsVertexFaceContactInsideOnEdgesAndAtVertices) {
+  for (const auto& [from, to, numerator, denominator] : crossings) {
+    for (const int x : {0, 1, 2, 3, 4}) {
+      for (int y = 0; x + y <= 4; ++y) {
+        expect_contact(over_triangle(x, y, from, to), ratio(numerator, denominator), ratio(x, 4),
+                       ratio(y, 4));
+      }
+    }
+  }
+}
+
+TEST(Oracle, FindsEdgeEdgeContactInsideAndAtTheEnds) {
+  for (const auto& [from, to, numerator, denominator] : crossings) {
+    for (const int x : {0, 1, 2, 4}) {
+      for (const int y : {0, 1, 3, 4}) {
+        expect_contact(over_edge(x, y, from, to), ratio(numerator, denominator), ratio(x, 4),
+                       ratio(y, 4));
+      }
+    }
+  }
+}
+
+TEST(Oracle, MissesByTheLeastDouble) {
+  const double over_four = std::nextafter(4.0, 5.0), over_two = std::nextafter(2.0, 3.0);
+  for (const auto& [x, y] : {std::pair{-least, 1.0},
+                             {1.0, -least},
+                             {over_four, 0.0},
+                             {over_two, 2.0},
+                             {0.0, over_four},
+                             {2.0, over_two}}) {
+    expect_miss(over_triangle(x, y, 1, -1));
+    expect_miss(over_triangle(x, y, 0, 0));
+  }
+  for (const auto& [x, y] : {std::pair{-least, 1.0}, {1.0, -least}, {over_four, 1.0}}) {
+    expect_miss(over_edge(x, y, 1, -1));
+  }
+  expect_miss(over_triangle(1, 1, least, least));
+  expect_miss(over_triangle(1, 1, 1, least));
+  expect_miss(over_edge(1, 1, 1, least));
+  expect_contact(over_triangle(least, 1, 1, -1), ratio(1, 2), Rational(least) / 4, ratio(1, 4));
+}
+
+TEST(Oracle, FindsIrrationalTimesOfDegreeTwo) {
+  // t·2t = 1, u = t, v = 1/4.
+  expect_irrational_toi(turning_triangle(2, 0, 2, 1), polynomial({-1, 0, 2}),
+                        "0.70710678118654752440");
+  // t(1 + t) = 1: the golden ratio's inverse, u = (1+t)/2.
+  expect_irrational_toi(turning_triangle(4, 1, 2, 1), polynomial({-1, 1, 1}),
+                        "0.61803398874989484820");
+}
+
+TEST(Oracle, FindsIrrationalTimesOfDegreeThree) {
+  // (3/4) t − 1/8 = t³, that is 8t³ − 6t + 1 = 0: cos 80°, cos 40° and −cos 20°.
+  expect_irrational_toi(twisting_triangle({0.75, 0.125, 0}, {0.75, 0.125, 1}),
+                        polynomial({1, -6, 0, 8}), "0.17364817766693034885");
+  // u = 3/4 − t² and v = t − 1/4 are inside the domain at cos 40° and not at cos 80°. The term
+  // −t²·(−1/4) of the plane's equation is cancelled by moving x, which gives u = 3/4 − t².
+  expect_irrational_toi(twisting_triangle({0.75, 0.125, -0.25}, {0.5, 0.125, 0.75}),
+                        polynomial({1, -6, 0, 8}), "0.76604444311897803520");
+}
+
+TEST(Oracle, SkipsRootsOutsideThePrimitive) {
+  // t(1−t) = 3/16 at 1/4 and 3/4, where u = (1−t)/s.
+  expect_contact(turning_triangle(1, 1, 0, 0.1875), ratio(1, 4), ratio(3, 4), ratio(1, 4));
+  expect_contact(turning_triangle(0.5, 1, 0, 0.1875), ratio(3, 4), ratio(1, 2), ratio(1, 4));
+  expect_miss(turning_triangle(0.125, 1, 0, 0.1875));
+  // (t − 1/4)(t − 1/2)(t − 3/4) = 0 with v = z0 + t and u = 3/2 t − t².
+  expect_contact(twisting_triangle({0, -0.09375, -0.125}, {1.375, 0.59375, 0.875}), ratio(1, 4),
+                 ratio(5, 16), ratio(1, 8));
+  expect_contact(twisting_triangle({0, -0.09375, -0.375}, {1.125, 0.59375, 0.625}), ratio(1, 2),
+                 ratio(1, 2), ratio(1, 8));
+  expect_contact(twisting_triangle({0, -0.09375, -0.625}, {0.875, 0.59375, 0.375}), ratio(3, 4),
+                 ratio(9, 16), ratio(1, 8));
+  expect_miss(twisting_triangle({0, -0.09375, -0.875}, {0.625, 0.59375, 0.125}));
+}
+
+TEST(Oracle, FindsTheDoubleRootAndSeparatesItFromItsNeighbours) {
+  // t(1−t) = y: a double root at 1/2 for y = 1/4, none above, two below.
+  expect_contact(turning_triangle(1, 1, 0, 0.25), ratio(1, 2), ratio(1, 2), ratio(1, 4));
+  expect_miss(turning_triangle(1, 1, 0, std::nextafter(0.25, 1.0)));
+  const PosedQuery below = turning_triangle(1, 1, 0, std::nextafter(0.25, 0.0));
+  const Verdict verdict = decide(below);
+  ASSERT_TRUE(verdict.collides());
+  check_impact(below, *verdict.impact);
+  // 1/4 − 2^-55 = t(1−t) at 1/2 − 2^-27.5, which is irrational.
+  EXPECT_TRUE(verdict.impact->toi < Rational(ratio(1, 2) - power_of_two(-28)));
+  EXPECT_TRUE(verdict.impact->toi > Rational(ratio(1, 2) - power_of_two(-27)));
+}
+
+// ------------------------------------------------------------------ degenerate primitives
+
+TEST(Oracle, DecidesPointOnPoint) {
+  const FourPoints start{-1, -2, -3, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  const FourPoints end{2, 4, 6, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  expect_toi(vertex_face(start, end), ratio(1, 3));
+  FourPoints beside = end;
+  beside[2] = std::nextafter(6.0, 7.0);
+  expect_miss(vertex_face(start, beside));
+
+  const FourPoints edges_start{-1, -2, -3, -1, -2, -3, 0, 0, 0, 0, 0, 0};
+  const FourPoints edges_end{2, 4, 6, 2, 4, 6, 0, 0, 0, 0, 0, 0};
+  expect_toi(edge_edge(edges_start, edges_end), ratio(1, 3));
+  FourPoints edges_beside = edges_end;
+  edges_beside[2] = edges_beside[5] = std::nextafter(6.0, 7.0);
+  expect_miss(edge_edge(edges_start, edges_beside));
+}
+
+TEST(Oracle, DecidesPointOnEdge) {
+  // The edge from (0,0,0) to (4,0,0), the point over (1,0,0), once as a second edge of no length,
+  // once under a triangle of no area whose points lie on one line.
+  const PosedQuery on_edge =
+      edge_edge({1, 0, 1, 1, 0, 1, 0, 0, 0, 4, 0, 0}, {1, 0, -2, 1, 0, -2, 0, 0, 0, 4, 0, 0});
+  expect_toi(on_edge, ratio(1, 3));
+  const RationalInterval v = contact_parameters(*decide(on_edge).impact, 1).v;
+  EXPECT_EQ(v.lower, ratio(1, 4));
+  EXPECT_EQ(v.upper, ratio(1, 4));
+  expect_miss(
+      edge_edge({1, 1, 1, 1, 1, 1, 0, 0, 0, 4, 0, 0}, {1, 1, -2, 1, 1, -2, 0, 0, 0, 4, 0, 0}));
+  expect_miss(edge_edge({-least, 0, 1, -least, 0, 1, 0, 0, 0, 4, 0, 0},
+                        {-least, 0, -2, -least, 0, -2, 0, 0, 0, 4, 0, 0}));
+  const std::array<double, 9> line{0, 0, 0, 1, 0, 0, 4, 0, 0};
+  for (const double x : {0.0, 0.5, 1.0, 2.0, 4.0}) {
+    expect_toi(vertex_face(with_vertex(x, 0, 1, line), with_vertex(x, 0, -2, line)), ratio(1, 3));
+  }
+  for (const double x : {-least, std::nextafter(4.0, 5.0)}) {
+    expect_miss(vertex_face(with_vertex(x, 0, 1, line), with_vertex(x, 0, -2, line)));
+  }
+  expect_miss(vertex_face(with_vertex(1, least, 1, line), with_vertex(1, least, -2, line)));
+}
+
+TEST(Oracle, DecidesAZeroAreaTriangleThatOpensLater) {
+  // The triangle is the segment x ∈ [0,4] at t=0; f2 rises so that it is never degenerate after.
+  expect_contact(
+      vertex_face({2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0, 0}, {2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 2, 0}),
+      ratio(1, 4), 0, 1);
+  expect_miss(vertex_face({2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0, 0},
+                          {2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0.25, 0}));
+}
+
+TEST(Oracle, DecidesParallelEdges) {
+  // They overlap on [2,4] (u from 1/2 on) when the second comes down to z=0.
+  expect_toi(
+      edge_edge({0, 0, 0, 4, 0, 0, 2, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, 2, 0, -2, 6, 0, -2}),
+      ratio(1, 3));
+  // They share the point (4,0,0) alone.
+  expect_contact(
+      edge_edge({0, 0, 0, 4, 0, 0, 4, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, 4, 0, -2, 6, 0, -2}),
+      ratio(1, 3), 1, 0);
+  const double gap = std::nextafter(4.0, 5.0);
+  expect_miss(
+      edge_edge({0, 0, 0, 4, 0, 0, gap, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, gap, 0, -2, 6, 0, -2}));
+  expect_miss(
+      edge_edge({0, 0, 0, 4, 0, 0, 2, 1, 1, 6, 1, 1}, {0, 0, 0, 4, 0, 0, 2, 1, -2, 6, 1, -2}));
+}
+
+TEST(Oracle, DecidesCollinearEdges) {
+  // [0,1] at rest, [3,4] moving to [3−s, 4−s] on the same line.
+  const FourPoints start{0, 0, 0, 1, 0, 0, 3, 0, 0, 4, 0, 0};
+  expect_contact(edge_edge(start, {0, 0, 0, 1, 0, 0, -3, 0, 0, -2, 0, 0}), ratio(1, 3), 1, 0);
+  expect_contact(edge_edge(start, {0, 0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0}), 1, 1, 0);
+  expect_miss(edge_edge(start, {0, 0, 0, 1, 0, 0, std::nextafter(1.0, 2.0), 0, 0, 2, 0, 0}));
+  // The same on the line in direction (1,2,−3).
+  expect_contact(edge_edge({0, 0, 0, 1, 2, -3, 3, 6, -9, 4, 8, -12},
+                           {0, 0, 0, 1, 2, -3, -3, -6, 9, -2, -4, 6}),
+                 ratio(1, 3), 1, 0);
+}
+
+TEST(Oracle, DecidesCoincidentPoints) {
+  const FourPoints here{1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3};
+  const FourPoints there{-1, 5, 0, -1, 5, 0, -1, 5, 0, -1, 5, 0};
+  const FourPoints apart{1, 0, 0, 0, 1, 0, 0, 0, 1, 2, 2, 2};
+  for (const FourPoints& end : {here, there, apart}) {
+    expect_toi(vertex_face(here, end), 0);
+    expect_toi(edge_edge(here, end), 0);
+  }
+  // They meet at the end and not before.
+  expect_toi(vertex_face({5, 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 2}, here), 1);
+  expect_toi(edge_edge({5, 0, 0, 5, 1, 0, 0, 0, 1, 0, 2, 2}, here), 1);
+}
+
+// ------------------------------------------------------------------ degenerate motion
+
+TEST(Oracle, DecidesRest) {
+  for (const double z : {0.0, -0.0})
+    expect_contact(over_triangle(1, 1, z, z), 0, ratio(1, 4), ratio(1, 4));
+  expect_miss(over_triangle(1, 1, 1, 1));
+  expect_miss(over_triangle(5, 1, 0, 0));
+  expect_contact(over_edge(1, 2, 0, 0), 0, ratio(1, 4), ratio(1, 2));
+  expect_miss(over_edge(1, 2, 1, 1));
+  expect_miss(over_edge(5, 2, 0, 0));
+}
+
+TEST(Oracle, FindsTheFirstInstantOfAnIntervalOfCoplanarContact) {
+  constexpr std::array<double, 9> face{0, 0, 0, 4, 0, 0, 0, 4, 0};
+  // The vertex enters through the edge x=0 at (0,1) and stays inside.
+  expect_contact(vertex_face(with_vertex(-1, 1, 0, face), with_vertex(2, 1, 0, face)), ratio(1, 3),
+                 0, ratio(1, 4));
+  // It enters through the long side, at (3,1).
+  expect_contact(vertex_face(with_vertex(5, 1, 0, face), with_vertex(1, 1, 0, face)), ratio(1, 2),
+                 ratio(3, 4), ratio(1, 4));
+  // It slides along the edge from outside, in the edge's own line.
+  expect_contact(vertex_face(with_vertex(-1, 0, 0, face), with_vertex(2, 0, 0, face)), ratio(1, 3),
+                 0, 0);
+  expect_miss(vertex_face(with_vertex(-1, 1, 0, face), with_vertex(-least, 1, 0, face)));
+  // Crossed edges in one plane, the second arriving from the right: they meet at (4,0).
+  expect_contact(
+      edge_edge({0, 0, 0, 4, 0, 0, 6, -1, 0, 6, 1, 0}, {0, 0, 0, 4, 0, 0, 0, -1, 0, 0, 1, 0}),
+      ratio(1, 3), 1, ratio(1, 2));
+}
+
+TEST(Oracle, FindsAnIsolatedInstantOfCoplanarContact) {
+  // Past the tip (0,0) of a triangle, below it.
+  const std::array<double, 9> face{0, 0, 0, 1, 1, 0, -1, 1, 0};
+  expect_contact(vertex_face(with_vertex(-1, 0, 0, face), with_vertex(2, 0, 0, face)), ratio(1, 3),
+                 0, 0);
+  expect_miss(vertex_face(with_vertex(-1, -least, 0, face), with_vertex(2, -least, 0, face)));
+  // A hanging edge slides along below the lower end of a standing one.
+  expect_contact(
+      edge_edge({0, 0, 0, 0, 2, 0, -1, 0, 0, -1, -2, 0}, {0, 0, 0, 0, 2, 0, 2, 0, 0, 2, -2, 0}),
+      ratio(1, 3), 0, 0);
+  expect_miss(edge_edge({0, 0, 0, 0, 2, 0, -1, -least, 0, -1, -2, 0},
+                        {0, 0, 0, 0, 2, 0, 2, -least, 0, 2, -2, 0}));
+}
+
+TEST(Oracle, FindsIrrationalTimesOfCoplanarMotion) {
+  // A vertex comes down through the turning edge from (0,0) to (2,2t), t·2t = 1, into the triangle
+  // below it; all in the plane z=0.
+  expect_irrational_toi(vertex_face({0, 1, 0, 0, 0, 0, 2, 0, 0, 1, -3, 0},  //
+                                    {2, 1, 0, 0, 0, 0, 2, 2, 0, 1, -3, 0}),
+                        polynomial({-1, 0, 2}), "0.70710678118654752440");
+}
+
+// ------------------------------------------------------------------ the limits of doubles
+
+/// A triangle as wide as doubles go, with one side on x=0, and a vertex over (x,0).
+PosedQuery over_greatest_triangle(double x, double z0, double z1) {
+  constexpr std::array<double, 9> face{0, -greatest, 0, greatest, 0, 0, 0, greatest, 0};
+  return vertex_face(with_vertex(x, 0, z0, face), with_vertex(x, 0, z1, face));
+}
+
+TEST(Oracle, IsExactAcrossTheWholeRangeOfDoubles) {
+  const Rational small(least), large(greatest);
+  // u = x/greatest and v = (1−u)/2: (x,0) between f0, f1 and f2.
+  for (const double x : {0.0, least, 1.0, greatest}) {
+    const Rational u = Rational(x) / large;
+    expect_contact(over_greatest_triangle(x, -least, greatest), small / (small + large), u,
+                   (1 - u) / 2);
+    expect_contact(over_greatest_triangle(x, greatest, -least), large / (small + large), u,
+                   (1 - u) / 2);
+    expect_contact(over_greatest_triangle(x, greatest, -greatest), ratio(1, 2), u, (1 - u) / 2);
+    expect_miss(over_greatest_triangle(x, greatest, least));
+  }
+  expect_miss(over_greatest_triangle(-least, -least, greatest));
+  expect_miss(over_greatest_triangle(-least, greatest, -greatest));
+  const auto first = decide(over_greatest_triangle(1, -least, greatest)).impact->toi.enclosure();
+  EXPECT_EQ(first, (DoubleInterval{0.0, least}));
+  const auto last = decide(over_greatest_triangle(1, greatest, -least)).impact->toi.enclosure();
+  EXPECT_EQ(last, (DoubleInterval{std::nextafter(1.0, 0.0), 1.0}));
+}
+
+TEST(Oracle, IsExactAcrossTheWholeRangeOfDoublesForEdges) {
+  const auto query = [](double x) {
+    return edge_edge({0, 0, 0, greatest, 0, 0, x, -greatest, -least, x, least, -least},
+                     {0, 0, 0, greatest, 0, 0, x, -greatest, greatest, x, least, greatest});
+  };
+  const Rational small(least), large(greatest);
+  expect_contact(query(least), small / (small + large), small / large, large / (small + large));
+  expect_miss(query(-least));
+}
+
+TEST(Oracle, DecidesSubnormalQueriesAsTheirMultiples) {
+  Random random(20260101);
+  int hits = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    const PosedQuery large = random_query(random, kind, Family::small_integers);
+    PosedQuery small = large;
+    for (double& x : small.query.coordinates) x *= least;
+    SCOPED_TRACE(large);
+    const Verdict expected = decide(large), verdict = decide(small);
+    ASSERT_EQ(verdict.collides(), expected.collides());
+    if (!verdict.collides()) continue;
+    ++hits;
+    EXPECT_TRUE(verdict.impact->toi == expected.impact->toi);
+    check_impact(small, *verdict.impact);
+  }
+  EXPECT_GT(hits, 50);
+  EXPECT_LT(hits, 350);
+}
+
+TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
+  // t·2t = y: the toi is √(y/2), here an odd power of √2.
+  for (const double y : {0x1p-200, 0x1p-600, 0x1p-1074}) {
+    const PosedQuery query = turning_triangle(2, 0, 2, y);
+    SCOPED_TRACE(query);
+    const Verdict verdict = decide(query);
+    ASSERT_TRUE(verdict.collides());
+    EXPECT_TRUE(verdict.impact->toi > Rational(0));
+    EXPECT_LT(verdict.impact->toi.enclosure().upper, std::sqrt(y));
+    check_impact(query, *verdict.impact);
+  }
+  // A toi of a few thousandths or less, where cells of dyadic ends fall between doubles otherwise
+  // than near 1.
+  for (int i = 0; i < 200; ++i) {
+    const PosedQuery query = turning_triangle(2, 0, 2, std::ldexp(17 + 2 * (i % 8), -12 - i / 8));
+    SCOPED_TRACE(query);
+    const Verdict verdict = decide(query);
+    ASSERT_TRUE(verdict.collides());
+    check_impact(query, *verdict.impact);
+  }
+  // t(ε(1−t) + t) = 1/4: about 1/2 − ε/4, on the side of the double that ε says.
+  for (const double epsilon : {0x1p-100, 0x1p-601, -0x1p-100, -0x1p-601}) {
+    const PosedQuery query = turning_triangle(1, epsilon, 1, 0.25);
+    SCOPED_TRACE(query);
+    const Verdict verdict = decide(query);
+    ASSERT_TRUE(verdict.collides());
+    const double beside = std::nextafter(0.5, epsilon > 0 ? 0.0 : 1.0);
+    EXPECT_EQ(verdict.impact->toi.enclosure(),
+              (DoubleInterval{std::min(0.5, beside), std::max(0.5, beside)}));
+    check_impact(query, *verdict.impact);
+  }
+}
+
+TEST(Oracle, RejectsEveryCoordinateThatIsNotFinite) {
+  for (const PosedQuery& good : {over_triangle(1, 1, 1, -1), over_edge(1, 1, 1, -1)}) {
+    ASSERT_TRUE(decide(good).collides());
+    for (std::size_t i = 0; i < good.query.coordinates.size(); ++i) {
+      for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
+        PosedQuery query = good;
+        query.query.coordinates.at(i) = bad;
+        EXPECT_THROW(static_cast<void>(decide(query)), std::invalid_argument) << i << ' ' << bad;
+      }
+    }
+  }
+}
+
+// ------------------------------------------------------------------ threads
+
+constexpr std::size_t thread_count = 4;
+
+std::vector<PosedQuery> mixed_queries(std::size_t count) {
+  Random random(7);
+  std::vector<PosedQuery> queries;
+  while (queries.size() < count) {
+    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    queries.push_back(random_query(random, kind, tests::all_families.at(queries.size() % 4)));
+  }
+  return queries;
+}
+
+std::vector<Verdict> decide_all(std::span<const PosedQuery> queries) {
+  std::vector<Verdict> verdicts;
+  verdicts.reserve(queries.size());
+  for (const PosedQuery& posed : queries) verdicts.push_back(decide(posed));
+  return verdicts;
+}
+
+void expect_same(const Verdict& verdict, const Verdict& expected) {
+  ASSERT_EQ(verdict.collides(), expected.collides());
+  if (!verdict.collides()) return;
+  const Impact &a = *verdict.impact, &b = *expected.impact;
+  EXPECT_EQ(a.toi.polynomial(), b.toi.polynomial());
+  EXPECT_EQ(a.toi.rational(), b.toi.rational());
+  EXPECT_EQ(a.toi.interval().lower, b.toi.interval().lower);
+  EXPECT_EQ(a.toi.interval().upper, b.toi.interval().upper);
+  EXPECT_EQ(a.toi.enclosure(), b.toi.enclosure());
+  EXPECT_EQ(a.contact.u_numerator, b.contact.u_numerator);
+  EXPECT_EQ(a.contact.v_numerator, b.contact.v_numerator);
+  EXPECT_EQ(a.contact.denominator, b.contact.denominator);
+}
+
+TEST(Oracle, GivesTheSameAnswersInFourThreadsAsInOne) {
+  const std::vector<PosedQuery> queries = mixed_queries(2000);
+  const std::vector<Verdict> expected = decide_all(queries);
+  std::array<std::vector<Verdict>, thread_count> answers;
+  {
+    std::vector<std::jthread> threads;
+    threads.reserve(thread_count);
+    for (std::vector<Verdict>& answer : answers) {
+      threads.emplace_back([&answer, &queries] { answer = decide_all(queries); });
+    }
+  }
+  for (const std::vector<Verdict>& answer : answers) {
+    ASSERT_EQ(answer.size(), expected.size());
+    for (std::size_t i = 0; i < answer.size(); ++i) {
+      SCOPED_TRACE(queries[i]);
+      expect_same(answer[i], expected[i]);
+    }
+  }
+}
+
+TEST(Oracle, GivesVerdictsWhoseCopiesCanBeUsedByDistinctThreads) {
+  // Each thread has a copy of its own and makes copies of that. Whatever the copies still have in
+  // common must survive it.
+  const PosedQuery query = twisting_triangle({0.75, 0.125, 0}, {0.75, 0.125, 1});
+  const Verdict original = decide(query);
+  ASSERT_TRUE(original.collides());
+  const DoubleInterval expected = original.impact->toi.enclosure();
+  std::array<int, thread_count> wrong{};
+  std::latch all_started(thread_count);
+  {
+    std::vector<std::jthread> threads;
+    threads.reserve(thread_count);
+    for (int& count : wrong) {
+      threads.emplace_back([own = original, &count, &expected, &all_started] {
+        all_started.arrive_and_wait();
+        for (int i = 0; i < 10000; ++i) {
+          const std::vector<Contact> contacts(100, own.impact->contact);
+          const Verdict copy = own;
+          if (i % 100 == 0 && copy.impact->toi.enclosure() != expected) ++count;
+        }
+      });
+    }
+  }
+  EXPECT_EQ(wrong, (std::array<int, thread_count>{}));
+  EXPECT_EQ(original.impact->toi.enclosure(), expected);
+  check_impact(query, *original.impact);
+}
+
+// ------------------------------------------------------------------ the second way to decide
+
+/// Random times: none of the queries below is special at them.
+Rational random_time(Random& random) { return ratio(random.between(1, 9972), 9973); }
+
+struct Tally {
+  int hits = 0;
+  int rational_hits = 0;
+  int touching_at_start = 0;
+  int misses = 0;
+};
+
+/// No contact at the times k/60, nor at random ones, as far as they lie before the toi.
+void expect_no_contact_before(const PosedQuery& posed, Random& random, const AlgebraicNumber* toi) {
+  const auto check = [&](const Rational& t) {
+    if (toi != nullptr && *toi <= t) return;
+    EXPECT_FALSE(touches_at(posed, t)) << "contact at " << t;
+  };
+  for (long k = 0; k <= 60; ++k) check(ratio(k, 60));
+  for (int i = 0; i < 5; ++i) check(random_time(random));
+  if (toi == nullptr) return;
+  AlgebraicNumber fine = *toi;
+  fine.refine(power_of_two(-60));
+  for (const long bits : {5, 20, 50}) {
+    const Rational shortly_before = fine.interval().lower - power_of_two(-bits);
+    if (sgn(shortly_before) >= 0) check(shortly_before);
+  }
+}
+
+void compare_with_second_way(const PosedQuery& posed, Random& random, Tally& tally) {
+  SCOPED_TRACE(posed);
+  const Verdict verdict = decide(posed);
+  const AlgebraicNumber* toi = verdict.collides() ? &verdict.impact->toi : nullptr;
+  expect_no_contact_before(posed, random, toi);
+  if (toi == nullptr) {
+    ++tally.misses;
+    return;
+  }
+  ++tally.hits;
+  tally.rational_hits += toi->rational() ? 1 : 0;
+  tally.touching_at_start += *toi == Rational(0) ? 1 : 0;
+  EXPECT_EQ(*toi == Rational(0), touches_at(posed, 0));
+  check_impact(posed, *verdict.impact);
+}
+
+void compare_family_with_second_way(Family family, int count, Tally& tally) {
+  Random random(42 + static_cast<unsigned>(family));
+  for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) {
+    const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+    compare_with_second_way(random_query(random, kind, family), random, tally);
+  }
+}
+
+TEST(Oracle, AgreesWithEliminationOnSmallIntegers) {
+  Tally tally;
+  compare_family_with_second_way(Family::tiny_integers, 2000, tally);
+  compare_family_with_second_way(Family::small_integers, 2000, tally);
+  EXPECT_GT(tally.hits, 1000);
+  EXPECT_GT(tally.misses, 1000);
+  EXPECT_GT(tally.rational_hits, 500);
+  EXPECT_GT(tally.touching_at_start, 200);
+  EXPECT_GT(tally.hits - tally.rational_hits, 100);
+}
+
+TEST(Oracle, AgreesWithEliminationOnFullSignificands) {
+  Tally tally;
+  compare_family_with_second_way(Family::full_significands, 200, tally);
+  compare_family_with_second_way(Family::near_contact, 200, tally);
+  EXPECT_GT(tally.hits, 40);
+  EXPECT_GT(tally.misses, 40);
+}
+
+}  // namespace
+}  // namespace touchstone::exact
