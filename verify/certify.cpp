@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "exact/oracle.hpp"
-#include "verify/toi_writer.hpp"
+#include "verify/dataset/toi_writer.hpp"
 
 namespace touchstone::verify {
 namespace {

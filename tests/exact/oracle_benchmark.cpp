@@ -18,7 +18,7 @@
 #include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "verify/dataset.hpp"
+#include "verify/dataset/dataset.hpp"
 
 namespace touchstone::exact {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "tests/support/memory_source.hpp"
-#include "verify/dataset.hpp"
-#include "verify/families.hpp"
+#include "verify/dataset/dataset.hpp"
+#include "verify/families/families.hpp"
 
 namespace touchstone::verify {
 namespace {

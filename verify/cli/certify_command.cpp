@@ -14,8 +14,8 @@
 #include "verify/certify_report.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/dataset.hpp"
-#include "verify/families.hpp"
+#include "verify/dataset/dataset.hpp"
+#include "verify/families/families.hpp"
 #include "verify/terminal.hpp"
 
 namespace touchstone::verify::cli {

@@ -10,11 +10,11 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/csv_dataset.hpp"
-#include "verify/families.hpp"
-#include "verify/npy.hpp"
+#include "verify/dataset/csv_dataset.hpp"
+#include "verify/dataset/npy.hpp"
+#include "verify/dataset/toi_writer.hpp"
+#include "verify/families/families.hpp"
 #include "verify/terminal.hpp"
-#include "verify/toi_writer.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "exact/number.hpp"
 #include "exact/query.hpp"
-#include "verify/families.hpp"
+#include "verify/families/families.hpp"
 #include "verify/families/random.hpp"
 
 namespace touchstone::verify::builtin {

@@ -176,7 +176,8 @@ TEST_F(Tool, KeepGoingSkipsNamesAndCountsAndStillExitsWithTwo) {
   write("data/a_vf.csv", falling_vertex("1") + bad + falling_vertex("1"));
   write("data/b.csv", falling_vertex("1"));
   write("data/c_vf.csv", falling_vertex("1"));
-  const Outcome certify = run({"certify", path("data"), "--keep-going", "--json", path("result.json")});
+  const Outcome certify =
+      run({"certify", path("data"), "--keep-going", "--json", path("result.json")});
   EXPECT_EQ(certify.status, 2);
   EXPECT_TRUE(contains(certify.err, path("data/a_vf.csv") + ":13:5: ")) << certify.err;
   EXPECT_TRUE(contains(certify.err, path("data/b.csv") + ": ")) << certify.err;

@@ -1,0 +1,104 @@
+#include "verify/dataset/npy_dataset.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/verify/dataset/dataset_fixture.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using test::contents;
+using test::error_of;
+using test::expect_numbered;
+using test::numbered_query;
+using test::read_all;
+using test::read_survivors;
+using test::resident_growth;
+using test::TemporaryFolder;
+
+/// Writes numbered queries and then spoils one double; NpyWriter itself would refuse it.
+std::filesystem::path spoiled_file(const TemporaryFolder& folder, std::size_t query,
+                                   std::size_t coordinate, double value) {
+  std::filesystem::path path = folder.path() / "avf.npy";
+  NpyWriter writer(path);
+  for (std::size_t i = 0; i < 4; ++i) writer.write(numbered_query(i));
+  writer.close();
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(static_cast<std::streamoff>(128 + 192 * query + 8 * coordinate));
+  const void* const bytes = &value;
+  file.write(static_cast<const char*>(bytes), sizeof(value));
+  return path;
+}
+
+TEST(NpyDataset, streams_all_queries_without_truth) {
+  const TemporaryFolder folder;
+  const auto path = spoiled_file(folder, 0, 0, 0.0);
+  NpyDataset source(path, {});
+  EXPECT_EQ(source.kind(), Kind::vertex_face);
+  EXPECT_EQ(source.name(), path.string());
+  EXPECT_EQ(source.progress(), 0.0);
+  ASSERT_TRUE(source.next().has_value());
+  EXPECT_EQ(source.progress(), 0.25);
+  const auto records = read_all(source);
+  expect_numbered(records, {1, 2, 3});
+  for (const auto& record : records) {
+    EXPECT_FALSE(record.collides.has_value());
+    EXPECT_FALSE(record.toi.has_value());
+  }
+  EXPECT_EQ(source.progress(), 1.0);
+}
+
+TEST(NpyDataset, names_the_coordinate_that_is_not_finite_and_skips_its_query_only) {
+  using Limits = std::numeric_limits<double>;
+  for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
+    for (std::size_t coordinate = 0; coordinate < 24; ++coordinate) {
+      const TemporaryFolder folder;
+      const auto path = spoiled_file(folder, 2, coordinate, bad);
+      const std::string expected = "avf.npy: query 2, point " + std::to_string(coordinate / 3) +
+                                   ", " + "xyz"[coordinate % 3] + ": not finite";
+      EXPECT_EQ(error_of(folder.path(),
+                         [&] {
+                           NpyDataset source(path, {});
+                           (void)read_all(source);
+                         }),
+                expected);
+      const auto kept = read_survivors(path, folder.path());
+      expect_numbered(kept.records, {0, 1, 3});
+      EXPECT_EQ(kept.skipped, 1U);
+      EXPECT_EQ(kept.messages, std::vector<std::string>{expected});
+    }
+  }
+}
+
+TEST(NpyDataset, memory_does_not_grow_with_the_file) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "avf.npy";
+  constexpr std::size_t queries = 300000;
+  {
+    NpyWriter writer(path);
+    for (std::size_t i = 0; i < queries; ++i) writer.write(numbered_query(i));
+    writer.close();
+  }
+  ASSERT_GT(std::filesystem::file_size(path), 50'000'000U);
+  const std::size_t streamed = resident_growth([&] {
+    NpyDataset source(path, {});
+    std::size_t count = 0;
+    while (source.next()) ++count;
+    EXPECT_EQ(count, queries);
+  });
+  EXPECT_LT(streamed, 8'000'000U);
+  const std::size_t whole = resident_growth([&] {
+    const NpyFile file(path);
+    double sum = 0.0;
+    for (const Query& query : file.queries()) sum += query.coordinates[0];
+    EXPECT_EQ(sum, 25.0 * (queries - 1.0) * queries / 2.0);
+  });
+  EXPECT_GT(whole, 40'000'000U) << "the measure must see a reader that keeps the file";
+}
+
+}  // namespace
+}  // namespace touchstone::verify

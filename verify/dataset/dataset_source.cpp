@@ -1,0 +1,57 @@
+#include "verify/dataset/dataset_source.hpp"
+
+#include <utility>
+
+namespace touchstone::verify {
+
+DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions options)
+    : path_(path),
+      name_(path.string()),
+      options_(std::move(options)),
+      kind_(options_.kind ? *options_.kind : kind_from_path(path)),
+      companions_(path) {}
+
+std::optional<RecordedQuery> DatasetSource::next() {
+  while (!ended_) {
+    std::optional<DatasetError> fault;
+    try {
+      std::optional<RecordedQuery> record = read_record();
+      if (record) return record;
+      ended_ = true;
+    } catch (const DatasetError& error) {
+      fault = error;
+    }
+    if (fault) skip(*fault);
+    if (ended_) finish();
+  }
+  return std::nullopt;
+}
+
+std::optional<RecordedQuery> DatasetSource::read_record() {
+  if (at_end()) return std::nullopt;
+  const std::uint64_t index = count_++;
+  const StoredQuery stored = read(index);
+  Truth truth = companions_.at(index);
+  if (stored.label && truth.collides && *stored.label != *truth.collides) {
+    static constexpr std::uint64_t label_column = 7;
+    throw DatasetError(path_, {.line = stored.line, .column = label_column},
+                       "label differs from that in " + companions_.label_path().string());
+  }
+  return RecordedQuery{.query = stored.query,
+                       .index = index,
+                       .collides = stored.label ? stored.label : truth.collides,
+                       .toi = std::move(truth.toi)};
+}
+
+/// Companions must not go on where the queries end.
+void DatasetSource::finish() {
+  for (const DatasetError& fault : companions_.beyond(count_)) skip(fault);
+}
+
+void DatasetSource::skip(const DatasetError& fault) {
+  if (!options_.keep_going) throw fault;
+  ++skipped_;
+  if (options_.on_skip) options_.on_skip(fault);
+}
+
+}  // namespace touchstone::verify
