@@ -30,23 +30,23 @@ DyadicCell half(const DyadicCell& cell, bool upper) {
   return {2 * cell.index + (upper ? 1 : 0), cell.level + 1};
 }
 
-/// Isolates by bisection; a root met at a midpoint is divided out, which leaves a squarefree
-/// polynomial without roots at the ends of the cells still to come.
-void isolate(const Polynomial& p, const DyadicCell& cell, std::vector<AlgebraicNumber>& roots,
-             std::vector<Rational>& met) {
-  const int changes = sign_changes(bernstein_form(p, cell));
-  if (changes == 0) return;
-  if (changes == 1) {
-    roots.emplace_back(p, cell);
-    return;
+/// Isolates the roots of a squarefree polynomial in (0,1) by bisection, ascending; or gives up at the
+/// first root that is met at a midpoint, and returns it: divided out it leaves a polynomial that has
+/// no root at the end of a cell.
+std::optional<Rational> isolate(const Polynomial& p, std::vector<AlgebraicNumber>& roots) {
+  std::vector<DyadicCell> cells{DyadicCell{}};
+  while (!cells.empty()) {
+    const DyadicCell cell = std::move(cells.back());
+    cells.pop_back();
+    const int changes = sign_changes(bernstein_form(p, cell));
+    if (changes == 1) roots.emplace_back(p, cell);
+    if (changes < 2) continue;
+    const DyadicCell upper = half(cell, true);
+    if (sign_at_dyadic(p.coefficients(), upper.index, upper.level) == 0) return upper.lower();
+    cells.push_back(upper);
+    cells.push_back(half(cell, false));
   }
-  const DyadicCell lower = half(cell, false), upper = half(cell, true);
-  if (sign_at(p, lower.upper()) == 0) {
-    met.push_back(lower.upper());
-    return;
-  }
-  isolate(p, lower, roots, met);
-  if (met.empty()) isolate(p, upper, roots, met);
+  return std::nullopt;
 }
 
 RationalInterval evaluate(const Polynomial& p, const RationalInterval& x) {
@@ -77,13 +77,11 @@ AlgebraicNumber::AlgebraicNumber(Polynomial squarefree, DyadicCell cell)
   if (polynomial_.degree() == 1) {
     Rational root(-polynomial_[0], polynomial_[1]);
     root.canonicalize();
-    become(root);
+    rational_ = root;
     return;
   }
   sign_below_ = sign_at(polynomial_, cell_.lower());
 }
-
-void AlgebraicNumber::become(const Rational& value) { rational_ = value; }
 
 RationalInterval AlgebraicNumber::interval() const {
   if (rational_) return {*rational_, *rational_};
@@ -91,13 +89,12 @@ RationalInterval AlgebraicNumber::interval() const {
 }
 
 void AlgebraicNumber::halve() {
-  const DyadicCell lower = half(cell_, false);
-  const Rational middle = lower.upper();
-  const int sign = sign_at(polynomial_, middle);
+  const DyadicCell upper = half(cell_, true);
+  const int sign = sign_at_dyadic(polynomial_.coefficients(), upper.index, upper.level);
   if (sign == 0) {
-    become(middle);
+    rational_ = upper.lower();
   } else {
-    cell_ = half(cell_, sign == sign_below_);
+    cell_ = sign == sign_below_ ? upper : half(cell_, false);
   }
 }
 
@@ -117,7 +114,7 @@ bool AlgebraicNumber::narrow(unsigned long bits) {
     return true;
   };
   const auto meet = [&](const Integer& point) {
-    become(DyadicCell{(cell_.index << bits) + point, cell_.level + bits}.lower());
+    rational_ = DyadicCell{(cell_.index << bits) + point, cell_.level + bits}.lower();
     return true;
   };
   const int sign = sign_at_dyadic(a, guess, bits);
@@ -244,12 +241,8 @@ std::vector<AlgebraicNumber> roots_in_unit_interval(const Polynomial& p) {
   for (const Rational& end : {Rational(0), Rational(1)}) {
     if (rest.degree() > 0 && sign_at(rest, end) == 0) split_off(end);
   }
-  while (rest.degree() > 0) {
-    std::vector<Rational> met;
-    roots.clear();
-    isolate(rest, DyadicCell{}, roots, met);
-    if (met.empty()) break;
-    split_off(met.front());
+  while (const std::optional<Rational> met = isolate(rest, roots)) {
+    split_off(*met);
     roots.clear();
   }
   roots.insert(roots.end(), rational_roots.begin(), rational_roots.end());

@@ -73,7 +73,6 @@ class AlgebraicNumber {
  private:
   [[nodiscard]] bool narrow(unsigned long bits);
   void halve();
-  void become(const Rational& value);
 
   Polynomial polynomial_;
   DyadicCell cell_;
