@@ -5,19 +5,13 @@
 /// Rational are CGAL's Exact_integer and Exact_rational where CGAL is configured with GMP's C++
 /// classes, as it is here.
 
-#include <CGAL/Exact_integer.h>
-#include <CGAL/Exact_rational.h>
 #include <CGAL/Polynomial.h>
-
-#include <type_traits>
+#include <CGAL/gmpxx.h>
 
 #include "exact/number.hpp"
 #include "exact/polynomial.hpp"
 
 namespace touchstone::exact {
-
-static_assert(std::is_same_v<Integer, CGAL::Exact_integer> &&
-              std::is_same_v<Rational, CGAL::Exact_rational>);
 
 /// The same polynomial, for CGAL's algebra and its algebraic kernel. Not to be shared between
 /// threads.

@@ -1,6 +1,8 @@
 #include "exact/motion.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -13,17 +15,19 @@ struct Decomposed {
   int exponent = 0;
 };
 
+/// Taken from the bits: a caller's floating-point environment may flush subnormals to zero.
 Decomposed decompose(double x) {
-  static constexpr int digits = std::numeric_limits<double>::digits;
-  if (x == 0.0) return {};
-  int exponent = 0;
-  auto significand = static_cast<long>(std::ldexp(std::frexp(x, &exponent), digits));
-  exponent -= digits;
-  while (significand % 2 == 0) {
-    significand /= 2;
-    ++exponent;
-  }
-  return {significand, exponent};
+  static constexpr int fraction_bits = 52, exponent_bias = 1075, special_exponent = 0x7FF;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const int field = static_cast<int>((bits >> fraction_bits) & special_exponent);
+  if (field == special_exponent)
+    throw std::invalid_argument("a query's coordinates must be finite");
+  std::uint64_t significand = bits & ((std::uint64_t{1} << fraction_bits) - 1);
+  if (field != 0) significand |= std::uint64_t{1} << fraction_bits;
+  if (significand == 0) return {};
+  const int zeros = std::countr_zero(significand);
+  const auto magnitude = static_cast<long>(significand >> zeros);
+  return {(bits >> 63U) != 0 ? -magnitude : magnitude, std::max(field, 1) - exponent_bias + zeros};
 }
 
 void scale_axis(const Query& query, std::size_t axis, Motion& motion) {
@@ -31,10 +35,8 @@ void scale_axis(const Query& query, std::size_t axis, Motion& motion) {
   int least = std::numeric_limits<int>::max();
   for (std::size_t end = 0; end < 2; ++end) {
     for (std::size_t point = 0; point < moving_points; ++point) {
-      const double x = query.at(end, point, axis);
-      if (!std::isfinite(x)) throw std::invalid_argument("a query's coordinates must be finite");
-      parts[end][point] = decompose(x);
-      if (x != 0.0) least = std::min(least, parts[end][point].exponent);
+      parts[end][point] = decompose(query.at(end, point, axis));
+      if (parts[end][point].significand != 0) least = std::min(least, parts[end][point].exponent);
     }
   }
   for (std::size_t end = 0; end < 2; ++end) {

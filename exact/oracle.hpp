@@ -66,7 +66,8 @@ struct Verdict {
   [[nodiscard]] bool collides() const { return impact.has_value(); }
 };
 
-/// Decides a query exactly. Thread-safe. DESIGN.md section 3.
+/// Decides a query exactly. Thread-safe, and independent of the floating-point environment (rounding
+/// mode, flushed subnormals). DESIGN.md section 3.
 /// \throws std::invalid_argument if a coordinate is NaN or infinite.
 [[nodiscard]] Verdict decide(Kind kind, const Query& query);
 

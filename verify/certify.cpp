@@ -5,6 +5,7 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <ctime>
 #include <exception>
 #include <memory>
@@ -17,6 +18,7 @@ namespace touchstone::verify {
 namespace {
 
 constexpr std::size_t block_size = 64;
+constexpr unsigned most_threads = 1024;
 
 /// Some consecutive queries on their way through the pipeline.
 struct Block {
@@ -35,12 +37,18 @@ double thread_microseconds() {
 
 std::string verdict_text(bool collides) { return collides ? "collision" : "no collision"; }
 
-/// 45 significant digits of a number known to an interval far narrower.
+/// The first 45 significant digits, as published times of impact have them.
 std::string decimal_text(const exact::AlgebraicNumber& number) {
-  static constexpr unsigned long level = 256;
+  static constexpr unsigned digits = 45;
+  static const exact::Rational relative_width = exact::power_of_two(-160);
   exact::AlgebraicNumber refined = number;
-  refined.refine_to_level(level);
-  return to_decimal(refined.interval().lower);
+  // Zero would be known as rational, so the lower end leaves zero sooner or later.
+  for (unsigned long level = 1; !refined.rational(); level *= 2) {
+    refined.refine_to_level(level);
+    const auto [lower, upper] = refined.interval();
+    if (upper - lower <= relative_width * lower) break;
+  }
+  return to_decimal(refined.interval().lower, digits);
 }
 
 bool within(const exact::AlgebraicNumber& toi, const exact::Rational& recorded,
@@ -131,7 +139,7 @@ class Judgement {
       ended_ = !query;
       if (query) block.queries.push_back(std::move(*query));
     } catch (const std::exception& error) {
-      result_.error = error.what();
+      result_.fail(error.what());
       ended_ = true;
     }
   }
@@ -152,11 +160,17 @@ double CertifyResult::microseconds_per_query() const {
   return queries == 0 ? 0.0 : microseconds / static_cast<double>(queries);
 }
 
+void CertifyResult::fail(const std::string& message) {
+  error = message;
+  errors = 1;
+}
+
 CertifyResult certify(QuerySource& source, const CertifyOptions& options) {
   namespace tbb = oneapi::tbb;
   using BlockPointer = std::shared_ptr<Block>;
+  const int available = tbb::info::default_concurrency();
   const int threads =
-      options.threads == 0 ? tbb::info::default_concurrency() : static_cast<int>(options.threads);
+      options.threads == 0 ? available : static_cast<int>(std::min(options.threads, most_threads));
   const std::size_t blocks_in_flight = 4 * static_cast<std::size_t>(threads);
   Judgement judgement(source, options);
   const bool wants_toi = options.on_truth != nullptr;
@@ -195,6 +209,7 @@ CertifyResult total(const std::vector<CertifyResult>& results) {
     sum.toi_mismatches += result.toi_mismatches;
     sum.skipped += result.skipped;
     sum.rounded += result.rounded;
+    sum.errors += result.errors;
     sum.microseconds += result.microseconds;
     sum.interrupted = sum.interrupted || result.interrupted;
   }

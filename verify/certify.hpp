@@ -58,7 +58,7 @@ struct CertifyOptions {
 /// The judgement on one source.
 struct CertifyResult {
   std::string name;
-  Kind kind = Kind::vertex_face;
+  std::optional<Kind> kind;      ///< empty for a total, and for a source that could not be opened
   std::uint64_t queries = 0;     ///< decided
   std::uint64_t collisions = 0;  ///< of these, by the truth
   std::uint64_t labels = 0;      ///< queries with a recorded verdict
@@ -67,6 +67,7 @@ struct CertifyResult {
   std::uint64_t toi_mismatches = 0;
   std::uint64_t skipped = 0;  ///< in error, left out
   std::uint64_t rounded = 0;  ///< coordinates rounded to double
+  std::uint64_t errors = 0;      ///< errors that ended the reading
   double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
   std::vector<Mismatch> mismatches;
   /// The error that ended the reading before the source's end; all of the above holds up to there.
@@ -75,6 +76,9 @@ struct CertifyResult {
 
   /// Mean time of the oracle; 0 if there are no queries.
   [[nodiscard]] double microseconds_per_query() const;
+
+  /// Sets the error that ended the reading.
+  void fail(const std::string& message);
 };
 
 /// Decides every query of the source and compares. Errors of the source end up in the result.

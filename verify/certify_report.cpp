@@ -10,13 +10,16 @@ namespace touchstone::verify {
 namespace {
 
 constexpr std::string_view row_format =
-    "{:<{}}  {:<11}  {:>9}  {:>10}  {:>9}  {:>10}  {:>9}  {:>10}  {:>8}\n";
+    "{:<{}}  {:<11}  {:>9}  {:>10}  {:>9}  {:>11}  {:>9}  {:>10}  {:>8}\n";
 
-void append_row(std::string& text, std::size_t width, const CertifyResult& result,
-                std::string_view kind) {
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), result.name, width, kind,
-                 result.queries, result.collisions, result.labels, result.label_mismatches,
-                 result.tois, result.toi_mismatches,
+std::string_view kind_text(const CertifyResult& result) {
+  return result.kind ? to_string(*result.kind) : "";
+}
+
+void append_row(std::string& text, std::size_t width, const CertifyResult& result) {
+  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), result.name, width,
+                 kind_text(result), result.queries, result.collisions, result.labels,
+                 result.label_mismatches, result.tois, result.toi_mismatches,
                  fmt::format("{:.2f}", result.microseconds_per_query()));
 }
 
@@ -32,6 +35,7 @@ nlohmann::json counts(const CertifyResult& result) {
           {"us_per_query", result.microseconds_per_query()},
           {"skipped", result.skipped},
           {"rounded", result.rounded},
+          {"errors", result.errors},
           {"interrupted", result.interrupted}};
 }
 
@@ -53,18 +57,18 @@ std::string to_text(const std::vector<CertifyResult>& results) {
 
   std::string text;
   fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), "file", width, "kind",
-                 "queries", "collisions", "labels", "mismatches", "tois", "mismatches", "µs/query");
-  for (const CertifyResult& result : results)
-    append_row(text, width, result, to_string(result.kind));
+                 "queries", "collisions", "labels", "mislabelled", "tois", "wrong tois",
+                 "µs/query");
+  for (const CertifyResult& result : results) append_row(text, width, result);
   const CertifyResult sum = total(results);
-  append_row(text, width, sum, "");
+  append_row(text, width, sum);
   if (sum.skipped != 0) text += fmt::format("{} queries in error skipped\n", sum.skipped);
   if (sum.rounded != 0) text += fmt::format("{} coordinates rounded to double\n", sum.rounded);
 
   for (const CertifyResult& result : results) {
     for (const Mismatch& mismatch : result.mismatches) {
       text += fmt::format("mismatch: {}: {} query {}: recorded {} {}, truth {}\n", result.name,
-                          to_string(result.kind), mismatch.index, name_of(mismatch.of),
+                          kind_text(result), mismatch.index, name_of(mismatch.of),
                           mismatch.recorded, mismatch.truth);
     }
   }
@@ -78,13 +82,13 @@ nlohmann::json to_json(const std::vector<CertifyResult>& results) {
   for (const CertifyResult& result : results) {
     nlohmann::json file = counts(result);
     file["file"] = result.name;
-    file["kind"] = to_string(result.kind);
+    file["kind"] = kind_text(result);
     if (result.error) file["error"] = *result.error;
     json["files"].push_back(std::move(file));
     for (const Mismatch& mismatch : result.mismatches) {
       json["mismatches"].push_back({{"file", result.name},
                                     {"index", mismatch.index},
-                                    {"kind", to_string(result.kind)},
+                                    {"kind", kind_text(result)},
                                     {"of", name_of(mismatch.of)},
                                     {"recorded", mismatch.recorded},
                                     {"truth", mismatch.truth}});
@@ -93,17 +97,13 @@ nlohmann::json to_json(const std::vector<CertifyResult>& results) {
   return json;
 }
 
-TruthWriter::TruthWriter(std::ostream& out) : out_(out) {
-  out_ << "file,index,kind,collides,toi_lower,toi_upper\n";
-}
+std::string truth_header() { return "file,index,kind,collides,toi_lower,toi_upper\n"; }
 
-void TruthWriter::write(const std::string& file, Kind kind, const Truth& truth) {
-  const auto end = [](const std::optional<exact::DoubleInterval>& toi, double value) {
-    return toi ? fmt::format("{}", value) : std::string();
-  };
-  const exact::DoubleInterval toi = truth.toi.value_or(exact::DoubleInterval{0.0, 0.0});
-  out_ << fmt::format("{},{},{},{:d},{},{}\n", csv_field(file), truth.index, to_string(kind),
-                      truth.collides, end(truth.toi, toi.lower), end(truth.toi, toi.upper));
+std::string truth_row(const std::string& file, Kind kind, const Truth& truth) {
+  const std::string toi =
+      truth.toi ? fmt::format("{},{}", truth.toi->lower, truth.toi->upper) : std::string(",");
+  return fmt::format("{},{},{},{:d},{}\n", csv_field(file), truth.index, to_string(kind),
+                     truth.collides, toi);
 }
 
 }  // namespace touchstone::verify

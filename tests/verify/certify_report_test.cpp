@@ -12,6 +12,7 @@ namespace {
 std::vector<CertifyResult> results() {
   CertifyResult clean;
   clean.name = "a/vertex-face.csv";
+  clean.kind = Kind::vertex_face;
   clean.queries = 8;
   clean.collisions = 3;
   clean.labels = 8;
@@ -30,7 +31,7 @@ std::vector<CertifyResult> results() {
   wrong.microseconds = 34.0;
   wrong.mismatches = {{Mismatch::Of::label, 0, "no collision", "collision"},
                       {Mismatch::Of::toi, 1, "2.5E-1", "5E-1"}};
-  wrong.error = "b,c/edge-edge.csv:17:3: denominator is zero";
+  wrong.fail("b,c/edge-edge.csv:17:3: denominator is zero");
   return {clean, wrong};
 }
 
@@ -67,6 +68,7 @@ TEST(CertifyReport, JsonHasTotalFilesAndMismatches) {
   EXPECT_EQ(json.at("toi_mismatches"), 1);
   EXPECT_EQ(json.at("skipped"), 4);
   EXPECT_EQ(json.at("rounded"), 9);
+  EXPECT_EQ(json.at("errors"), 1);
   EXPECT_EQ(json.at("us_per_query"), 5.0);
   EXPECT_EQ(json.at("interrupted"), false);
   ASSERT_EQ(json.at("files").size(), 2U);
@@ -92,21 +94,17 @@ TEST(CertifyReport, NothingGivesAnEmptyReport) {
 }
 
 TEST(CertifyReport, TruthIsCsvWhoseDoublesComeBack) {
-  std::ostringstream out;
-  TruthWriter writer(out);
   const double lower = 0.1, upper = std::nextafter(0.1, 1.0);
-  writer.write("plain.csv", Kind::vertex_face,
-               {.index = 0, .collides = false, .toi = std::nullopt});
-  writer.write("with,comma \"and quotes\"", Kind::edge_edge,
-               {.index = 7, .collides = true, .toi = exact::DoubleInterval{lower, upper}});
-  writer.write("tiny", Kind::edge_edge,
-               {.index = 8,
-                .collides = true,
-                .toi = exact::DoubleInterval{0.0, std::numeric_limits<double>::denorm_min()}});
-  EXPECT_EQ(out.str(),
-            "file,index,kind,collides,toi_lower,toi_upper\n"
-            "plain.csv,0,vertex-face,0,,\n"
-            "\"with,comma \"\"and quotes\"\"\",7,edge-edge,1,0.1,0.10000000000000002\n"
+  const double least = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(truth_header(), "file,index,kind,collides,toi_lower,toi_upper\n");
+  EXPECT_EQ(truth_row("plain.csv", Kind::vertex_face,
+                      {.index = 0, .collides = false, .toi = std::nullopt}),
+            "plain.csv,0,vertex-face,0,,\n");
+  EXPECT_EQ(truth_row("with,comma \"and quotes\"", Kind::edge_edge,
+                      {.index = 7, .collides = true, .toi = exact::DoubleInterval{lower, upper}}),
+            "\"with,comma \"\"and quotes\"\"\",7,edge-edge,1,0.1,0.10000000000000002\n");
+  EXPECT_EQ(truth_row("tiny", Kind::edge_edge,
+                      {.index = 8, .collides = true, .toi = exact::DoubleInterval{0.0, least}}),
             "tiny,8,edge-edge,1,0,5e-324\n");
   EXPECT_EQ(std::stod("0.10000000000000002"), upper);
 }

@@ -116,6 +116,20 @@ TEST(Certify, ATimeOfImpactOfAMissIsAMismatch) {
   EXPECT_EQ(result.mismatches[0].truth, "no collision");
 }
 
+TEST(Certify, ShowsFortyFiveDigitsOfATrueTimeHoweverSmall) {
+  // The vertex rises from 2^-1000 below the sinking face: toi = 2^-1000 / (2^-1000 + 3), no dyadic.
+  auto records = true_records(2);
+  records[1].query = falling_vertex(0x1p-1000, 3);
+  const CertifyResult result = certify_records(std::move(records));
+  ASSERT_EQ(result.toi_mismatches, 1U);
+  const std::string& truth = result.mismatches[0].truth;
+  const std::size_t exponent = truth.find("E-302");
+  ASSERT_NE(exponent, std::string::npos) << truth;
+  EXPECT_LE(exponent, 46U) << truth;
+  // 2^-1000 / 3 = 3.1108…e-302
+  EXPECT_EQ(truth.substr(0, 6), "3.1108") << truth;
+}
+
 TEST(Certify, UnrecordedAnswersAreNoMismatch) {
   auto records = true_records(10);
   for (RecordedQuery& record : records) {
@@ -160,6 +174,7 @@ TEST(Certify, AnErrorLosesNothingThatWasReadBefore) {
   source.fail_at(333, "row 2670 is broken");
   const CertifyResult result = certify(source);
   EXPECT_EQ(result.error, "row 2670 is broken");
+  EXPECT_EQ(result.errors, 1U);
   EXPECT_EQ(result.queries, 333U);
   EXPECT_EQ(result.label_mismatches, 1U);
 }

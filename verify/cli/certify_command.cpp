@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,28 +33,29 @@ struct Arguments {
   std::uint64_t count = 1000;
 };
 
-void report_error(const std::string& message) {
-  fmt::print(stderr, "touchstone: error: {}\n", message);
-}
-
 /// One run: its sources one after the other, then its reports.
 class CertifyRun {
  public:
   explicit CertifyRun(const Arguments& arguments)
       : arguments_(arguments), json_(arguments.json_file), truth_(arguments.truth_file) {
-    if (truth_) truth_writer_.emplace(truth_.stream());
+    if (json_.is(arguments.truth_file)) {
+      throw std::runtime_error(arguments.json_file + ": named for two outputs");
+    }
+    if (truth_) truth_.write(truth_header());
   }
 
   Status run() {
+    static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
     if (arguments_.paths.empty()) {
       certify_built_in_set();
     } else {
-      certify_files();
+      certify_files(find_files());
     }
+    // Files first: a closed standard output must not cost them.
+    complete(truth_);
+    write(json_, to_json(results_).dump(2, ' ', false, replace_bad_utf8) + "\n");
+    complete(json_);
     fmt::print("{}", to_text(results_));
-    if (json_) json_.stream() << to_json(results_).dump(2) << '\n';
-    json_.close();
-    truth_.close();
     return status();
   }
 
@@ -70,23 +71,39 @@ class CertifyRun {
     }
   }
 
-  void certify_files() {
+  /// The dataset files of all paths, each once.
+  std::vector<std::filesystem::path> find_files() {
+    std::vector<std::filesystem::path> files;
+    std::set<std::filesystem::path> seen;
+    for (const std::filesystem::path& path : arguments_.paths) {
+      try {
+        for (const std::filesystem::path& file : find_datasets({&path, 1})) {
+          if (json_.is(file) || truth_.is(file)) {
+            throw std::runtime_error(file.string() + ": named for input and output");
+          }
+          if (seen.insert(std::filesystem::weakly_canonical(file)).second) files.push_back(file);
+        }
+      } catch (const DatasetError& error) {
+        fail(path, error);
+        if (stopped()) return {};
+      }
+    }
+    return files;
+  }
+
+  void certify_files(const std::vector<std::filesystem::path>& files) {
     DatasetOptions options;
     if (!arguments_.kind.empty()) options.kind = kind_from_string(arguments_.kind);
     options.round = arguments_.round;
     options.keep_going = arguments_.keep_going;
     options.on_skip = [](const DatasetError& error) { report_error(error.what()); };
-    for (const std::filesystem::path& file : find_datasets(arguments_.paths)) {
+    for (const std::filesystem::path& file : files) {
       if (stopped()) return;
-      certify_file(file, options);
-    }
-  }
-
-  void certify_file(const std::filesystem::path& file, const DatasetOptions& options) {
-    try {
-      certify_source(*open_dataset(file, options), {});
-    } catch (const DatasetError& error) {
-      fail(error.what());
+      try {
+        certify_source(*open_dataset(file, options), {});
+      } catch (const DatasetError& error) {
+        fail(file, error);
+      }
     }
   }
 
@@ -97,35 +114,58 @@ class CertifyRun {
     options.on_progress = [&](double fraction) { progress.update(fraction); };
     if (truth_) {
       options.on_truth = [&](const Truth& truth) {
-        truth_writer_->write(source.name(), source.kind(), truth);
+        write(truth_, truth_row(source.name(), source.kind(), truth));
       };
     }
     results_.push_back(certify(source, options));
-    if (results_.back().error) fail(*results_.back().error);
+    if (results_.back().error) report_error(*results_.back().error);
   }
 
-  void fail(const std::string& message) {
-    report_error(message);
-    failed_ = true;
+  /// A path or file that could not be opened: a result without queries.
+  void fail(const std::filesystem::path& path, const DatasetError& error) {
+    report_error(error.what());
+    CertifyResult result;
+    result.name = path.string();
+    result.fail(error.what());
+    results_.push_back(std::move(result));
+  }
+
+  /// Runs a step of an output. If it fails, the work goes on without that output.
+  template <class Step>
+  void attempt(const OptionalOutput& output, Step step) {
+    if (!output || failed_outputs_.contains(&output)) return;
+    try {
+      step();
+    } catch (const std::exception& error) {
+      report_error(error.what());
+      failed_outputs_.insert(&output);
+    }
+  }
+
+  void write(OptionalOutput& output, const std::string& text) {
+    attempt(output, [&] { output.write(text); });
+  }
+
+  void complete(OptionalOutput& output) {
+    attempt(output, [&] { output.close(); });
   }
 
   [[nodiscard]] bool stopped() const {
-    return interrupted() || (failed_ && !arguments_.keep_going);
+    return interrupted() || (total(results_).errors != 0 && !arguments_.keep_going);
   }
 
   [[nodiscard]] Status status() const {
     const CertifyResult sum = total(results_);
     if (sum.label_mismatches + sum.toi_mismatches != 0) return Status::wrong_answers;
-    if (failed_ || sum.skipped != 0) return Status::bad_input;
+    if (!failed_outputs_.empty() || sum.errors + sum.skipped != 0) return Status::bad_input;
     return interrupted() ? Status::interrupted : Status::all_well;
   }
 
   const Arguments& arguments_;
   OptionalOutput json_;
   OptionalOutput truth_;
-  std::optional<TruthWriter> truth_writer_;
   std::vector<CertifyResult> results_;
-  bool failed_ = false;
+  std::set<const OptionalOutput*> failed_outputs_;
 };
 
 }  // namespace
@@ -146,7 +186,7 @@ void add_certify_command(CLI::App& app, Status& status) {
       "Accept coordinates that are no doubles, rounded to the nearest, and count them");
   command->add_flag(
       "--keep-going", arguments->keep_going,
-      "Skip queries and files in error, name and count them (the exit status is still 2)");
+      "Skip queries and files in error, name and count them (no longer all well: exit status 2)");
   command->add_option("--json", arguments->json_file, "Write the result as JSON")
       ->type_name("FILE");
   command
@@ -155,12 +195,15 @@ void add_certify_command(CLI::App& app, Status& status) {
       ->type_name("FILE");
   command->add_option("--threads", arguments->threads, "Cores to use (0: all)")
       ->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Seed of the built-in set")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Seed of the built-in set")
+      ->capture_default_str()
+      ->check(whole_number(0, UINT64_MAX));
   command->add_option("--count", arguments->count, "Queries a family and kind of the built-in set")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1, UINT64_MAX));
   command->footer(
-      "Exit status: 0 all recorded answers are true, 1 some are not, 2 bad input or usage.\n"
+      "Exit status: 0 all recorded answers are true, 1 some are not, 2 bad input or usage,\n"
+      "130 interrupted (what is done by then is reported and written).\n"
       "Example: touchstone certify data/handcrafted --json result.json --truth truth.csv");
   command->callback([arguments, &status] { status = CertifyRun(*arguments).run(); });
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,7 @@ Written write_csv(QuerySource& source, const fs::path& folder) {
   fs::create_directories(folder / "toi");
   CsvWriter queries(written.file);
   ToiWriter tois(folder / "toi" / (source.name() + "_toi.csv"));
-  while (const auto query = source.next()) {
+  for (auto query = source.next(); query && !interrupted(); query = source.next()) {
     queries.write(query->query, query->collides.value());
     if (query->toi) tois.write(query->index, *query->toi);
     ++written.queries;
@@ -70,9 +71,14 @@ Written write_csv(QuerySource& source, const fs::path& folder) {
 /// FOLDER/KIND/FAMILY.npy, without the truth.
 Written write_npy(QuerySource& source, const fs::path& folder) {
   Written written{.file = folder / (source.name() + ".npy")};
+  const fs::path companion = folder / "toi" / (source.name() + "_toi.csv");
+  if (fs::exists(companion)) {
+    throw std::runtime_error(companion.string() +
+                             ": would be taken for the array's; choose another folder");
+  }
   fs::create_directories(folder);
   NpyWriter queries(written.file);
-  while (const auto query = source.next()) {
+  for (auto query = source.next(); query && !interrupted(); query = source.next()) {
     queries.write(query->query);
     ++written.queries;
     written.collisions += query->collides.value() ? 1U : 0U;
@@ -85,9 +91,9 @@ std::vector<Written> write_families(const Arguments& arguments) {
   std::vector<Written> result;
   const std::vector<Family> chosen_families = chosen(arguments.names);
   ProgressBar progress("generate");
-  for (std::size_t i = 0; i < chosen_families.size() && !interrupted(); ++i) {
+  for (std::size_t i = 0; i < chosen_families.size(); ++i) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!supports(chosen_families[i], kind)) continue;
+      if (interrupted() || !supports(chosen_families[i], kind)) continue;
       const auto source = open_family(chosen_families[i], kind, arguments.seed, arguments.count);
       const fs::path folder = fs::path(arguments.folder) / to_string(kind);
       result.push_back(arguments.npy ? write_npy(*source, folder) : write_csv(*source, folder));
@@ -114,10 +120,10 @@ Status generate(const Arguments& arguments) {
                     {"queries", written.queries},
                     {"collisions", written.collisions}});
   }
+  if (json_output) json_output.write(json.dump(2) + "\n");
+  json_output.close();
   fmt::print("{} queries, {} of them collisions, in {} files below {}\n", queries, collisions,
              files.size(), arguments.folder);
-  if (json_output) json_output.stream() << json.dump(2) << '\n';
-  json_output.close();
   return interrupted() ? Status::interrupted : Status::all_well;
 }
 
@@ -130,16 +136,20 @@ void add_generate_command(CLI::App& app, Status& status) {
   command->add_option("--out", arguments->folder, "Folder to write to")->type_name("FOLDER");
   command->add_option("--family", arguments->names, "Only these families (see --list)")
       ->type_name("NAME");
-  command->add_option("--seed", arguments->seed, "Seed")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Seed")
+      ->capture_default_str()
+      ->check(whole_number(0, UINT64_MAX));
   command->add_option("--count", arguments->count, "Queries a family and kind")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1, UINT64_MAX));
   command->add_flag("--npy", arguments->npy,
                     "Write float64 arrays of shape (N, 8, 3), without the truth, instead of CSV");
   command->add_flag("--list", arguments->list, "Name the families and why their truth is known");
   command->add_option("--json", arguments->json_file, "Write the list of files as JSON")
       ->type_name("FILE");
-  command->footer("Example: touchstone generate --out hard --count 100 --family hourglass");
+  command->footer(
+      "Exit status: 0 all is written, 2 bad usage or an error in writing, 130 interrupted.\n"
+      "Example: touchstone generate --out hard --count 100 --family hourglass");
   command->callback([arguments, &status] { status = generate(*arguments); });
 }
 

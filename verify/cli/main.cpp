@@ -1,12 +1,12 @@
 // The command line: one subcommand a job.
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "fast/arithmetic_check.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/options.hpp"
 
 namespace {
 
@@ -36,9 +36,13 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     touchstone::fast::require_strict_arithmetic();
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      throw std::runtime_error("standard output: cannot be written");
+    }
+    return status;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "touchstone: error: {}\n", error.what());
+    touchstone::verify::cli::report_error(error.what());
     return static_cast<int>(Status::bad_input);
   }
 }

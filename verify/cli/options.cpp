@@ -1,19 +1,63 @@
 #include "verify/cli/options.hpp"
 
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
 #include <stdexcept>
+#include <system_error>
 
 namespace touchstone::verify::cli {
 
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
+  const auto check = [least, greatest](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc() && stopped == end && value >= least && value <= greatest) return {};
+    return fmt::format("{} is no whole number from {} to {}", text, least, greatest);
+  };
+  return {check, ""};
+}
+
+void report_error(std::string_view message) {
+  fmt::print(stderr, "touchstone: error: {}\n", message);
+}
+
 OptionalOutput::OptionalOutput(const std::string& name) : name_(name) {
   if (name.empty()) return;
-  file_.open(name, std::ios::binary | std::ios::trunc);
-  if (!file_) throw std::runtime_error(name + ": cannot be opened for writing");
+  const std::filesystem::file_status status = std::filesystem::status(name);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    device_.open(name, std::ios::binary);
+    if (!device_) throw std::runtime_error(name + ": cannot be opened for writing");
+  } else {
+    file_ = std::make_unique<OutputFile>(name);
+  }
+}
+
+bool OptionalOutput::is(const std::filesystem::path& path) const {
+  std::error_code error;
+  const auto canonical = [&](const std::filesystem::path& p) {
+    return std::filesystem::weakly_canonical(p, error);
+  };
+  return !name_.empty() && canonical(name_) == canonical(path) && !error;
+}
+
+void OptionalOutput::write(std::string_view text) {
+  if (file_) {
+    file_->write(text);
+  } else {
+    device_ << text;
+  }
 }
 
 void OptionalOutput::close() {
-  if (name_.empty()) return;
-  file_.close();
-  if (!file_) throw std::runtime_error(name_ + ": could not be written completely");
+  if (file_) {
+    file_->close();
+  } else if (device_.is_open()) {
+    device_.close();
+    if (!device_) throw std::runtime_error(name_ + ": cannot be written");
+  }
 }
 
 }  // namespace touchstone::verify::cli

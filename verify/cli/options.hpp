@@ -3,33 +3,50 @@
 /// \file
 /// Pieces of the command line that several subcommands share.
 
+#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <optional>
+#include <memory>
 #include <string>
+#include <string_view>
 
-#include "exact/query.hpp"
+#include "verify/dataset/output_file.hpp"
 
 namespace touchstone::verify::cli {
 
 /// The default seed of everything that is generated.
-inline constexpr unsigned default_seed = 2021;
+inline constexpr std::uint64_t default_seed = 2021;
 
-/// An output file that is opened before the work begins, so that a bad name costs nothing.
+/// Accepts whole numbers from `least` to `greatest` (CLI11 alone lets "-1" wrap around).
+[[nodiscard]] CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest);
+
+/// Prints "touchstone: error: …" on standard error.
+void report_error(std::string_view message);
+
+/// A file to write to if the user named one. It is opened before the work begins, so that a bad name
+/// costs nothing, and takes its name when it is complete, so that nothing older is lost before.
+/// Devices and pipes are written to as they are.
 class OptionalOutput {
  public:
-  /// No file if the name is empty. \throws std::runtime_error if it cannot be opened for writing.
+  /// No file if the name is empty. \throws DatasetError or std::runtime_error if none can be made.
   explicit OptionalOutput(const std::string& name);
 
   [[nodiscard]] explicit operator bool() const { return !name_.empty(); }
-  [[nodiscard]] std::ostream& stream() { return file_; }
 
-  /// Completes the file. \throws std::runtime_error if not all of it could be written.
+  /// Is it the file at `path`, by whatever name?
+  [[nodiscard]] bool is(const std::filesystem::path& path) const;
+
+  /// \pre a file was named. \throws as the constructor does.
+  void write(std::string_view text);
+
+  /// Completes the file, if there is one. \throws as the constructor does.
   void close();
 
  private:
   std::string name_;
-  std::ofstream file_;
+  std::unique_ptr<OutputFile> file_;
+  std::ofstream device_;
 };
 
 }  // namespace touchstone::verify::cli

@@ -43,6 +43,21 @@ std::vector<fs::path> datasets_below(const fs::path& folder) {
   return found;
 }
 
+/// The kind that the deepest part naming one names.
+std::optional<Kind> kind_from_parts(const fs::path& path) {
+  std::optional<Kind> kind;
+  for (const fs::path& part : path) {
+    const std::string name = part.string();
+    const bool vertex_face = name.find(to_string(Kind::vertex_face)) != std::string::npos;
+    const bool edge_edge = name.find(to_string(Kind::edge_edge)) != std::string::npos;
+    if (vertex_face && edge_edge) {
+      throw DatasetError(path, {}, quote(name) + " names both kinds; pass --kind");
+    }
+    if (vertex_face || edge_edge) kind = vertex_face ? Kind::vertex_face : Kind::edge_edge;
+  }
+  return kind;
+}
+
 }  // namespace
 
 std::vector<fs::path> find_datasets(std::span<const fs::path> paths) {
@@ -63,20 +78,11 @@ std::vector<fs::path> find_datasets(std::span<const fs::path> paths) {
 }
 
 Kind kind_from_path(const fs::path& path) {
-  std::optional<Kind> kind;
-  for (const fs::path& part : path) {
-    const std::string name = part.string();
-    const bool vertex_face = name.find(to_string(Kind::vertex_face)) != std::string::npos;
-    const bool edge_edge = name.find(to_string(Kind::edge_edge)) != std::string::npos;
-    if (vertex_face && edge_edge) {
-      throw DatasetError(path, {}, quote(name) + " names both kinds; pass --kind");
-    }
-    if (vertex_face || edge_edge) kind = vertex_face ? Kind::vertex_face : Kind::edge_edge;
-  }
-  if (kind) return *kind;
+  if (const auto kind = kind_from_parts(path)) return *kind;
   const std::string stem = path.stem().string();
   if (stem.ends_with("vf")) return Kind::vertex_face;
   if (stem.ends_with("ee")) return Kind::edge_edge;
+  if (const auto kind = kind_from_parts(fs::absolute(path).lexically_normal())) return *kind;
   throw DatasetError(path, {},
                      "the path does not say whether its queries are vertex-face or edge-edge; "
                      "pass --kind");

@@ -44,7 +44,8 @@ struct DatasetOptions {
     std::span<const std::filesystem::path> paths);
 
 /// The kind of the queries of a file: the deepest part of the path that contains "vertex-face" or
-/// "edge-edge", else the ending "vf" or "ee" of its name without extension.
+/// "edge-edge", else the ending "vf" or "ee" of its name without extension, else the working
+/// directory's parts.
 /// \throws DatasetError if the path says none, or both in one part.
 [[nodiscard]] Kind kind_from_path(const std::filesystem::path& path);
 

@@ -14,11 +14,14 @@
 
 namespace touchstone::verify {
 
-/// Significant digits of a decimal that cannot be exact in the sense of to_decimal.
+/// A rational as a decimal such as "2.5E-1", rounded to the nearest of `significant_digits` > 0 digits,
+/// ties away from zero.
+[[nodiscard]] std::string to_decimal(const exact::Rational& value, unsigned significant_digits);
+
+/// Significant digits of a time of impact whose decimal cannot be exact.
 inline constexpr unsigned rounded_digits = 60;
 
-/// A rational as a decimal such as "2.5E-1": all digits where the denominator is a power of two,
-/// else rounded to the nearest of rounded_digits significant digits, ties away from zero.
+/// A rational as a decimal: all digits where the denominator is a power of two, else rounded_digits.
 [[nodiscard]] std::string to_decimal(const exact::Rational& value);
 
 /// Writes a toi companion (<dir>/toi/<name>_toi.csv beside <dir>/<name>.csv).

@@ -34,6 +34,12 @@ struct Outcome {
 };
 
 class Tool : public ::testing::Test {
+ public:
+  Tool(const Tool&) = delete;
+  Tool& operator=(const Tool&) = delete;
+  Tool(Tool&&) = delete;
+  Tool& operator=(Tool&&) = delete;
+
  protected:
   Tool() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -41,10 +47,6 @@ class Tool : public ::testing::Test {
               (std::string("touchstone_cli_") + test->name() + "_" + std::to_string(getpid()));
     fs::create_directories(folder_);
   }
-  Tool(const Tool&) = delete;
-  Tool& operator=(const Tool&) = delete;
-  Tool(Tool&&) = delete;
-  Tool& operator=(Tool&&) = delete;
   ~Tool() override { fs::remove_all(folder_); }
 
   /// Starts the tool with its output in files of the test's folder.
@@ -52,6 +54,7 @@ class Tool : public ::testing::Test {
     std::vector<std::string> words{TOUCHSTONE_TOOL};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
     posix_spawn_file_actions_t actions{};
@@ -126,6 +129,8 @@ TEST_F(Tool, UsageErrorsExitWithTwo) {
         {"certify", "--nonsense"},
         {"certify", "--kind", "face-face"},
         {"certify", "--count", "0"},
+        {"certify", "--seed", "-1"},
+        {"certify", "--threads", "x"},
         {"generate"},
         {"generate", "--out", path("x"), "--family", "nonsense"}}) {
     const Outcome usage = run(arguments);
@@ -210,8 +215,66 @@ TEST_F(Tool, RoundAcceptsAndCountsWhatIsNoDouble) {
 TEST_F(Tool, UnwritableOutputIsAnErrorBeforeTheWork) {
   const Outcome certify = run({"certify", "--count", "1", "--json", path("no/such/folder.json")});
   EXPECT_EQ(certify.status, 2);
-  EXPECT_TRUE(contains(certify.err, "no/such/folder.json: cannot be opened")) << certify.err;
+  EXPECT_TRUE(contains(certify.err, "no/such/folder.json: cannot")) << certify.err;
   EXPECT_EQ(certify.out, "");
+}
+
+TEST_F(Tool, OutputsMustNotBeInputsNorEachOther) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  const std::string text = read_file(file);
+  for (const std::string option : {"--truth", "--json"}) {
+    const Outcome certify = run({"certify", file, option, path("./queries_vf.csv")});
+    EXPECT_EQ(certify.status, 2);
+    EXPECT_TRUE(contains(certify.err, "named for input and output")) << certify.err;
+  }
+  EXPECT_EQ(run({"certify", file, "--json", path("x"), "--truth", path("x")}).status, 2);
+  EXPECT_EQ(read_file(file), text);
+}
+
+TEST_F(Tool, AFailedRunLeavesOlderResultsAlone) {
+  write("result.json", "older");
+  const Outcome certify =
+      run({"certify", "--count", "1", "--json", path("result.json"), "--truth", path("no/truth")});
+  EXPECT_EQ(certify.status, 2);
+  EXPECT_EQ(read_file(path("result.json")), "older");
+}
+
+TEST_F(Tool, FailedWritesAreReportedAndCostNothingElse) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  const Outcome certify =
+      run({"certify", file, "--truth", "/dev/full", "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 2);
+  EXPECT_TRUE(contains(certify.err, "/dev/full")) << certify.err;
+  EXPECT_EQ(json("result.json").at("queries"), 1);
+  EXPECT_TRUE(contains(certify.out, "total")) << certify.out;
+}
+
+TEST_F(Tool, KeepGoingGoesOnPastPathsThatCannotBeRead) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  const Outcome certify =
+      run({"certify", path("missing"), file, file, "--keep-going", "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 2);
+  const nlohmann::json result = json("result.json");
+  EXPECT_EQ(result.at("queries"), 1) << "a file named twice counts once";
+  EXPECT_EQ(result.at("errors"), 1);
+  EXPECT_TRUE(contains(result.at("files")[0].at("error"), "does not exist")) << result.dump();
+}
+
+TEST_F(Tool, FileNamesNeedNotBeUtf8) {
+  const std::string file = write("\xff_vf.csv", falling_vertex("1"));
+  EXPECT_EQ(run({"certify", file, "--json", path("result.json")}).status, 0);
+  EXPECT_EQ(json("result.json").at("queries"), 1);
+}
+
+TEST_F(Tool, ArraysAreNotWrittenBesideTheTruthOfOtherQueries) {
+  const std::vector<std::string> generate{"generate", "--out",    path("set"), "--count",
+                                          "3",        "--family", "hourglass"};
+  ASSERT_EQ(run(generate).status, 0);
+  std::vector<std::string> as_array = generate;
+  as_array.insert(as_array.end(), {"--npy", "--seed", "2"});
+  const Outcome second = run(as_array);
+  EXPECT_EQ(second.status, 2);
+  EXPECT_TRUE(contains(second.err, "choose another folder")) << second.err;
 }
 
 TEST_F(Tool, MissingInputIsAnErrorWithItsName) {
@@ -269,10 +332,15 @@ TEST_F(Tool, AnInterruptKeepsWhatIsDone) {
   using namespace std::chrono_literals;
   const pid_t process = start({"certify", "--count", "100000000", "--json", path("result.json"),
                                "--truth", path("truth.csv")});
-  // Wait until the work is under way: the truth file grows.
-  for (int i = 0; i < 600 && read_file(path("truth.csv")).size() < 10000; ++i) {
-    std::this_thread::sleep_for(50ms);
-  }
+  // Wait until the work is under way: the truth grows, still under its temporary name.
+  const auto truth_so_far = [&] {
+    std::uintmax_t size = 0;
+    for (const auto& entry : fs::directory_iterator(path(""))) {
+      if (entry.path().filename().string().starts_with("truth.csv")) size = entry.file_size();
+    }
+    return size;
+  };
+  for (int i = 0; i < 600 && truth_so_far() == 0; ++i) std::this_thread::sleep_for(50ms);
   kill(process, SIGINT);
   const Outcome certify = finish(process);
   EXPECT_EQ(certify.status, 130);
