@@ -67,7 +67,7 @@ struct CertifyResult {
   std::uint64_t toi_mismatches = 0;
   std::uint64_t skipped = 0;  ///< in error, left out
   std::uint64_t rounded = 0;  ///< coordinates rounded to double
-  std::uint64_t errors = 0;      ///< errors that ended the reading
+  std::uint64_t errors = 0;   ///< errors that ended the reading
   double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
   std::vector<Mismatch> mismatches;
   /// The error that ended the reading before the source's end; all of the above holds up to there.
