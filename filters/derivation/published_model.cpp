@@ -1,0 +1,42 @@
+#include "filters/derivation/published_model.hpp"
+
+#include <vector>
+
+namespace touchstone::filters {
+namespace {
+
+struct ValueAndError {
+  mpq_class value;
+  mpq_class error;
+};
+
+/// 2^⌊log2 x⌋ for x > 0.
+mpq_class power_of_two_below(const mpq_class& x) {
+  mpq_class result(1);
+  while (result > x) result /= 2;
+  while (2 * result <= x) result *= 2;
+  return result;
+}
+
+ValueAndError rounded(const mpq_class& value, const mpq_class& error) {
+  return {value, error + power_of_two_below(value)};
+}
+
+}  // namespace
+
+mpq_class published_model_units(const ExpressionGraph& graph) {
+  std::vector<ValueAndError> nodes;
+  for (const auto& [operation, left, right] : graph.nodes) {
+    if (operation == Operation::coordinate || operation == Operation::weight) {
+      nodes.push_back({1, 0});
+      continue;
+    }
+    const ValueAndError &a = nodes[left], &b = nodes[right];
+    nodes.push_back(operation == Operation::multiply
+                        ? rounded(a.value * b.value, a.value * b.error + b.value * a.error)
+                        : rounded(a.value + b.value, a.error + b.error));
+  }
+  return nodes[graph.result].error;
+}
+
+}  // namespace touchstone::filters

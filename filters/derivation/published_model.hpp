@@ -1,0 +1,25 @@
+#pragma once
+
+/// \file
+/// The rounding model behind the published constants (Wang et al. 2021; DESIGN.md section 4).
+///
+/// Coordinates and weights are at most 1 and exact. Each node has a bound on its value and one on
+/// its error; with h(B) = u · 2^⌊log2 B⌋, the half ulp at magnitude B,
+///
+///     sum:      value A + B,   error e_A + e_B + h(A + B)
+///     product:  value A B,     error A e_B + B e_A + h(A B)
+///
+/// Second-order terms are dropped and intermediate values are not known to cancel, so that it is
+/// neither rigorous nor tight; it is kept because it reproduces what was published, to the last
+/// digit, if applied to the paper's order of operations.
+
+#include <gmpxx.h>
+
+#include "filters/derivation/expression_graph.hpp"
+
+namespace touchstone::filters {
+
+/// The model's bound on the expression's error, in units of u.
+[[nodiscard]] mpq_class published_model_units(const ExpressionGraph& graph);
+
+}  // namespace touchstone::filters

@@ -1,0 +1,89 @@
+#include "filters/derivation/shipped_bound.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string_view>
+
+namespace touchstone::filters {
+namespace {
+
+/// The least number of the format that is not below x > 0.
+mpq_class round_up(const mpq_class& x, const Format& format) {
+  mpq_class spacing(1);  // the distance of neighbouring numbers of the format at x
+  spacing >>= static_cast<unsigned long>(format.digits - 1);
+  mpq_class power(1);
+  while (power > x) power /= 2;
+  while (2 * power <= x) power *= 2;
+  spacing *= power;
+  mpq_class least(1);
+  least >>= static_cast<unsigned long>(-format.least_exponent);
+  if (spacing < least) spacing = least;
+  const mpq_class multiple = x / spacing;
+  mpz_class up;
+  mpz_cdiv_q(up.get_mpz_t(), multiple.get_num_mpz_t(), multiple.get_den_mpz_t());
+  return mpq_class(up) * spacing;
+}
+
+/// A number of the format as a hexadecimal literal: C++'s spelling of an exact value.
+std::string literal(const mpq_class& x, const Format& format) {
+  return fmt::format("{:a}{}", x.get_d(), format.digits == float_format.digits ? "F" : "");
+}
+
+void append_bound(std::string& text, const ExpressionGraph& graph, const Format& format) {
+  const DerivedBound bound = derive_bound(graph, format);
+  const std::vector<mpq_class> coefficients = shipped_coefficients(bound, format);
+  std::string list;
+  for (const mpq_class& coefficient : coefficients) {
+    list += (list.empty() ? "" : ", ") + literal(coefficient, format);
+  }
+  const mpq_class units = bound.rounding() / format.unit_roundoff();
+  fmt::format_to(std::back_inserter(text),
+                 "/// {} in {}: {:.6g} u x^{} and underflow.\n"
+                 "inline constexpr ErrorBound<{}, {}> {}_{}{{{{{{{}}}}}, 0x1p{:+}{}}};\n\n",
+                 graph.name, format.name, units.get_d(), coefficients.size() - 1, format.name,
+                 coefficients.size() - 1, graph.name, format.name, list, bound.greatest_x_exponent,
+                 format.digits == float_format.digits ? "F" : "");
+}
+
+constexpr std::string_view preamble = R"(#pragma once
+
+/// \file
+/// The error bounds of filters/expressions.hpp, derived from the expressions themselves.
+///
+/// Written by `touchstone derive --emit filters/error_bounds.hpp`; not to be edited. A test fails
+/// if it differs from what the derivation gives, another has Gappa prove each bound.
+/// (u: half the distance of 1 and the next number; x: the greatest magnitude of a coordinate.)
+
+#include "filters/error_bound.hpp"
+
+namespace touchstone::filters {
+
+)";
+
+}  // namespace
+
+std::vector<mpq_class> shipped_coefficients(const DerivedBound& bound, const Format& format) {
+  const std::size_t degree = bound.coefficients.size() - 1;
+  mpq_class margin(1);
+  for (std::size_t i = 0; i < 2 * degree; ++i) margin *= 1 + 3 * format.unit_roundoff();
+  mpq_class least(1);
+  least >>= static_cast<unsigned long>(-format.least_exponent);
+  std::vector<mpq_class> result;
+  for (std::size_t j = 0; j <= degree; ++j) {
+    const mpq_class raised = bound.coefficients[j] * margin + (j < degree ? least : mpq_class(0));
+    result.push_back(round_up(raised, format));
+  }
+  return result;
+}
+
+std::string error_bounds_header(std::span<const ExpressionGraph> graphs) {
+  std::string text(preamble);
+  for (const ExpressionGraph& graph : graphs) {
+    for (const Format& format : {double_format, float_format}) append_bound(text, graph, format);
+  }
+  text += "}  // namespace touchstone::filters\n";
+  return text;
+}
+
+}  // namespace touchstone::filters

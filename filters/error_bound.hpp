@@ -1,0 +1,30 @@
+#pragma once
+
+/// \file
+/// What a derived error bound looks like to the code that uses it.
+
+#include <array>
+#include <cstddef>
+
+#include "filters/strict_arithmetic.hpp"
+
+namespace touchstone::filters {
+
+/// |computed − exact| ≤ Σ_j coefficients[j] x^j for all coordinates of magnitude up to x, all
+/// weights of the expression's groups, and x ≤ greatest_x, where nothing overflows. The last
+/// coefficient is the rounding error, those before are underflow.
+template <class Scalar, std::size_t degree>
+struct ErrorBound {
+  std::array<Scalar, degree + 1> coefficients;
+  Scalar greatest_x;
+
+  /// The bound at x, itself computed in Scalar: the coefficients are large enough to cover that.
+  /// \pre 0 ≤ x ≤ greatest_x.
+  [[nodiscard]] constexpr Scalar operator()(Scalar x) const {
+    Scalar bound = coefficients[degree];
+    for (std::size_t j = degree; j-- > 0;) bound = bound * x + coefficients[j];
+    return bound;
+  }
+};
+
+}  // namespace touchstone::filters

@@ -1,0 +1,45 @@
+#pragma once
+
+/// \file
+/// The error bounds of filters/expressions.hpp, derived from the expressions themselves.
+///
+/// Written by `touchstone derive --emit filters/error_bounds.hpp`; not to be edited. A test fails
+/// if it differs from what the derivation gives, another has Gappa prove each bound.
+/// (u: half the distance of 1 and the next number; x: the greatest magnitude of a coordinate.)
+
+#include "filters/error_bound.hpp"
+
+namespace touchstone::filters {
+
+/// edge_edge in double: 10 u x^1 and underflow.
+inline constexpr ErrorBound<double, 1> edge_edge_double{
+    {{0x0.0000000000006p-1022, 0x1.4000000000006p-50}}, 0x1p+1021};
+
+/// edge_edge in float: 10 u x^1 and underflow.
+inline constexpr ErrorBound<float, 1> edge_edge_float{{{0x1.8p-147F, 0x1.40000cp-21F}}, 0x1p+125F};
+
+/// vertex_face in double: 20 u x^1 and underflow.
+inline constexpr ErrorBound<double, 1> vertex_face_double{
+    {{0x0.0000000000007p-1022, 0x1.4000000000006p-49}}, 0x1p+1020};
+
+/// vertex_face in float: 20 u x^1 and underflow.
+inline constexpr ErrorBound<float, 1> vertex_face_float{{{0x1.cp-147F, 0x1.40000cp-20F}},
+                                                        0x1p+124F};
+
+/// edge_edge_separated in double: 13 u x^1 and underflow.
+inline constexpr ErrorBound<double, 1> edge_edge_separated_double{
+    {{0x0.0000000000006p-1022, 0x1.a000000000007p-50}}, 0x1p+1021};
+
+/// edge_edge_separated in float: 13 u x^1 and underflow.
+inline constexpr ErrorBound<float, 1> edge_edge_separated_float{{{0x1.8p-147F, 0x1.a0000ep-21F}},
+                                                                0x1p+125F};
+
+/// vertex_face_separated in double: 25 u x^1 and underflow.
+inline constexpr ErrorBound<double, 1> vertex_face_separated_double{
+    {{0x0.0000000000007p-1022, 0x1.9000000000007p-49}}, 0x1p+1020};
+
+/// vertex_face_separated in float: 25 u x^1 and underflow.
+inline constexpr ErrorBound<float, 1> vertex_face_separated_float{{{0x1.cp-147F, 0x1.90000ep-20F}},
+                                                                  0x1p+124F};
+
+}  // namespace touchstone::filters

@@ -1,0 +1,35 @@
+#pragma once
+
+/// \file
+/// Comma-separated values as RFC 4180 has them: a field with a comma, a quote or a line end in it
+/// stands in quotes, and quotes in it are doubled.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace touchstone::verify {
+
+/// The text as one field, in quotes where it needs them.
+[[nodiscard]] std::string csv_field(std::string_view text);
+
+/// What split_csv found.
+struct CsvSplit {
+  enum class Fault : std::uint8_t {
+    none,
+    open_quote,        ///< a quoted field does not end: the record goes on in the next line
+    text_after_quote,  ///< a quoted field is followed by something other than a comma
+  };
+
+  /// Fields of the record, those beyond the end of `fields` included; up to the fault if any.
+  std::size_t count = 0;
+  Fault fault = Fault::none;
+};
+
+/// Splits a record, given without its line end, and puts the first fields, free of their quotes,
+/// into `fields`. Spaces belong to the fields. Even an empty record has one field.
+[[nodiscard]] CsvSplit split_csv(std::string_view record, std::span<std::string> fields);
+
+}  // namespace touchstone::verify

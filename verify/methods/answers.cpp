@@ -1,0 +1,251 @@
+#include "verify/methods/answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <system_error>
+
+#include "verify/csv.hpp"
+#include "verify/dataset/dataset_error.hpp"
+#include "verify/dataset/input_file.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+constexpr std::string_view header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance";
+
+/// Numbers of the fields, counted from 1 as errors name them.
+enum Column : std::uint64_t { file = 1, index, kind, verdict, toi_lower, toi_upper, tolerance };
+constexpr std::size_t columns = Column::tolerance;
+
+/// What a record of several lines may have in all: only long names with line ends make such records,
+/// and a stray quote is to be found before the end of the file.
+constexpr std::size_t longest_record = std::size_t{1} << 16U;
+
+using Fields = std::array<std::string, columns>;
+
+std::string number_text(double value) {
+  return std::isnan(value) ? std::string() : fmt::format("{}", value);
+}
+
+}  // namespace
+
+std::string_view to_string(fast::Verdict verdict) {
+  switch (verdict) {
+    case fast::Verdict::no:
+      return "no";
+    case fast::Verdict::yes:
+      return "yes";
+    case fast::Verdict::undecided:
+      return "undecided";
+    case fast::Verdict::error:
+      return "error";
+  }
+  throw std::invalid_argument("no verdict");
+}
+
+std::string answers_header() { return std::string(header) + "\n"; }
+
+std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
+                       const fast::Answer& answer) {
+  return fmt::format("{},{},{},{},{},{},{}\n", csv_field(file), index, to_string(kind),
+                     to_string(answer.verdict), number_text(answer.toi_lower),
+                     number_text(answer.toi_upper), number_text(answer.tolerance));
+}
+
+/// Reads the file front to back, then puts the rows in order.
+class AnswersReader {
+ public:
+  explicit AnswersReader(const std::filesystem::path& path) : lines_(path) {}
+
+  RecordedAnswers read() {
+    if (!next_record() || !is_header()) fail(0, fmt::format("first line must be {}", header));
+    while (next_record()) add_row();
+    for (auto& [key, rows] : answers_.rows_) {
+      if (!std::ranges::is_sorted(rows, {}, &Row::index)) std::ranges::sort(rows, before);
+      check_unique(key, rows);
+    }
+    return std::move(answers_);
+  }
+
+ private:
+  using Row = RecordedAnswers::Row;
+
+  static bool before(const Row& a, const Row& b) {
+    return std::pair(a.index, a.line) < std::pair(b.index, b.line);
+  }
+
+  [[noreturn]] void fail(std::uint64_t column, const std::string& reason) const {
+    throw DatasetError(lines_.path(), {.line = line_number_, .column = column}, reason);
+  }
+
+  /// Splits the next record into fields_; false at the end of the file.
+  bool next_record() {
+    std::optional<Line> line = lines_.next();
+    if (!line) return false;
+    line_number_ = line->number;
+    if (line->too_long) fail(0, "line longer than 1 MiB");
+    if (trimmed(line->text).empty()) fail(0, "blank line before the end of the file");
+    split_ = split_csv(line->text, fields_);
+    if (split_.fault == CsvSplit::Fault::open_quote) continue_record(std::string(line->text));
+    if (split_.fault == CsvSplit::Fault::text_after_quote) {
+      fail(split_.count, "text after a quoted field");
+    }
+    return true;
+  }
+
+  /// Appends lines as long as a quoted field does not end.
+  void continue_record(std::string record) {
+    while (split_.fault == CsvSplit::Fault::open_quote) {
+      const std::optional<Line> line = lines_.next();
+      if (!line || line->too_long || record.size() + line->text.size() > longest_record) {
+        fail(split_.count, "quoted field does not end");
+      }
+      record.append("\n").append(line->text);
+      split_ = split_csv(record, fields_);
+    }
+  }
+
+  [[nodiscard]] bool is_header() const {
+    if (split_.count != columns) return false;
+    return fmt::format("{}", fmt::join(fields_, ",")) == header;
+  }
+
+  [[nodiscard]] const std::string& raw(Column column) const { return fields_.at(column - 1); }
+  [[nodiscard]] std::string_view field(Column column) const { return trimmed(raw(column)); }
+
+  void add_row() {
+    if (split_.count != columns) {
+      fail(0, fmt::format("{} columns, expected {}", split_.count, columns));
+    }
+    static constexpr std::uint64_t last_line = std::numeric_limits<std::uint32_t>::max();
+    Row row{.index = read_index(),
+            .toi_lower = read_number(Column::toi_lower),
+            .toi_upper = read_number(Column::toi_upper),
+            .tolerance = read_number(Column::tolerance),
+            .line = static_cast<std::uint32_t>(std::min(line_number_, last_line)),
+            .verdict = read_verdict(),
+            .asked = false};
+    if (row.tolerance < 0.0) fail(Column::tolerance, "tolerance must not be negative");
+    if (row.verdict != fast::Verdict::yes) {
+      row.toi_lower = row.toi_upper = fast::Answer::none;
+    }
+    rows_of(read_kind()).push_back(row);
+  }
+
+  /// The group of the row at hand: nearly always that of the row before.
+  RecordedAnswers::Rows& rows_of(Kind kind) {
+    if (group_ == nullptr || group_->first.second != kind ||
+        group_->first.first != raw(Column::file)) {
+      if (raw(Column::file).empty()) fail(Column::file, "no file name");
+      group_ = &*answers_.rows_.try_emplace({raw(Column::file), kind}).first;
+    }
+    return group_->second;
+  }
+
+  [[nodiscard]] std::uint64_t read_index() const {
+    const std::string_view text = field(Column::index);
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      fail(Column::index, "index must be a whole number from 0 on: " + quote(text));
+    }
+    return value;
+  }
+
+  [[nodiscard]] Kind read_kind() const {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (field(Column::kind) == to_string(kind)) return kind;
+    }
+    fail(Column::kind, "kind must be vertex-face or edge-edge: " + quote(field(Column::kind)));
+  }
+
+  [[nodiscard]] fast::Verdict read_verdict() const {
+    for (const auto verdict : {fast::Verdict::no, fast::Verdict::yes, fast::Verdict::undecided,
+                               fast::Verdict::error}) {
+      if (field(Column::verdict) == to_string(verdict)) return verdict;
+    }
+    fail(Column::verdict,
+         "verdict must be yes, no, undecided or error: " + quote(field(Column::verdict)));
+  }
+
+  /// NaN where the field is empty.
+  [[nodiscard]] double read_number(Column column) const {
+    const std::string_view text = field(column);
+    if (text.empty()) return fast::Answer::none;
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+      fail(column, "must be a finite double or empty: " + quote(text));
+    }
+    return value;
+  }
+
+  void check_unique(const RecordedAnswers::Key& key, const RecordedAnswers::Rows& rows) {
+    const auto first = std::ranges::adjacent_find(rows, {}, &Row::index);
+    if (first == rows.end()) return;
+    line_number_ = std::next(first)->line;
+    fail(Column::index, fmt::format("{} query {} of {} is answered in line {} already",
+                                    to_string(key.second), first->index, quote(key.first),
+                                    first->line));
+  }
+
+  LineReader lines_;
+  std::uint64_t line_number_ = 0;
+  Fields fields_;
+  CsvSplit split_;
+  RecordedAnswers answers_;
+  std::pair<const RecordedAnswers::Key, RecordedAnswers::Rows>* group_ = nullptr;
+};
+
+std::optional<fast::Answer> RecordedAnswers::answer_to(std::string_view file, Kind kind,
+                                                       std::uint64_t index) const {
+  const auto group = rows_.find(std::pair(file, kind));
+  if (group == rows_.end()) return std::nullopt;
+  const auto row = std::ranges::lower_bound(group->second, index, {}, &Row::index);
+  if (row == group->second.end() || row->index != index) return std::nullopt;
+  std::atomic_ref(row->asked).store(true, std::memory_order_relaxed);
+  return fast::Answer{.verdict = row->verdict,
+                      .toi_lower = row->toi_lower,
+                      .toi_upper = row->toi_upper,
+                      .tolerance = row->tolerance};
+}
+
+std::vector<RecordedAnswers::Group> RecordedAnswers::groups() const {
+  std::vector<Group> result;
+  for (const auto& [key, rows] : rows_) {
+    const auto unasked = [](const Row& row) { return !row.asked; };
+    const auto first = std::ranges::find_if(rows, unasked);
+    result.push_back({.file = key.first,
+                      .kind = key.second,
+                      .answers = rows.size(),
+                      .unasked = static_cast<std::uint64_t>(
+                          std::count_if(first, rows.end(), unasked)),
+                      .first_unasked_line = first == rows.end() ? 0 : first->line});
+  }
+  return result;
+}
+
+std::uint64_t RecordedAnswers::size() const {
+  std::uint64_t sum = 0;
+  for (const auto& group : rows_) sum += group.second.size();
+  return sum;
+}
+
+std::uint64_t RecordedAnswers::unasked() const {
+  std::uint64_t sum = 0;
+  for (const Group& group : groups()) sum += group.unasked;
+  return sum;
+}
+
+RecordedAnswers load_answers(const std::filesystem::path& path) {
+  return AnswersReader(path).read();
+}
+
+}  // namespace touchstone::verify

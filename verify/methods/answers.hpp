@@ -1,0 +1,102 @@
+#pragma once
+
+/// \file
+/// The file of a solver's answers, from us or from anywhere: CSV, a row a query,
+///
+///     file,index,kind,verdict,toi_lower,toi_upper,tolerance
+///
+/// verdict: yes, no, undecided or error. The last three fields are empty where a solver gives none.
+/// A query is known by all of file, index and kind: the families of the built-in set have queries
+/// of both kinds under one name.
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+
+namespace touchstone::verify {
+
+/// "no", "yes", "undecided" or "error".
+[[nodiscard]] std::string_view to_string(fast::Verdict verdict);
+
+/// The first line of the file, with its line end.
+[[nodiscard]] std::string answers_header();
+
+/// A row of the file, with its line end. Numbers have as many digits as give the same double again.
+[[nodiscard]] std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
+                                     const fast::Answer& answer);
+
+/// Answers read from such a file. Forty bytes an answer.
+class RecordedAnswers {
+ public:
+  /// What the file holds under one name and kind.
+  struct Group {
+    std::string file;
+    Kind kind;
+    std::uint64_t answers;
+    /// Of these, those that answer_to() never gave out: answers to queries that do not exist.
+    std::uint64_t unasked;
+    /// Line of the first of them in the order of indices; 0 if there are none.
+    std::uint64_t first_unasked_line;
+  };
+
+  /// The answer to a query, if there is one, which then counts as asked for. May be called from
+  /// several threads at once.
+  [[nodiscard]] std::optional<fast::Answer> answer_to(std::string_view file, Kind kind,
+                                                      std::uint64_t index) const;
+
+  /// All names and kinds with what is there of each, ordered by name and kind. Not to be called
+  /// while another thread is in answer_to().
+  [[nodiscard]] std::vector<Group> groups() const;
+
+  /// All answers.
+  [[nodiscard]] std::uint64_t size() const;
+  /// Answers never asked for. Not to be called while another thread is in answer_to().
+  [[nodiscard]] std::uint64_t unasked() const;
+
+ private:
+  friend class AnswersReader;
+
+  struct Row {
+    std::uint64_t index;
+    double toi_lower, toi_upper, tolerance;
+    std::uint32_t line;
+    fast::Verdict verdict;
+    mutable bool asked;
+  };
+  static_assert(sizeof(Row) == 40);
+
+  /// A deque grows without a second copy of all that is there.
+  using Rows = std::deque<Row>;
+  using Key = std::pair<std::string, Kind>;
+  struct KeyLess {
+    using is_transparent = void;  // NOLINT(readability-identifier-naming): the library's name
+    template <class A, class B>
+    bool operator()(const A& a, const B& b) const {
+      return std::pair<std::string_view, Kind>(a) < std::pair<std::string_view, Kind>(b);
+    }
+  };
+
+  /// Ascending indices in each.
+  std::map<Key, Rows, KeyLess> rows_;
+};
+
+/// Reads a file of answers. The header must have these columns in this order; rows may come in any
+/// order, lines may end in LF or CRLF, and names (or any other field) may stand in quotes, where a
+/// line end counts as LF. Times of impact and tolerances are finite decimal numbers or empty; no
+/// range is asked of times, since to judge them is the judge's task. Times with any other verdict
+/// than yes are read, but dropped: solvers write 1 or the last step there.
+/// \throws DatasetError naming line, column (number of the field) and reason if anything else is
+/// found, or two rows that answer the same query.
+[[nodiscard]] RecordedAnswers load_answers(const std::filesystem::path& path);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,158 @@
+#include "verify/methods/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "verify/methods/answers.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+/// A bucket holds the doubles ≥ 0 whose patterns agree but for these low bits; the largest of them
+/// is its upper end.
+constexpr unsigned low_bits = 52 - 6;
+
+std::uint32_t bucket_of(double error) {
+  // Zero has the first bucket to itself.
+  if (error == 0.0) return 0;
+  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(error) >> low_bits) + 1;
+}
+
+double upper_end(std::uint32_t bucket) {
+  return bucket == 0 ? 0.0
+                     : std::bit_cast<double>((static_cast<std::uint64_t>(bucket) << low_bits) - 1);
+}
+
+std::string answer_text(Fault fault, const fast::Answer& answer) {
+  if (fault == Fault::late_toi) return fmt::format("toi_lower {}", answer.toi_lower);
+  if (fault == Fault::early_toi_upper) return fmt::format("toi_upper {}", answer.toi_upper);
+  return std::string(to_string(answer.verdict));
+}
+
+std::string truth_text(const Truth& truth) {
+  if (!truth.collides) return "no collision";
+  const auto [lower, upper] = truth.toi.value();
+  return lower == upper ? fmt::format("collision at {}", lower)
+                        : fmt::format("collision between {} and {}", lower, upper);
+}
+
+}  // namespace
+
+std::string_view to_string(Fault fault) {
+  switch (fault) {
+    case Fault::false_negative:
+      return "false negative";
+    case Fault::false_positive:
+      return "false positive";
+    case Fault::late_toi:
+      return "late toi";
+    case Fault::early_toi_upper:
+      return "early toi_upper";
+    default:
+      return "error";
+  }
+}
+
+void ToiErrors::add(double error) {
+  ++buckets_[bucket_of(error)];
+  ++count_;
+  max_ = std::max(max_, error);
+}
+
+ToiErrors& ToiErrors::operator+=(const ToiErrors& other) {
+  for (const auto& [bucket, count] : other.buckets_) buckets_[bucket] += count;
+  count_ += other.count_;
+  max_ = std::max(max_, other.max_);
+  return *this;
+}
+
+double ToiErrors::quantile(double fraction) const {
+  const double rank = std::ceil(fraction * static_cast<double>(count_));
+  std::uint64_t up_to_here = 0;
+  for (const auto& [bucket, count] : buckets_) {
+    up_to_here += count;
+    if (static_cast<double>(up_to_here) >= rank) return std::min(upper_end(bucket), max_);
+  }
+  return max();
+}
+
+double ToiErrors::max() const {
+  return count_ == 0 ? std::numeric_limits<double>::quiet_NaN() : max_;
+}
+
+double Judgement::nanoseconds_per_query() const {
+  return queries == 0 ? 0.0 : nanoseconds / static_cast<double>(queries);
+}
+
+void Judgement::add(const Truth& truth, const fast::Answer& answer) {
+  using fast::Verdict;
+  ++queries;
+  if (answer.verdict == Verdict::error) {
+    add_fault(Fault::error, truth, answer);
+    return;
+  }
+  undecided += answer.verdict == Verdict::undecided ? 1U : 0U;
+  if (truth.collides) {
+    if (answer.verdict == Verdict::no) add_fault(Fault::false_negative, truth, answer);
+    if (answer.verdict == Verdict::yes) add_toi(truth, answer);
+  } else if (answer.verdict != Verdict::no) {
+    add_fault(Fault::false_positive, truth, answer);
+  }
+}
+
+void Judgement::add_toi(const Truth& truth, const fast::Answer& answer) {
+  const auto [lower, upper] = truth.toi.value();
+  // No comparison holds of a NaN, the mark of what a method does not give.
+  if (answer.toi_lower > lower) add_fault(Fault::late_toi, truth, answer);
+  if (answer.toi_upper < upper) add_fault(Fault::early_toi_upper, truth, answer);
+  if (std::isnan(answer.toi_lower)) return;
+  // Of the two ends of the truth the farther one, so that no error is understated.
+  toi_errors.add(std::max(upper - answer.toi_lower, answer.toi_lower - lower));
+}
+
+void Judgement::add_fault(Fault fault, const Truth& truth, const fast::Answer& answer) {
+  auto& count = faults[static_cast<std::size_t>(fault)];
+  if (++count > most_kept) return;
+  wrong_answers.push_back({fault, truth.index, answer_text(fault, answer), truth_text(truth)});
+}
+
+void Judgement::add_missing(std::uint64_t index) {
+  if (!first_missing) first_missing = index;
+  ++missing;
+}
+
+Judgement& Judgement::operator+=(const Judgement& next) {
+  std::array<std::uint64_t, fault_count> so_far = faults;
+  for (const WrongAnswer& wrong : next.wrong_answers) {
+    if (++so_far[static_cast<std::size_t>(wrong.fault)] <= most_kept) {
+      wrong_answers.push_back(wrong);
+    }
+  }
+  for (std::size_t i = 0; i < faults.size(); ++i) faults[i] += next.faults[i];
+  queries += next.queries;
+  missing += next.missing;
+  if (!first_missing) first_missing = next.first_missing;
+  undecided += next.undecided;
+  nanoseconds += next.nanoseconds;
+  toi_errors += next.toi_errors;
+  return *this;
+}
+
+bool breaks_promise(Fault fault, bool held_to_exactness) {
+  return fault != Fault::false_positive || held_to_exactness;
+}
+
+bool keeps_promise(const Judgement& judgement, bool held_to_exactness) {
+  for (std::size_t i = 0; i < fault_count; ++i) {
+    if (judgement.faults[i] != 0 && breaks_promise(static_cast<Fault>(i), held_to_exactness)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,25 @@
+#pragma once
+
+/// \file
+/// Our solvers under the names the command line knows them by. This is the one list of them: a new
+/// solver is judged, timed and named in the help by standing in it.
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "fast/method.hpp"
+
+namespace touchstone::verify {
+
+/// All methods, always in the same order; they live as long as the program.
+[[nodiscard]] const std::vector<std::unique_ptr<const fast::Method>>& methods();
+
+/// The method of that name.
+/// \throws std::invalid_argument, with the names there are, if there is none.
+[[nodiscard]] const fast::Method& find_method(std::string_view name);
+
+/// "none", "conservative" or "exact".
+[[nodiscard]] std::string_view to_string(fast::Promise promise);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,87 @@
+#pragma once
+
+/// \file
+/// Whoever answers queries: a method in this process, a method in a child process, or a file of
+/// answers. The judge and `touchstone solve` ask all of them in the same way.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/methods/answers.hpp"
+#include "verify/methods/isolation.hpp"
+
+namespace touchstone::verify {
+
+/// Some queries of one source, with their numbers in it.
+struct Questions {
+  const std::string& source;
+  Kind kind;
+  std::span<const Query> queries;
+  std::span<const std::uint64_t> indices;
+};
+
+/// What came with the answers.
+struct Response {
+  double nanoseconds = 0.0;  ///< processor time; 0 where it is unknown
+  /// Positions in the span of the queries without an answer, ascending.
+  std::vector<std::size_t> missing;
+};
+
+/// Answers queries. Safe to use from several threads at once.
+class Respondent {
+ public:
+  /// \param timed Is its processor time known?
+  Respondent(std::string name, fast::Promise promise, bool timed);
+  Respondent(const Respondent&) = delete;
+  Respondent& operator=(const Respondent&) = delete;
+  Respondent(Respondent&&) = delete;
+  Respondent& operator=(Respondent&&) = delete;
+  virtual ~Respondent() = default;
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] fast::Promise promise() const { return promise_; }
+  [[nodiscard]] bool timed() const { return timed_; }
+
+  /// Answers query i in answers[i], in this thread.
+  /// \pre all spans have the same length.
+  [[nodiscard]] Response answer(const Questions& questions, std::span<fast::Answer> answers) const;
+
+  /// How many queries to ask at once: as many as take some milliseconds at the pace of the latest
+  /// answers. Few for slow solvers, so that all cores have work and an interrupt is soon obeyed;
+  /// many for fast ones, so that neither clock nor child process shows in the time.
+  [[nodiscard]] std::size_t good_span() const;
+
+ private:
+  [[nodiscard]] virtual Response solve(const Questions& questions,
+                                       std::span<fast::Answer> answers) const = 0;
+
+  std::string name_;
+  fast::Promise promise_;
+  bool timed_;
+  /// Wall-clock seconds a query, of the latest span; a guess that is slow before there is one.
+  mutable std::atomic<double> pace_{1.0};
+};
+
+/// A method in this process. A query it throws an exception at is answered Verdict::error. The time
+/// is the processor time of a whole span, the queries still being in the cache from their reading.
+/// The method must live as long as the respondent, here and below.
+[[nodiscard]] std::unique_ptr<Respondent> respond_in_process(const fast::Method& method,
+                                                             const fast::MethodOptions& options);
+
+/// A method in child processes: see isolation.hpp.
+[[nodiscard]] std::unique_ptr<Respondent> respond_isolated(const fast::Method& method,
+                                                           const fast::MethodOptions& options,
+                                                           const IsolationOptions& isolation);
+
+/// Recorded answers, looked up by source, kind and index. They promise nothing.
+[[nodiscard]] std::unique_ptr<Respondent> respond_recorded(std::string name,
+                                                           const RecordedAnswers& answers);
+
+}  // namespace touchstone::verify

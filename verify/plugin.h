@@ -1,0 +1,76 @@
+#pragma once
+
+/// \file
+/// The interface through which anyone's solver is judged, for C99 and C++.
+///
+/// A plugin is a shared library that defines the three functions at the end of this header; it
+/// needs nothing else of Touchstone. `touchstone certify --plugin ./libsolver.so` loads it and asks
+/// it query by query. `examples/plugin/` is a complete one.
+///
+/// The problem: four points move on straight lines from t=0 to t=1. Do a vertex and a triangle, or
+/// two edges, touch at some t in [0,1], and when first? Contact at t=0, at t=1 and on the boundary
+/// of the primitives counts.
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#pragma GCC visibility push(default)
+
+/// The version of this interface; touchstone_plugin_version returns it.
+enum { touchstone_interface_version = 1 };
+
+/// Which two primitives a query holds.
+enum touchstone_kind {
+  touchstone_vertex_face = 0, ///< a vertex v and the triangle f0, f1, f2
+  touchstone_edge_edge = 1    ///< the edge ea0, ea1 and the edge eb0, eb1
+};
+
+/// An answer to "do they collide?".
+enum touchstone_verdict {
+  touchstone_no = 0,
+  touchstone_yes = 1,
+  touchstone_undecided = 2, ///< the solver cannot say; taken as a conservative yes
+  touchstone_error = 3      ///< the query or the options are none that the solver accepts
+};
+
+/// Options that solvers share. One that a solver has no use for, it ignores.
+struct touchstone_options {
+  double tolerance;      ///< of tolerance-driven solvers, in units of the coordinates; default 1e-6
+  int64_t max_checks;    ///< of iterative solvers: steps for a query; 0 or less: no limit
+  double min_separation; ///< distance that counts as contact, 0 or more
+  double t_max;          ///< only impacts up to this time count, 0 to 1
+};
+
+/// What a solver fills in. The verdict is touchstone_error and every other field NaN when it gets
+/// it; a field that it has no value for, it leaves alone. Times are of interest only with
+/// touchstone_yes, and must then be finite or NaN.
+struct touchstone_answer {
+  int32_t verdict;  ///< one of touchstone_verdict
+  double toi_lower; ///< claimed: not above the exact time of first contact
+  double toi_upper; ///< claimed: not below the exact time of first contact
+  double tolerance; ///< how near to contact a yes claims to be, in units of the coordinates
+};
+
+/// Defined by the plugin: returns touchstone_interface_version.
+int32_t touchstone_plugin_version(void);
+
+/// Defined by the plugin: the solver's name in reports, one line of text that stays valid.
+const char* touchstone_plugin_name(void);
+
+/// Defined by the plugin: answers one query. May be called from several threads at once.
+///
+/// \param kind one of touchstone_kind.
+/// \param coordinates 24 finite doubles: x, y, z of the four points at t=0, then of the same four
+///        at t=1. Vertex-face: v, f0, f1, f2. Edge-edge: ea0, ea1, eb0, eb1.
+/// \param options what the user asked for.
+/// \param answer to be filled in.
+void touchstone_plugin_solve(int32_t kind, const double* coordinates,
+                             const struct touchstone_options* options,
+                             struct touchstone_answer* answer);
+
+#pragma GCC visibility pop
+#ifdef __cplusplus
+}
+#endif
