@@ -1,0 +1,47 @@
+#include "fast/filter.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "filters/error_bounds.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const filters::ErrorBound<double, 1>& derived_bound(Kind kind, bool separated) {
+  if (kind == Kind::edge_edge) {
+    return separated ? filters::edge_edge_separated_double : filters::edge_edge_double;
+  }
+  return separated ? filters::vertex_face_separated_double : filters::vertex_face_double;
+}
+
+/// The published constants (paper, section 4.2 and appendix; DESIGN.md section 4).
+double published_constant(Kind kind, bool separated) {
+  if (kind == Kind::edge_edge) return separated ? 7.105427357601002e-15 : 6.217248937900877e-15;
+  return separated ? 7.549516567451064e-15 : 6.661338147750939e-15;
+}
+
+double filter_on_axis(Kind kind, double x_max, double separation, ErrorModel model) {
+  const bool separated = separation > 0.0;
+  const auto& bound = derived_bound(kind, separated);
+  const double x = std::max(x_max, separation);
+  if (x > bound.greatest_x) return infinity;
+  if (model == ErrorModel::derived) return bound(x);
+  const double gamma = std::max(x, 1.0);
+  return published_constant(kind, separated) * gamma * gamma * gamma;
+}
+
+}  // namespace
+
+std::array<double, 3> error_filter(Kind kind, const std::array<double, 3>& x_max,
+                                   double min_separation, ErrorModel model) {
+  std::array<double, 3> result{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result[axis] = filter_on_axis(kind, x_max[axis], min_separation, model);
+  }
+  return result;
+}
+
+}  // namespace touchstone::fast

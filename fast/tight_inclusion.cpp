@@ -1,0 +1,362 @@
+#include "fast/tight_inclusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "fast/arithmetic_check.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Splits of one axis after which parameters are still exact, and so are their complements to 1.
+constexpr int most_splits = std::numeric_limits<double>::digits;
+
+/// Coordinates beyond this are scaled down before the search, so that nothing overflows in it.
+constexpr double greatest_unscaled = 0x1p1016;
+constexpr double scale_down = 0x1p-16;
+
+/// The lower ends of a box; its widths are those of its level.
+using LowerCorner = std::array<double, 3>;
+
+enum Axis : std::size_t { t_axis, u_axis, v_axis };
+
+/// Memory of a search, kept for the next.
+struct Workspace {
+  Workspace() { require_strict_arithmetic(); }
+
+  BoxProblem problem;
+  std::vector<LowerCorner> level;
+  std::vector<LowerCorner> next_level;
+  std::vector<LowerCorner> upper_halves;
+};
+
+/// What a search is told.
+struct SearchOptions {
+  double tolerance;
+  std::int64_t max_checks;
+  std::size_t max_boxes;
+  double t_end;  ///< of at most 53 fractional bits
+};
+
+/// What a search finds.
+struct SearchResult {
+  bool hit;
+  double toi;
+  double tolerance;
+  std::int64_t checks;
+};
+
+/// One search: algorithm 2, level by level.
+class Search {
+ public:
+  Search(const BoxKernel& kernel, Workspace& workspace, const SearchOptions& options)
+      : kernel_(kernel), workspace_(workspace), options_(options) {}
+
+  SearchResult run() {
+    // Most queries end here, before their tolerances are needed.
+    const BoxTest root = kernel_.test(workspace_.problem, box_at({0.0, 0.0, 0.0}));
+    if (root.rejected) return {false, 0.0, 0.0, 1};
+    set_parameter_tolerances();
+    workspace_.level.assign(1, {0.0, 0.0, 0.0});
+    workspace_.upper_halves.clear();
+    while (!workspace_.level.empty()) {
+      if (examine_level()) return hit();
+      std::swap(workspace_.level, workspace_.next_level);
+    }
+    if (remembered_ <= 1.0) return {true, remembered_, options_.tolerance, checks_};
+    return {false, 0.0, 0.0, checks_};
+  }
+
+ private:
+  [[nodiscard]] Box box_at(const LowerCorner& corner) const {
+    const double t1 = std::min(corner[t_axis] + widths_[t_axis], options_.t_end);
+    return {corner[t_axis], t1,
+            corner[u_axis], corner[u_axis] + widths_[u_axis],
+            corner[v_axis], corner[v_axis] + widths_[v_axis]};
+  }
+
+  /// The widths of parameters for which the image is certainly at most δ wide: δ/(3κ), with κ the
+  /// greatest change of F along an edge of the unit box (paper, section 4.3).
+  void set_parameter_tolerances() {
+    const Box unit{0.0, 1.0, 0.0, 1.0, 0.0, 1.0};
+    std::array<double, 3> kappa{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const CornerValues f = kernel_.corners(workspace_.problem, unit, axis);
+      for (std::size_t corner = 0; corner < f.size(); ++corner) {
+        for (const Axis along : {t_axis, u_axis, v_axis}) {
+          const std::size_t neighbour = corner | std::size_t{4} >> along;
+          kappa[along] = std::max(kappa[along], std::abs(f[neighbour] - f[corner]));
+        }
+      }
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      parameter_tolerances_[axis] = options_.tolerance / (3.0 * kappa[axis]);
+    }
+    if (options_.t_end == 0.0) parameter_tolerances_[t_axis] = infinity;
+  }
+
+  /// The axis to split on this level: relative to its tolerance the widest. None if all are small.
+  [[nodiscard]] std::optional<Axis> axis_to_split() const {
+    std::optional<Axis> widest;
+    double greatest_ratio = 0.0;
+    for (const Axis axis : {t_axis, u_axis, v_axis}) {
+      const double ratio = widths_[axis] / parameter_tolerances_[axis];
+      if (widths_[axis] > parameter_tolerances_[axis] && splits_[axis] < most_splits &&
+          ratio > greatest_ratio) {
+        widest = axis;
+        greatest_ratio = ratio;
+      }
+    }
+    return widest;
+  }
+
+  /// Examines the boxes of a level and makes those of the next. True if the search ends with a hit,
+  /// at the level's first box that is not dropped.
+  bool examine_level() {
+    const std::optional<Axis> axis = axis_to_split();
+    bool is_first = true;
+    workspace_.next_level.clear();
+    for (const LowerCorner& corner : workspace_.level) {
+      if (corner[t_axis] >= remembered_) break;
+      ++checks_;
+      const BoxTest test = kernel_.test(workspace_.problem, box_at(corner));
+      if (test.rejected) continue;
+      const bool is_small = test.inside || test.width <= options_.tolerance;
+      if (std::exchange(is_first, false)) {
+        first_ = {corner[t_axis],
+                  test.inside ? options_.tolerance : std::max(test.width, options_.tolerance)};
+        if (is_small || !axis) return true;
+      }
+      if (options_.max_checks > 0 && checks_ > options_.max_checks) return true;
+      if (is_small) {
+        remembered_ = corner[t_axis];
+      } else if (axis) {
+        split(corner, *axis);
+      }
+      if (workspace_.next_level.size() + workspace_.upper_halves.size() > options_.max_boxes) {
+        return true;
+      }
+    }
+    append_upper_halves();
+    if (axis) {
+      widths_[*axis] /= 2.0;
+      ++splits_[*axis];
+    }
+    return false;
+  }
+
+  /// Adds the halves of a box that reach into the domain to the next level.
+  void split(const LowerCorner& corner, Axis axis) {
+    LowerCorner upper = corner;
+    upper[axis] += widths_[axis] / 2.0;
+    if (axis == t_axis) {
+      const auto& waiting = workspace_.upper_halves;
+      if (!waiting.empty() && waiting.back()[t_axis] != upper[t_axis]) append_upper_halves();
+      workspace_.next_level.push_back(corner);
+      if (upper[t_axis] <= options_.t_end) workspace_.upper_halves.push_back(upper);
+      return;
+    }
+    workspace_.next_level.push_back(corner);
+    // A sum that is above 1 may round to 1; then the box is kept, which does no harm.
+    if (workspace_.problem.kind == Kind::edge_edge || upper[u_axis] + upper[v_axis] <= 1.0) {
+      workspace_.next_level.push_back(upper);
+    }
+  }
+
+  void append_upper_halves() {
+    auto& halves = workspace_.upper_halves;
+    workspace_.next_level.insert(workspace_.next_level.end(), halves.begin(), halves.end());
+    halves.clear();
+  }
+
+  [[nodiscard]] SearchResult hit() const { return {true, first_.toi, first_.tolerance, checks_}; }
+
+  struct First {
+    double toi;
+    double tolerance;
+  };
+
+  const BoxKernel& kernel_;
+  Workspace& workspace_;
+  const SearchOptions options_;
+  std::array<double, 3> parameter_tolerances_{};
+  std::array<double, 3> widths_{1.0, 1.0, 1.0};
+  std::array<int, 3> splits_{};
+  First first_{};            ///< the level's first box that is not dropped
+  double remembered_ = 2.0;  ///< lower t of the earliest small box that was not the first
+  std::int64_t checks_ = 0;
+};
+
+std::string_view fault_of(const TightInclusionOptions& options) {
+  const auto is_filter = [](double x) { return x >= 0.0; };
+  if (!(options.tolerance > 0.0 && options.tolerance < infinity)) {
+    return "the tolerance must be positive and finite";
+  }
+  if (!(options.min_separation >= 0.0 && options.min_separation < infinity)) {
+    return "the minimum separation must be finite and not negative";
+  }
+  if (!(options.t_max >= 0.0 && options.t_max <= 1.0)) return "t_max must be in [0,1]";
+  if (options.scene_filter && !std::ranges::all_of(*options.scene_filter, is_filter)) {
+    return "a scene's filter must not be negative";
+  }
+  return {};
+}
+
+/// The least number of at most 53 fractional bits that is not below t ∈ [0,1].
+double round_up_to_exact(double t) { return std::ceil(t * 0x1p53) * 0x1p-53; }
+
+/// One query: searches as often as the options ask for.
+class QuerySolver {
+ public:
+  QuerySolver(Workspace& workspace, const TightInclusionOptions& options)
+      : kernel_(options.kernel != nullptr ? *options.kernel : best_box_kernel()),
+        workspace_(workspace),
+        options_(options) {}
+
+  TightInclusionResult solve(Kind kind, const Query& query) {
+    TightInclusionResult result;
+    result.error = fault_of(options_);
+    if (!result.error.empty()) return result;
+    workspace_.problem.kind = kind;
+    const Extent extent = kernel_.load(query, workspace_.problem);
+    if (!extent.finite) {
+      result.error = "a coordinate is infinite or NaN";
+      return result;
+    }
+    prepare(kind, query, extent);
+    search(result);
+    if (options_.no_zero_toi) refine(result);
+    result.tolerance /= scale_;
+    result.min_separation /= scale_;
+    return result;
+  }
+
+ private:
+  /// Sets scale, separation and filter.
+  void prepare(Kind kind, const Query& query, Extent extent) {
+    const double greatest = std::max(std::ranges::max(extent.x_max), options_.min_separation);
+    if (greatest > greatest_unscaled) {
+      scale_ = scale_down;
+      Query scaled = query;
+      for (double& x : scaled.coordinates) x *= scale_;
+      extent = kernel_.load(scaled, workspace_.problem);
+    }
+    tolerance_ = std::max(options_.tolerance * scale_, std::numeric_limits<double>::denorm_min());
+    t_max_ = options_.t_max;
+    workspace_.problem.separation = options_.min_separation * scale_;
+    workspace_.problem.filter = filter(kind, extent.x_max);
+  }
+
+  [[nodiscard]] std::array<double, 3> filter(Kind kind, const std::array<double, 3>& x_max) const {
+    std::array<double, 3> result =
+        options_.scene_filter
+            ? *options_.scene_filter
+            : error_filter(kind, x_max, workspace_.problem.separation, options_.error_model);
+    if (scale_ == 1.0) return result;
+    for (double& x : result) {
+      if (options_.scene_filter) x *= scale_;
+      // What scaling cut off subnormal coordinates is far below a step of such a filter.
+      x = std::nextafter(x, infinity);
+    }
+    return result;
+  }
+
+  void search(TightInclusionResult& result) {
+    const SearchResult found =
+        Search(kernel_, workspace_,
+               {tolerance_, options_.max_checks, options_.max_boxes, round_up_to_exact(t_max_)})
+            .run();
+    result.checks += found.checks;
+    result.verdict = found.hit ? Verdict::yes : Verdict::no;
+    result.toi = found.hit ? std::min(found.toi, t_max_) : Answer::none;
+    result.tolerance = found.hit ? found.tolerance : Answer::none;
+    result.min_separation = workspace_.problem.separation;
+  }
+
+  /// While the time of impact is 0: makes the question easier, in the way that its answer suggests.
+  void refine(TightInclusionResult& result) {
+    while (result.verdict == Verdict::yes && result.toi == 0.0 &&
+           result.refinements < options_.max_refinements) {
+      ++result.refinements;
+      double& separation = workspace_.problem.separation;
+      const bool ran_out = result.tolerance > tolerance_;
+      if (ran_out) {
+        t_max_ *= 0.9;
+      } else if (10.0 * tolerance_ < separation) {
+        separation /= 2.0;
+      } else {
+        tolerance_ /= 2.0;
+      }
+      const double last_tolerance = result.tolerance;
+      search(result);
+      // Free up to a shorter time, or at a lower separation only: still a yes to what was asked.
+      const bool asked_for_more =
+          t_max_ < options_.t_max || separation < options_.min_separation * scale_;
+      if (result.verdict == Verdict::no && asked_for_more) {
+        result.verdict = Verdict::yes;
+        result.toi = t_max_;
+        result.tolerance = last_tolerance;
+      }
+    }
+  }
+
+  const BoxKernel& kernel_;
+  Workspace& workspace_;
+  const TightInclusionOptions& options_;
+  double scale_ = 1.0;
+  double tolerance_ = 0.0;
+  double t_max_ = 1.0;
+};
+
+Workspace& workspace_of_this_thread() {
+  thread_local Workspace workspace;
+  return workspace;
+}
+
+class TightInclusionMethod final : public Method {
+ public:
+  explicit TightInclusionMethod(const TightInclusionOptions& base) : base_(base) {}
+
+  [[nodiscard]] std::string_view name() const override {
+    return base_.error_model == ErrorModel::derived ? "tight_inclusion"
+                                                    : "tight_inclusion_published";
+  }
+  [[nodiscard]] Promise promise() const override { return Promise::conservative; }
+
+  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
+             const MethodOptions& options) const override {
+    TightInclusionOptions all = base_;
+    all.tolerance = options.tolerance;
+    all.max_checks = options.max_checks;
+    all.min_separation = options.min_separation;
+    all.t_max = options.t_max;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const TightInclusionResult result = tight_inclusion(kind, queries[i], all);
+      answers[i] = {.verdict = result.verdict,
+                    .toi_lower = result.toi,
+                    .toi_upper = Answer::none,
+                    .tolerance = result.tolerance};
+    }
+  }
+
+ private:
+  TightInclusionOptions base_;
+};
+
+}  // namespace
+
+TightInclusionResult tight_inclusion(Kind kind, const Query& query,
+                                     const TightInclusionOptions& options) {
+  return QuerySolver(workspace_of_this_thread(), options).solve(kind, query);
+}
+
+std::unique_ptr<Method> tight_inclusion_method(const TightInclusionOptions& base) {
+  return std::make_unique<TightInclusionMethod>(base);
+}
+
+}  // namespace touchstone::fast

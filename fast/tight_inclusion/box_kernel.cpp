@@ -1,0 +1,55 @@
+#include "fast/tight_inclusion/box_kernel.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace touchstone::fast {
+
+// One definition a file, each compiled for its instruction set (box_kernel_*.cpp).
+extern const BoxKernel scalar_box_kernel;
+#ifdef TOUCHSTONE_X86_64
+extern const BoxKernel avx2_box_kernel;
+extern const BoxKernel avx512_box_kernel;
+#endif
+
+namespace {
+
+std::vector<const BoxKernel*> runnable_kernels() {
+  std::vector<const BoxKernel*> kernels{&scalar_box_kernel};
+#ifdef TOUCHSTONE_X86_64
+  if (__builtin_cpu_supports("avx2") != 0) kernels.push_back(&avx2_box_kernel);
+  if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("fma") != 0) {
+    kernels.push_back(&avx512_box_kernel);
+  }
+#endif
+  return kernels;
+}
+
+}  // namespace
+
+std::span<const BoxKernel* const> box_kernels() {
+  static const std::vector<const BoxKernel*> kernels = runnable_kernels();
+  return kernels;
+}
+
+const BoxKernel& best_box_kernel() { return *box_kernels().back(); }
+
+const BoxKernel* find_box_kernel(InstructionSet instructions) {
+  const auto kernels = box_kernels();
+  const auto found = std::ranges::find(kernels, instructions, &BoxKernel::instructions);
+  return found == kernels.end() ? nullptr : *found;
+}
+
+std::string_view to_string(InstructionSet instructions) {
+  switch (instructions) {
+    case InstructionSet::scalar:
+      return "scalar";
+    case InstructionSet::avx2:
+      return "avx2";
+    case InstructionSet::avx512:
+      break;
+  }
+  return "avx512";
+}
+
+}  // namespace touchstone::fast

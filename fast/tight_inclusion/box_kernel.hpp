@@ -1,0 +1,78 @@
+#pragma once
+
+/// \file
+/// The inner loop of Tight-Inclusion: F at the eight corners of a box, and what follows from it.
+///
+/// F is affine in each of t, u and v, so over a box it stays within the bounding box of its eight
+/// corner values (Wang et al. 2021, section 4.2). Both are computed on lanes, one a corner, with the
+/// steps of filters/expressions.hpp in their order, so that a lane has the very bits of
+/// EdgeEdge::evaluate or VertexFace::evaluate, whatever the instruction set.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "exact/query.hpp"
+
+namespace touchstone::fast {
+
+/// The instruction sets that kernels are written for.
+enum class InstructionSet : std::uint8_t { scalar, avx2, avx512 };
+
+/// A query as the kernel reads it.
+struct BoxProblem {
+  Kind kind = Kind::vertex_face;
+  /// Per axis the coordinates of the four points at t=0, then at t=1.
+  alignas(64) std::array<std::array<double, query_points>, 3> coordinates{};
+  /// Per axis the error bound of F's computed values, in units of the coordinates.
+  std::array<double, 3> filter{};
+  double separation = 0.0;
+};
+
+/// A box [t0,t1] × [u0,u1] × [v0,v1]. Its ends are dyadic numbers of at most 53 fractional bits, so
+/// that they and their complements to 1 are exact.
+struct Box {
+  double t0, t1, u0, u1, v0, v1;
+};
+
+/// What the corner values say of a box.
+struct BoxTest {
+  bool rejected;  ///< F stays away from the origin by more than separation and filter, on some axis
+  bool inside;    ///< not rejected, and all corners within separation and filter, on all axes
+  double width;   ///< the longest side of the bounding box of the corner values, if not rejected
+};
+
+/// Of the greatest magnitudes of a query.
+struct Extent {
+  std::array<double, 3> x_max;  ///< per axis over the eight points
+  bool finite;                  ///< no coordinate is infinite or NaN
+};
+
+/// Corner values on one axis, in the order of (t,u,v) as binary digits.
+using CornerValues = std::array<double, 8>;
+
+/// The functions of one instruction set. All sets give the same bits.
+struct BoxKernel {
+  InstructionSet instructions;
+  /// Sorts the query's coordinates by axis. Leaves filter and separation as they are.
+  Extent (*load)(const Query& query, BoxProblem& problem);
+  BoxTest (*test)(const BoxProblem& problem, const Box& box);
+  /// The corner values on an axis.
+  CornerValues (*corners)(const BoxProblem& problem, const Box& box, std::size_t axis);
+};
+
+/// Those that this processor can run, slowest first; scalar is always among them.
+[[nodiscard]] std::span<const BoxKernel* const> box_kernels();
+
+/// The fastest of box_kernels().
+[[nodiscard]] const BoxKernel& best_box_kernel();
+
+/// The kernel of an instruction set; nullptr if this processor cannot run it.
+[[nodiscard]] const BoxKernel* find_box_kernel(InstructionSet instructions);
+
+/// "scalar", "avx2" or "avx512".
+[[nodiscard]] std::string_view to_string(InstructionSet instructions);
+
+}  // namespace touchstone::fast

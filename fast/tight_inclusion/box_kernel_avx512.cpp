@@ -1,0 +1,50 @@
+// The kernel in AVX-512 (its foundation, F); compiled for it, and called on processors that have it
+// only.
+
+#include <immintrin.h>
+
+#include "fast/tight_inclusion/box_kernel_on_lanes.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+/// Eight lanes in one register.
+struct Lanes {
+  __m512d all;
+
+  static Lanes twice(double a, double b, double c, double d) {
+    return {_mm512_broadcast_f64x4(_mm256_setr_pd(a, b, c, d))};
+  }
+  static Lanes twice(const double* values) {
+    return {_mm512_broadcast_f64x4(_mm256_loadu_pd(values))};
+  }
+  static Lanes halves(double a, double b) {
+    return {_mm512_insertf64x4(_mm512_set1_pd(a), _mm256_set1_pd(b), 1)};
+  }
+  static Lanes eight(const double* values) { return {_mm512_loadu_pd(values)}; }
+
+  friend Lanes operator+(const Lanes& a, const Lanes& b) { return {_mm512_add_pd(a.all, b.all)}; }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) { return {_mm512_sub_pd(a.all, b.all)}; }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) { return {_mm512_mul_pd(a.all, b.all)}; }
+
+  template <int a, int b, int c, int d>
+  [[nodiscard]] Lanes shuffled() const {
+    return {_mm512_permutex_pd(all, a | b << 2 | c << 4 | d << 6)};
+  }
+
+  void store(double* values) const { _mm512_storeu_pd(values, all); }
+
+  [[nodiscard]] bool are_finite() const {
+    const __m512d difference = _mm512_sub_pd(all, all);
+    return _mm512_cmp_pd_mask(difference, _mm512_setzero_pd(), _CMP_EQ_OQ) == 0xFF;
+  }
+  [[nodiscard]] double least() const { return _mm512_reduce_min_pd(all); }
+  [[nodiscard]] double greatest() const { return _mm512_reduce_max_pd(all); }
+};
+
+}  // namespace
+
+extern const BoxKernel avx512_box_kernel;
+const BoxKernel avx512_box_kernel = BoxKernelOnLanes<Lanes>::kernel(InstructionSet::avx512);
+
+}  // namespace touchstone::fast

@@ -1,0 +1,74 @@
+// The kernel without vector instructions of its own: every processor runs it.
+
+#include <cstddef>
+
+#include "fast/tight_inclusion/box_kernel_on_lanes.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+/// Eight lanes, one after the other.
+struct Lanes {
+  static constexpr std::size_t size = 8;
+  static constexpr std::size_t half = 4;
+
+  double lane[size];  // NOLINT(modernize-avoid-c-arrays): no function of another file
+
+  static Lanes twice(double a, double b, double c, double d) { return {{a, b, c, d, a, b, c, d}}; }
+  static Lanes twice(const double* four) { return twice(four[0], four[1], four[2], four[3]); }
+  static Lanes halves(double a, double b) { return {{a, a, a, a, b, b, b, b}}; }
+  static Lanes eight(const double* values) {
+    Lanes result;
+    for (std::size_t i = 0; i < size; ++i) result.lane[i] = values[i];
+    return result;
+  }
+
+  friend Lanes operator+(const Lanes& a, const Lanes& b) {
+    Lanes result;
+    for (std::size_t i = 0; i < size; ++i) result.lane[i] = a.lane[i] + b.lane[i];
+    return result;
+  }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) {
+    Lanes result;
+    for (std::size_t i = 0; i < size; ++i) result.lane[i] = a.lane[i] - b.lane[i];
+    return result;
+  }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) {
+    Lanes result;
+    for (std::size_t i = 0; i < size; ++i) result.lane[i] = a.lane[i] * b.lane[i];
+    return result;
+  }
+
+  template <int a, int b, int c, int d>
+  [[nodiscard]] Lanes shuffled() const {
+    return {{lane[a], lane[b], lane[c], lane[d], lane[half + a], lane[half + b], lane[half + c],
+             lane[half + d]}};
+  }
+
+  void store(double* values) const {
+    for (std::size_t i = 0; i < size; ++i) values[i] = lane[i];
+  }
+
+  [[nodiscard]] bool are_finite() const {
+    bool result = true;
+    for (const double x : lane) result = result && x - x == 0.0;
+    return result;
+  }
+  [[nodiscard]] double least() const {
+    double result = lane[0];
+    for (const double x : lane) result = x < result ? x : result;
+    return result;
+  }
+  [[nodiscard]] double greatest() const {
+    double result = lane[0];
+    for (const double x : lane) result = x > result ? x : result;
+    return result;
+  }
+};
+
+}  // namespace
+
+extern const BoxKernel scalar_box_kernel;
+const BoxKernel scalar_box_kernel = BoxKernelOnLanes<Lanes>::kernel(InstructionSet::scalar);
+
+}  // namespace touchstone::fast
