@@ -57,7 +57,7 @@ struct TightInclusionOptions {
   /// advance.
   bool no_zero_toi = false;
   /// Bounds the work of no_zero_toi to this many further searches.
-  int max_refinements = 64;
+  int max_refinements = 32;
   ErrorModel error_model = ErrorModel::derived;
   /// Per axis, instead of the filter of each query: that of a scene (fast/filter.hpp).
   std::optional<std::array<double, 3>> scene_filter = std::nullopt;

@@ -1,0 +1,222 @@
+/// \file
+/// The kernels against the expressions they claim to be, bit for bit, and against each other.
+
+#include "fast/tight_inclusion/box_kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "exact/number.hpp"
+#include "fast/filter.hpp"
+#include "filters/expressions.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+using exact::Rational;
+using tests::Random;
+
+/// A dyadic interval within [0,1] of up to 2^-53.
+std::array<double, 2> random_interval(Random& random) {
+  const int depth = random.between(0, 53);
+  const double width = std::ldexp(1.0, -depth);
+  const double lower = std::floor(random.uniform() / width) * width;
+  return {lower, lower + width};
+}
+
+Box random_box(Random& random) {
+  const auto t = random_interval(random), u = random_interval(random), v = random_interval(random);
+  return {t[0], t[1], u[0], u[1], v[0], v[1]};
+}
+
+Query random_query(Random& random) {
+  static const std::array<int, 6> exponents{-1060, -30, 0, 1, 40, 1000};
+  const int exponent = exponents[static_cast<std::size_t>(random.between(0, 5))];
+  Query query{};
+  for (double& x : query.coordinates) {
+    x = std::ldexp(random.uniform(-1.0, 1.0), exponent - random.between(0, 3));
+    if (random.between(0, 20) == 0) x = random.coin() ? 0.0 : -0.0;
+  }
+  return query;
+}
+
+struct Case {
+  Kind kind;
+  Query query;
+  Box box;
+};
+
+Case random_case(Random& random) {
+  return {random.coin() ? Kind::edge_edge : Kind::vertex_face, random_query(random),
+          random_box(random)};
+}
+
+/// F at corner number `corner` (binary digits t, u, v), from the expressions.
+template <class Scalar>
+Scalar expression(const BoxProblem& problem, const Box& box, std::size_t axis, std::size_t corner) {
+  std::array<Scalar, 8> x;
+  for (std::size_t i = 0; i < 8; ++i) x[i] = Scalar(problem.coordinates[axis][i]);
+  const Scalar one(1), t((corner & 4U) != 0 ? box.t1 : box.t0),
+      u((corner & 2U) != 0 ? box.u1 : box.u0), v((corner & 1U) != 0 ? box.v1 : box.v0);
+  const Scalar s(one - t), complement_u(one - u), complement_v(one - v), w(complement_u - v);
+  if (problem.kind == Kind::edge_edge) {
+    return filters::EdgeEdge::evaluate<Scalar>(x, {s, t, complement_u, u, complement_v, v});
+  }
+  return filters::VertexFace::evaluate<Scalar>(x, {s, t, w, u, v});
+}
+
+std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
+
+TEST(BoxKernel, ScalarIsAlwaysThereAndFirst) {
+  ASSERT_FALSE(box_kernels().empty());
+  EXPECT_EQ(box_kernels().front()->instructions, InstructionSet::scalar);
+  EXPECT_EQ(&best_box_kernel(), box_kernels().back());
+  for (const InstructionSet set :
+       {InstructionSet::scalar, InstructionSet::avx2, InstructionSet::avx512}) {
+    const BoxKernel* const kernel = find_box_kernel(set);
+    if (kernel == nullptr) {
+      std::printf("this processor has no %s: that kernel is not tested\n",
+                  std::string(to_string(set)).c_str());
+    } else {
+      EXPECT_EQ(kernel->instructions, set);
+    }
+  }
+}
+
+TEST(BoxKernel, NamesItsInstructionSet) {
+  EXPECT_EQ(to_string(InstructionSet::scalar), "scalar");
+  EXPECT_EQ(to_string(InstructionSet::avx2), "avx2");
+  EXPECT_EQ(to_string(InstructionSet::avx512), "avx512");
+}
+
+class EachKernel : public testing::TestWithParam<const BoxKernel*> {};
+
+INSTANTIATE_TEST_SUITE_P(BoxKernel, EachKernel, testing::ValuesIn(box_kernels()),
+                         [](const auto& kernel) {
+                           return std::string(to_string(kernel.param->instructions));
+                         });
+
+TEST_P(EachKernel, SortsCoordinatesByAxis) {
+  Random random(1);
+  const Query query = random_query(random);
+  BoxProblem problem;
+  const Extent extent = GetParam()->load(query, problem);
+  EXPECT_TRUE(extent.finite);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double greatest = 0.0;
+    for (std::size_t point = 0; point < 8; ++point) {
+      const double x = query.at(point / 4, point % 4, axis);
+      EXPECT_EQ(bits(problem.coordinates[axis][point]), bits(x));
+      greatest = std::max(greatest, std::abs(x));
+    }
+    EXPECT_EQ(extent.x_max[axis], greatest);
+  }
+}
+
+TEST_P(EachKernel, SeesEveryCoordinateThatIsNotFinite) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 24; ++i) {
+    for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
+      Query query{};
+      query.coordinates[i] = bad;
+      BoxProblem problem;
+      EXPECT_FALSE(GetParam()->load(query, problem).finite) << i << ' ' << bad;
+    }
+  }
+}
+
+TEST_P(EachKernel, SeesTheGreatestCoordinateWhereverItIs) {
+  for (std::size_t i = 0; i < 24; ++i) {
+    for (const double x : {-3.0, 3.0}) {
+      Query query{};
+      query.coordinates[i] = x;
+      BoxProblem problem;
+      std::array<double, 3> expected{};
+      expected[i % 3] = 3.0;
+      EXPECT_EQ(GetParam()->load(query, problem).x_max, expected);
+    }
+  }
+}
+
+TEST_P(EachKernel, ComputesTheExpressionsBitForBit) {
+  Random random(2);
+  for (int i = 0; i < 20000; ++i) {
+    const auto [kind, query, box] = random_case(random);
+    BoxProblem problem;
+    problem.kind = kind;
+    static_cast<void>(GetParam()->load(query, problem));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const CornerValues values = GetParam()->corners(problem, box, axis);
+      for (std::size_t corner = 0; corner < 8; ++corner) {
+        ASSERT_EQ(bits(values[corner]), bits(expression<double>(problem, box, axis, corner)))
+            << to_string(kind) << " case " << i << " axis " << axis << " corner " << corner;
+      }
+    }
+  }
+}
+
+TEST_P(EachKernel, StaysWithinTheFilterOfTheExactValue) {
+  Random random(3);
+  for (int i = 0; i < 500; ++i) {
+    const auto [kind, query, box] = random_case(random);
+    BoxProblem problem;
+    problem.kind = kind;
+    const Extent extent = GetParam()->load(query, problem);
+    const auto filter = error_filter(kind, extent.x_max, 0.0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const CornerValues values = GetParam()->corners(problem, box, axis);
+      for (std::size_t corner = 0; corner < 8; ++corner) {
+        const Rational error =
+            Rational(values[corner]) - expression<Rational>(problem, box, axis, corner);
+        ASSERT_LE(abs(error), Rational(filter[axis])) << to_string(kind) << " case " << i;
+      }
+    }
+  }
+}
+
+TEST_P(EachKernel, TestsTheBoxOfItsCorners) {
+  Random random(4);
+  int rejections = 0, insides = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto [kind, query, box] = random_case(random);
+    BoxProblem problem;
+    problem.kind = kind;
+    static_cast<void>(GetParam()->load(query, problem));
+    const double scale = std::abs(query.coordinates[0]);
+    for (double& filter : problem.filter) filter = scale * random.uniform(0.0, 4.0);
+    problem.separation = random.coin() ? 0.0 : scale * random.uniform(0.0, 4.0);
+
+    bool rejected = false, inside = true;
+    double width = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const CornerValues values = GetParam()->corners(problem, box, axis);
+      const auto [least, greatest] = std::ranges::minmax(values);
+      const double filter = problem.filter[axis], d = problem.separation;
+      rejected = rejected || least - d > filter || greatest + d < -filter;
+      inside = inside && greatest - d <= filter && least + d >= -filter;
+      width = std::max(width, greatest - least);
+    }
+    const BoxTest test = GetParam()->test(problem, box);
+    ASSERT_EQ(test.rejected, rejected) << i;
+    rejections += rejected ? 1 : 0;
+    if (rejected) continue;
+    ASSERT_EQ(test.inside, inside) << i;
+    ASSERT_EQ(test.width, width) << i;
+    insides += inside ? 1 : 0;
+  }
+  EXPECT_GT(rejections, 1000);
+  EXPECT_GT(insides, 1000);
+}
+
+}  // namespace
+}  // namespace touchstone::fast

@@ -1,0 +1,816 @@
+/// \file
+/// Tight-Inclusion against known truth, against a plain reading of its description, and with faults
+/// planted in it, each of which the built-in families must find.
+
+#include "fast/tight_inclusion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "exact/number.hpp"
+#include "exact/oracle.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "verify/dataset/dataset.hpp"
+#include "verify/families/families.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+using exact::Rational;
+using tests::over_edge;
+using tests::over_triangle;
+using tests::PosedQuery;
+using tests::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::uint64_t seed = 3;
+
+/// Enough checks for nearly all queries of the families, few enough for a test.
+constexpr std::int64_t some_checks = 20000;
+
+TightInclusionResult solve(const PosedQuery& posed, const TightInclusionOptions& options = {}) {
+  return tight_inclusion(posed.kind, posed.query, options);
+}
+
+TightInclusionOptions with(const std::function<void(TightInclusionOptions&)>& change) {
+  TightInclusionOptions options;
+  options.max_checks = some_checks;
+  change(options);
+  return options;
+}
+
+/// Calls visit(family, kind, known query) for `count` queries of each family and kind.
+template <class Visit>
+void for_each_family_query(std::uint64_t count, const Visit& visit) {
+  for (const verify::Family& family : verify::families()) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (!verify::supports(family, kind)) continue;
+      for (std::uint64_t index = 0; index < count; ++index) {
+        visit(family, kind, verify::make_query(family, kind, seed, index));
+      }
+    }
+  }
+}
+
+bool is_missed(const verify::KnownQuery& known, const TightInclusionResult& result) {
+  return known.collides && result.verdict != Verdict::yes;
+}
+
+bool is_late(const verify::KnownQuery& known, const TightInclusionResult& result) {
+  return known.toi && result.verdict == Verdict::yes && Rational(result.toi) > *known.toi;
+}
+
+// ---- Never a miss, never late -------------------------------------------------------------------
+
+struct NamedOptions {
+  const char* name;
+  TightInclusionOptions options;
+};
+
+class Conservative : public testing::TestWithParam<NamedOptions> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    TightInclusion, Conservative,
+    testing::Values(
+        NamedOptions{"default_options", with([](auto& /*options*/) {})},
+        NamedOptions{"published_filter",
+                     with([](auto& options) { options.error_model = ErrorModel::published; })},
+        NamedOptions{"coarse", with([](auto& options) { options.tolerance = 1e-2; })},
+        NamedOptions{"fine", with([](auto& options) { options.tolerance = 1e-14; })},
+        NamedOptions{"ten_checks", with([](auto& options) { options.max_checks = 10; })},
+        NamedOptions{"one_check", with([](auto& options) { options.max_checks = 1; })},
+        NamedOptions{"little_memory", with([](auto& options) { options.max_boxes = 16; })},
+        NamedOptions{"separation_2", with([](auto& options) { options.min_separation = 1e-2; })},
+        NamedOptions{"separation_8", with([](auto& options) { options.min_separation = 1e-8; })},
+        NamedOptions{"separation_16", with([](auto& options) { options.min_separation = 1e-16; })},
+        NamedOptions{"separation_100",
+                     with([](auto& options) { options.min_separation = 1e-100; })},
+        NamedOptions{"separation_large",
+                     with([](auto& options) { options.min_separation = 1e10; })},
+        NamedOptions{"refined", with([](auto& options) { options.no_zero_toi = true; })}),
+    [](const auto& param) { return param.param.name; });
+
+TEST_P(Conservative, OnAllFamilies) {
+  const TightInclusionOptions& options = GetParam().options;
+  for_each_family_query(24, [&](const verify::Family& family, Kind kind, const auto& known) {
+    const TightInclusionResult result = tight_inclusion(kind, known.query, options);
+    EXPECT_FALSE(is_missed(known, result)) << family.name << ' ' << to_string(kind);
+    // Lowering the separation may advance into contact, which is what no_zero_toi asks for.
+    if (!options.no_zero_toi || options.min_separation == 0.0) {
+      EXPECT_FALSE(is_late(known, result)) << family.name << ' ' << to_string(kind);
+    }
+    EXPECT_TRUE(result.error.empty());
+    EXPECT_EQ(result.verdict == Verdict::yes, result.toi >= 0.0 && result.toi <= 1.0);
+    EXPECT_EQ(result.verdict == Verdict::yes,
+              result.tolerance >= options.tolerance || result.refinements > 0);
+  });
+}
+
+TEST(TightInclusion, GivesTheSameResultOnAllKernels) {
+  for_each_family_query(12, [&](const verify::Family& family, Kind kind, const auto& known) {
+    for (const double d : {0.0, 1e-3}) {
+      TightInclusionOptions options;
+      options.max_checks = some_checks;
+      options.min_separation = d;
+      options.kernel = box_kernels().front();
+      const TightInclusionResult expected = tight_inclusion(kind, known.query, options);
+      for (const BoxKernel* const kernel : box_kernels()) {
+        options.kernel = kernel;
+        const TightInclusionResult result = tight_inclusion(kind, known.query, options);
+        EXPECT_EQ(result.verdict, expected.verdict) << family.name;
+        EXPECT_EQ(result.checks, expected.checks) << family.name;
+        if (result.verdict != Verdict::yes) continue;
+        EXPECT_EQ(result.toi, expected.toi) << family.name;
+        EXPECT_EQ(result.tolerance, expected.tolerance) << family.name;
+      }
+    }
+  });
+}
+
+/// The public data, or nothing (loudly) where it is missing.
+std::vector<std::filesystem::path> public_data() {
+  const char* const variable = std::getenv("TOUCHSTONE_DATA");  // NOLINT(concurrency-mt-unsafe)
+  const std::filesystem::path folder =
+      variable != nullptr ? std::filesystem::path(variable)
+                          : std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "../shared/datasets";
+  if (!std::filesystem::exists(folder)) {
+    std::printf("MISSING public data: %s (set TOUCHSTONE_DATA)\n", folder.c_str());
+    return {};
+  }
+  const std::array paths{folder / "handcrafted", folder / "simulation"};
+  return verify::find_datasets(paths);
+}
+
+TEST(TightInclusion, MissesNothingOnThePublicData) {
+  const auto files = public_data();
+  if (files.empty()) GTEST_SKIP() << "public data missing";
+  std::map<ErrorModel, int> false_positives;
+  for (const auto& file : files) {
+    const auto source = verify::open_dataset(file);
+    while (const auto recorded = source->next()) {
+      const exact::Verdict truth = exact::decide(source->kind(), recorded->query);
+      for (const ErrorModel model : {ErrorModel::derived, ErrorModel::published}) {
+        TightInclusionOptions options;
+        options.max_checks = some_checks;
+        options.error_model = model;
+        const auto result = tight_inclusion(source->kind(), recorded->query, options);
+        const bool yes = result.verdict == Verdict::yes;
+        EXPECT_TRUE(yes || !truth.collides()) << file << ' ' << recorded->index;
+        if (yes && truth.collides()) {
+          EXPECT_FALSE(truth.impact->toi < Rational(result.toi)) << file << ' ' << recorded->index;
+        }
+        false_positives[model] += yes && !truth.collides() ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_LE(false_positives[ErrorModel::derived], false_positives[ErrorModel::published]);
+  EXPECT_GT(false_positives[ErrorModel::derived], 0);  // conservative, not exact
+}
+
+// ---- Minimum separation, by construction --------------------------------------------------------
+
+/// A miss whose points of least L∞ distance are `gap` apart along an axis, at t=1: the vertex or
+/// edge comes straight down and stops there.
+PosedQuery stops_above(Kind kind, double height, double gap) {
+  return kind == Kind::vertex_face ? over_triangle(1.0, 1.0, height, gap)
+                                   : over_edge(1.0, 2.0, height, gap);
+}
+
+TEST(MinimumSeparation, ReachesExactlyAsFarAsItSays) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const double d : {0x1p-3, 0x1.8p-20, 0x1p-40, 0.1, 1e-10}) {
+      TightInclusionOptions options;
+      options.min_separation = d;
+      const double filter = error_filter(kind, {4, 4, 1}, d)[2];
+      EXPECT_EQ(solve(stops_above(kind, 1.0, d), options).verdict, Verdict::yes) << d;
+      EXPECT_EQ(solve(stops_above(kind, 1.0, d / 2), options).verdict, Verdict::yes) << d;
+      EXPECT_EQ(solve(stops_above(kind, 1.0, d + 3 * filter),
+                      {.tolerance = filter / 8, .min_separation = d})
+                    .verdict,
+                Verdict::no)
+          << d;
+    }
+  }
+}
+
+TEST(MinimumSeparation, IsReachedAtTheTimeItSays) {
+  // From height 1 to −1: at distance d at t = (1 − d)/2.
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const double d : {0x1p-1, 0x1p-3, 0x1p-10, 0x1p-30}) {
+      TightInclusionOptions options;
+      options.min_separation = d;
+      const auto result = solve(stops_above(kind, 1.0, -1.0), options);
+      ASSERT_EQ(result.verdict, Verdict::yes);
+      EXPECT_LE(result.toi, (1.0 - d) / 2);
+      EXPECT_GT(result.toi, (1.0 - d) / 2 - result.tolerance);
+      EXPECT_LT(result.tolerance, 1e-2);
+      EXPECT_EQ(result.min_separation, d);
+    }
+  }
+}
+
+/// A vector whose coordinates sum exactly with those of few-bit queries, of L∞ norm d.
+std::array<double, 3> offset(Random& random, double d) {
+  std::array<double, 3> result{};
+  for (double& x : result) x = d * random.between(-16, 16) / 16;
+  result[static_cast<std::size_t>(random.between(0, 2))] = random.coin() ? d : -d;
+  return result;
+}
+
+TEST(MinimumSeparation, FindsContactsMovedApartByIt) {
+  // If F has a root, then with one primitive moved by a vector of norm d, ‖F‖ = d there.
+  Random random(11);
+  int moved = 0;
+  for_each_family_query(12, [&](const verify::Family& family, Kind kind, const auto& known) {
+    if (!known.collides || known.full_significands) return;
+    for (const double d : {0x1p-2, 0x1p-12}) {
+      const auto shift = offset(random, d);
+      Query query = known.query;
+      bool exact = true;
+      const std::size_t first = kind == Kind::vertex_face ? 1 : 2;
+      for (std::size_t end = 0; end < 2; ++end) {
+        for (std::size_t point = 0; point < first; ++point) {
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            double& x = query.at(end, point, axis);
+            exact = exact && Rational(x + shift[axis]) == Rational(x) + Rational(shift[axis]);
+            x += shift[axis];
+          }
+        }
+      }
+      if (!exact) continue;
+      ++moved;
+      TightInclusionOptions options;
+      options.max_checks = some_checks;
+      options.min_separation = d;
+      const auto result = tight_inclusion(kind, query, options);
+      EXPECT_FALSE(is_missed(known, result)) << family.name << ' ' << d;
+      EXPECT_FALSE(is_late(known, result)) << family.name << ' ' << d;
+    }
+  });
+  EXPECT_GT(moved, 400);
+}
+
+// ---- A plain reading of the description ---------------------------------------------------------
+
+/// Algorithm 2 with a priority queue, as it is told (shared/methods.md, section 9).
+struct PlainReading {
+  struct Item {
+    int level;
+    Box box;
+  };
+
+  BoxProblem problem;
+  double tolerance;
+  std::array<double, 3> widths_tolerated{};
+
+  static std::array<double, 3> widths(const Box& box) {
+    return {box.t1 - box.t0, box.u1 - box.u0, box.v1 - box.v0};
+  }
+
+  std::vector<Item> halves(const Item& item) const {
+    const auto width = widths(item.box);
+    std::size_t axis = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (width[i] <= widths_tolerated[i]) continue;
+      if (axis == 3 || width[i] / widths_tolerated[i] > width[axis] / widths_tolerated[axis]) {
+        axis = i;
+      }
+    }
+    Item lower{item.level + 1, item.box}, upper{item.level + 1, item.box};
+    const std::array lower_end{&Box::t0, &Box::u0, &Box::v0};
+    const std::array upper_end{&Box::t1, &Box::u1, &Box::v1};
+    const double middle = (item.box.*lower_end[axis] + item.box.*upper_end[axis]) / 2;
+    lower.box.*upper_end[axis] = middle;
+    upper.box.*lower_end[axis] = middle;
+    if (problem.kind == Kind::vertex_face && upper.box.u0 + upper.box.v0 > 1.0) return {lower};
+    return {lower, upper};
+  }
+
+  std::optional<double> toi() const {
+    const auto later = [](const Item& a, const Item& b) {
+      return std::tie(a.level, a.box.t0) > std::tie(b.level, b.box.t0);
+    };
+    std::priority_queue<Item, std::vector<Item>, decltype(later)> queue(later);
+    queue.push({0, {0, 1, 0, 1, 0, 1}});
+    const BoxKernel& kernel = *box_kernels().front();
+    int level = -1;
+    bool all_small = true;
+    double skip = 4.0;
+    while (!queue.empty()) {
+      const Item item = queue.top();
+      queue.pop();
+      if (item.box.t0 >= skip) continue;
+      if (item.level != level) {
+        level = item.level;
+        all_small = true;
+      }
+      const BoxTest test = kernel.test(problem, item.box);
+      if (test.rejected) continue;
+      const auto width = widths(item.box);
+      const bool narrow = std::ranges::equal(width, widths_tolerated, std::less_equal<>());
+      const bool fits = test.width <= tolerance;
+      const bool inside_first = test.inside && all_small;
+      all_small = all_small && fits;
+      if (narrow || inside_first || all_small) return item.box.t0;
+      if (fits || test.inside) {
+        skip = std::min(skip, item.box.t0);
+        continue;
+      }
+      for (const Item& half : halves(item)) queue.push(half);
+    }
+    if (skip <= 1.0) return skip;
+    return std::nullopt;
+  }
+};
+
+PlainReading plain_reading(Kind kind, const Query& query, double tolerance) {
+  PlainReading reading{.problem = {}, .tolerance = tolerance};
+  reading.problem.kind = kind;
+  const Extent extent = box_kernels().front()->load(query, reading.problem);
+  reading.problem.filter = error_filter(kind, extent.x_max, 0.0);
+  std::array<double, 3> kappa{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto f = box_kernels().front()->corners(reading.problem, {0, 1, 0, 1, 0, 1}, axis);
+    for (const auto& [along, step] : {std::pair{0U, 4U}, std::pair{1U, 2U}, std::pair{2U, 1U}}) {
+      for (std::size_t corner = 0; corner < 8; ++corner) {
+        if ((corner & step) != 0) continue;
+        kappa[along] = std::max(kappa[along], std::abs(f[corner + step] - f[corner]));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) reading.widths_tolerated[i] = tolerance / (3.0 * kappa[i]);
+  return reading;
+}
+
+TEST(TightInclusion, AgreesWithAPlainReadingOfItsDescription) {
+  int hits = 0, misses = 0;
+  for_each_family_query(12, [&](const verify::Family& family, Kind kind, const auto& known) {
+    TightInclusionOptions options;
+    options.tolerance = 1e-5;
+    options.max_checks = some_checks;
+    const auto result = tight_inclusion(kind, known.query, options);
+    if (result.checks > some_checks) return;
+    const PlainReading reading = plain_reading(kind, known.query, options.tolerance);
+    // It knows neither scaling nor a last bit of parameters.
+    if (std::ranges::min(reading.widths_tolerated) < 0x1p-50) return;
+    const auto toi = reading.toi();
+    ASSERT_EQ(result.verdict == Verdict::yes, toi.has_value()) << family.name;
+    if (toi) {
+      EXPECT_EQ(result.toi, *toi) << family.name;
+    }
+    ++(toi ? hits : misses);
+  });
+  EXPECT_GT(hits, 200);
+  EXPECT_GT(misses, 100);
+}
+
+// ---- Options ------------------------------------------------------------------------------------
+
+TEST(Options, AreRefusedOutOfRange) {
+  const PosedQuery query = over_triangle(1, 1, 1, -1);
+  const double nan = Answer::none;
+  for (const auto& change : std::vector<std::function<void(TightInclusionOptions&)>>{
+           [](auto& o) { o.tolerance = 0.0; }, [](auto& o) { o.tolerance = -1.0; },
+           [](auto& o) { o.tolerance = infinity; }, [&](auto& o) { o.tolerance = nan; },
+           [](auto& o) { o.min_separation = -1e-300; },
+           [](auto& o) { o.min_separation = infinity; }, [&](auto& o) { o.min_separation = nan; },
+           [](auto& o) { o.t_max = -0.1; }, [](auto& o) { o.t_max = 1.1; },
+           [&](auto& o) { o.t_max = nan; },
+           [](auto& o) {
+             o.scene_filter = {{0.0, -1.0, 0.0}};
+           },
+           [&](auto& o) {
+             o.scene_filter = {{0.0, nan, 0.0}};
+           }}) {
+    const auto result = solve(query, with(change));
+    EXPECT_EQ(result.verdict, Verdict::error);
+    EXPECT_FALSE(result.error.empty());
+    EXPECT_TRUE(std::isnan(result.toi));
+  }
+}
+
+TEST(Input, InfiniteOrNaNIsAnErrorNeverAMiss) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (std::size_t i = 0; i < 24; ++i) {
+      for (const double bad : {infinity, -infinity, Answer::none}) {
+        Query query = over_triangle(1, 1, 5, 6).query;  // a miss otherwise
+        query.coordinates[i] = bad;
+        const auto result = tight_inclusion(kind, query);
+        EXPECT_EQ(result.verdict, Verdict::error) << i << ' ' << bad;
+        EXPECT_FALSE(result.error.empty());
+      }
+    }
+  }
+}
+
+TEST(Tolerance, BoundsTheErrorOfTheTime) {
+  // The vertex falls from 1 to −2 at a third: within δ of contact not before (1 − δ)/3.
+  for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9}) {
+    const auto result = solve(over_triangle(1, 1, 1, -2), {.tolerance = tolerance});
+    ASSERT_EQ(result.verdict, Verdict::yes);
+    EXPECT_LE(Rational(result.toi), Rational(1, 3));
+    EXPECT_GE(result.toi, (1.0 - 2 * tolerance) / 3);
+    EXPECT_EQ(result.tolerance, tolerance);
+  }
+}
+
+TEST(MaxChecks, EndsEarlyWithTheToleranceReached) {
+  // An edge sliding along another: contact for an interval of time and of parameters.
+  const PosedQuery sliding =
+      tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 0, 5, 0, 0}, {0, 0, 0, 4, 0, 0, 2, 0, 0, 6, 0, 0});
+  double last_tolerance = infinity;
+  for (const std::int64_t checks : {10, 100, 1000, 10000}) {
+    const auto result = solve(sliding, {.max_checks = checks});
+    EXPECT_EQ(result.verdict, Verdict::yes);
+    EXPECT_EQ(result.toi, 0.0);
+    EXPECT_GT(result.tolerance, 1e-6);
+    EXPECT_LT(result.tolerance, last_tolerance);
+    EXPECT_LE(result.checks, 2 * checks + 1);
+    last_tolerance = result.tolerance;
+  }
+}
+
+TEST(MaxChecks, NotPositiveMeansNoLimit) {
+  const PosedQuery falling = over_triangle(1, 1, 1, -2);
+  const auto limited = solve(falling, {.max_checks = 1'000'000});
+  const auto unlimited = solve(falling, {.max_checks = 0});
+  EXPECT_EQ(limited.toi, unlimited.toi);
+  EXPECT_EQ(unlimited.tolerance, 1e-6);
+  EXPECT_EQ(solve(falling, {.max_checks = -1}).checks, unlimited.checks);
+}
+
+TEST(MaxBoxes, BoundsTheWaitingBoxes) {
+  const PosedQuery sliding =
+      tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 0, 5, 0, 0}, {0, 0, 0, 4, 0, 0, 2, 0, 0, 6, 0, 0});
+  const auto result = solve(sliding, {.max_checks = 0, .max_boxes = 1000});
+  EXPECT_EQ(result.verdict, Verdict::yes);
+  EXPECT_GT(result.tolerance, 1e-6);
+  EXPECT_LT(result.checks, 4000);
+  // The next search starts afresh.
+  EXPECT_EQ(solve(over_triangle(1, 1, 5, 6)).verdict, Verdict::no);
+  EXPECT_EQ(solve(sliding, {.max_checks = 0, .max_boxes = 1000}).checks, result.checks);
+}
+
+TEST(TMax, CountsContactsUpToItOnly) {
+  const PosedQuery falling = over_triangle(1, 1, 1, -2);  // at a third
+  for (const double t_max : {1.0, 0.5, 0.34, 0.3334}) {
+    const auto result = solve(falling, {.t_max = t_max});
+    EXPECT_EQ(result.verdict, Verdict::yes) << t_max;
+    EXPECT_LE(Rational(result.toi), Rational(1, 3));
+  }
+  for (const double t_max : {0.3333, 0.25, 0.1, 1e-20, 1e-300, 0.0}) {
+    EXPECT_EQ(solve(falling, {.t_max = t_max}).verdict, Verdict::no) << t_max;
+  }
+}
+
+TEST(TMax, KeepsContactAtItselfAndGivesNoLaterTime) {
+  const PosedQuery falling = over_triangle(1, 1, 1, -1);  // at a half
+  EXPECT_EQ(solve(falling, {.t_max = 0.5}).verdict, Verdict::yes);
+  const PosedQuery touching = over_triangle(1, 1, 0, 1);  // at 0
+  for (const double t_max : {0.0, 1e-300, 0.1}) {
+    const auto result = solve(touching, {.t_max = t_max});
+    EXPECT_EQ(result.verdict, Verdict::yes) << t_max;
+    EXPECT_EQ(result.toi, 0.0);
+  }
+}
+
+TEST(TMax, MissesNothingBeforeIt) {
+  for_each_family_query(8, [&](const verify::Family& family, Kind kind, const auto& known) {
+    if (!known.toi) return;
+    TightInclusionOptions options;
+    options.max_checks = some_checks;
+    // The least double that is not below the time of impact.
+    double t_max = known.toi->get_d();
+    while (Rational(t_max) < *known.toi) t_max = std::nextafter(t_max, 2.0);
+    options.t_max = t_max;
+    const auto result = tight_inclusion(kind, known.query, options);
+    EXPECT_FALSE(is_missed(known, result)) << family.name;
+    EXPECT_FALSE(is_late(known, result)) << family.name;
+  });
+}
+
+TEST(NoZeroToi, AdvancesWherePossible) {
+  // 2^-24 above the triangle: nearer than δ, so that 0 is the first answer.
+  const PosedQuery near_start = over_triangle(1, 1, 0x1p-24, -1);
+  EXPECT_EQ(solve(near_start).toi, 0.0);
+  const auto refined = solve(near_start, {.no_zero_toi = true});
+  EXPECT_EQ(refined.verdict, Verdict::yes);
+  EXPECT_GT(refined.toi, 0.0);
+  EXPECT_LT(refined.toi, 0x1p-24);
+  EXPECT_GT(refined.refinements, 0);
+
+  // Within the separation from the start.
+  const PosedQuery within = over_triangle(1, 1, 0x1p-4, -1);
+  const auto lowered = solve(within, {.min_separation = 0x1p-3, .no_zero_toi = true});
+  EXPECT_EQ(lowered.verdict, Verdict::yes);
+  EXPECT_GT(lowered.toi, 0.0);
+  EXPECT_LT(lowered.min_separation, 0x1p-4);
+}
+
+TEST(NoZeroToi, KeepsItsYesWhereALowerSeparationIsFree) {
+  const PosedQuery moving_away = over_triangle(1, 1, 0x1.1p-4, 1);
+  const auto result = solve(moving_away, {.min_separation = 0x1p-3, .no_zero_toi = true});
+  EXPECT_EQ(result.verdict, Verdict::yes);
+  EXPECT_EQ(result.toi, 1.0);
+  EXPECT_EQ(result.min_separation, 0x1p-4);
+}
+
+TEST(NoZeroToi, BoundsItsWork) {
+  const PosedQuery touching = over_triangle(1, 1, 0, 1);
+  const auto result = solve(touching, {.no_zero_toi = true, .max_refinements = 5});
+  EXPECT_EQ(result.verdict, Verdict::yes);
+  EXPECT_EQ(result.toi, 0.0);
+  EXPECT_EQ(result.refinements, 5);
+  EXPECT_EQ(solve(touching, {.no_zero_toi = true}).refinements, 32);
+}
+
+TEST(SceneFilter, IsUsedAsItIs) {
+  const PosedQuery above = over_triangle(1, 1, 1, 0.25);
+  EXPECT_EQ(solve(above).verdict, Verdict::no);
+  EXPECT_EQ(solve(above, {.scene_filter = {{0.3, 0.3, 0.3}}}).verdict, Verdict::yes);
+  EXPECT_EQ(solve(above, {.scene_filter = {{0.2, 0.2, 0.2}}}).verdict, Verdict::no);
+}
+
+TEST(SceneFilter, OfASceneServesForItsQueries) {
+  const auto filter = error_filter(Kind::vertex_face, {2000.0, 2000.0, 2000.0}, 0.0);
+  for_each_family_query(8, [&](const verify::Family& family, Kind kind, const auto& known) {
+    if (kind != Kind::vertex_face || std::ranges::any_of(known.query.coordinates, [](double x) {
+          return std::abs(x) > 2000.0;
+        })) {
+      return;
+    }
+    TightInclusionOptions options;
+    options.max_checks = some_checks;
+    options.scene_filter = filter;
+    EXPECT_FALSE(is_missed(known, tight_inclusion(kind, known.query, options))) << family.name;
+  });
+}
+
+// ---- Range --------------------------------------------------------------------------------------
+
+Query scaled(const Query& query, int exponent) {
+  Query result = query;
+  for (double& x : result.coordinates) x = std::ldexp(x, exponent);
+  return result;
+}
+
+TEST(Range, HugeAndTinyQueriesKeepTheirVerdict) {
+  for (const int exponent : {1021, 1018, 1014, 1000, 500, -500, -1000, -1050, -1070}) {
+    TightInclusionOptions options;
+    options.tolerance = std::max(std::ldexp(1e-6, exponent), 0x1p-1074);
+    for (const auto& [height, expected] :
+         {std::pair{-1.0, Verdict::yes}, std::pair{2.0, Verdict::no}}) {
+      for (const PosedQuery& posed : {over_triangle(1, 1, 1, height), over_edge(1, 2, 1, height)}) {
+        const auto result = tight_inclusion(posed.kind, scaled(posed.query, exponent), options);
+        EXPECT_EQ(result.verdict, expected) << exponent;
+        if (expected == Verdict::yes) {
+          EXPECT_LE(result.toi, 0.5);
+          if (exponent > -1050) {
+            EXPECT_GT(result.toi, 0.499);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Range, ParametersReachTheirLastBitAndStop) {
+  // A point, and a triangle 2^1000 across: parameters would have to be split a thousand times.
+  const double far = 0x1p1000;
+  const PosedQuery posed = tests::vertex_face({1, 1, 1, 0, 0, 0, far, 0, 0, 0, far, 0},
+                                              {1, 1, -1, 0, 0, 0, far, 0, 0, 0, far, 0});
+  const auto result = solve(posed, {.max_checks = 0});
+  EXPECT_EQ(result.verdict, Verdict::yes);
+  EXPECT_LE(result.toi, 0.5);
+  EXPECT_GT(result.tolerance, 1e-6);
+  EXPECT_LT(result.checks, 100000);
+}
+
+// ---- Found by others ----------------------------------------------------------------------------
+
+TEST(Published, RegressionQueries) {
+  const PosedQuery hourglass = tests::vertex_face({.1, .1, .1, 0, 0, 1, 1, 0, 1, 0, 1, 1},
+                                                  {.1, .1, .1, 0, 0, 0, 0, 1, 0, 1, 0, 0});
+  const auto hit = solve(hourglass);
+  EXPECT_EQ(hit.verdict, Verdict::yes);
+  EXPECT_NEAR(hit.toi, 0.9, 1e-5);
+
+  const PosedQuery inflection = tests::vertex_face({1, 1, 0, 0, 0, 5, 2, 0, 2, 0, 1, 0},
+                                                   {1, 1, 0, 0, 0, -1, 0, 0, -2, 0, 7, 0});
+  EXPECT_EQ(solve(inflection).verdict, Verdict::no);
+
+  const PosedQuery coplanar = tests::vertex_face({1, .5, 1, 0, .57, 1, 1, .57, 1, 1, 1.57, 1},
+                                                 {1, .5, 1, 0, .28, 1, 1, .28, 1, 1, 1.28, 1});
+  const auto sliding = solve(coplanar);
+  EXPECT_EQ(sliding.verdict, Verdict::yes);
+  EXPECT_NEAR(sliding.toi, 0.2414, 1e-3);
+}
+
+/// Two contacts, exactly at t=½, which the released implementation denies: its filter takes the
+/// smaller of x_max and 1 where the paper takes the larger.
+std::vector<Query> contacts_denied_by_the_release() {
+  return {Query{{0.0041648000000000006,
+                 0.0033933,
+                 0.0038337000000000006,
+                 -0.0041604,
+                 -0.0022121000000000003,
+                 0.0067564,
+                 -0.0091603999999999991,
+                 -0.0022121000000000003,
+                 0.0067564,
+                 -0.0041604,
+                 0.0027879,
+                 0.0067564,
+                 -0.0059787,
+                 -0.0035971000000000002,
+                 0.0030656,
+                 0.0023465000000000005,
+                 0.0020083000000000002,
+                 0.00014290000000000049,
+                 -0.0026534999999999996,
+                 0.0020083000000000002,
+                 0.00014290000000000049,
+                 0.0023465000000000005,
+                 0.0070083000000000003,
+                 0.00014290000000000049}},
+          Query{{603.65,
+                 483.26000000000005,
+                 35.070000000000007,
+                 993.80000000000018,
+                 191.22000000000003,
+                 851.19000000000017,
+                 493.80000000000018,
+                 191.22000000000003,
+                 851.19000000000017,
+                 993.80000000000018,
+                 691.22000000000003,
+                 851.19000000000017,
+                 181.44000000000003,
+                 -555.04000000000008,
+                 936.54000000000008,
+                 -208.71000000000018,
+                 -263.00000000000006,
+                 120.41999999999992,
+                 -708.71000000000015,
+                 -263.00000000000006,
+                 120.41999999999992,
+                 -208.71000000000018,
+                 236.99999999999994,
+                 120.41999999999992}}};
+}
+
+TEST(Published, ContactsDeniedByTheReleaseAreFound) {
+  for (const Query& query : contacts_denied_by_the_release()) {
+    ASSERT_TRUE(exact::decide(Kind::vertex_face, query).collides());
+    for (const ErrorModel model : {ErrorModel::derived, ErrorModel::published}) {
+      TightInclusionOptions options;
+      options.error_model = model;
+      const auto result = tight_inclusion(Kind::vertex_face, query, options);
+      EXPECT_EQ(result.verdict, Verdict::yes);
+      EXPECT_LE(result.toi, 0.5);
+    }
+  }
+}
+
+// ---- Planted faults -----------------------------------------------------------------------------
+
+/// The released filter: γ = min(x_max, 1) (shared/methods.md, section 9, "Defect").
+std::array<double, 3> filter_with_min(Kind kind, const Query& query) {
+  BoxProblem problem;
+  const Extent extent = best_box_kernel().load(query, problem);
+  std::array<double, 3> filter{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double gamma = std::min(extent.x_max[axis], 1.0);
+    filter[axis] =
+        error_filter(kind, {0, 0, 0}, 0.0, ErrorModel::published)[axis] * std::pow(gamma, 3.0);
+  }
+  return filter;
+}
+
+/// A kernel that forgets the corner (t1,u1,v1).
+BoxTest test_seven_corners(const BoxProblem& problem, const Box& box) {
+  BoxTest result{.rejected = false, .inside = true, .width = 0.0};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const CornerValues f = best_box_kernel().corners(problem, box, axis);
+    const auto [least, greatest] = std::minmax_element(f.begin(), f.end() - 1);
+    const double filter = problem.filter[axis];
+    if (*least > filter || *greatest < -filter) return {true, false, 0.0};
+    result.inside = result.inside && *greatest <= filter && *least >= -filter;
+    result.width = std::max(result.width, *greatest - *least);
+  }
+  return result;
+}
+
+/// A kernel to which the upper half of the first split of u is lost.
+BoxTest test_without_an_interval(const BoxProblem& problem, const Box& box) {
+  if (box.u0 == 0.5 && box.u1 == 1.0) return {true, false, 0.0};
+  return best_box_kernel().test(problem, box);
+}
+
+BoxKernel faulty_kernel(BoxTest (*test)(const BoxProblem&, const Box&)) {
+  BoxKernel kernel = best_box_kernel();
+  kernel.test = test;
+  return kernel;
+}
+
+enum class Fault : std::uint8_t { gamma_min, no_filter, seven_corners, lost_interval };
+
+TightInclusionResult solve_with(Fault fault, Kind kind, const Query& query) {
+  static const BoxKernel seven_corners = faulty_kernel(test_seven_corners);
+  static const BoxKernel lost_interval = faulty_kernel(test_without_an_interval);
+  TightInclusionOptions options;
+  options.max_checks = some_checks;
+  switch (fault) {
+    case Fault::gamma_min:
+      options.scene_filter = filter_with_min(kind, query);
+      break;
+    case Fault::no_filter:
+      options.scene_filter = {{0.0, 0.0, 0.0}};
+      break;
+    case Fault::seven_corners:
+      options.kernel = &seven_corners;
+      break;
+    case Fault::lost_interval:
+      options.kernel = &lost_interval;
+      break;
+  }
+  return tight_inclusion(kind, query, options);
+}
+
+/// Which families catch a fault, by a miss or a late time, among `count` queries of each kind.
+std::set<std::string> families_that_catch(Fault fault, std::uint64_t count) {
+  std::set<std::string> result;
+  for_each_family_query(count, [&](const verify::Family& family, Kind kind, const auto& known) {
+    const auto answer = solve_with(fault, kind, known.query);
+    if (is_missed(known, answer) || is_late(known, answer)) result.emplace(family.name);
+  });
+  return result;
+}
+
+TEST(PlantedFault, IsCaughtByTheFamilies) {
+  const std::map<Fault, const char*> faults{{Fault::gamma_min, "γ with min"},
+                                            {Fault::no_filter, "filter 0"},
+                                            {Fault::seven_corners, "seven corners"},
+                                            {Fault::lost_interval, "interval lost"}};
+  std::map<std::string, std::set<Fault>> table;
+  for (const auto& [fault, name] : faults) {
+    const auto families = families_that_catch(fault, 100);
+    EXPECT_GE(families.size(), 3U) << name;
+    for (const std::string& family : families) table[family].insert(fault);
+  }
+  std::printf("| family | γ with min | filter 0 | seven corners | interval lost |\n");
+  std::printf("|---|---|---|---|---|\n");
+  for (const auto& [family, caught] : table) {
+    std::printf("| %s |", family.c_str());
+    for (const auto& fault : faults) {
+      std::printf(" %s |", caught.contains(fault.first) ? "caught" : "");
+    }
+    std::printf("\n");
+  }
+}
+
+// ---- As a method --------------------------------------------------------------------------------
+
+TEST(Method, SaysWhoItIs) {
+  EXPECT_EQ(tight_inclusion_method()->name(), "tight_inclusion");
+  EXPECT_EQ(tight_inclusion_method({.error_model = ErrorModel::published})->name(),
+            "tight_inclusion_published");
+  EXPECT_EQ(tight_inclusion_method()->promise(), Promise::conservative);
+}
+
+TEST(Method, AnswersASpanAsQueryByQuery) {
+  std::vector<Query> queries{over_triangle(1, 1, 1, -1).query, over_triangle(1, 1, 1, 2).query,
+                             over_triangle(1, 1, 1, -2).query};
+  queries.push_back(queries.front());
+  queries.back().coordinates[5] = infinity;
+  std::vector<Answer> answers(queries.size());
+  MethodOptions options;
+  options.tolerance = 1e-3;
+  options.t_max = 0.75;
+  tight_inclusion_method()->solve(Kind::vertex_face, queries, answers, options);
+  EXPECT_EQ(answers[0].verdict, Verdict::yes);
+  EXPECT_EQ(answers[1].verdict, Verdict::no);
+  EXPECT_TRUE(std::isnan(answers[1].toi_lower));
+  EXPECT_EQ(answers[2].verdict, Verdict::yes);
+  EXPECT_EQ(answers[2].toi_lower,
+            solve(over_triangle(1, 1, 1, -2), {.tolerance = 1e-3, .t_max = 0.75}).toi);
+  EXPECT_EQ(answers[2].tolerance, 1e-3);
+  EXPECT_TRUE(std::isnan(answers[2].toi_upper));
+  EXPECT_EQ(answers[3].verdict, Verdict::error);
+}
+
+}  // namespace
+}  // namespace touchstone::fast
