@@ -75,15 +75,14 @@ class Search {
  private:
   [[nodiscard]] Box box_at(const LowerCorner& corner) const {
     const double t1 = std::min(corner[t_axis] + widths_[t_axis], options_.t_end);
-    return {corner[t_axis], t1,
-            corner[u_axis], corner[u_axis] + widths_[u_axis],
-            corner[v_axis], corner[v_axis] + widths_[v_axis]};
+    return {{corner[t_axis], t1, corner[u_axis], corner[u_axis] + widths_[u_axis], corner[v_axis],
+             corner[v_axis] + widths_[v_axis]}};
   }
 
   /// The widths of parameters for which the image is certainly at most δ wide: δ/(3κ), with κ the
   /// greatest change of F along an edge of the unit box (paper, section 4.3).
   void set_parameter_tolerances() {
-    const Box unit{0.0, 1.0, 0.0, 1.0, 0.0, 1.0};
+    const Box unit{{0.0, 1.0, 0.0, 1.0, 0.0, 1.0}};
     std::array<double, 3> kappa{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const CornerValues f = kernel_.corners(workspace_.problem, unit, axis);
@@ -249,7 +248,7 @@ class QuerySolver {
     tolerance_ = std::max(options_.tolerance * scale_, std::numeric_limits<double>::denorm_min());
     t_max_ = options_.t_max;
     workspace_.problem.separation = options_.min_separation * scale_;
-    workspace_.problem.filter = filter(kind, extent.x_max);
+    std::ranges::copy(filter(kind, extent.x_max), workspace_.problem.filter.begin());
   }
 
   [[nodiscard]] std::array<double, 3> filter(Kind kind, const std::array<double, 3>& x_max) const {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -26,15 +27,16 @@ struct BoxProblem {
   Kind kind = Kind::vertex_face;
   /// Per axis the coordinates of the four points at t=0, then at t=1.
   alignas(64) std::array<std::array<double, query_points>, 3> coordinates{};
-  /// Per axis the error bound of F's computed values, in units of the coordinates.
-  std::array<double, 3> filter{};
+  /// Per axis the error bound of F's computed values, in units of the coordinates; the fourth
+  /// stays infinite, it fills the vector.
+  std::array<double, 4> filter{0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
   double separation = 0.0;
 };
 
 /// A box [t0,t1] × [u0,u1] × [v0,v1]. Its ends are dyadic numbers of at most 53 fractional bits, so
 /// that they and their complements to 1 are exact.
 struct Box {
-  double t0, t1, u0, u1, v0, v1;
+  std::array<double, 6> ends;  ///< t0, t1, u0, u1, v0, v1
 };
 
 /// What the corner values say of a box.

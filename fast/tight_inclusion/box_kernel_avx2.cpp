@@ -2,6 +2,7 @@
 
 #include <immintrin.h>
 
+#include "fast/tight_inclusion/axis_bounds_avx.hpp"
 #include "fast/tight_inclusion/box_kernel_on_lanes.hpp"
 
 namespace touchstone::fast {
@@ -53,15 +54,17 @@ struct Lanes {
                       _mm256_cmp_pd(_mm256_sub_pd(high, high), zero, _CMP_EQ_OQ));
     return _mm256_movemask_pd(is_zero) == 0b1111;
   }
-  [[nodiscard]] double least() const {
-    const __m256d four = _mm256_min_pd(low, high);
-    const __m128d two = _mm_min_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
-    return _mm_cvtsd_f64(_mm_min_sd(two, _mm_unpackhi_pd(two, two)));
-  }
-  [[nodiscard]] double greatest() const {
-    const __m256d four = _mm256_max_pd(low, high);
+  [[nodiscard]] double magnitude() const {
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    const __m256d four = _mm256_max_pd(_mm256_andnot_pd(sign, low), _mm256_andnot_pd(sign, high));
     const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
     return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
+  }
+
+  static AxisBoundsAvx<Lanes> bounds(const Lanes& x, const Lanes& y, const Lanes& z) {
+    return AxisBoundsAvx<Lanes>::from(_mm256_min_pd(x.low, x.high), _mm256_min_pd(y.low, y.high),
+                                      _mm256_min_pd(z.low, z.high), _mm256_max_pd(x.low, x.high),
+                                      _mm256_max_pd(y.low, y.high), _mm256_max_pd(z.low, z.high));
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <immintrin.h>
 
+#include "fast/tight_inclusion/axis_bounds_avx.hpp"
 #include "fast/tight_inclusion/box_kernel_on_lanes.hpp"
 
 namespace touchstone::fast {
@@ -38,8 +39,19 @@ struct Lanes {
     const __m512d difference = _mm512_sub_pd(all, all);
     return _mm512_cmp_pd_mask(difference, _mm512_setzero_pd(), _CMP_EQ_OQ) == 0xFF;
   }
-  [[nodiscard]] double least() const { return _mm512_reduce_min_pd(all); }
-  [[nodiscard]] double greatest() const { return _mm512_reduce_max_pd(all); }
+  [[nodiscard]] double magnitude() const { return _mm512_reduce_max_pd(_mm512_abs_pd(all)); }
+
+  [[nodiscard]] __m256d least_of_halves() const {
+    return _mm256_min_pd(_mm512_castpd512_pd256(all), _mm512_extractf64x4_pd(all, 1));
+  }
+  [[nodiscard]] __m256d greatest_of_halves() const {
+    return _mm256_max_pd(_mm512_castpd512_pd256(all), _mm512_extractf64x4_pd(all, 1));
+  }
+  static AxisBoundsAvx<Lanes> bounds(const Lanes& x, const Lanes& y, const Lanes& z) {
+    return AxisBoundsAvx<Lanes>::from(x.least_of_halves(), y.least_of_halves(), z.least_of_halves(),
+                                      x.greatest_of_halves(), y.greatest_of_halves(),
+                                      z.greatest_of_halves());
+  }
 };
 
 }  // namespace

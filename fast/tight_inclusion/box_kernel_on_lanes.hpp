@@ -11,7 +11,8 @@
 ///
 /// `Lanes` has: twice(a, b, c, d) and twice(pointer) — the same four in both halves; halves(a, b) —
 /// all of a half equal; eight(pointer); +, −, *; shuffled<a,b,c,d>() within halves; store(pointer);
-/// are_finite(); and least(), greatest() of eight finite values. Such a type, and with it every
+/// are_finite(); magnitude(), the greatest of eight finite values; and bounds(x, y, z), the bounding
+/// box of corner values. Such a type, and with it every
 /// instance of these templates, must be local to its file: code for one instruction set may not be
 /// what another file links.
 
@@ -23,24 +24,27 @@ namespace touchstone::fast {
 /// The kernel's functions on `Lanes`.
 template <class Lanes>
 struct BoxKernelOnLanes {
-  /// The weights of a box: the time's, and those of (u,v) in the layout of the kind.
+  /// The weights of a box: the time's, and those of (u,v) in the layout of the kind, which for
+  /// edge_edge has no third.
   struct BoxWeights {
     Lanes early, late;
     Lanes first, second, third;
   };
 
+  // From scalars, not by loading the box as a vector: its ends have just been written one by one.
   static BoxWeights edge_edge_weights(const Box& box) {
-    return {Lanes::halves(1.0 - box.t0, 1.0 - box.t1), Lanes::halves(box.t0, box.t1),
-            Lanes::twice(1.0 - box.u0, 1.0 - box.u1, 1.0 - box.v0, 1.0 - box.v1),
-            Lanes::twice(box.u0, box.u1, box.v0, box.v1), Lanes::halves(0.0, 0.0)};
+    const auto [t0, t1, u0, u1, v0, v1] = box.ends;
+    return {Lanes::halves(1.0 - t0, 1.0 - t1), Lanes::halves(t0, t1),
+            Lanes::twice(1.0 - u0, 1.0 - u1, 1.0 - v0, 1.0 - v1), Lanes::twice(u0, u1, v0, v1),
+            Lanes::halves(0.0, 0.0)};
   }
 
   static BoxWeights vertex_face_weights(const Box& box) {
-    const double w0 = 1.0 - box.u0, w1 = 1.0 - box.u1;
-    return {Lanes::halves(1.0 - box.t0, 1.0 - box.t1), Lanes::halves(box.t0, box.t1),
-            Lanes::twice(w0 - box.v0, w0 - box.v1, w1 - box.v0, w1 - box.v1),
-            Lanes::twice(box.u0, box.u0, box.u1, box.u1),
-            Lanes::twice(box.v0, box.v1, box.v0, box.v1)};
+    const auto [t0, t1, u0, u1, v0, v1] = box.ends;
+    const double w0 = 1.0 - u0, w1 = 1.0 - u1;
+    return {Lanes::halves(1.0 - t0, 1.0 - t1), Lanes::halves(t0, t1),
+            Lanes::twice(w0 - v0, w0 - v1, w1 - v0, w1 - v1), Lanes::twice(u0, u0, u1, u1),
+            Lanes::twice(v0, v1, v0, v1)};
   }
 
   static Lanes points_at_times(const std::array<double, query_points>& x, const BoxWeights& w) {
@@ -67,18 +71,14 @@ struct BoxKernelOnLanes {
 
   template <class CornersOnAxis>
   static BoxTest test_axes(const BoxProblem& problem, const CornersOnAxis& corners_on_axis) {
-    BoxTest result{.rejected = false, .inside = true, .width = 0.0};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Lanes values = corners_on_axis(problem.coordinates[axis]);
-      const double least = values.least(), greatest = values.greatest();
-      const double filter = problem.filter[axis], d = problem.separation;
-      // Rounding is monotone: these are the extremes of F − d and F + d over the corners too.
-      if (least - d > filter || greatest + d < -filter) return {true, false, 0.0};
-      result.inside = result.inside && greatest - d <= filter && least + d >= -filter;
-      const double width = greatest - least;
-      if (width > result.width) result.width = width;
-    }
-    return result;
+    const auto& x = problem.coordinates;
+    const auto bounds =
+        Lanes::bounds(corners_on_axis(x[0]), corners_on_axis(x[1]), corners_on_axis(x[2]));
+    // Rounding is monotone: the bounds ∓ d are the extremes of F ∓ d over the corners too.
+    if (bounds.are_beyond(problem.filter.data(), problem.separation)) return {true, false, 0.0};
+    return {.rejected = false,
+            .inside = bounds.are_within(problem.filter.data(), problem.separation),
+            .width = bounds.width()};
   }
 
   static BoxTest test(const BoxProblem& problem, const Box& box) {
@@ -109,8 +109,7 @@ struct BoxKernelOnLanes {
       }
       const Lanes x = Lanes::eight(row.data());
       extent.finite = extent.finite && x.are_finite();
-      const double least = x.least(), greatest = x.greatest();
-      extent.x_max[axis] = greatest > -least ? greatest : -least;
+      extent.x_max[axis] = x.magnitude();
     }
     return extent;
   }

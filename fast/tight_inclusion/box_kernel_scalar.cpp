@@ -7,6 +7,44 @@
 namespace touchstone::fast {
 namespace {
 
+/// The bounding box of corner values.
+struct AxisBounds {
+  static constexpr std::size_t axes = 3;
+
+  double least[axes];     // NOLINT(modernize-avoid-c-arrays): no function of another file
+  double greatest[axes];  // NOLINT(modernize-avoid-c-arrays)
+
+  /// Is the box beyond separation and filter, on some axis?
+  [[nodiscard]] bool are_beyond(const double* filter, double separation) const {
+    bool result = false;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      result = result || least[axis] - separation > filter[axis] ||
+               greatest[axis] + separation < -filter[axis];
+    }
+    return result;
+  }
+
+  /// Is the box within separation and filter, on all axes?
+  [[nodiscard]] bool are_within(const double* filter, double separation) const {
+    bool result = true;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      result = result && greatest[axis] - separation <= filter[axis] &&
+               least[axis] + separation >= -filter[axis];
+    }
+    return result;
+  }
+
+  /// The longest side.
+  [[nodiscard]] double width() const {
+    double result = 0.0;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      const double side = greatest[axis] - least[axis];
+      result = side > result ? side : result;
+    }
+    return result;
+  }
+};
+
 /// Eight lanes, one after the other.
 struct Lanes {
   static constexpr std::size_t size = 8;
@@ -63,6 +101,14 @@ struct Lanes {
     double result = lane[0];
     for (const double x : lane) result = x > result ? x : result;
     return result;
+  }
+  [[nodiscard]] double magnitude() const {
+    const double lower = -least(), upper = greatest();
+    return upper > lower ? upper : lower;
+  }
+
+  static AxisBounds bounds(const Lanes& x, const Lanes& y, const Lanes& z) {
+    return {{x.least(), y.least(), z.least()}, {x.greatest(), y.greatest(), z.greatest()}};
   }
 };
 

@@ -277,7 +277,7 @@ struct PlainReading {
   std::array<double, 3> widths_tolerated{};
 
   static std::array<double, 3> widths(const Box& box) {
-    return {box.t1 - box.t0, box.u1 - box.u0, box.v1 - box.v0};
+    return {box.ends[1] - box.ends[0], box.ends[3] - box.ends[2], box.ends[5] - box.ends[4]};
   }
 
   std::vector<Item> halves(const Item& item) const {
@@ -290,21 +290,20 @@ struct PlainReading {
       }
     }
     Item lower{item.level + 1, item.box}, upper{item.level + 1, item.box};
-    const std::array lower_end{&Box::t0, &Box::u0, &Box::v0};
-    const std::array upper_end{&Box::t1, &Box::u1, &Box::v1};
-    const double middle = (item.box.*lower_end[axis] + item.box.*upper_end[axis]) / 2;
-    lower.box.*upper_end[axis] = middle;
-    upper.box.*lower_end[axis] = middle;
-    if (problem.kind == Kind::vertex_face && upper.box.u0 + upper.box.v0 > 1.0) return {lower};
+    const double middle = (item.box.ends[2 * axis] + item.box.ends[2 * axis + 1]) / 2;
+    lower.box.ends[2 * axis + 1] = middle;
+    upper.box.ends[2 * axis] = middle;
+    const double least_sum = upper.box.ends[2] + upper.box.ends[4];
+    if (problem.kind == Kind::vertex_face && least_sum > 1.0) return {lower};
     return {lower, upper};
   }
 
   std::optional<double> toi() const {
     const auto later = [](const Item& a, const Item& b) {
-      return std::tie(a.level, a.box.t0) > std::tie(b.level, b.box.t0);
+      return std::tie(a.level, a.box.ends[0]) > std::tie(b.level, b.box.ends[0]);
     };
     std::priority_queue<Item, std::vector<Item>, decltype(later)> queue(later);
-    queue.push({0, {0, 1, 0, 1, 0, 1}});
+    queue.push({0, {{0, 1, 0, 1, 0, 1}}});
     const BoxKernel& kernel = *box_kernels().front();
     int level = -1;
     bool all_small = true;
@@ -312,7 +311,7 @@ struct PlainReading {
     while (!queue.empty()) {
       const Item item = queue.top();
       queue.pop();
-      if (item.box.t0 >= skip) continue;
+      if (item.box.ends[0] >= skip) continue;
       if (item.level != level) {
         level = item.level;
         all_small = true;
@@ -324,9 +323,9 @@ struct PlainReading {
       const bool fits = test.width <= tolerance;
       const bool inside_first = test.inside && all_small;
       all_small = all_small && fits;
-      if (narrow || inside_first || all_small) return item.box.t0;
+      if (narrow || inside_first || all_small) return item.box.ends[0];
       if (fits || test.inside) {
-        skip = std::min(skip, item.box.t0);
+        skip = std::min(skip, item.box.ends[0]);
         continue;
       }
       for (const Item& half : halves(item)) queue.push(half);
@@ -340,10 +339,10 @@ PlainReading plain_reading(Kind kind, const Query& query, double tolerance) {
   PlainReading reading{.problem = {}, .tolerance = tolerance};
   reading.problem.kind = kind;
   const Extent extent = box_kernels().front()->load(query, reading.problem);
-  reading.problem.filter = error_filter(kind, extent.x_max, 0.0);
+  std::ranges::copy(error_filter(kind, extent.x_max, 0.0), reading.problem.filter.begin());
   std::array<double, 3> kappa{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto f = box_kernels().front()->corners(reading.problem, {0, 1, 0, 1, 0, 1}, axis);
+    const auto f = box_kernels().front()->corners(reading.problem, {{0, 1, 0, 1, 0, 1}}, axis);
     for (const auto& [along, step] : {std::pair{0U, 4U}, std::pair{1U, 2U}, std::pair{2U, 1U}}) {
       for (std::size_t corner = 0; corner < 8; ++corner) {
         if ((corner & step) != 0) continue;
@@ -716,7 +715,7 @@ BoxTest test_seven_corners(const BoxProblem& problem, const Box& box) {
 
 /// A kernel to which the upper half of the first split of u is lost.
 BoxTest test_without_an_interval(const BoxProblem& problem, const Box& box) {
-  if (box.u0 == 0.5 && box.u1 == 1.0) return {true, false, 0.0};
+  if (box.ends[2] == 0.5 && box.ends[3] == 1.0) return {true, false, 0.0};
   return best_box_kernel().test(problem, box);
 }
 

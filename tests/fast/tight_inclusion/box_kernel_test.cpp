@@ -36,7 +36,7 @@ std::array<double, 2> random_interval(Random& random) {
 
 Box random_box(Random& random) {
   const auto t = random_interval(random), u = random_interval(random), v = random_interval(random);
-  return {t[0], t[1], u[0], u[1], v[0], v[1]};
+  return {{t[0], t[1], u[0], u[1], v[0], v[1]}};
 }
 
 Query random_query(Random& random) {
@@ -66,8 +66,8 @@ template <class Scalar>
 Scalar expression(const BoxProblem& problem, const Box& box, std::size_t axis, std::size_t corner) {
   std::array<Scalar, 8> x;
   for (std::size_t i = 0; i < 8; ++i) x[i] = Scalar(problem.coordinates[axis][i]);
-  const Scalar one(1), t((corner & 4U) != 0 ? box.t1 : box.t0),
-      u((corner & 2U) != 0 ? box.u1 : box.u0), v((corner & 1U) != 0 ? box.v1 : box.v0);
+  const std::size_t late = corner / 4, far_u = corner / 2 % 2, far_v = corner % 2;
+  const Scalar one(1), t(box.ends[late]), u(box.ends[2 + far_u]), v(box.ends[4 + far_v]);
   const Scalar s(one - t), complement_u(one - u), complement_v(one - v), w(complement_u - v);
   if (problem.kind == Kind::edge_edge) {
     return filters::EdgeEdge::evaluate<Scalar>(x, {s, t, complement_u, u, complement_v, v});
@@ -193,7 +193,9 @@ TEST_P(EachKernel, TestsTheBoxOfItsCorners) {
     problem.kind = kind;
     static_cast<void>(GetParam()->load(query, problem));
     const double scale = std::abs(query.coordinates[0]);
-    for (double& filter : problem.filter) filter = scale * random.uniform(0.0, 4.0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      problem.filter[axis] = scale * random.uniform(0.0, 4.0);
+    }
     problem.separation = random.coin() ? 0.0 : scale * random.uniform(0.0, 4.0);
 
     bool rejected = false, inside = true;
