@@ -1,39 +1,17 @@
 #include "verify/certify.hpp"
 
-#include <fmt/format.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_pipeline.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
-#include <ctime>
-#include <exception>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "exact/oracle.hpp"
 #include "verify/dataset/toi_writer.hpp"
+#include "verify/stream.hpp"
+#include "verify/thread_clock.hpp"
 
 namespace touchstone::verify {
 namespace {
-
-constexpr std::size_t block_size = 64;
-constexpr unsigned most_threads = 1024;
-
-/// Some consecutive queries on their way through the pipeline.
-struct Block {
-  std::vector<RecordedQuery> queries;
-  std::vector<Truth> truths;
-  std::vector<Mismatch> mismatches;
-  double microseconds = 0.0;
-  double progress = 0.0;
-};
-
-double thread_microseconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
-}
 
 std::string verdict_text(bool collides) { return collides ? "collision" : "no collision"; }
 
@@ -57,98 +35,171 @@ bool within(const exact::AlgebraicNumber& toi, const exact::Rational& recorded,
   return toi >= lower && toi <= upper;
 }
 
-void compare(const RecordedQuery& query, const exact::Verdict& verdict,
+void compare(std::uint64_t index, const Block::Claim& claim, const exact::Verdict& verdict,
              const exact::Rational& tolerance, std::vector<Mismatch>& mismatches) {
-  if (query.collides && *query.collides != verdict.collides()) {
-    mismatches.push_back({Mismatch::Of::label, query.index, verdict_text(*query.collides),
+  if (claim.collides && *claim.collides != verdict.collides()) {
+    mismatches.push_back({Mismatch::Of::label, index, verdict_text(*claim.collides),
                           verdict_text(verdict.collides())});
   }
-  if (!query.toi) return;
-  if (verdict.collides() && within(verdict.impact->toi, *query.toi, tolerance)) return;
+  if (!claim.toi) return;
+  if (verdict.collides() && within(verdict.impact->toi, *claim.toi, tolerance)) return;
   mismatches.push_back(
-      {Mismatch::Of::toi, query.index, to_decimal(*query.toi),
+      {Mismatch::Of::toi, index, to_decimal(*claim.toi),
        verdict.collides() ? decimal_text(verdict.impact->toi) : verdict_text(false)});
 }
 
-/// The parallel stage: needs nothing but the block.
-void judge(Block& block, Kind kind, const exact::Rational& tolerance, bool wants_toi) {
-  std::vector<exact::Verdict> verdicts;
-  verdicts.reserve(block.queries.size());
-  const double start = thread_microseconds();
-  for (const RecordedQuery& query : block.queries) {
-    verdicts.push_back(exact::decide(kind, query.query));
-  }
-  block.microseconds = thread_microseconds() - start;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    const RecordedQuery& query = block.queries[i];
-    const exact::Verdict& verdict = verdicts[i];
-    compare(query, verdict, tolerance, block.mismatches);
-    Truth truth{.index = query.index, .collides = verdict.collides(), .toi = std::nullopt};
-    if (wants_toi && truth.collides) truth.toi = verdict.impact->toi.enclosure();
-    block.truths.push_back(truth);
-  }
-}
+/// What the oracle finds in a part of a block.
+struct DecidedPart {
+  std::vector<Mismatch> mismatches;
+  double nanoseconds = 0.0;
+};
 
-/// The serial stages around it: reading from the source and adding up.
-class Judgement {
+/// What a respondent says to a part of a block.
+struct AnsweredPart {
+  std::size_t count = 0;
+  Response response;
+};
+
+/// The parallel stage: all that is true and all that is said of the queries of one block.
+class BlockJudgement {
  public:
-  Judgement(QuerySource& source, const CertifyOptions& options)
-      : source_(source), options_(options) {
-    result_.name = source.name();
-    result_.kind = source.kind();
+  BlockJudgement(const Block& block, const CertifyOptions& options)
+      : block_(block),
+        options_(options),
+        passes_(block.queries.size(), options.stop),
+        truths_(block.queries.size()),
+        decided_(parts()) {
+    decide();
+    answers_.reserve(options.respondents.size());
+    for (const Respondent* respondent : options.respondents) ask(*respondent);
+    complete_ = passes_.complete();
+    judge();
   }
 
-  /// The next block; null at the end. Errors of the source are kept, and end the stream.
-  std::shared_ptr<Block> read() {
-    auto block = std::make_shared<Block>();
-    while (!ended_ && block->queries.size() < block_size) read_query(*block);
-    block->progress = source_.progress();
-    return block->queries.empty() ? nullptr : block;
-  }
+  [[nodiscard]] bool complete() const { return complete_ == block_.queries.size(); }
 
-  void add(const Block& block) {
-    for (std::size_t i = 0; i < block.queries.size(); ++i) {
-      ++result_.queries;
-      result_.collisions += block.truths[i].collides ? 1U : 0U;
-      result_.labels += block.queries[i].collides ? 1U : 0U;
-      result_.tois += block.queries[i].toi ? 1U : 0U;
-      if (options_.on_truth) options_.on_truth(block.truths[i]);
+  /// The serial stage.
+  void add_to(CertifyResult& result) const {
+    for (std::size_t i = 0; i < complete_; ++i) {
+      const Block::Claim& claim = block_.claims[i];
+      ++result.queries;
+      result.collisions += truths_[i].collides ? 1U : 0U;
+      result.labels += claim.collides ? 1U : 0U;
+      result.tois += claim.toi ? 1U : 0U;
+      if (options_.on_truth) options_.on_truth(truths_[i]);
     }
-    for (const Mismatch& mismatch : block.mismatches) {
-      ++(mismatch.of == Mismatch::Of::label ? result_.label_mismatches : result_.toi_mismatches);
-      result_.mismatches.push_back(mismatch);
+    for (std::size_t part = 0; part * Passes::unit < complete_; ++part) {
+      for (const Mismatch& mismatch : decided_[part].mismatches) {
+        ++(mismatch.of == Mismatch::Of::label ? result.label_mismatches : result.toi_mismatches);
+        result.mismatches.push_back(mismatch);
+      }
+      result.microseconds += 1e-3 * decided_[part].nanoseconds;
     }
-    result_.microseconds += block.microseconds;
-    if (options_.on_progress) options_.on_progress(block.progress);
-  }
-
-  CertifyResult finish() {
-    result_.skipped = source_.skipped();
-    result_.rounded = source_.rounded();
-    return std::move(result_);
+    for (std::size_t i = 0; i < judgements_.size(); ++i) {
+      result.methods[i].judgement += judgements_[i];
+    }
   }
 
  private:
-  void read_query(Block& block) {
-    if (options_.stop != nullptr && options_.stop->load()) {
-      ended_ = result_.interrupted = true;
-      return;
+  /// The answers of one respondent; a part is known by the query it begins with.
+  struct Answers {
+    std::vector<fast::Answer> answers;
+    std::vector<AnsweredPart> parts;
+  };
+
+  [[nodiscard]] std::size_t parts() const {
+    return (block_.queries.size() + Passes::unit - 1) / Passes::unit;
+  }
+
+  void decide() {
+    passes_.run(Passes::unit, [this](std::size_t first, std::size_t count) {
+      decide_part(first, count, decided_[first / Passes::unit]);
+    });
+  }
+
+  void decide_part(std::size_t first, std::size_t count, DecidedPart& part) {
+    std::vector<exact::Verdict> verdicts;
+    verdicts.reserve(count);
+    const double start = thread_nanoseconds();
+    for (std::size_t i = 0; i < count; ++i) {
+      verdicts.push_back(exact::decide(block_.kind, block_.queries[first + i]));
     }
-    try {
-      auto query = source_.next();
-      ended_ = !query;
-      if (query) block.queries.push_back(std::move(*query));
-    } catch (const std::exception& error) {
-      result_.fail(error.what());
-      ended_ = true;
+    part.nanoseconds = thread_nanoseconds() - start;
+    const bool wants_toi = options_.on_truth || !options_.respondents.empty();
+    for (std::size_t i = 0; i < count; ++i) {
+      const exact::Verdict& verdict = verdicts[i];
+      const std::uint64_t index = block_.indices[first + i];
+      compare(index, block_.claims[first + i], verdict, options_.toi_tolerance, part.mismatches);
+      Truth& truth = truths_[first + i];
+      truth = {.index = index, .collides = verdict.collides(), .toi = std::nullopt};
+      if (wants_toi && truth.collides) truth.toi = verdict.impact->toi.enclosure();
     }
   }
 
-  QuerySource& source_;
+  void ask(const Respondent& respondent) {
+    Answers& said = answers_.emplace_back();
+    said.answers.resize(block_.queries.size());
+    said.parts.resize(parts());
+    passes_.run(respondent.good_span(), [&](std::size_t first, std::size_t count) {
+      const Questions questions{.source = *block_.source,
+                                .kind = block_.kind,
+                                .queries = std::span(block_.queries).subspan(first, count),
+                                .indices = std::span(block_.indices).subspan(first, count)};
+      Response response =
+          respondent.answer(questions, std::span(said.answers).subspan(first, count));
+      said.parts[first / Passes::unit] = {.count = count, .response = std::move(response)};
+    });
+  }
+
+  void judge() {
+    judgements_.resize(answers_.size());
+    for (std::size_t respondent = 0; respondent < answers_.size(); ++respondent) {
+      const Answers& said = answers_[respondent];
+      for (std::size_t first = 0; first < complete_;) {
+        const AnsweredPart& part = said.parts[first / Passes::unit];
+        judge_part(first, part, said.answers, judgements_[respondent]);
+        first += part.count;
+      }
+    }
+  }
+
+  /// A part may reach beyond the queries that are complete; it then counts as far as they go.
+  void judge_part(std::size_t first, const AnsweredPart& part,
+                  const std::vector<fast::Answer>& answers, Judgement& judgement) const {
+    const std::size_t last = std::min(first + part.count, complete_);
+    auto missing = part.response.missing.begin();
+    for (std::size_t i = first; i < last; ++i) {
+      if (missing != part.response.missing.end() && first + *missing == i) {
+        judgement.add_missing(block_.indices[i]);
+        ++missing;
+      } else {
+        judgement.add(truths_[i], answers[i]);
+      }
+    }
+    judgement.nanoseconds += part.response.nanoseconds * static_cast<double>(last - first) /
+                             static_cast<double>(part.count);
+  }
+
+  const Block& block_;
   const CertifyOptions& options_;
-  CertifyResult result_;
-  bool ended_ = false;
+  Passes passes_;
+  std::vector<Truth> truths_;
+  std::vector<DecidedPart> decided_;
+  std::vector<Answers> answers_;
+  std::vector<Judgement> judgements_;
+  std::size_t complete_ = 0;
 };
+
+void add_methods(std::vector<MethodResult>& sum, const std::vector<MethodResult>& methods) {
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const MethodResult& method = methods[i];
+    if (i == sum.size()) sum.push_back({method.name, method.promise, method.timed, {}});
+    Judgement counts = method.judgement;
+    counts.wrong_answers.clear();
+    counts.first_missing.reset();
+    sum[i].judgement += counts;
+  }
+}
 
 }  // namespace
 
@@ -165,54 +216,49 @@ void CertifyResult::fail(const std::string& message) {
   errors = 1;
 }
 
+CertifyResult& CertifyResult::operator+=(const CertifyResult& other) {
+  queries += other.queries;
+  collisions += other.collisions;
+  labels += other.labels;
+  label_mismatches += other.label_mismatches;
+  tois += other.tois;
+  toi_mismatches += other.toi_mismatches;
+  skipped += other.skipped;
+  rounded += other.rounded;
+  errors += other.errors;
+  microseconds += other.microseconds;
+  interrupted = interrupted || other.interrupted;
+  add_methods(methods, other.methods);
+  return *this;
+}
+
 CertifyResult certify(QuerySource& source, const CertifyOptions& options) {
-  namespace tbb = oneapi::tbb;
-  using BlockPointer = std::shared_ptr<Block>;
-  const int available = tbb::info::default_concurrency();
-  const int threads =
-      options.threads == 0 ? available : static_cast<int>(std::min(options.threads, most_threads));
-  const std::size_t blocks_in_flight = 4 * static_cast<std::size_t>(threads);
-  Judgement judgement(source, options);
-  const bool wants_toi = options.on_truth != nullptr;
-
-  const auto read = [&](tbb::flow_control& flow) {
-    BlockPointer block = judgement.read();
-    if (!block) flow.stop();
-    return block;
+  CertifyResult result;
+  result.name = source.name();
+  result.kind = source.kind();
+  for (const Respondent* respondent : options.respondents) {
+    result.methods.push_back(
+        {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
+  }
+  const auto work = [&](const Block& block) -> BlockResult {
+    const auto judged = std::make_shared<const BlockJudgement>(block, options);
+    return {.in_order = [judged, &result] { judged->add_to(result); },
+            .complete = judged->complete()};
   };
-  const auto decide = [&](BlockPointer block) {
-    judge(*block, source.kind(), options.toi_tolerance, wants_toi);
-    return block;
-  };
-  const auto add = [&](const BlockPointer& block) { judgement.add(*block); };
-
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_pipeline(
-        blocks_in_flight,
-        tbb::make_filter<void, BlockPointer>(tbb::filter_mode::serial_in_order, read) &
-            tbb::make_filter<BlockPointer, BlockPointer>(tbb::filter_mode::parallel, decide) &
-            tbb::make_filter<BlockPointer, void>(tbb::filter_mode::serial_in_order, add));
-  });
-  return judgement.finish();
+  const StreamResult ended = stream(
+      source, work,
+      {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
+  result.skipped = ended.skipped;
+  result.rounded = ended.rounded;
+  result.interrupted = ended.interrupted;
+  if (ended.error) result.fail(*ended.error);
+  return result;
 }
 
 CertifyResult total(const std::vector<CertifyResult>& results) {
   CertifyResult sum;
   sum.name = "total";
-  for (const CertifyResult& result : results) {
-    sum.queries += result.queries;
-    sum.collisions += result.collisions;
-    sum.labels += result.labels;
-    sum.label_mismatches += result.label_mismatches;
-    sum.tois += result.tois;
-    sum.toi_mismatches += result.toi_mismatches;
-    sum.skipped += result.skipped;
-    sum.rounded += result.rounded;
-    sum.errors += result.errors;
-    sum.microseconds += result.microseconds;
-    sum.interrupted = sum.interrupted || result.interrupted;
-  }
+  for (const CertifyResult& result : results) sum += result;
   return sum;
 }
 

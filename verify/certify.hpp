@@ -6,6 +6,7 @@
 /// Queries stream from the source through the oracle, many at a time on all cores, and come out in
 /// the order they went in: the output does not depend on the number of threads. Time is the
 /// processor time that the oracle takes, so that it does not depend on them either, nor on reading.
+/// Solvers and their recorded answers are judged on the way: the truth is there.
 
 #include <atomic>
 #include <cstdint>
@@ -16,17 +17,11 @@
 
 #include "exact/number.hpp"
 #include "exact/query.hpp"
+#include "verify/methods/judge.hpp"
+#include "verify/methods/respondent.hpp"
 #include "verify/query_source.hpp"
 
 namespace touchstone::verify {
-
-/// What is true of one query.
-struct Truth {
-  std::uint64_t index;
-  bool collides;
-  /// On collision neighbouring doubles around the exact time of impact, or the double that it is.
-  std::optional<exact::DoubleInterval> toi;
-};
 
 /// A recorded answer that is not the truth.
 struct Mismatch {
@@ -50,9 +45,19 @@ struct CertifyOptions {
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further queries are read and the result is that of those read so far.
   const std::atomic<bool>* stop = nullptr;
+  /// Judged on every query; not null.
+  std::vector<const Respondent*> respondents = {};
 
   /// 1e-40: what the 45 digits of published times of impact have to offer.
   static exact::Rational default_toi_tolerance();
+};
+
+/// The judgement on one respondent.
+struct MethodResult {
+  std::string name;
+  fast::Promise promise = fast::Promise::none;  ///< what it is held to
+  bool timed = false;                           ///< Is its processor time known?
+  Judgement judgement;
 };
 
 /// The judgement on one source.
@@ -70,6 +75,8 @@ struct CertifyResult {
   std::uint64_t errors = 0;   ///< errors that ended the reading
   double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
   std::vector<Mismatch> mismatches;
+  /// In the order of CertifyOptions::respondents; empty if the source could not be opened.
+  std::vector<MethodResult> methods;
   /// The error that ended the reading before the source's end; all of the above holds up to there.
   std::optional<std::string> error;
   bool interrupted = false;
@@ -79,6 +86,9 @@ struct CertifyResult {
 
   /// Sets the error that ended the reading.
   void fail(const std::string& message);
+
+  /// Adds all counts of another source; the mismatches and wrong answers stay with their source.
+  CertifyResult& operator+=(const CertifyResult& other);
 };
 
 /// Decides every query of the source and compares. Errors of the source end up in the result.
@@ -86,7 +96,8 @@ struct CertifyResult {
 /// recorded time of impact is not.
 [[nodiscard]] CertifyResult certify(QuerySource& source, const CertifyOptions& options = {});
 
-/// Sums of all counts; the mismatches stay with their sources.
+/// Sums of all counts, in a result called "total"; the mismatches and wrong answers stay with their
+/// sources. \pre all were judged with the same respondents.
 [[nodiscard]] CertifyResult total(const std::vector<CertifyResult>& results);
 
 }  // namespace touchstone::verify

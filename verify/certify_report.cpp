@@ -3,14 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "verify/csv.hpp"
+#include "verify/methods/registry.hpp"
 
 namespace touchstone::verify {
 namespace {
 
 constexpr std::string_view row_format =
     "{:<{}}  {:<11}  {:>9}  {:>10}  {:>9}  {:>11}  {:>9}  {:>10}  {:>8}\n";
+
+constexpr std::string_view method_row_format =
+    "{:<{}}  {:<11}  {:>9}  {:>9}  {:>9}  {:>8}  {:>11}  {:>9}  {:>7}  {:>10}  {:>9}  {:>9}  "
+    "{:>9}\n";
+
+/// Of a source and fault so many answers are printed.
+constexpr std::size_t most_printed = 20;
 
 std::string_view kind_text(const CertifyResult& result) {
   return result.kind ? to_string(*result.kind) : "";
@@ -39,14 +51,110 @@ nlohmann::json counts(const CertifyResult& result) {
           {"interrupted", result.interrupted}};
 }
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
+std::string error_text(double error) {
+  return std::isnan(error) ? "-" : fmt::format("{:.2e}", error);
+}
+
+void append_method_row(std::string& text, std::size_t width, const std::string& name,
+                       std::string_view kind, const MethodResult& method) {
+  const Judgement& judged = method.judgement;
+  fmt::format_to(std::back_inserter(text), fmt::runtime(method_row_format), name, width, kind,
+                 judged.queries, judged.count(Fault::false_negative),
+                 judged.count(Fault::false_positive), judged.count(Fault::late_toi),
+                 judged.count(Fault::early_toi_upper), judged.undecided, judged.count(Fault::error),
+                 method.timed ? fmt::format("{:.1f}", judged.nanoseconds_per_query()) : "-",
+                 error_text(judged.toi_errors.quantile(0.5)),
+                 error_text(judged.toi_errors.quantile(0.99)), error_text(judged.toi_errors.max()));
+}
+
+void append_wrong_answers(std::string& text, const CertifyResult& result,
+                          const MethodResult& method) {
+  std::array<std::uint64_t, fault_count> printed{};
+  for (const WrongAnswer& wrong : method.judgement.wrong_answers) {
+    auto& count = printed[static_cast<std::size_t>(wrong.fault)];
+    if (!breaks(wrong.fault, method.promise) || count == most_printed) continue;
+    ++count;
+    text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n", to_string(wrong.fault),
+                        method.name, result.name, kind_text(result), wrong.index, wrong.answer,
+                        wrong.truth);
   }
-  return quoted + '"';
+  for (std::size_t i = 0; i < fault_count; ++i) {
+    if (printed[i] != most_printed || method.judgement.faults[i] == most_printed) continue;
+    const auto fault = static_cast<Fault>(i);
+    text += fmt::format("{}: {}: {}: and {} more\n", to_string(fault), method.name, result.name,
+                        method.judgement.faults[i] - most_printed);
+  }
+}
+
+void append_methods(std::string& text, std::size_t width, const std::vector<CertifyResult>& results,
+                    const CertifyResult& sum) {
+  for (const MethodResult& method : sum.methods) width = std::max(width, method.name.size());
+  width += 2;
+  text += '\n';
+  fmt::format_to(std::back_inserter(text), fmt::runtime(method_row_format), "method", width, "kind",
+                 "queries", "false neg", "false pos", "late toi", "early upper", "undecided",
+                 "errors", "ns/query", "error p50", "error p99", "error max");
+  std::string wrong_answers;
+  for (std::size_t i = 0; i < sum.methods.size(); ++i) {
+    append_method_row(text, width, sum.methods[i].name, "", sum.methods[i]);
+    for (const CertifyResult& result : results) {
+      if (i >= result.methods.size()) continue;
+      const MethodResult& method = result.methods[i];
+      if (keeps(method.judgement, method.promise)) continue;
+      append_method_row(text, width, "  " + result.name, kind_text(result), method);
+      append_wrong_answers(wrong_answers, result, method);
+    }
+  }
+  text += wrong_answers;
+}
+
+nlohmann::json number_or_null(bool known, double number) {
+  return known ? nlohmann::json(number) : nlohmann::json();
+}
+
+nlohmann::json to_json(const ToiErrors& errors) {
+  if (errors.count() == 0) return {};
+  return {{"count", errors.count()},
+          {"p50", errors.quantile(0.5)},
+          {"p90", errors.quantile(0.9)},
+          {"p99", errors.quantile(0.99)},
+          {"max", errors.max()}};
+}
+
+nlohmann::json counts(const MethodResult& method) {
+  const Judgement& judged = method.judgement;
+  const bool has_time = method.timed && judged.queries != 0;
+  return {{"name", method.name},
+          {"promise", to_string(method.promise)},
+          {"queries", judged.queries},
+          {"false_negatives", judged.count(Fault::false_negative)},
+          {"false_positives", judged.count(Fault::false_positive)},
+          {"late_toi", judged.count(Fault::late_toi)},
+          {"early_toi_upper", judged.count(Fault::early_toi_upper)},
+          {"undecided", judged.undecided},
+          {"errors", judged.count(Fault::error)},
+          {"missing", judged.missing},
+          {"ns_per_query", number_or_null(has_time, judged.nanoseconds_per_query())},
+          {"toi_error", to_json(judged.toi_errors)}};
+}
+
+nlohmann::json methods_of(const CertifyResult& result) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const MethodResult& method : result.methods) json.push_back(counts(method));
+  return json;
+}
+
+void append_wrong_answers(nlohmann::json& methods, const CertifyResult& result) {
+  for (std::size_t i = 0; i < result.methods.size(); ++i) {
+    for (const WrongAnswer& wrong : result.methods[i].judgement.wrong_answers) {
+      methods[i]["wrong_answers"].push_back({{"file", result.name},
+                                             {"index", wrong.index},
+                                             {"kind", kind_text(result)},
+                                             {"fault", to_string(wrong.fault)},
+                                             {"answer", wrong.answer},
+                                             {"truth", wrong.truth}});
+    }
+  }
 }
 
 }  // namespace
@@ -72,19 +180,25 @@ std::string to_text(const std::vector<CertifyResult>& results) {
                           mismatch.recorded, mismatch.truth);
     }
   }
+  if (!sum.methods.empty()) append_methods(text, width, results, sum);
   return text;
 }
 
 nlohmann::json to_json(const std::vector<CertifyResult>& results) {
-  nlohmann::json json = counts(total(results));
+  const CertifyResult sum = total(results);
+  nlohmann::json json = counts(sum);
+  json["methods"] = methods_of(sum);
+  for (nlohmann::json& method : json["methods"]) method["wrong_answers"] = nlohmann::json::array();
   json["mismatches"] = nlohmann::json::array();
   json["files"] = nlohmann::json::array();
   for (const CertifyResult& result : results) {
     nlohmann::json file = counts(result);
     file["file"] = result.name;
     file["kind"] = kind_text(result);
+    file["methods"] = methods_of(result);
     if (result.error) file["error"] = *result.error;
     json["files"].push_back(std::move(file));
+    append_wrong_answers(json["methods"], result);
     for (const Mismatch& mismatch : result.mismatches) {
       json["mismatches"].push_back({{"file", result.name},
                                     {"index", mismatch.index},

@@ -12,14 +12,25 @@
 namespace touchstone::verify {
 
 /// A line for each source and one for the total, then each mismatch with source, index and both
-/// answers.
+/// answers. Where respondents were judged follow a line for each with its total, below it a line
+/// for each source where it broke its promise, and the answers that broke it: the first twenty of a
+/// fault and source, and how many more there are.
 [[nodiscard]] std::string to_text(const std::vector<CertifyResult>& results);
 
 /// The total's fields `queries`, `collisions`, `labels`, `label_mismatches`, `tois`,
-/// `toi_mismatches`, `us_per_query`, `skipped`, `rounded`, `errors` (that ended the reading of a file), `interrupted`; `mismatches`, a list of
-/// objects with `file`, `index`, `kind`, `of` ("label" or "toi"), `recorded` and `truth`; `files`,
-/// a list with the total's fields a source, its name as `file`, its `kind`, and `error` if one
-/// ended the reading.
+/// `toi_mismatches`, `us_per_query`, `skipped`, `rounded`, `errors` (that ended the reading of a
+/// file), `interrupted`; `mismatches`, a list of objects with `file`, `index`, `kind`, `of` ("label"
+/// or "toi"), `recorded` and `truth`; `files`, a list with the total's fields a source, its name as
+/// `file`, its `kind`, and `error` if one ended the reading.
+///
+/// `methods`, in the total and in each file, is a list of `name`, `promise` (what it was held to:
+/// "none", "conservative", "exact"), `queries`, `false_negatives`, `false_positives` (undecided
+/// answers among them), `late_toi`, `early_toi_upper`, `undecided`, `errors`, `missing`,
+/// `ns_per_query` (null where no time was taken), and `toi_error`: null where no time of impact
+/// was given, else `count`, `p50`, `p90`, `p99` and `max` of the distance from toi_lower to the
+/// exact time of impact, quantiles to 1.6%. In the total each has `wrong_answers`, a list of `file`,
+/// `index`, `kind`, `fault` ("false negative", "false positive", "late toi", "early toi_upper",
+/// "error"), `answer` and `truth`, of each source and fault the first Judgement::most_kept.
 [[nodiscard]] nlohmann::json to_json(const std::vector<CertifyResult>& results);
 
 /// The header of the truth as CSV: `file,index,kind,collides,toi_lower,toi_upper`.

@@ -23,34 +23,34 @@ enum { touchstone_interface_version = 1 };
 
 /// Which two primitives a query holds.
 enum touchstone_kind {
-  touchstone_vertex_face = 0, ///< a vertex v and the triangle f0, f1, f2
-  touchstone_edge_edge = 1    ///< the edge ea0, ea1 and the edge eb0, eb1
+  touchstone_vertex_face = 0,  ///< a vertex v and the triangle f0, f1, f2
+  touchstone_edge_edge = 1     ///< the edge ea0, ea1 and the edge eb0, eb1
 };
 
 /// An answer to "do they collide?".
 enum touchstone_verdict {
   touchstone_no = 0,
   touchstone_yes = 1,
-  touchstone_undecided = 2, ///< the solver cannot say; taken as a conservative yes
-  touchstone_error = 3      ///< the query or the options are none that the solver accepts
+  touchstone_undecided = 2,  ///< the solver cannot say; taken as a conservative yes
+  touchstone_error = 3       ///< the query or the options are none that the solver accepts
 };
 
 /// Options that solvers share. One that a solver has no use for, it ignores.
 struct touchstone_options {
-  double tolerance;      ///< of tolerance-driven solvers, in units of the coordinates; default 1e-6
-  int64_t max_checks;    ///< of iterative solvers: steps for a query; 0 or less: no limit
-  double min_separation; ///< distance that counts as contact, 0 or more
-  double t_max;          ///< only impacts up to this time count, 0 to 1
+  double tolerance;    ///< of tolerance-driven solvers, in units of the coordinates; default 1e-6
+  int64_t max_checks;  ///< of iterative solvers: steps for a query; 0 or less: no limit
+  double min_separation;  ///< distance that counts as contact, 0 or more
+  double t_max;           ///< only impacts up to this time count, 0 to 1
 };
 
 /// What a solver fills in. The verdict is touchstone_error and every other field NaN when it gets
 /// it; a field that it has no value for, it leaves alone. Times are of interest only with
 /// touchstone_yes, and must then be finite or NaN.
 struct touchstone_answer {
-  int32_t verdict;  ///< one of touchstone_verdict
-  double toi_lower; ///< claimed: not above the exact time of first contact
-  double toi_upper; ///< claimed: not below the exact time of first contact
-  double tolerance; ///< how near to contact a yes claims to be, in units of the coordinates
+  int32_t verdict;   ///< one of touchstone_verdict
+  double toi_lower;  ///< claimed: not above the exact time of first contact
+  double toi_upper;  ///< claimed: not below the exact time of first contact
+  double tolerance;  ///< how near to contact a yes claims to be, in units of the coordinates
 };
 
 /// Defined by the plugin: returns touchstone_interface_version.

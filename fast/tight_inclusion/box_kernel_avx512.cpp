@@ -39,14 +39,20 @@ struct Lanes {
     const __m512d difference = _mm512_sub_pd(all, all);
     return _mm512_cmp_pd_mask(difference, _mm512_setzero_pd(), _CMP_EQ_OQ) == 0xFF;
   }
-  [[nodiscard]] double magnitude() const { return _mm512_reduce_max_pd(_mm512_abs_pd(all)); }
-
   [[nodiscard]] __m256d least_of_halves() const {
     return _mm256_min_pd(_mm512_castpd512_pd256(all), _mm512_extractf64x4_pd(all, 1));
   }
   [[nodiscard]] __m256d greatest_of_halves() const {
     return _mm256_max_pd(_mm512_castpd512_pd256(all), _mm512_extractf64x4_pd(all, 1));
   }
+  [[nodiscard]] double magnitude() const {
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    const __m256d upper = _mm256_andnot_pd(sign, greatest_of_halves());
+    const __m256d four = _mm256_max_pd(upper, _mm256_andnot_pd(sign, least_of_halves()));
+    const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
+    return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
+  }
+
   static AxisBoundsAvx<Lanes> bounds(const Lanes& x, const Lanes& y, const Lanes& z) {
     return AxisBoundsAvx<Lanes>::from(x.least_of_halves(), y.least_of_halves(), z.least_of_halves(),
                                       x.greatest_of_halves(), y.greatest_of_halves(),

@@ -2,9 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace touchstone::verify {
 namespace {
@@ -91,6 +97,122 @@ TEST(CertifyReport, NothingGivesAnEmptyReport) {
   EXPECT_EQ(json.at("queries"), 0);
   EXPECT_EQ(json.at("us_per_query"), 0.0);
   EXPECT_TRUE(json.at("mismatches").is_array());
+}
+
+// ---- Solvers ------------------------------------------------------------------------------------
+
+using fast::Answer;
+using fast::Promise;
+using fast::Verdict;
+
+constexpr Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
+const Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
+
+/// A source where `careful` is right and `hasty` is wrong in each way, and one where both are right.
+std::vector<CertifyResult> judged_results(Promise promise_of_hasty) {
+  MethodResult careful{
+      .name = "careful", .promise = Promise::exact, .timed = true, .judgement = {}};
+  MethodResult hasty{.name = "hasty", .promise = promise_of_hasty, .timed = false, .judgement = {}};
+  careful.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.25});
+  careful.judgement.nanoseconds = 12.5;
+  hasty.judgement.add(hit, {.verdict = Verdict::yes});
+  std::vector<CertifyResult> all = results();
+  all[0].methods = {careful, hasty};
+  for (int i = 0; i < 23; ++i) hasty.judgement.add(hit, {.verdict = Verdict::no});
+  hasty.judgement.add(miss, {.verdict = Verdict::yes});
+  hasty.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.75});
+  hasty.judgement.add(hit, {.verdict = Verdict::yes, .toi_upper = 0.25});
+  hasty.judgement.add(hit, {.verdict = Verdict::undecided});
+  hasty.judgement.add(hit, {.verdict = Verdict::error});
+  hasty.judgement.add_missing(9);
+  all[1].methods = {careful, hasty};
+  return all;
+}
+
+std::vector<std::string> method_lines(const std::vector<CertifyResult>& judged) {
+  std::istringstream text(to_text(judged));
+  std::vector<std::string> lines;
+  bool seen = false;
+  for (std::string line; std::getline(text, line);) {
+    seen = seen || line.starts_with("method ");
+    if (seen) lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST(CertifyReport, TextHasTheTotalOfEachMethodAndWhereItBrokeItsPromise) {
+  using Words = std::vector<std::string>;
+  const auto lines = method_lines(judged_results(Promise::conservative));
+  ASSERT_EQ(lines.size(), 4U + 20 + 1 + 3);
+  EXPECT_EQ(words(lines[1]), (Words{"careful", "2", "0", "0", "0", "0", "0", "0", "12.5",
+                                    "2.50e-01", "2.50e-01", "2.50e-01"}));
+  EXPECT_EQ(words(lines[2]), (Words{"hasty", "30", "23", "1", "1", "1", "1", "1", "-", "2.50e-01",
+                                    "2.50e-01", "2.50e-01"}));
+  EXPECT_EQ(words(lines[3]), (Words{"b,c/edge-edge.csv", "edge-edge", "29", "23", "1", "1", "1",
+                                    "1", "1", "-", "2.50e-01", "2.50e-01", "2.50e-01"}));
+  EXPECT_EQ(lines[4],
+            "false negative: hasty: b,c/edge-edge.csv: edge-edge query 4: answer no, truth "
+            "collision at 0.5");
+  EXPECT_EQ(lines[23], lines[4]);
+  EXPECT_EQ(lines[24],
+            "late toi: hasty: b,c/edge-edge.csv: edge-edge query 4: answer toi_lower 0.75, truth "
+            "collision at 0.5");
+  EXPECT_EQ(lines[27], "false negative: hasty: b,c/edge-edge.csv: and 3 more");
+}
+
+TEST(CertifyReport, TextListsFalsePositivesOfThoseHeldToExactness) {
+  const auto count = [](const std::vector<std::string>& lines) {
+    return std::ranges::count_if(
+        lines, [](const std::string& line) { return line.starts_with("false positive: "); });
+  };
+  EXPECT_EQ(count(method_lines(judged_results(Promise::conservative))), 0);
+  EXPECT_EQ(count(method_lines(judged_results(Promise::exact))), 1);
+}
+
+TEST(CertifyReport, NobodyJudgedNoTable) {
+  EXPECT_TRUE(method_lines(results()).empty());
+  EXPECT_EQ(to_json(results()).at("methods"), nlohmann::json::array());
+}
+
+TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
+  const nlohmann::json json = to_json(judged_results(Promise::conservative));
+  ASSERT_EQ(json.at("methods").size(), 2U);
+  nlohmann::json careful = json.at("methods")[0], hasty = json.at("methods")[1];
+  EXPECT_EQ(
+      careful,
+      (nlohmann::json{
+          {"name", "careful"},
+          {"promise", "exact"},
+          {"queries", 2},
+          {"false_negatives", 0},
+          {"false_positives", 0},
+          {"late_toi", 0},
+          {"early_toi_upper", 0},
+          {"undecided", 0},
+          {"errors", 0},
+          {"missing", 0},
+          {"ns_per_query", 12.5},
+          {"toi_error", {{"count", 2}, {"p50", 0.25}, {"p90", 0.25}, {"p99", 0.25}, {"max", 0.25}}},
+          {"wrong_answers", nlohmann::json::array()}}));
+  EXPECT_EQ(hasty.at("queries"), 30);
+  EXPECT_EQ(hasty.at("false_negatives"), 23);
+  EXPECT_EQ(hasty.at("false_positives"), 1);
+  EXPECT_EQ(hasty.at("late_toi"), 1);
+  EXPECT_EQ(hasty.at("early_toi_upper"), 1);
+  EXPECT_EQ(hasty.at("undecided"), 1);
+  EXPECT_EQ(hasty.at("errors"), 1);
+  EXPECT_EQ(hasty.at("missing"), 1);
+  EXPECT_TRUE(hasty.at("ns_per_query").is_null());
+  ASSERT_EQ(hasty.at("wrong_answers").size(), 27U) << "false positives too";
+  EXPECT_EQ(hasty.at("wrong_answers")[0], (nlohmann::json{{"file", "b,c/edge-edge.csv"},
+                                                          {"index", 4},
+                                                          {"kind", "edge-edge"},
+                                                          {"fault", "false negative"},
+                                                          {"answer", "no"},
+                                                          {"truth", "collision at 0.5"}}));
+  EXPECT_EQ(json.at("files")[0].at("methods")[1].at("queries"), 1);
+  EXPECT_TRUE(json.at("files")[0].at("methods")[1].at("toi_error").is_null());
+  EXPECT_EQ(json.at("files")[1].at("methods")[1].at("queries"), 29);
 }
 
 TEST(CertifyReport, TruthIsCsvWhoseDoublesComeBack) {

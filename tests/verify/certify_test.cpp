@@ -2,14 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <numeric>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/support/memory_source.hpp"
+#include "tests/support/methods.hpp"
 #include "verify/dataset/dataset.hpp"
 #include "verify/families/families.hpp"
 
@@ -203,6 +209,218 @@ TEST(Certify, TotalIsTheSum) {
   EXPECT_EQ(sum.tois, 220U);
   EXPECT_EQ(sum.skipped, 6U);
   EXPECT_EQ(sum.rounded, 10U);
+}
+
+// ---- Solvers ------------------------------------------------------------------------------------
+
+using fast::Answer;
+using fast::Promise;
+using tests::FunctionMethod;
+using tests::true_answer;
+
+/// Hits by falling vertices at times that are no doubles, but for every third query, a miss. The
+/// height of the vertex tells the query's number.
+std::vector<RecordedQuery> numbered_records(std::uint64_t count) {
+  std::vector<RecordedQuery> records;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const double height = 1.0 + static_cast<double>(i);
+    records.push_back(
+        {.query = i % 3 != 0 ? falling_vertex(height, 2 * height) : falling_vertex(height, -0.5),
+         .index = i,
+         .collides = std::nullopt,
+         .toi = std::nullopt});
+  }
+  return records;
+}
+
+std::uint64_t number_of(const Query& query) {
+  return static_cast<std::uint64_t>(query.at(0, 0, 2)) - 1;
+}
+
+/// A method that is right but for the query of that number, to which it answers otherwise.
+FunctionMethod right_but_for(std::uint64_t number, const FunctionMethod::Function& otherwise) {
+  return FunctionMethod([number, otherwise](Kind kind, const Query& query) {
+    return number_of(query) == number ? otherwise(kind, query) : true_answer(kind, query);
+  });
+}
+
+Judgement judged(const Respondent& respondent, std::uint64_t count = 30) {
+  CertifyOptions options;
+  options.respondents = {&respondent};
+  const CertifyResult result = certify_records(numbered_records(count), options);
+  EXPECT_EQ(result.queries, count);
+  EXPECT_EQ(result.methods.size(), 1U);
+  EXPECT_EQ(result.methods.at(0).name, respondent.name());
+  return result.methods.at(0).judgement;
+}
+
+Judgement judged(const fast::Method& method, std::uint64_t count = 30) {
+  return judged(*respond_in_process(method, {}), count);
+}
+
+std::uint64_t all_faults(const Judgement& judgement) {
+  return std::accumulate(judgement.faults.begin(), judgement.faults.end(), std::uint64_t{0});
+}
+
+TEST(CertifyMethods, ThePerfectMethodHasAllZeros) {
+  const FunctionMethod perfect(true_answer, Promise::exact);
+  const Judgement judgement = judged(perfect, 5000);
+  EXPECT_EQ(judgement.queries, 5000U);
+  EXPECT_EQ(all_faults(judgement), 0U);
+  EXPECT_EQ(judgement.undecided, 0U);
+  EXPECT_EQ(judgement.missing, 0U);
+  EXPECT_TRUE(judgement.wrong_answers.empty());
+  EXPECT_TRUE(keeps(judgement, Promise::exact));
+  EXPECT_GT(judgement.nanoseconds, 0.0);
+  EXPECT_EQ(judgement.toi_errors.count(), 3333U);
+  EXPECT_LE(judgement.toi_errors.max(), 0x1p-54) << "the toi is 1/3 and known to the last bit";
+}
+
+TEST(CertifyMethods, ThePerfectMethodIsPerfectOnTheBuiltInSet) {
+  const FunctionMethod perfect(true_answer, Promise::exact);
+  const auto respondent = respond_in_process(perfect, {});
+  CertifyOptions options;
+  options.respondents = {respondent.get()};
+  for (const Family& family : families()) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (!supports(family, kind)) continue;
+      const CertifyResult result = certify(*open_family(family, kind, 3, 20), options);
+      EXPECT_EQ(all_faults(result.methods.at(0).judgement), 0U) << family.name;
+      EXPECT_EQ(result.methods.at(0).judgement.toi_errors.count(), result.collisions);
+    }
+  }
+}
+
+TEST(CertifyMethods, EachFaultIsCountedInItsColumnAndListed) {
+  struct Planted {
+    std::uint64_t number;
+    FunctionMethod::Function otherwise;
+    Fault fault;
+  };
+  using fast::Verdict;
+  const std::vector<Planted> all{
+      {7, [](Kind, const Query&) { return Answer{.verdict = Verdict::no}; }, Fault::false_negative},
+      {9, [](Kind, const Query&) { return Answer{.verdict = Verdict::yes}; },
+       Fault::false_positive},
+      {9, [](Kind, const Query&) { return Answer{.verdict = Verdict::undecided}; },
+       Fault::false_positive},
+      {8, [](Kind, const Query&) { return Answer{.verdict = Verdict::error}; }, Fault::error},
+      {8, [](Kind, const Query&) -> Answer { throw std::runtime_error("thrown"); }, Fault::error},
+      // By the last bit, at a time that is no double.
+      {8,
+       [](Kind kind, const Query& query) {
+         Answer answer = true_answer(kind, query);
+         answer.toi_lower = answer.toi_upper;
+         return answer;
+       },
+       Fault::late_toi},
+      {8,
+       [](Kind kind, const Query& query) {
+         Answer answer = true_answer(kind, query);
+         answer.toi_upper = answer.toi_lower;
+         return answer;
+       },
+       Fault::early_toi_upper}};
+  for (const auto& [number, otherwise, fault] : all) {
+    const Judgement judgement = judged(right_but_for(number, otherwise));
+    EXPECT_EQ(judgement.queries, 30U);
+    EXPECT_EQ(all_faults(judgement), 1U) << to_string(fault);
+    EXPECT_EQ(judgement.count(fault), 1U) << to_string(fault);
+    ASSERT_EQ(judgement.wrong_answers.size(), 1U);
+    EXPECT_EQ(judgement.wrong_answers[0].index, number);
+    EXPECT_EQ(judgement.wrong_answers[0].fault, fault);
+  }
+}
+
+TEST(CertifyMethods, UndecidedIsNoFalseNegative) {
+  const Judgement judgement = judged(right_but_for(7, [](Kind, const Query&) { return Answer{}; }));
+  EXPECT_EQ(judgement.undecided, 1U);
+  EXPECT_EQ(all_faults(judgement), 0U);
+}
+
+TEST(CertifyMethods, ACrashIsAnErrorAndAHangIsUndecided) {
+  const FunctionMethod method([](Kind kind, const Query& query) {
+    if (number_of(query) == 7) std::raise(SIGKILL);
+    while (number_of(query) == 11) std::this_thread::sleep_for(std::chrono::seconds(1));
+    return true_answer(kind, query);
+  });
+  const Judgement judgement = judged(*respond_isolated(method, {}, {.query_limit_seconds = 1.0}));
+  EXPECT_EQ(judgement.queries, 30U);
+  EXPECT_EQ(judgement.undecided, 1U);
+  EXPECT_EQ(all_faults(judgement), 1U);
+  ASSERT_EQ(judgement.wrong_answers.size(), 1U);
+  EXPECT_EQ(judgement.wrong_answers[0].index, 7U);
+  EXPECT_EQ(judgement.wrong_answers[0].fault, Fault::error);
+}
+
+TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {
+  for (const unsigned threads : {1U, 3U}) {
+    const FunctionMethod method([](Kind kind, const Query& query) {
+      const std::uint64_t number = number_of(query);
+      return number % 1000 == 1 ? Answer{.verdict = fast::Verdict::no} : true_answer(kind, query);
+    });
+    const auto respondent = respond_in_process(method, {});
+    CertifyOptions options;
+    options.threads = threads;
+    options.respondents = {respondent.get()};
+    const CertifyResult result = certify_records(numbered_records(9000), options);
+    const Judgement& judgement = result.methods.at(0).judgement;
+    // Numbers divisible by 3 are misses, where no is right.
+    std::vector<std::uint64_t> expected, found;
+    for (std::uint64_t i = 1; i < 9000; i += 1000) {
+      if (i % 3 != 0) expected.push_back(i);
+    }
+    for (const WrongAnswer& wrong : judgement.wrong_answers) found.push_back(wrong.index);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(all_faults(judgement), expected.size());
+  }
+}
+
+TEST(CertifyMethods, SeveralAreJudgedSideBySide) {
+  const FunctionMethod perfect(true_answer, Promise::exact, "perfect");
+  const FunctionMethod denier(
+      [](Kind, const Query&) { return Answer{.verdict = fast::Verdict::no}; }, Promise::none,
+      "denier");
+  const auto first = respond_in_process(perfect, {}), second = respond_in_process(denier, {});
+  CertifyOptions options;
+  options.respondents = {first.get(), second.get()};
+  const CertifyResult one = certify_records(numbered_records(30), options);
+  const CertifyResult other = certify_records(numbered_records(300), options);
+  CertifyResult unopened;
+  const CertifyResult sum = total({unopened, one, other});
+  ASSERT_EQ(sum.methods.size(), 2U);
+  EXPECT_EQ(sum.methods[0].name, "perfect");
+  EXPECT_EQ(sum.methods[0].promise, Promise::exact);
+  EXPECT_EQ(all_faults(sum.methods[0].judgement), 0U);
+  EXPECT_EQ(sum.methods[1].name, "denier");
+  EXPECT_EQ(sum.methods[1].judgement.queries, 330U);
+  EXPECT_EQ(sum.methods[1].judgement.count(Fault::false_negative), 220U);
+  EXPECT_TRUE(sum.methods[1].judgement.wrong_answers.empty()) << "they stay with their source";
+}
+
+TEST(CertifyMethods, AStopInSlowAnswersIsObeyedSoonAndLeavesAPrefix) {
+  std::atomic<bool> stop = false;
+  std::atomic<int> asked = 0;
+  const FunctionMethod slow([&](Kind kind, const Query& query) {
+    if (++asked == 40) stop = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return true_answer(kind, query);
+  });
+  const auto respondent = respond_in_process(slow, {});
+  std::vector<std::uint64_t> truths;
+  CertifyOptions options;
+  options.threads = 2;
+  options.stop = &stop;
+  options.respondents = {respondent.get()};
+  options.on_truth = [&](const Truth& truth) { truths.push_back(truth.index); };
+  const CertifyResult result = certify_records(numbered_records(2000), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_LT(asked, 200);
+  EXPECT_GE(result.queries, 16U);
+  EXPECT_LT(result.queries, 200U);
+  EXPECT_EQ(result.methods.at(0).judgement.queries, result.queries);
+  EXPECT_EQ(truths.size(), result.queries);
+  EXPECT_EQ(truths.back() + 1, result.queries);
 }
 
 /// Every family's truth is known without the oracle; here the two meet. Times of impact must be

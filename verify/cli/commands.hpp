@@ -11,7 +11,7 @@ namespace touchstone::verify::cli {
 /// How a run ended; the process's exit status.
 enum class Status : int {
   all_well = 0,
-  wrong_answers = 1,  ///< a recorded answer is not the truth
+  wrong_answers = 1,  ///< a recorded answer is not the truth, or a solver broke its promise
   bad_input = 2,      ///< input in error, or a command line that makes no sense
   interrupted = 130,  ///< by a signal, with what was done until then reported
 };
@@ -19,7 +19,13 @@ enum class Status : int {
 /// `touchstone certify`
 void add_certify_command(CLI::App& app, Status& status);
 
+/// `touchstone solve`
+void add_solve_command(CLI::App& app, Status& status);
+
 /// `touchstone generate`
 void add_generate_command(CLI::App& app, Status& status);
+
+/// `touchstone derive`
+void add_derive_command(CLI::App& app, Status& status);
 
 }  // namespace touchstone::verify::cli

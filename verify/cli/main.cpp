@@ -21,7 +21,9 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   Status status = Status::all_well;
   touchstone::verify::cli::add_certify_command(app, status);
+  touchstone::verify::cli::add_solve_command(app, status);
   touchstone::verify::cli::add_generate_command(app, status);
+  touchstone::verify::cli::add_derive_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <exception>
 #include <stdexcept>
 #include <system_error>
 
@@ -20,8 +21,23 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
   return {check, ""};
 }
 
+CLI::Validator real_number(double least, double greatest) {
+  const auto check = [least, greatest](const std::string& text) -> std::string {
+    double value = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc() && stopped == end && value >= least && value <= greatest) return {};
+    return fmt::format("{} is no number from {} to {}", text, least, greatest);
+  };
+  return {check, ""};
+}
+
 void report_error(std::string_view message) {
   fmt::print(stderr, "touchstone: error: {}\n", message);
+}
+
+void report_warning(std::string_view message) {
+  fmt::print(stderr, "touchstone: warning: {}\n", message);
 }
 
 OptionalOutput::OptionalOutput(const std::string& name) : name_(name) {
@@ -57,6 +73,26 @@ void OptionalOutput::close() {
   } else if (device_.is_open()) {
     device_.close();
     if (!device_) throw std::runtime_error(name_ + ": cannot be written");
+  }
+}
+
+void ReportedOutput::write(std::string_view text) {
+  if (!output_ || failed_) return;
+  try {
+    output_.write(text);
+  } catch (const std::exception& error) {
+    report_error(error.what());
+    failed_ = true;
+  }
+}
+
+void ReportedOutput::close() {
+  if (!output_ || failed_) return;
+  try {
+    output_.close();
+  } catch (const std::exception& error) {
+    report_error(error.what());
+    failed_ = true;
   }
 }
 

@@ -20,9 +20,18 @@ namespace {
 
 constexpr std::string_view header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance";
 
-/// Numbers of the fields, counted from 1 as errors name them.
-enum Column : std::uint64_t { file = 1, index, kind, verdict, toi_lower, toi_upper, tolerance };
-constexpr std::size_t columns = Column::tolerance;
+/// Numbers of the fields, counted from 1 as errors name them; 0 for the whole line.
+enum class Column : std::uint64_t {
+  none,
+  file,
+  index,
+  kind,
+  verdict,
+  toi_lower,
+  toi_upper,
+  tolerance
+};
+constexpr std::size_t columns = 7;
 
 /// What a record of several lines may have in all: only long names with line ends make such records,
 /// and a stray quote is to be found before the end of the file.
@@ -65,7 +74,8 @@ class AnswersReader {
   explicit AnswersReader(const std::filesystem::path& path) : lines_(path) {}
 
   RecordedAnswers read() {
-    if (!next_record() || !is_header()) fail(0, fmt::format("first line must be {}", header));
+    if (!next_record() || !is_header())
+      fail(Column::none, fmt::format("first line must be {}", header));
     while (next_record()) add_row();
     for (auto& [key, rows] : answers_.rows_) {
       if (!std::ranges::is_sorted(rows, {}, &Row::index)) std::ranges::sort(rows, before);
@@ -81,8 +91,9 @@ class AnswersReader {
     return std::pair(a.index, a.line) < std::pair(b.index, b.line);
   }
 
-  [[noreturn]] void fail(std::uint64_t column, const std::string& reason) const {
-    throw DatasetError(lines_.path(), {.line = line_number_, .column = column}, reason);
+  [[noreturn]] void fail(Column column, const std::string& reason) const {
+    const auto number = static_cast<std::uint64_t>(column);
+    throw DatasetError(lines_.path(), {.line = line_number_, .column = number}, reason);
   }
 
   /// Splits the next record into fields_; false at the end of the file.
@@ -90,12 +101,12 @@ class AnswersReader {
     std::optional<Line> line = lines_.next();
     if (!line) return false;
     line_number_ = line->number;
-    if (line->too_long) fail(0, "line longer than 1 MiB");
-    if (trimmed(line->text).empty()) fail(0, "blank line before the end of the file");
+    if (line->too_long) fail(Column::none, "line longer than 1 MiB");
+    if (trimmed(line->text).empty()) fail(Column::none, "blank line before the end of the file");
     split_ = split_csv(line->text, fields_);
     if (split_.fault == CsvSplit::Fault::open_quote) continue_record(std::string(line->text));
     if (split_.fault == CsvSplit::Fault::text_after_quote) {
-      fail(split_.count, "text after a quoted field");
+      fail(Column{split_.count}, "text after a quoted field");
     }
     return true;
   }
@@ -105,7 +116,7 @@ class AnswersReader {
     while (split_.fault == CsvSplit::Fault::open_quote) {
       const std::optional<Line> line = lines_.next();
       if (!line || line->too_long || record.size() + line->text.size() > longest_record) {
-        fail(split_.count, "quoted field does not end");
+        fail(Column{split_.count}, "quoted field does not end");
       }
       record.append("\n").append(line->text);
       split_ = split_csv(record, fields_);
@@ -117,12 +128,14 @@ class AnswersReader {
     return fmt::format("{}", fmt::join(fields_, ",")) == header;
   }
 
-  [[nodiscard]] const std::string& raw(Column column) const { return fields_.at(column - 1); }
+  [[nodiscard]] const std::string& raw(Column column) const {
+    return fields_.at(static_cast<std::size_t>(column) - 1);
+  }
   [[nodiscard]] std::string_view field(Column column) const { return trimmed(raw(column)); }
 
   void add_row() {
     if (split_.count != columns) {
-      fail(0, fmt::format("{} columns, expected {}", split_.count, columns));
+      fail(Column::none, fmt::format("{} columns, expected {}", split_.count, columns));
     }
     static constexpr std::uint64_t last_line = std::numeric_limits<std::uint32_t>::max();
     Row row{.index = read_index(),
@@ -167,8 +180,8 @@ class AnswersReader {
   }
 
   [[nodiscard]] fast::Verdict read_verdict() const {
-    for (const auto verdict : {fast::Verdict::no, fast::Verdict::yes, fast::Verdict::undecided,
-                               fast::Verdict::error}) {
+    for (const auto verdict :
+         {fast::Verdict::no, fast::Verdict::yes, fast::Verdict::undecided, fast::Verdict::error}) {
       if (field(Column::verdict) == to_string(verdict)) return verdict;
     }
     fail(Column::verdict,
@@ -191,9 +204,9 @@ class AnswersReader {
     const auto first = std::ranges::adjacent_find(rows, {}, &Row::index);
     if (first == rows.end()) return;
     line_number_ = std::next(first)->line;
-    fail(Column::index, fmt::format("{} query {} of {} is answered in line {} already",
-                                    to_string(key.second), first->index, quote(key.first),
-                                    first->line));
+    fail(Column::index,
+         fmt::format("{} query {} of {} is answered in line {} already", to_string(key.second),
+                     first->index, quote(key.first), first->line));
   }
 
   LineReader lines_;
@@ -222,12 +235,12 @@ std::vector<RecordedAnswers::Group> RecordedAnswers::groups() const {
   for (const auto& [key, rows] : rows_) {
     const auto unasked = [](const Row& row) { return !row.asked; };
     const auto first = std::ranges::find_if(rows, unasked);
-    result.push_back({.file = key.first,
-                      .kind = key.second,
-                      .answers = rows.size(),
-                      .unasked = static_cast<std::uint64_t>(
-                          std::count_if(first, rows.end(), unasked)),
-                      .first_unasked_line = first == rows.end() ? 0 : first->line});
+    result.push_back(
+        {.file = key.first,
+         .kind = key.second,
+         .answers = rows.size(),
+         .unasked = static_cast<std::uint64_t>(std::count_if(first, rows.end(), unasked)),
+         .first_unasked_line = first == rows.end() ? 0 : first->line});
   }
   return result;
 }

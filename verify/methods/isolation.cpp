@@ -1,5 +1,6 @@
 #include "verify/methods/isolation.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -7,16 +8,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <fcntl.h>
-#include <signal.h>
-#include <time.h>
-
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
+#include <ctime>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <optional>
 #include <system_error>
 
 namespace touchstone::verify {
@@ -25,7 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// Queries that are solved as one where there is no limit.
+/// Queries that are timed as one, and solved as one where there is no limit.
 constexpr std::size_t span_size = 1024;
 /// How often the parent looks even if nothing tells it to: no wake-up can then be lost for good.
 constexpr Seconds longest_sleep(1.0);
@@ -51,7 +53,7 @@ struct Progress {
   std::atomic<std::size_t> current;  ///< first query of the step that the child is at
   std::atomic<bool> complete;        ///< all queries are answered
   double started;                    ///< processor seconds of the child when the solver began
-  double ended;                      ///< and when it was done; only if complete
+  double solving;                    ///< processor seconds of the solver; only if complete
 };
 static_assert(std::atomic<std::size_t>::is_always_lock_free &&
               std::atomic<bool>::is_always_lock_free);
@@ -61,13 +63,12 @@ class SharedMemory {
  public:
   explicit SharedMemory(std::size_t answers)
       : bytes_(sizeof(Progress) + answers * sizeof(fast::Answer)),
-        memory_(::mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
+        memory_(
+            ::mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
     // NOLINTNEXTLINE(performance-no-int-to-ptr): the system's constant
     if (memory_ == MAP_FAILED) fail("cannot share memory with a solver's process");
     progress_ = new (memory_) Progress{};
-    auto* const first = reinterpret_cast<fast::Answer*>(progress_ + 1);
-    std::uninitialized_value_construct_n(first, answers);
-    answers_ = {first, answers};
+    answers_ = {reinterpret_cast<fast::Answer*>(progress_ + 1), answers};
   }
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
@@ -95,22 +96,41 @@ struct Job {
   /// Queries before this index are solved one by one.
   std::size_t careful_until;
 
+  [[nodiscard]] bool careful(std::size_t begin) const { return begin < careful_until; }
+
   /// Number of queries in the step that begins at this index.
   [[nodiscard]] std::size_t step(std::size_t begin) const {
-    return begin < careful_until ? 1 : std::min(span_size, queries.size() - begin);
+    return careful(begin) ? 1 : std::min(span_size, queries.size() - begin);
   }
 
-  void solve(std::size_t begin, std::span<fast::Answer> answers, Progress& progress) const {
-    while (begin < queries.size()) {
+  /// Solves from `begin` on and returns the processor seconds that the solver took.
+  double solve(std::size_t begin, const SharedMemory& shared) const {
+    double sum = 0.0;
+    for (std::size_t end = begin; begin < queries.size(); begin = end) {
+      end = careful(begin) ? std::min(begin + span_size, careful_until) : begin + step(begin);
+      // Shared pages that this process has not touched yet would count as time of the solver.
+      std::ranges::uninitialized_value_construct(shared.answers().subspan(begin, end - begin));
+      const double start = processor_seconds();
+      solve_steps(begin, end, shared);
+      sum += processor_seconds() - start;
+    }
+    return sum;
+  }
+
+ private:
+  void solve_steps(std::size_t begin, std::size_t end, const SharedMemory& shared) const {
+    while (begin < end) {
       const std::size_t count = step(begin);
-      progress.current.store(begin, std::memory_order_release);
-      method.solve(kind, queries.subspan(begin, count), answers.subspan(begin, count), options);
+      shared.progress().current.store(begin, std::memory_order_release);
+      method.solve(kind, queries.subspan(begin, count), shared.answers().subspan(begin, count),
+                   options);
       begin += count;
     }
   }
 };
 
-/// The child's whole life. It dies with its parent, and leaves without the parent's clean-up.
+/// The child's whole life. It leaves without the parent's clean-up, and dies with the thread that
+/// made it, which does not leave run_child() before.
 [[noreturn]] void live_as_child(const Job& job, std::size_t begin, const SharedMemory& shared,
                                 pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -119,8 +139,7 @@ struct Job {
   Progress& progress = shared.progress();
   try {
     progress.started = processor_seconds();
-    job.solve(begin, shared.answers(), progress);
-    progress.ended = processor_seconds();
+    progress.solving = job.solve(begin, shared);
     progress.complete.store(true, std::memory_order_release);
   } catch (...) {
     ::_exit(1);
@@ -220,7 +239,7 @@ class Supervisor {
     Child child(job_, begin, shared_);
     const std::optional<std::size_t> overdue = wait(child);
     if (progress.complete) {
-      result_.processor_seconds += progress.ended - progress.started;
+      result_.processor_seconds += progress.solving;
       return job_.queries.size();
     }
     result_.processor_seconds += std::max(0.0, child.processor_seconds() - progress.started);
@@ -237,16 +256,18 @@ class Supervisor {
     }
     std::size_t watched = shared_.progress().current;
     Clock::time_point since = Clock::now();
-    while (!child.wait(limit_ / 10)) {
+    Seconds left = limit_;
+    while (!child.wait(std::min(left, limit_ / 10))) {
       const std::size_t current = shared_.progress().current;
       const Clock::time_point now = Clock::now();
       if (current != watched) {
         watched = current;
         since = now;
-      } else if (now - since >= limit_) {
-        child.kill();
-        return watched;
       }
+      left = limit_ - (now - since);
+      if (left > Seconds::zero()) continue;
+      child.kill();
+      return watched;
     }
     return std::nullopt;
   }

@@ -26,8 +26,8 @@
 namespace touchstone::verify {
 
 struct IsolationOptions {
-  /// Wall-clock seconds that a query may take, at least (at most a tenth or some milliseconds
-  /// more); 0: no limit.
+  /// Wall-clock seconds that a query may take (a tenth or some milliseconds more where the parent
+  /// looks late); 0: no limit.
   double query_limit_seconds = 0.0;
 };
 
@@ -44,8 +44,9 @@ struct IsolatedSolve {
 
 /// Answers query i in answers[i], as the method itself would, in child processes; returns when all
 /// are answered. May be called from several threads at once. Each call makes at least one child, at
-/// the price of a fork() (about a millisecond and more with much memory in use): the spans should
-/// be long. The children do not outlive this process, and write no core files.
+/// the price of a fork(), which grows with the memory of this process (some milliseconds for 100
+/// MB): the spans should be long. The children do not outlive this process, and write no core
+/// files.
 /// \pre both spans have the same length; the limit is finite and not negative.
 /// \throws std::system_error if the system has no memory or no process left to give.
 [[nodiscard]] IsolatedSolve solve_isolated(const fast::Method& method, Kind kind,

@@ -75,7 +75,8 @@ double ToiErrors::quantile(double fraction) const {
   std::uint64_t up_to_here = 0;
   for (const auto& [bucket, count] : buckets_) {
     up_to_here += count;
-    if (static_cast<double>(up_to_here) >= rank) return std::min(upper_end(bucket), max_);
+    // Infinity's bucket has a NaN for its end, which this order of arguments passes over.
+    if (static_cast<double>(up_to_here) >= rank) return std::min(max_, upper_end(bucket));
   }
   return max();
 }
@@ -142,15 +143,13 @@ Judgement& Judgement::operator+=(const Judgement& next) {
   return *this;
 }
 
-bool breaks_promise(Fault fault, bool held_to_exactness) {
-  return fault != Fault::false_positive || held_to_exactness;
+bool breaks(Fault fault, fast::Promise promise) {
+  return fault != Fault::false_positive || promise == fast::Promise::exact;
 }
 
-bool keeps_promise(const Judgement& judgement, bool held_to_exactness) {
+bool keeps(const Judgement& judgement, fast::Promise promise) {
   for (std::size_t i = 0; i < fault_count; ++i) {
-    if (judgement.faults[i] != 0 && breaks_promise(static_cast<Fault>(i), held_to_exactness)) {
-      return false;
-    }
+    if (judgement.faults[i] != 0 && breaks(static_cast<Fault>(i), promise)) return false;
   }
   return true;
 }

@@ -115,11 +115,12 @@ struct Judgement {
   void add_toi(const Truth& truth, const fast::Answer& answer);
 };
 
-/// Do the answers break no promise? Every method must be free of false negatives, times of impact
-/// that exclude the true one, and errors; one that is held to exactness of false positives too.
-[[nodiscard]] bool keeps_promise(const Judgement& judgement, bool held_to_exactness);
+/// Does that fault break the promise? Every method, whatever it promises, is to be free of false
+/// negatives, of times of impact that exclude the true one, and of errors; one that promises
+/// exactness also of false positives.
+[[nodiscard]] bool breaks(Fault fault, fast::Promise promise);
 
-/// Is that fault one that breaks a promise?
-[[nodiscard]] bool breaks_promise(Fault fault, bool held_to_exactness);
+/// Is there no fault that breaks the promise?
+[[nodiscard]] bool keeps(const Judgement& judgement, fast::Promise promise);
 
 }  // namespace touchstone::verify

@@ -61,8 +61,8 @@ void check_version(const Library& library, const std::filesystem::path& path) {
 }
 
 std::string read_name(const Library& library, const std::filesystem::path& path) {
-  const char* const name = find_function<decltype(touchstone_plugin_name)>(
-      library, path, "touchstone_plugin_name")();
+  const char* const name =
+      find_function<decltype(touchstone_plugin_name)>(library, path, "touchstone_plugin_name")();
   if (name == nullptr) throw DatasetError(path, {}, "has no name");
   const std::string_view text = name;
   const auto unprintable = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };

@@ -2,14 +2,43 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
+#include "fast/tight_inclusion.hpp"
+
 namespace touchstone::verify {
 
-const std::vector<std::unique_ptr<const fast::Method>>& methods() {
-  static const std::vector<std::unique_ptr<const fast::Method>> all;
+namespace {
+
+using Methods = std::vector<std::unique_ptr<const fast::Method>>;
+
+Methods make_methods() {
+  Methods all;
+  all.push_back(fast::tight_inclusion_method());
+  all.push_back(fast::tight_inclusion_method({.error_model = fast::ErrorModel::published}));
   return all;
+}
+
+/// Methods that differ from another one in a setting only, for comparison.
+constexpr std::array<std::string_view, 1> variants{"tight_inclusion_published"};
+
+}  // namespace
+
+const std::vector<std::unique_ptr<const fast::Method>>& methods() {
+  static const Methods all = make_methods();
+  return all;
+}
+
+std::vector<std::string_view> default_methods() {
+  std::vector<std::string_view> names;
+  for (const auto& method : methods()) {
+    const bool is_variant = std::ranges::find(variants, method->name()) != variants.end();
+    if (method->promise() != fast::Promise::none && !is_variant) names.push_back(method->name());
+  }
+  return names;
 }
 
 const fast::Method& find_method(std::string_view name) {
@@ -19,8 +48,8 @@ const fast::Method& find_method(std::string_view name) {
     known += known.empty() ? "" : ", ";
     known += method->name();
   }
-  throw std::invalid_argument(fmt::format("no method is called {} (there are: {})", name,
-                                          known.empty() ? "none" : known));
+  throw std::invalid_argument(
+      fmt::format("no method is called {} (there are: {})", name, known.empty() ? "none" : known));
 }
 
 std::string_view to_string(fast::Promise promise) {

@@ -15,6 +15,10 @@ namespace touchstone::verify {
 /// All methods, always in the same order; they live as long as the program.
 [[nodiscard]] const std::vector<std::unique_ptr<const fast::Method>>& methods();
 
+/// The names of those that are judged where nobody names any: all that promise something, in their
+/// default setting.
+[[nodiscard]] std::vector<std::string_view> default_methods();
+
 /// The method of that name.
 /// \throws std::invalid_argument, with the names there are, if there is none.
 [[nodiscard]] const fast::Method& find_method(std::string_view name);

@@ -16,8 +16,7 @@ constexpr double longest_span = 1e6;
 
 /// Solves one by one; what throws is in error.
 void solve_despite_exceptions(const fast::Method& method, const Questions& questions,
-                              std::span<fast::Answer> answers,
-                              const fast::MethodOptions& options) {
+                              std::span<fast::Answer> answers, const fast::MethodOptions& options) {
   for (std::size_t i = 0; i < answers.size(); ++i) {
     try {
       method.solve(questions.kind, questions.queries.subspan(i, 1), answers.subspan(i, 1), options);
@@ -63,8 +62,8 @@ class Isolated final : public Respondent {
  private:
   [[nodiscard]] Response solve(const Questions& questions,
                                std::span<fast::Answer> answers) const override {
-    const IsolatedSolve solved = solve_isolated(method_, questions.kind, questions.queries, answers,
-                                                options_, isolation_);
+    const IsolatedSolve solved =
+        solve_isolated(method_, questions.kind, questions.queries, answers, options_, isolation_);
     return {.nanoseconds = 1e9 * solved.processor_seconds, .missing = {}};
   }
 

@@ -46,7 +46,9 @@ class Respondent {
   virtual ~Respondent() = default;
 
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// What its answers are held to: its own promise unless hold_to() says otherwise.
   [[nodiscard]] fast::Promise promise() const { return promise_; }
+  void hold_to(fast::Promise promise) { promise_ = promise; }
   [[nodiscard]] bool timed() const { return timed_; }
 
   /// Answers query i in answers[i], in this thread.

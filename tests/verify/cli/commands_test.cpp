@@ -15,6 +15,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/verify/methods/plugins/misbehaviour.hpp"
+
 // The commands (verify/cli/commands.hpp) are tested as users meet them: by running the tool.
 
 namespace touchstone::verify::cli {
@@ -90,6 +92,20 @@ class Tool : public ::testing::Test {
     return nlohmann::json::parse(read_file(path(name)));
   }
 
+  /// Waits until the work is under way: the file grows, still under its temporary name.
+  void wait_for_growth(const std::string& name) const {
+    const auto size = [&] {
+      std::uintmax_t bytes = 0;
+      for (const auto& entry : fs::directory_iterator(folder_)) {
+        if (entry.path().filename().string().starts_with(name)) bytes = entry.file_size();
+      }
+      return bytes;
+    };
+    for (int i = 0; i < 600 && size() == 0; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+
   std::string write(const std::string& name, const std::string& text) const {
     fs::create_directories(fs::path(path(name)).parent_path());
     std::ofstream(path(name), std::ios::binary) << text;
@@ -114,8 +130,10 @@ std::string falling_vertex(const std::string& label, const std::string& end_heig
 }
 
 TEST_F(Tool, HelpHasAnExampleEverywhere) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"certify", "--help"}, {"generate", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"certify", "--help"},
+                                                    {"solve", "--help"},
+                                                    {"generate", "--help"}}) {
     const Outcome help = run(arguments);
     EXPECT_EQ(help.status, 0);
     EXPECT_TRUE(contains(help.out, "Example: touchstone ")) << help.out;
@@ -131,6 +149,18 @@ TEST_F(Tool, UsageErrorsExitWithTwo) {
         {"certify", "--count", "0"},
         {"certify", "--seed", "-1"},
         {"certify", "--threads", "x"},
+        {"certify", "--method", "nonsense"},
+        {"certify", "--plugin", path("missing.so")},
+        {"certify", "--results", path("missing.csv")},
+        {"certify", "--query-limit", "-1"},
+        {"certify", "--tolerance", "0"},
+        {"solve", "--out", path("x")},
+        {"solve", "--method", "tight_inclusion"},
+        {"solve", "--method", "none", "--out", path("x")},
+        {"solve", "--method", "nonsense", "--out", path("x")},
+        {"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--method", "tight_inclusion", "--out",
+         path("x")},
+        {"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("x"), "--t-max", "2"},
         {"generate"},
         {"generate", "--out", path("x"), "--family", "nonsense"}}) {
     const Outcome usage = run(arguments);
@@ -284,7 +314,8 @@ TEST_F(Tool, MissingInputIsAnErrorWithItsName) {
 }
 
 TEST_F(Tool, BuiltInSetIsCertified) {
-  const Outcome certify = run({"certify", "--count", "10", "--json", path("result.json")});
+  const Outcome certify =
+      run({"certify", "--count", "10", "--method", "none", "--json", path("result.json")});
   EXPECT_EQ(certify.status, 0) << certify.out << certify.err;
   EXPECT_GE(json("result.json").at("files").size(), 40U);
   EXPECT_EQ(json("result.json").at("labels"), json("result.json").at("queries"));
@@ -296,7 +327,9 @@ TEST_F(Tool, GeneratedFilesAreCertifiedLikeTheBuiltInSet) {
   ASSERT_EQ(generate.status, 0) << generate.err;
   const Outcome files = run({"certify", path("set"), "--json", path("files_result.json")});
   EXPECT_EQ(files.status, 0) << files.out << files.err;
-  EXPECT_EQ(run({"certify", "--count", "20", "--json", path("set_result.json")}).status, 0);
+  EXPECT_EQ(run({"certify", "--count", "20", "--method", "none", "--json", path("set_result.json")})
+                .status,
+            0);
   const nlohmann::json from_files = json("files_result.json"), from_set = json("set_result.json");
   EXPECT_EQ(json("files.json").size(), from_set.at("files").size());
   for (const char* field : {"queries", "collisions", "labels", "tois"}) {
@@ -330,17 +363,9 @@ TEST_F(Tool, GenerateIsAFunctionOfTheSeed) {
 
 TEST_F(Tool, AnInterruptKeepsWhatIsDone) {
   using namespace std::chrono_literals;
-  const pid_t process = start({"certify", "--count", "100000000", "--json", path("result.json"),
-                               "--truth", path("truth.csv")});
-  // Wait until the work is under way: the truth grows, still under its temporary name.
-  const auto truth_so_far = [&] {
-    std::uintmax_t size = 0;
-    for (const auto& entry : fs::directory_iterator(path(""))) {
-      if (entry.path().filename().string().starts_with("truth.csv")) size = entry.file_size();
-    }
-    return size;
-  };
-  for (int i = 0; i < 600 && truth_so_far() == 0; ++i) std::this_thread::sleep_for(50ms);
+  const pid_t process = start({"certify", "--count", "100000000", "--method", "none", "--json",
+                               path("result.json"), "--truth", path("truth.csv")});
+  wait_for_growth("truth.csv");
   kill(process, SIGINT);
   const Outcome certify = finish(process);
   EXPECT_EQ(certify.status, 130);
@@ -349,6 +374,200 @@ TEST_F(Tool, AnInterruptKeepsWhatIsDone) {
   EXPECT_GT(result.at("queries"), 0);
   const std::string truth = read_file(path("truth.csv"));
   EXPECT_EQ(std::count(truth.begin(), truth.end(), '\n'), result.at("queries").get<long>() + 1);
+}
+
+// ---- Solvers ------------------------------------------------------------------------------------
+
+constexpr const char* answers_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
+
+/// A vertex-face file of a hit at t=1/4, and a miss that the boxes do not tell from a hit.
+std::string hit_and_miss() {
+  std::string miss = falling_vertex("0", "-3");
+  for (std::size_t at = miss.find("1,1,1,1,"); at != std::string::npos;
+       at = miss.find("1,1,1,1,")) {
+    miss.replace(at, 8, "3,1,3,1,");
+  }
+  return falling_vertex("1") + miss;
+}
+
+TEST_F(Tool, RecordedAnswersAreJudgedInEveryColumn) {
+  const std::string file = write("queries_vf.csv", hit_and_miss());
+  struct Case {
+    std::string hit, miss, column;
+    int status;
+  };
+  for (const auto& [hit, miss, column, status] :
+       {Case{"yes,0.25,0.25,0", "no,,,", "", 0}, Case{"yes,,,", "no,,,", "", 0},
+        Case{"no,,,", "no,,,", "false_negatives", 1},
+        Case{"yes,0,1,", "yes,0,1,", "false_positives", 0},
+        Case{"yes,0.25000000000000006,0.5,", "no,,,", "late_toi", 1},
+        Case{"yes,0,0.24999999999999997,", "no,,,", "early_toi_upper", 1},
+        Case{"undecided,,,", "no,,,", "undecided", 0}, Case{"error,,,", "no,,,", "errors", 1}}) {
+    const std::string answers =
+        write("answers.csv", answers_header + file + ",0,vertex-face," + hit + "\n" + file +
+                                 ",1,vertex-face," + miss + "\n");
+    const Outcome certify =
+        run({"certify", file, "--results", answers, "--json", path("result.json")});
+    EXPECT_EQ(certify.status, status) << hit << miss << certify.err << certify.out;
+    ASSERT_EQ(json("result.json").at("methods").size(), 1U);
+    const nlohmann::json method = json("result.json").at("methods")[0];
+    EXPECT_EQ(method.at("name"), answers);
+    EXPECT_EQ(method.at("queries"), 2);
+    for (const char* field : {"false_negatives", "false_positives", "late_toi", "early_toi_upper",
+                              "undecided", "errors"}) {
+      EXPECT_EQ(method.at(field), field == column ? 1 : 0) << field << ": " << hit << miss;
+    }
+  }
+}
+
+TEST_F(Tool, ExactHoldsToFalsePositives) {
+  const std::string file = write("queries_vf.csv", hit_and_miss());
+  const std::vector<std::string> lenient{"certify", file, "--plugin", TOUCHSTONE_BOX_OVERLAP};
+  EXPECT_EQ(run(lenient).status, 0);
+  std::vector<std::string> strict = lenient;
+  strict.emplace_back("--exact");
+  const Outcome certify = run(strict);
+  EXPECT_EQ(certify.status, 1);
+  EXPECT_TRUE(contains(certify.out, "false positive: box_overlap: " + file +
+                                        ": vertex-face query 1: answer yes, truth no collision"))
+      << certify.out;
+}
+
+TEST_F(Tool, MissingAnswersAreBadInputAndNamed) {
+  const std::string file = write("queries_vf.csv", hit_and_miss());
+  const std::string answers =
+      write("answers.csv",
+            answers_header + file + ",0,vertex-face,yes,,,\n" + file + ",7,vertex-face,yes,,,\n");
+  const Outcome certify =
+      run({"certify", file, "--results", answers, "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 2);
+  EXPECT_TRUE(
+      contains(certify.err, "no answer to 1 queries, first to vertex-face query 1 of " + file))
+      << certify.err;
+  EXPECT_TRUE(contains(certify.err, answers + ":3: 1 answers are to queries that were not there"))
+      << certify.err;
+  EXPECT_EQ(json("result.json").at("methods")[0].at("missing"), 1);
+  EXPECT_EQ(json("result.json").at("methods")[0].at("queries"), 1);
+}
+
+TEST_F(Tool, AnswersMustNotBeOutputs) {
+  const std::string answers = write("answers.csv", answers_header);
+  EXPECT_EQ(run({"certify", "--count", "1", "--results", answers, "--json", answers}).status, 2);
+  EXPECT_EQ(read_file(answers), answers_header);
+}
+
+TEST_F(Tool, ACrashAndAHangCostAQueryEach) {
+  // The first coordinate tells the plugin what to do, and puts the vertex beside the triangle.
+  using tests::Misbehaviour;
+  std::string text;
+  for (const auto what :
+       {Misbehaviour::aborts, Misbehaviour::hangs, Misbehaviour::yes_without_toi}) {
+    text += falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
+  }
+  const std::string file = write("queries_vf.csv", text);
+  const std::vector<std::string> solver{"--plugin", TOUCHSTONE_MISBEHAVING, "--query-limit", "0.3"};
+  std::vector<std::string> solve{
+      "solve", file, "--out", path("answers.csv"), "--json", path("summary.json")};
+  solve.insert(solve.end(), solver.begin(), solver.end());
+  const Outcome solved = run(solve);
+  EXPECT_EQ(solved.status, 0) << solved.err;
+  EXPECT_EQ(read_file(path("answers.csv")), answers_header + file + ",0,vertex-face,error,,,\n" +
+                                                file + ",1,vertex-face,undecided,,,\n" + file +
+                                                ",2,vertex-face,yes,,,\n");
+  EXPECT_EQ(json("summary.json").at("queries"), 3);
+  EXPECT_EQ(json("summary.json").at("errors"), 1);
+  EXPECT_EQ(json("summary.json").at("undecided"), 1);
+  EXPECT_EQ(json("summary.json").at("yes"), 1);
+  std::vector<std::string> certify{"certify", file, "--json", path("result.json")};
+  certify.insert(certify.end(), solver.begin(), solver.end());
+  EXPECT_EQ(run(certify).status, 1);
+  const nlohmann::json method = json("result.json").at("methods")[0];
+  EXPECT_EQ(method.at("errors"), 1);
+  EXPECT_EQ(method.at("undecided"), 1);
+}
+
+TEST_F(Tool, SolvedAnswersAreJudgedAsTheirSolverIs) {
+  for (const bool built_in : {true, false}) {
+    std::vector<std::string> sources{"--count", "8"};
+    if (!built_in) {
+      ASSERT_EQ(run({"generate", "--out", path("set"), "--count", "8"}).status, 0);
+      sources = {path("set")};
+    }
+    const auto with = [&](std::vector<std::string> words) {
+      words.insert(words.end(), sources.begin(), sources.end());
+      return words;
+    };
+    ASSERT_EQ(run(with({"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("answers.csv"),
+                        "--json", path("summary.json")}))
+                  .status,
+              0);
+    const Outcome certify = run(with({"certify", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--results",
+                                      path("answers.csv"), "--json", path("result.json")}));
+    EXPECT_EQ(certify.status, 0) << certify.err;
+    EXPECT_EQ(certify.err, "");
+    const nlohmann::json methods = json("result.json").at("methods");
+    ASSERT_EQ(methods.size(), 2U);
+    EXPECT_EQ(methods[0].at("name"), "box_overlap");
+    EXPECT_EQ(methods[0].at("queries"), json("summary.json").at("queries"));
+    EXPECT_GT(methods[0].at("false_positives"), 0);
+    EXPECT_GT(methods[0].at("ns_per_query"), 0.0);
+    for (const char* field : {"queries", "false_positives", "false_negatives", "toi_error"}) {
+      EXPECT_EQ(methods[0].at(field), methods[1].at(field)) << field;
+    }
+  }
+}
+
+TEST_F(Tool, MethodsAreJudgedUnaskedOnTheBuiltInSetOnly) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  const auto judged = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all{"certify", "--json", path("result.json"), "--max-checks", "1000"};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_EQ(run(all).status, 0);
+    return json("result.json").at("methods").size();
+  };
+  EXPECT_GE(judged({"--count", "1"}), 1U);
+  EXPECT_EQ(judged({"--count", "1", "--method", "none"}), 0U);
+  EXPECT_EQ(judged({file}), 0U);
+  EXPECT_EQ(judged({file, "--method", "tight_inclusion"}), 1U);
+  EXPECT_EQ(judged({"--method", "tight_inclusion", file, "--query-limit", "10"}), 1U);
+}
+
+TEST_F(Tool, SolveKeepsWhatItHasWhenARowIsBad) {
+  const std::string file = write("bad_vf.csv", falling_vertex("1") + "1,0,1,1,1,1,1\n");
+  const Outcome solve =
+      run({"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("answers.csv")});
+  EXPECT_EQ(solve.status, 2);
+  EXPECT_TRUE(contains(solve.err, file + ":9:2: ")) << solve.err;
+  EXPECT_EQ(read_file(path("answers.csv")), answers_header + file + ",0,vertex-face,yes,0,,\n");
+}
+
+TEST_F(Tool, SolveRefusesOutputsThatAreInputsOrEachOther) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  const std::string text = read_file(file);
+  const std::vector<std::string> solve{"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), solve.begin(), solve.end());
+    return run(words).status;
+  };
+  EXPECT_EQ(with({"--out", file}), 2);
+  EXPECT_EQ(with({"--out", path("x"), "--json", path("x")}), 2);
+  EXPECT_EQ(with({"--out", "/dev/full"}), 2);
+  EXPECT_EQ(read_file(file), text);
+}
+
+TEST_F(Tool, AnInterruptOfSolveKeepsWhatIsDone) {
+  using namespace std::chrono_literals;
+  const pid_t process = start({"solve", "--count", "100000000", "--plugin", TOUCHSTONE_BOX_OVERLAP,
+                               "--out", path("answers.csv"), "--json", path("summary.json")});
+  wait_for_growth("answers.csv");
+  kill(process, SIGINT);
+  const Outcome solve = finish(process);
+  EXPECT_EQ(solve.status, 130);
+  EXPECT_EQ(json("summary.json").at("interrupted"), true);
+  const std::string answers = read_file(path("answers.csv"));
+  EXPECT_GT(json("summary.json").at("queries"), 0);
+  EXPECT_EQ(std::count(answers.begin(), answers.end(), '\n'),
+            json("summary.json").at("queries").get<long>() + 1);
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+#pragma once
+
+/// \file
+/// Solvers for tests: a right one, made from the oracle, and any other as a function.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "exact/oracle.hpp"
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+
+namespace touchstone::tests {
+
+/// Answers each query with a function.
+class FunctionMethod final : public fast::Method {
+ public:
+  using Function = std::function<fast::Answer(Kind, const Query&)>;
+
+  explicit FunctionMethod(Function function, fast::Promise promise = fast::Promise::conservative,
+                          std::string name = "function")
+      : function_(std::move(function)), promise_(promise), name_(std::move(name)) {}
+
+  [[nodiscard]] std::string_view name() const override { return name_; }
+  [[nodiscard]] fast::Promise promise() const override { return promise_; }
+  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+             const fast::MethodOptions&) const override {
+    for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = function_(kind, queries[i]);
+  }
+
+ private:
+  Function function_;
+  fast::Promise promise_;
+  std::string name_;
+};
+
+/// The truth as an answer, with the narrowest times of impact that doubles can tell.
+[[nodiscard]] inline fast::Answer true_answer(Kind kind, const Query& query) {
+  const exact::Verdict verdict = exact::decide(kind, query);
+  if (!verdict.collides()) return {.verdict = fast::Verdict::no};
+  const exact::DoubleInterval toi = verdict.impact->toi.enclosure();
+  return {.verdict = fast::Verdict::yes,
+          .toi_lower = toi.lower,
+          .toi_upper = toi.upper,
+          .tolerance = 0.0};
+}
+
+}  // namespace touchstone::tests

@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+// `touchstone derive` as users meet it: by running the tool.
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Derive : public ::testing::Test {
+ public:
+  Derive(const Derive&) = delete;
+  Derive& operator=(const Derive&) = delete;
+  Derive(Derive&&) = delete;
+  Derive& operator=(Derive&&) = delete;
+
+ protected:
+  Derive() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) /
+              (std::string("touchstone_derive_") + test->name() + "_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  ~Derive() override { fs::remove_all(folder_); }
+
+  /// Runs the tool, after shell words such as variables; its exit status.
+  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = before + " '" TOUCHSTONE_TOOL "' derive " + arguments + " >'" +
+                                path("out") + "' 2>'" + path("err") + "'";
+    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+  [[nodiscard]] std::string read(const std::string& name) const { return read_file(path(name)); }
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(Derive, EmitsTheHeaderThatIsInTheTree) {
+  ASSERT_EQ(run("--model rigorous --emit '" + path("bounds.hpp") + "'"), 0) << read("err");
+  EXPECT_EQ(read("bounds.hpp"), read_file(TOUCHSTONE_SOURCE_DIR "/filters/error_bounds.hpp"));
+}
+
+TEST_F(Derive, PrintsAndWritesTheTable) {
+  ASSERT_EQ(run("--model published --model rigorous --model observed --precision double "
+                "--evaluations 2000 --json '" +
+                path("json") + "'"),
+            0)
+      << read("err");
+  EXPECT_NE(read("out").find("6.217248937900877e-15"), std::string::npos);
+  const nlohmann::json result = json();
+  EXPECT_EQ(result.at("evaluations"), 2000);
+  ASSERT_EQ(result.at("bounds").size(), 8U);
+  const nlohmann::json row = result.at("bounds")[0];
+  EXPECT_EQ(row.at("expression"), "edge_edge");
+  EXPECT_EQ(row.at("precision"), "double");
+  EXPECT_EQ(row.at("published_constant"), "6.217248937900877e-15");
+  EXPECT_EQ(row.at("published"), 6.217248937900877e-15);
+  EXPECT_EQ(row.at("published_units"), 56);
+  EXPECT_TRUE(row.at("gappa").is_null());
+  EXPECT_EQ(row.at("worst_input").at("coordinates").size(), 8U);
+  EXPECT_GT(row.at("tightness"), 1.0);
+}
+
+TEST_F(Derive, HasGappaProveItsBounds) {
+  ASSERT_EQ(run("--model rigorous --model gappa --precision float --json '" + path("json") + "'"),
+            0)
+      << read("err");
+  for (const nlohmann::json& row : json().at("bounds")) {
+    EXPECT_NEAR(row.at("gappa_units").get<double>(), row.at("rigorous_units").get<double>(), 1e-9);
+  }
+}
+
+TEST_F(Derive, NamesThePackageWhereGappaIsMissing) {
+  EXPECT_EQ(run("--model gappa", "PATH=/nonexistent"), 2);
+  EXPECT_NE(read("err").find("install the Debian package gappa"), std::string::npos);
+  EXPECT_EQ(run("--evaluations 10", "PATH=/nonexistent"), 0) << "not asked for by name";
+  EXPECT_NE(read("err").find("install the Debian package gappa"), std::string::npos);
+}
+
+TEST_F(Derive, RefusesBadUsageAndOutputsOfOneName) {
+  EXPECT_EQ(run("--model nonsense"), 2);
+  EXPECT_EQ(run("--precision half"), 2);
+  EXPECT_EQ(run("--evaluations 0"), 2);
+  EXPECT_EQ(run("--emit '" + path("x") + "' --json '" + path("x") + "'"), 2);
+  EXPECT_EQ(run("--model rigorous --json '" + path("no/such/folder") + "'"), 2);
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_NE(read("out").find("Example: touchstone derive"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::cli

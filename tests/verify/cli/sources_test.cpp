@@ -1,0 +1,141 @@
+#include "verify/cli/sources.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "verify/families/families.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with two files of one query each.
+class Sources : public ::testing::Test {
+ public:
+  Sources(const Sources&) = delete;
+  Sources& operator=(const Sources&) = delete;
+  Sources(Sources&&) = delete;
+  Sources& operator=(Sources&&) = delete;
+
+ protected:
+  Sources()
+      : folder_(fs::path(::testing::TempDir()) /
+                (std::string("touchstone_sources_") +
+                 ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                 std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+    for (const char* name : {"a_vf.csv", "b_ee.csv"}) write(name);
+    handlers_ = {
+        .title = "test",
+        .use =
+            [this](QuerySource& source, const std::function<void(double)>& progress) {
+              used_.emplace_back(source.name(), source.kind());
+              for (auto query = source.next(); query; query = source.next()) ++queries_;
+              progress(1.0);
+            },
+        .fail = [this](const fs::path& path, const DatasetError&) { failed_.push_back(path); },
+        .stopped = [this] { return used_.size() + failed_.size() >= most_; },
+        .is_output = [this](const fs::path& path) { return path == output_; }};
+  }
+  ~Sources() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name) const {
+    std::ofstream file(folder_ / name);
+    for (int row = 0; row < 8; ++row) file << row << ",1,2,1,3,1\n";
+  }
+
+  fs::path folder_;
+  SourceHandlers handlers_;
+  std::vector<std::pair<std::string, Kind>> used_;
+  std::vector<fs::path> failed_;
+  std::uint64_t queries_ = 0;
+  std::size_t most_ = 1000;
+  fs::path output_;
+};
+
+TEST_F(Sources, WithoutPathsAreTheBuiltInSet) {
+  SourceArguments arguments;
+  arguments.count = 2;
+  for_each_source(arguments, handlers_);
+  std::vector<std::pair<std::string, Kind>> expected;
+  for (const Family& family : families()) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (supports(family, kind)) expected.emplace_back(family.name, kind);
+    }
+  }
+  EXPECT_EQ(used_, expected);
+  EXPECT_EQ(queries_, 2 * expected.size());
+}
+
+TEST_F(Sources, FilesComeOnceAndInOrder) {
+  SourceArguments arguments;
+  const fs::path b = folder_ / "b_ee.csv";
+  arguments.paths = {b, folder_};
+  for_each_source(arguments, handlers_);
+  ASSERT_EQ(used_.size(), 2U);
+  EXPECT_EQ(used_[0], std::pair(b.string(), Kind::edge_edge));
+  EXPECT_EQ(used_[1], std::pair((folder_ / "a_vf.csv").string(), Kind::vertex_face));
+  EXPECT_EQ(queries_, 2U);
+}
+
+TEST_F(Sources, WhatCannotBeOpenedFailsAndTheRestGoesOn) {
+  write("kindless.csv");
+  SourceArguments arguments;
+  arguments.paths = {folder_ / "missing", folder_};
+  for_each_source(arguments, handlers_);
+  EXPECT_EQ(failed_, (std::vector<fs::path>{folder_ / "missing", folder_ / "kindless.csv"}));
+  EXPECT_EQ(used_.size(), 2U);
+}
+
+TEST_F(Sources, AStopLeavesTheRestAlone) {
+  most_ = 1;
+  SourceArguments arguments;
+  for_each_source(arguments, handlers_);
+  EXPECT_EQ(used_.size(), 1U);
+  used_.clear();
+  arguments.paths = {folder_ / "missing", folder_};
+  for_each_source(arguments, handlers_);
+  EXPECT_TRUE(used_.empty());
+  EXPECT_EQ(failed_.size(), 1U);
+}
+
+TEST_F(Sources, AnInputMustBeNoOutput) {
+  output_ = folder_ / "b_ee.csv";
+  SourceArguments arguments;
+  arguments.paths = {folder_};
+  EXPECT_THROW(for_each_source(arguments, handlers_), std::runtime_error);
+  EXPECT_TRUE(used_.empty()) << "before anything is done";
+}
+
+TEST_F(Sources, OptionsFillTheArguments) {
+  CLI::App app;
+  SourceArguments arguments;
+  add_source_options(app, arguments);
+  std::vector<std::string> words{"x",        "--keep-going", "--seed", "3",       "--count",
+                                 "5",        "--threads",    "2",      "--round", "--kind",
+                                 "edge-edge"};
+  std::ranges::reverse(words);
+  app.parse(std::move(words));
+  EXPECT_EQ(arguments.paths, (std::vector<fs::path>{"x"}));
+  EXPECT_TRUE(arguments.keep_going);
+  EXPECT_TRUE(arguments.round);
+  EXPECT_EQ(arguments.kind, "edge-edge");
+  EXPECT_EQ(arguments.seed, 3U);
+  EXPECT_EQ(arguments.count, 5U);
+  EXPECT_EQ(arguments.threads, 2U);
+  EXPECT_FALSE(arguments.built_in_set());
+}
+
+}  // namespace
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,78 @@
+/// \file
+/// A plugin that does what the first coordinate says: from good answers to the worst.
+
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/verify/methods/plugins/misbehaviour.hpp"
+#include "verify/plugin.h"
+
+namespace {
+
+using touchstone::tests::Misbehaviour;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void hang() {
+  for (volatile bool go_on = true;;) static_cast<void>(go_on);
+}
+
+/// Those that end without an answer.
+void fail(Misbehaviour what) {
+  if (what == Misbehaviour::throws) throw std::runtime_error("thrown by a plugin");
+  if (what == Misbehaviour::aborts) std::abort();
+  if (what == Misbehaviour::hangs) hang();
+  if (what == Misbehaviour::writes_to_null) {
+    volatile int* volatile nowhere = nullptr;
+    *nowhere = 1;  // NOLINT(clang-analyzer-core.NullDereference): meant
+  }
+}
+
+}  // namespace
+
+std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+
+const char* touchstone_plugin_name() { return "misbehaving"; }
+
+void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
+                             const touchstone_options* options, touchstone_answer* answer) {
+  const auto what = static_cast<Misbehaviour>(static_cast<int>(coordinates[0]));
+  fail(what);
+  switch (what) {
+    case Misbehaviour::says_no:
+      answer->verdict = touchstone_no;
+      return;
+    case Misbehaviour::says_no_with_toi:
+      *answer = {touchstone_no, 0.25, 0.5, 1e-9};
+      return;
+    case Misbehaviour::is_undecided:
+      answer->verdict = touchstone_undecided;
+      return;
+    case Misbehaviour::verdict_too_large:
+      *answer = {touchstone_error + 1, 0.25, 0.5, 1e-9};
+      return;
+    case Misbehaviour::verdict_negative:
+      *answer = {-1, 0.25, 0.5, 1e-9};
+      return;
+    case Misbehaviour::infinite_toi_lower:
+      *answer = {touchstone_yes, -infinity, 0.5, 1e-9};
+      return;
+    case Misbehaviour::infinite_toi_upper:
+      *answer = {touchstone_yes, 0.25, infinity, 1e-9};
+      return;
+    case Misbehaviour::yes_without_toi:
+      answer->verdict = touchstone_yes;
+      return;
+    case Misbehaviour::repeats_query:
+      *answer = {touchstone_yes, coordinates[1], coordinates[23], static_cast<double>(kind)};
+      return;
+    case Misbehaviour::repeats_options:
+      *answer = {options->max_checks == 77 ? touchstone_yes : touchstone_no, options->tolerance,
+                 options->min_separation, options->t_max};
+      return;
+    default:
+      return;
+  }
+}

@@ -1,0 +1,26 @@
+#pragma once
+
+/// \file
+/// What the misbehaving plugin does: the first coordinate of a query says it.
+
+namespace touchstone::tests {
+
+enum class Misbehaviour {
+  says_no,
+  says_no_with_toi,  ///< from 1/4 to 1/2, tolerance 1e-9, as have all with a wrong verdict
+  is_undecided,
+  verdict_too_large,
+  verdict_negative,
+  infinite_toi_lower,
+  infinite_toi_upper,
+  yes_without_toi,
+  repeats_query,    ///< yes; times: coordinates 1 and 23; tolerance: the kind
+  repeats_options,  ///< yes if max_checks is 77; times: tolerance, min_separation; tolerance: t_max
+  leaves_answer_alone,
+  throws,
+  aborts,
+  writes_to_null,
+  hangs
+};
+
+}  // namespace touchstone::tests

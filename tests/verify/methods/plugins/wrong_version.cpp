@@ -1,0 +1,13 @@
+/// \file
+/// A plugin made for a version of the interface that does not exist.
+
+#include <cstdint>
+
+#include "verify/plugin.h"
+
+std::int32_t touchstone_plugin_version() { return touchstone_interface_version + 41; }
+
+const char* touchstone_plugin_name() { return "wrong_version"; }
+
+void touchstone_plugin_solve(std::int32_t, const double*, const touchstone_options*,
+                             touchstone_answer*) {}

@@ -1,0 +1,165 @@
+// touchstone derive: the bounds of the filtered expressions, and the header that ships them.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "filters/derivation/catalogue.hpp"
+#include "filters/derivation/derivation.hpp"
+#include "verify/cli/commands.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/terminal.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+using filters::DeriveOptions;
+using filters::DeriveResult;
+using filters::DeriveRow;
+using filters::Model;
+
+const std::map<std::string, Model> models_by_name{{"published", Model::published},
+                                                  {"rigorous", Model::rigorous},
+                                                  {"gappa", Model::gappa},
+                                                  {"observed", Model::observed}};
+
+struct Arguments {
+  std::vector<std::string> models;
+  std::string precision;
+  std::string header_file;
+  std::string json_file;
+  std::uint64_t seed = default_seed;
+  std::uint64_t evaluations = filters::WorstCaseOptions{}.evaluations;
+  unsigned threads = 0;
+};
+
+DeriveOptions to_options(const Arguments& arguments) {
+  DeriveOptions options;
+  if (!arguments.models.empty()) options.models.clear();
+  for (const std::string& name : arguments.models) options.models.insert(models_by_name.at(name));
+  if (!arguments.precision.empty()) {
+    std::erase_if(options.formats, [&](const filters::Format& format) {
+      return format.name != arguments.precision;
+    });
+  }
+  options.search = {.seed = arguments.seed, .evaluations = arguments.evaluations};
+  options.threads = arguments.threads;
+  options.stop = [] { return interrupted().load(); };
+  return options;
+}
+
+/// A bound as a multiple of u and as the constant itself.
+void add_bound(nlohmann::json& row, const std::string& name, const std::optional<double>& units,
+               const filters::Format& format) {
+  row[name + "_units"] = units ? nlohmann::json(*units) : nlohmann::json();
+  row[name] = units ? nlohmann::json(*units * format.unit_roundoff().get_d()) : nlohmann::json();
+}
+
+std::optional<double> to_double(const std::optional<mpq_class>& number) {
+  if (!number) return std::nullopt;
+  return number->get_d();
+}
+
+nlohmann::json to_json(const DeriveRow& row) {
+  nlohmann::json json{{"expression", row.expression}, {"precision", row.format.name}};
+  json["published_constant"] =
+      row.published_constant.empty() ? nlohmann::json() : nlohmann::json(row.published_constant);
+  add_bound(json, "published", to_double(row.published), row.format);
+  add_bound(json, "rigorous", to_double(row.rigorous), row.format);
+  add_bound(json, "gappa", to_double(row.gappa), row.format);
+  add_bound(json, "observed", row.observed ? std::optional(row.observed->units) : std::nullopt,
+            row.format);
+  if (row.observed) {
+    json["worst_input"] = {{"coordinates", row.observed->inputs.coordinates},
+                           {"weights", row.observed->inputs.weights}};
+  }
+  const std::optional<double> tightness = row.tightness();
+  json["tightness"] = tightness ? nlohmann::json(*tightness) : nlohmann::json();
+  return json;
+}
+
+nlohmann::json to_json(const Arguments& arguments, const DeriveResult& result) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const DeriveRow& row : result.rows) rows.push_back(to_json(row));
+  return {{"seed", arguments.seed},
+          {"evaluations", arguments.evaluations},
+          {"gappa_missing", result.gappa_missing},
+          {"interrupted", result.stopped},
+          {"bounds", std::move(rows)}};
+}
+
+Status status_of(const Arguments& arguments, const DeriveResult& result) {
+  const bool gappa_wanted = std::ranges::find(arguments.models, "gappa") != arguments.models.end();
+  if (result.gappa_missing) {
+    report_error("gappa: not found, its column is empty; install the Debian package gappa");
+  }
+  if (result.stopped) return Status::interrupted;
+  return result.gappa_missing && gappa_wanted ? Status::bad_input : Status::all_well;
+}
+
+Status derive(const Arguments& arguments) {
+  OptionalOutput header(arguments.header_file), json(arguments.json_file);
+  if (header && json.is(arguments.header_file)) {
+    throw std::invalid_argument(arguments.json_file + ": named for two outputs");
+  }
+  DeriveOptions options = to_options(arguments);
+  DeriveResult result;
+  {
+    ProgressBar progress("derive");
+    options.progress = [&progress](double fraction) { progress.update(fraction); };
+    result = filters::derive(options);
+  }
+  if (header) header.write(filters::error_bounds_header());
+  if (json) json.write(to_json(arguments, result).dump(2) + "\n");
+  header.close();
+  json.close();
+  fmt::print("{}", to_table(result));
+  return status_of(arguments, result);
+}
+
+}  // namespace
+
+void add_derive_command(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "derive",
+      "Derive the error bounds of the filtered expressions, in units of u times the greatest "
+      "coordinate");
+  command
+      ->add_option("--model", arguments->models,
+                   "Only these columns: published, rigorous, gappa, observed (default: all)")
+      ->type_name("NAME")
+      ->check(CLI::IsMember(models_by_name));
+  command->add_option("--precision", arguments->precision, "double or float (default: both)")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"double", "float"}));
+  command
+      ->add_option("--emit", arguments->header_file,
+                   "Write the header of bounds (filters/error_bounds.hpp)")
+      ->type_name("FILE");
+  command->add_option("--json", arguments->json_file, "Write the table as JSON")->type_name("FILE");
+  command->add_option("--seed", arguments->seed, "Seed of the search for the worst error")
+      ->capture_default_str()
+      ->check(whole_number(0, UINT64_MAX));
+  command
+      ->add_option("--evaluations", arguments->evaluations,
+                   "Evaluations that the search may spend a row")
+      ->capture_default_str()
+      ->check(whole_number(1, UINT64_MAX));
+  command->add_option("--threads", arguments->threads, "Threads (default: all)")
+      ->check(whole_number(1, 4096));
+  command->footer(
+      "Exit status: 0 all is derived, 2 bad usage, an error in writing, or no gappa where --model\n"
+      "gappa asks for it, 130 interrupted.\n"
+      "Example: touchstone derive --model published --model rigorous --precision double");
+  command->callback([arguments, &status] { status = derive(*arguments); });
+}
+
+}  // namespace touchstone::verify::cli

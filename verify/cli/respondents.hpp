@@ -1,0 +1,63 @@
+#pragma once
+
+/// \file
+/// The solvers that a command line names: methods of ours, plugins, recorded answers.
+
+#include <CLI/CLI.hpp>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fast/method.hpp"
+#include "verify/methods/answers.hpp"
+#include "verify/methods/respondent.hpp"
+
+namespace touchstone::verify::cli {
+
+/// What the user said of solvers.
+struct RespondentArguments {
+  std::vector<std::string> methods;
+  std::vector<std::filesystem::path> plugins;
+  std::vector<std::filesystem::path> results;
+  /// Wall-clock seconds a query; 0: no limit.
+  double query_limit = 0.0;
+  bool exact = false;
+  fast::MethodOptions options;
+
+  [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
+};
+
+/// Adds --method, --plugin, --query-limit, --tolerance and --max-checks; the arguments must live
+/// until the command line is parsed.
+void add_solver_options(CLI::App& command, RespondentArguments& arguments);
+
+/// The respondents of a run, and all that they need to live.
+class Respondents {
+ public:
+  /// Those that the arguments name, in the order methods, plugins, results. Plugins, and with a
+  /// limit also methods, answer in child processes. The method "none" stands for no method.
+  /// \throws std::invalid_argument for an unknown method, or "none" beside others; DatasetError if a
+  /// plugin or a file of answers cannot be loaded.
+  explicit Respondents(const RespondentArguments& arguments);
+
+  [[nodiscard]] std::vector<const Respondent*> all() const;
+
+  /// Files of answers with answers to queries that were never asked: a warning text each.
+  [[nodiscard]] std::vector<std::string> warnings() const;
+
+ private:
+  struct Results {
+    std::filesystem::path path;
+    RecordedAnswers answers;
+  };
+
+  void add(std::unique_ptr<Respondent> respondent, bool exact);
+
+  std::vector<std::unique_ptr<fast::Method>> plugins_;
+  std::deque<Results> results_;  // its elements stay where they are
+  std::vector<std::unique_ptr<Respondent>> respondents_;
+};
+
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,169 @@
+// touchstone solve: a solver's answers as a file.
+
+#include <fmt/format.h>
+
+#include <cfloat>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "verify/cli/commands.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/cli/respondents.hpp"
+#include "verify/cli/sources.hpp"
+#include "verify/methods/answers.hpp"
+#include "verify/solve.hpp"
+#include "verify/terminal.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Progress = std::function<void(double)>;
+
+struct Arguments {
+  SourceArguments sources;
+  RespondentArguments solver;
+  std::string out_file;
+  std::string json_file;
+};
+
+/// The one solver that the user named.
+RespondentArguments the_solver(const Arguments& arguments) {
+  if (arguments.solver.methods.size() + arguments.solver.plugins.size() != 1 ||
+      (!arguments.solver.methods.empty() && arguments.solver.methods.front() == "none")) {
+    throw std::invalid_argument("solve takes one solver: --method NAME or --plugin LIB.so");
+  }
+  return arguments.solver;
+}
+
+/// One run: its sources one after the other, then its summary.
+class SolveRun {
+ public:
+  explicit SolveRun(const Arguments& arguments)
+      : arguments_(arguments),
+        respondents_(the_solver(arguments)),
+        solver_(*respondents_.all().front()),
+        out_(arguments.out_file),
+        json_(arguments.json_file) {
+    if (json_.is(arguments.out_file)) {
+      throw std::runtime_error(arguments.json_file + ": named for two outputs");
+    }
+    out_.write(answers_header());
+  }
+
+  Status run() {
+    for_each_source(
+        arguments_.sources,
+        {.title = "solve",
+         .use = [this](QuerySource& source,
+                       const Progress& progress) { solve_source(source, progress); },
+         .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
+         .stopped = [this] { return stopped(); },
+         .is_output = [this](const fs::path& path) { return out_.is(path) || json_.is(path); }});
+    out_.close();
+    if (json_) json_.write(summary().dump(2) + "\n");
+    json_.close();
+    fmt::print("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
+               solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
+               sum_.nanoseconds_per_query());
+    if (sum_.skipped != 0) fmt::print("{} queries in error skipped\n", sum_.skipped);
+    if (sum_.rounded != 0) fmt::print("{} coordinates rounded to double\n", sum_.rounded);
+    return status();
+  }
+
+ private:
+  void solve_source(QuerySource& source, const Progress& progress) {
+    SolveOptions options;
+    options.threads = arguments_.sources.threads;
+    options.stop = &interrupted();
+    options.on_progress = progress;
+    options.on_answer = [&](std::uint64_t index, const fast::Answer& answer) {
+      out_.write(answer_row(source.name(), index, source.kind(), answer));
+    };
+    const SolveResult result = solve(source, solver_, options);
+    sum_ += result;
+    if (result.reading_error) fail(*result.reading_error);
+  }
+
+  void fail(const std::string& message) {
+    report_error(message);
+    ++reading_errors_;
+  }
+
+  [[nodiscard]] bool stopped() const {
+    return interrupted() || out_.failed() ||
+           (reading_errors_ != 0 && !arguments_.sources.keep_going);
+  }
+
+  [[nodiscard]] nlohmann::json summary() const {
+    return {{"method", solver_.name()},
+            {"queries", sum_.queries},
+            {"yes", sum_.yes},
+            {"no", sum_.no},
+            {"undecided", sum_.undecided},
+            {"errors", sum_.errors},
+            {"ns_per_query", sum_.nanoseconds_per_query()},
+            {"skipped", sum_.skipped},
+            {"rounded", sum_.rounded},
+            {"reading_errors", reading_errors_},
+            {"interrupted", sum_.interrupted}};
+  }
+
+  [[nodiscard]] Status status() const {
+    if (out_.failed() || json_.failed() || reading_errors_ + sum_.skipped != 0) {
+      return Status::bad_input;
+    }
+    return interrupted() ? Status::interrupted : Status::all_well;
+  }
+
+  const Arguments& arguments_;
+  Respondents respondents_;
+  const Respondent& solver_;
+  ReportedOutput out_;
+  ReportedOutput json_;
+  SolveResult sum_;
+  std::uint64_t reading_errors_ = 0;
+};
+
+void add_problem_options(CLI::App& command, fast::MethodOptions& options) {
+  command
+      .add_option("--min-separation", options.min_separation,
+                  "Contact is to be this near, for methods that know of it")
+      ->capture_default_str()
+      ->check(real_number(0.0, DBL_MAX));
+  command
+      .add_option("--t-max", options.t_max,
+                  "Only impacts up to this time count, for methods that know of it")
+      ->capture_default_str()
+      ->check(real_number(0.0, 1.0));
+}
+
+}  // namespace
+
+void add_solve_command(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("solve", "Have a solver answer every query and write its answers as CSV");
+  add_source_options(*command, arguments->sources);
+  add_solver_options(*command, arguments->solver);
+  add_problem_options(*command, arguments->solver.options);
+  command
+      ->add_option("--out", arguments->out_file,
+                   "Write file,index,kind,verdict,toi_lower,toi_upper,tolerance")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--json", arguments->json_file, "Write the summary as JSON")
+      ->type_name("FILE");
+  command->footer(
+      "Exit status: 0 all is answered and written, 2 bad input or usage, 130 interrupted (what is\n"
+      "done by then is written).\n"
+      "Example: touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv");
+  command->callback([arguments, &status] { status = SolveRun(*arguments).run(); });
+}
+
+}  // namespace touchstone::verify::cli

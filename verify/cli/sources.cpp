@@ -1,0 +1,120 @@
+#include "verify/cli/sources.hpp"
+
+#include <cstddef>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "exact/query.hpp"
+#include "verify/dataset/dataset.hpp"
+#include "verify/families/families.hpp"
+#include "verify/terminal.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Progress over sources that count alike.
+class TotalProgress {
+ public:
+  TotalProgress(const std::string& title, std::size_t sources)
+      : bar_(title), sources_(static_cast<double>(sources)) {}
+
+  /// What to tell the fraction of source number `index` that is done.
+  [[nodiscard]] std::function<void(double)> of(std::size_t index) {
+    return [this, index](double fraction) {
+      bar_.update((static_cast<double>(index) + fraction) / sources_);
+    };
+  }
+
+ private:
+  ProgressBar bar_;
+  double sources_;
+};
+
+void for_each_family(const SourceArguments& arguments, const SourceHandlers& handlers) {
+  std::vector<std::pair<const Family*, Kind>> sources;
+  for (const Family& family : families()) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (supports(family, kind)) sources.emplace_back(&family, kind);
+    }
+  }
+  TotalProgress progress(handlers.title, sources.size());
+  for (std::size_t i = 0; i < sources.size() && !handlers.stopped(); ++i) {
+    const auto [family, kind] = sources[i];
+    handlers.use(*open_family(*family, kind, arguments.seed, arguments.count), progress.of(i));
+  }
+}
+
+/// The dataset files of all paths, each once; empty if stopped.
+std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceHandlers& handlers) {
+  std::vector<fs::path> files;
+  std::set<fs::path> seen;
+  for (const fs::path& path : arguments.paths) {
+    try {
+      for (const fs::path& file : find_datasets({&path, 1})) {
+        if (handlers.is_output(file)) {
+          throw std::runtime_error(file.string() + ": named for input and output");
+        }
+        if (seen.insert(fs::weakly_canonical(file)).second) files.push_back(file);
+      }
+    } catch (const DatasetError& error) {
+      handlers.fail(path, error);
+      if (handlers.stopped()) return {};
+    }
+  }
+  return files;
+}
+
+void for_each_file(const SourceArguments& arguments, const SourceHandlers& handlers) {
+  DatasetOptions options;
+  if (!arguments.kind.empty()) options.kind = kind_from_string(arguments.kind);
+  options.round = arguments.round;
+  options.keep_going = arguments.keep_going;
+  options.on_skip = [](const DatasetError& error) { report_error(error.what()); };
+  const std::vector<fs::path> files = find_files(arguments, handlers);
+  TotalProgress progress(handlers.title, files.size());
+  for (std::size_t i = 0; i < files.size() && !handlers.stopped(); ++i) {
+    try {
+      handlers.use(*open_dataset(files[i], options), progress.of(i));
+    } catch (const DatasetError& error) {
+      handlers.fail(files[i], error);
+    }
+  }
+}
+
+}  // namespace
+
+void add_source_options(CLI::App& command, SourceArguments& arguments) {
+  command.add_option("PATH", arguments.paths,
+                     "Dataset files (.csv, .npy) or folders; without any, the built-in set");
+  command
+      .add_option("--kind", arguments.kind,
+                  "Kind of all queries, where the paths do not say it: vertex-face or edge-edge")
+      ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
+  command.add_flag(
+      "--round", arguments.round,
+      "Accept coordinates that are no doubles, rounded to the nearest, and count them");
+  command.add_flag(
+      "--keep-going", arguments.keep_going,
+      "Skip queries and files in error, name and count them (no longer all well: exit status 2)");
+  command.add_option("--threads", arguments.threads, "Cores to use (0: all)")
+      ->capture_default_str();
+  command.add_option("--seed", arguments.seed, "Seed of the built-in set")
+      ->capture_default_str()
+      ->check(whole_number(0, UINT64_MAX));
+  command.add_option("--count", arguments.count, "Queries a family and kind of the built-in set")
+      ->capture_default_str()
+      ->check(whole_number(1, UINT64_MAX));
+}
+
+void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers) {
+  if (arguments.built_in_set()) {
+    for_each_family(arguments, handlers);
+  } else {
+    for_each_file(arguments, handlers);
+  }
+}
+
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,55 @@
+#pragma once
+
+/// \file
+/// Paths on the command line, or none, as the sources of queries that a command works through.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "verify/cli/options.hpp"
+#include "verify/dataset/dataset_error.hpp"
+#include "verify/query_source.hpp"
+
+namespace touchstone::verify::cli {
+
+/// What the user said of the queries, and of the cores to use on them.
+struct SourceArguments {
+  std::vector<std::filesystem::path> paths;
+  std::string kind;
+  bool round = false;
+  bool keep_going = false;
+  unsigned threads = 0;
+  std::uint64_t seed = default_seed;
+  std::uint64_t count = 1000;
+
+  /// Without a path the queries are those of the built-in set.
+  [[nodiscard]] bool built_in_set() const { return paths.empty(); }
+};
+
+/// Adds the options that fill the arguments; these must live until the command line is parsed.
+void add_source_options(CLI::App& command, SourceArguments& arguments);
+
+/// What a command does with sources.
+struct SourceHandlers {
+  /// Of the progress bar over all sources.
+  std::string title;
+  /// Called with a source and with what to tell the fraction of it that is done.
+  std::function<void(QuerySource&, const std::function<void(double)>&)> use;
+  /// A path or file that could not be opened.
+  std::function<void(const std::filesystem::path&, const DatasetError&)> fail;
+  /// Is the rest to be left alone? Asked before each source and after each failure.
+  std::function<bool()> stopped;
+  /// Is a file written to by this command?
+  std::function<bool(const std::filesystem::path&)> is_output;
+};
+
+/// Opens and hands over the sources one after the other: the families of the built-in set, or the
+/// dataset files of all paths, each once. Queries skipped with keep_going are reported on standard
+/// error. \throws std::runtime_error if an input is an output.
+void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers);
+
+}  // namespace touchstone::verify::cli

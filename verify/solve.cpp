@@ -1,0 +1,93 @@
+#include "verify/solve.hpp"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "verify/stream.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+/// The parallel stage: the answers to one block.
+class BlockAnswers {
+ public:
+  BlockAnswers(const Block& block, const Respondent& respondent, const std::atomic<bool>* stop)
+      : block_(block),
+        answers_(block.queries.size()),
+        nanoseconds_(block.queries.size() / Passes::unit + 1) {
+    Passes passes(block.queries.size(), stop);
+    passes.run(respondent.good_span(), [&](std::size_t first, std::size_t count) {
+      const Questions questions{.source = *block.source,
+                                .kind = block.kind,
+                                .queries = std::span(block.queries).subspan(first, count),
+                                .indices = std::span(block.indices).subspan(first, count)};
+      nanoseconds_[first / Passes::unit] =
+          respondent.answer(questions, std::span(answers_).subspan(first, count)).nanoseconds;
+    });
+    complete_ = passes.complete();
+  }
+
+  [[nodiscard]] bool complete() const { return complete_ == answers_.size(); }
+
+  /// The serial stage.
+  void add_to(SolveResult& result, const SolveOptions& options) const {
+    using fast::Verdict;
+    for (std::size_t i = 0; i < complete_; ++i) {
+      const fast::Answer& answer = answers_[i];
+      ++result.queries;
+      result.yes += answer.verdict == Verdict::yes ? 1U : 0U;
+      result.no += answer.verdict == Verdict::no ? 1U : 0U;
+      result.undecided += answer.verdict == Verdict::undecided ? 1U : 0U;
+      result.errors += answer.verdict == Verdict::error ? 1U : 0U;
+      if (options.on_answer) options.on_answer(block_.indices[i], answer);
+    }
+    for (std::size_t part = 0; part * Passes::unit < complete_; ++part) {
+      result.nanoseconds += nanoseconds_[part];
+    }
+  }
+
+ private:
+  const Block& block_;
+  std::vector<fast::Answer> answers_;
+  std::vector<double> nanoseconds_;  // of the part that begins with a unit
+  std::size_t complete_ = 0;
+};
+
+}  // namespace
+
+double SolveResult::nanoseconds_per_query() const {
+  return queries == 0 ? 0.0 : nanoseconds / static_cast<double>(queries);
+}
+
+SolveResult& SolveResult::operator+=(const SolveResult& other) {
+  queries += other.queries;
+  yes += other.yes;
+  no += other.no;
+  undecided += other.undecided;
+  errors += other.errors;
+  nanoseconds += other.nanoseconds;
+  skipped += other.skipped;
+  rounded += other.rounded;
+  interrupted = interrupted || other.interrupted;
+  return *this;
+}
+
+SolveResult solve(QuerySource& source, const Respondent& respondent, const SolveOptions& options) {
+  SolveResult result;
+  const auto work = [&](const Block& block) -> BlockResult {
+    const auto solved = std::make_shared<const BlockAnswers>(block, respondent, options.stop);
+    return {.in_order = [solved, &result, &options] { solved->add_to(result, options); },
+            .complete = solved->complete()};
+  };
+  const StreamResult ended = stream(
+      source, work,
+      {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
+  result.skipped = ended.skipped;
+  result.rounded = ended.rounded;
+  result.reading_error = ended.error;
+  result.interrupted = ended.interrupted;
+  return result;
+}
+
+}  // namespace touchstone::verify
