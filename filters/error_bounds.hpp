@@ -11,35 +11,52 @@
 
 namespace touchstone::filters {
 
-/// edge_edge in double: 10 u x^1 and underflow.
+/// edge_edge in double: 10 u x and underflow.
 inline constexpr ErrorBound<double, 1> edge_edge_double{
-    {{0x0.0000000000006p-1022, 0x1.4000000000006p-50}}, 0x1p+1021};
+    .coefficients = {{0x0.0000000000006p-1022, 0x1.4000000000006p-50}},
+    .greatest_x = 0x1p+1021,
+};
 
-/// edge_edge in float: 10 u x^1 and underflow.
-inline constexpr ErrorBound<float, 1> edge_edge_float{{{0x1.8p-147F, 0x1.40000cp-21F}}, 0x1p+125F};
+/// edge_edge in float: 10 u x and underflow.
+inline constexpr ErrorBound<float, 1> edge_edge_float{
+    .coefficients = {{0x1.8p-147F, 0x1.40000cp-21F}},
+    .greatest_x = 0x1p+125F,
+};
 
-/// vertex_face in double: 20 u x^1 and underflow.
+/// vertex_face in double: 20 u x and underflow.
 inline constexpr ErrorBound<double, 1> vertex_face_double{
-    {{0x0.0000000000007p-1022, 0x1.4000000000006p-49}}, 0x1p+1020};
+    .coefficients = {{0x0.0000000000007p-1022, 0x1.4000000000006p-49}},
+    .greatest_x = 0x1p+1020,
+};
 
-/// vertex_face in float: 20 u x^1 and underflow.
-inline constexpr ErrorBound<float, 1> vertex_face_float{{{0x1.cp-147F, 0x1.40000cp-20F}},
-                                                        0x1p+124F};
+/// vertex_face in float: 20 u x and underflow.
+inline constexpr ErrorBound<float, 1> vertex_face_float{
+    .coefficients = {{0x1.cp-147F, 0x1.40000cp-20F}},
+    .greatest_x = 0x1p+124F,
+};
 
-/// edge_edge_separated in double: 13 u x^1 and underflow.
+/// edge_edge_separated in double: 13 u x and underflow.
 inline constexpr ErrorBound<double, 1> edge_edge_separated_double{
-    {{0x0.0000000000006p-1022, 0x1.a000000000007p-50}}, 0x1p+1021};
+    .coefficients = {{0x0.0000000000006p-1022, 0x1.a000000000007p-50}},
+    .greatest_x = 0x1p+1021,
+};
 
-/// edge_edge_separated in float: 13 u x^1 and underflow.
-inline constexpr ErrorBound<float, 1> edge_edge_separated_float{{{0x1.8p-147F, 0x1.a0000ep-21F}},
-                                                                0x1p+125F};
+/// edge_edge_separated in float: 13 u x and underflow.
+inline constexpr ErrorBound<float, 1> edge_edge_separated_float{
+    .coefficients = {{0x1.8p-147F, 0x1.a0000ep-21F}},
+    .greatest_x = 0x1p+125F,
+};
 
-/// vertex_face_separated in double: 25 u x^1 and underflow.
+/// vertex_face_separated in double: 25 u x and underflow.
 inline constexpr ErrorBound<double, 1> vertex_face_separated_double{
-    {{0x0.0000000000007p-1022, 0x1.9000000000007p-49}}, 0x1p+1020};
+    .coefficients = {{0x0.0000000000007p-1022, 0x1.9000000000007p-49}},
+    .greatest_x = 0x1p+1020,
+};
 
-/// vertex_face_separated in float: 25 u x^1 and underflow.
-inline constexpr ErrorBound<float, 1> vertex_face_separated_float{{{0x1.cp-147F, 0x1.90000ep-20F}},
-                                                                  0x1p+124F};
+/// vertex_face_separated in float: 25 u x and underflow.
+inline constexpr ErrorBound<float, 1> vertex_face_separated_float{
+    .coefficients = {{0x1.cp-147F, 0x1.90000ep-20F}},
+    .greatest_x = 0x1p+124F,
+};
 
 }  // namespace touchstone::filters

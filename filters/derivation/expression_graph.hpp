@@ -79,7 +79,7 @@ template <class Expression>
     GroupVertices& vertices = graph.groups.emplace_back();
     for (const auto& vertex : group) vertices.emplace_back(vertex.begin(), vertex.end());
   });
-  const auto inputs = [&]<std::size_t... number>(Operation operation,
+  const auto inputs = [&]<std::size_t... number>([[maybe_unused]] Operation operation,
                                                  std::index_sequence<number...> /*numbers*/) {
     return std::array<Recorded, sizeof...(number)>{Recorded(graph, {operation, number})...};
   };

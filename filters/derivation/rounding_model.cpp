@@ -14,16 +14,6 @@ using Terms = std::map<Monomial, mpq_class>;
 /// Coefficients by power of x.
 using ErrorPolynomial = std::vector<mpq_class>;
 
-mpq_class power_of_two(int exponent) {
-  mpq_class result(1);
-  if (exponent >= 0) {
-    result <<= static_cast<unsigned long>(exponent);
-  } else {
-    result >>= static_cast<unsigned long>(-exponent);
-  }
-  return result;
-}
-
 ExactValue from_terms(const Terms& terms) {
   ExactValue value;
   for (const auto& [monomial, coefficient] : terms) {
@@ -108,9 +98,7 @@ class VertexAnalysis {
         underflow_(power_of_two(format.least_exponent - 1)),
         degrees_(degrees(graph)),
         values_(expand(graph, weights)) {
-    for (std::size_t place = 0; place < graph.nodes.size(); ++place) {
-      errors_.push_back(error_of(graph.nodes[place], place));
-    }
+    for (const Node& node : graph.nodes) errors_.push_back(error_of(node, errors_.size()));
   }
 
   [[nodiscard]] const ErrorPolynomial& error(std::size_t place) const { return errors_[place]; }
@@ -160,6 +148,16 @@ void raise(ErrorPolynomial& bound, const ErrorPolynomial& other) {
 }
 
 }  // namespace
+
+mpq_class power_of_two(int exponent) {
+  mpq_class result(1);
+  if (exponent >= 0) {
+    result <<= static_cast<unsigned long>(exponent);
+  } else {
+    result >>= static_cast<unsigned long>(-exponent);
+  }
+  return result;
+}
 
 mpq_class Format::unit_roundoff() const { return power_of_two(-digits); }
 

@@ -36,6 +36,9 @@
 
 namespace touchstone::filters {
 
+/// 2^exponent.
+[[nodiscard]] mpq_class power_of_two(int exponent);
+
 /// A floating-point format.
 struct Format {
   const char* name;       ///< "double" or "float"

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <string_view>
 
 namespace touchstone::filters {
 namespace {
 
-/// The least number of the format that is not below x > 0.
+/// The least number of the format that is not below x ≥ 0.
 mpq_class round_up(const mpq_class& x, const Format& format) {
+  if (x == 0) return x;
   mpq_class spacing(1);  // the distance of neighbouring numbers of the format at x
   spacing >>= static_cast<unsigned long>(format.digits - 1);
   mpq_class power(1);
@@ -28,22 +28,6 @@ mpq_class round_up(const mpq_class& x, const Format& format) {
 /// A number of the format as a hexadecimal literal: C++'s spelling of an exact value.
 std::string literal(const mpq_class& x, const Format& format) {
   return fmt::format("{:a}{}", x.get_d(), format.digits == float_format.digits ? "F" : "");
-}
-
-void append_bound(std::string& text, const ExpressionGraph& graph, const Format& format) {
-  const DerivedBound bound = derive_bound(graph, format);
-  const std::vector<mpq_class> coefficients = shipped_coefficients(bound, format);
-  std::string list;
-  for (const mpq_class& coefficient : coefficients) {
-    list += (list.empty() ? "" : ", ") + literal(coefficient, format);
-  }
-  const mpq_class units = bound.rounding() / format.unit_roundoff();
-  fmt::format_to(std::back_inserter(text),
-                 "/// {} in {}: {:.6g} u x^{} and underflow.\n"
-                 "inline constexpr ErrorBound<{}, {}> {}_{}{{{{{{{}}}}}, 0x1p{:+}{}}};\n\n",
-                 graph.name, format.name, units.get_d(), coefficients.size() - 1, format.name,
-                 coefficients.size() - 1, graph.name, format.name, list, bound.greatest_x_exponent,
-                 format.digits == float_format.digits ? "F" : "");
 }
 
 constexpr std::string_view preamble = R"(#pragma once
@@ -77,10 +61,31 @@ std::vector<mpq_class> shipped_coefficients(const DerivedBound& bound, const For
   return result;
 }
 
+std::string error_bound_declaration(const ExpressionGraph& graph, const Format& format) {
+  const DerivedBound bound = derive_bound(graph, format);
+  const std::vector<mpq_class> coefficients = shipped_coefficients(bound, format);
+  std::string list;
+  for (const mpq_class& coefficient : coefficients) {
+    list += (list.empty() ? "" : ", ") + literal(coefficient, format);
+  }
+  const mpq_class units = bound.rounding() / format.unit_roundoff();
+  const std::size_t degree = coefficients.size() - 1;
+  // A comma at the end keeps clang-format from joining the lines.
+  return fmt::format(
+      "/// {0} in {1}: {2:.6g} u x{3} and underflow.\n"
+      "inline constexpr ErrorBound<{1}, {4}> {0}_{1}{{\n"
+      "    .coefficients = {{{{{5}}}}},\n"
+      "    .greatest_x = {6},\n"
+      "}};\n",
+      graph.name, format.name, units.get_d(), degree == 1 ? "" : fmt::format("^{}", degree), degree,
+      list, literal(power_of_two(bound.greatest_x_exponent), format));
+}
+
 std::string error_bounds_header(std::span<const ExpressionGraph> graphs) {
   std::string text(preamble);
   for (const ExpressionGraph& graph : graphs) {
-    for (const Format& format : {double_format, float_format}) append_bound(text, graph, format);
+    for (const Format& format : {double_format, float_format})
+      text += error_bound_declaration(graph, format) + "\n";
   }
   text += "}  // namespace touchstone::filters\n";
   return text;

@@ -20,6 +20,10 @@ namespace touchstone::filters {
 [[nodiscard]] std::vector<mpq_class> shipped_coefficients(const DerivedBound& bound,
                                                           const Format& format);
 
+/// The C++ text that declares a bound: `inline constexpr ErrorBound<…> NAME_FORMAT{…};` and a comment.
+[[nodiscard]] std::string error_bound_declaration(const ExpressionGraph& graph,
+                                                  const Format& format);
+
 /// The text of `filters/error_bounds.hpp` for these expressions, in double and float.
 [[nodiscard]] std::string error_bounds_header(std::span<const ExpressionGraph> graphs);
 

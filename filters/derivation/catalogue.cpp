@@ -1,0 +1,68 @@
+#include "filters/derivation/catalogue.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "filters/derivation/shipped_bound.hpp"
+#include "filters/expressions.hpp"
+
+namespace touchstone::filters {
+namespace {
+
+enum class Ships : bool { no, yes };
+
+template <class Expression>
+CatalogueEntry entry(Ships ships, std::optional<PublishedConstants> published = std::nullopt) {
+  return {.graph = record<Expression>(),
+          .evaluators = evaluators<Expression>(),
+          .published = published,
+          .ships = ships == Ships::yes};
+}
+
+constexpr PublishedConstants edge_edge{"6.217248937900877e-15", "3.337861e-06",
+                                       PaperEdgeEdge::name};
+constexpr PublishedConstants vertex_face{"6.661338147750939e-15", "3.576279e-06",
+                                         PaperVertexFace::name};
+constexpr PublishedConstants edge_edge_separated{"7.105427357601002e-15", "3.814698e-06",
+                                                 PaperEdgeEdgeSeparated::name};
+constexpr PublishedConstants vertex_face_separated{"7.549516567451064e-15", "4.053116e-06",
+                                                   PaperVertexFaceSeparated::name};
+
+std::vector<CatalogueEntry> make_catalogue() {
+  return {
+      entry<EdgeEdge>(Ships::yes, edge_edge),
+      entry<VertexFace>(Ships::yes, vertex_face),
+      entry<EdgeEdgeSeparated>(Ships::yes, edge_edge_separated),
+      entry<VertexFaceSeparated>(Ships::yes, vertex_face_separated),
+      entry<PaperEdgeEdge>(Ships::no, edge_edge),
+      entry<PaperVertexFace>(Ships::no, vertex_face),
+      entry<PaperEdgeEdgeSeparated>(Ships::no, edge_edge_separated),
+      entry<PaperVertexFaceSeparated>(Ships::no, vertex_face_separated),
+  };
+}
+
+}  // namespace
+
+const std::vector<CatalogueEntry>& catalogue() {
+  static const std::vector<CatalogueEntry> entries = make_catalogue();
+  return entries;
+}
+
+const CatalogueEntry& find_expression(std::string_view name) {
+  const auto found =
+      std::ranges::find(catalogue(), name, [](const CatalogueEntry& e) { return e.graph.name; });
+  if (found == catalogue().end()) {
+    throw std::invalid_argument("no expression " + std::string(name) + " in the catalogue");
+  }
+  return *found;
+}
+
+std::string error_bounds_header() {
+  std::vector<ExpressionGraph> graphs;
+  for (const CatalogueEntry& e : catalogue()) {
+    if (e.ships) graphs.push_back(e.graph);
+  }
+  return error_bounds_header(graphs);
+}
+
+}  // namespace touchstone::filters

@@ -1,0 +1,43 @@
+#pragma once
+
+/// \file
+/// The list of all expressions. To add one, write its template in filters/expressions.hpp and its
+/// line in catalogue.cpp; filters/README.md shows how with an example.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "filters/derivation/expression_graph.hpp"
+#include "filters/derivation/worst_case.hpp"
+
+namespace touchstone::filters {
+
+/// Constants published for a function (Wang et al. 2021), as they were printed, and the expression
+/// with the order of operations in which the published model gives them.
+struct PublishedConstants {
+  std::string_view in_double;
+  std::string_view in_float;
+  std::string_view order;  ///< name of an expression of the catalogue
+};
+
+/// An expression with all that is derived from it by.
+struct CatalogueEntry {
+  ExpressionGraph graph;
+  Evaluators evaluators;
+  std::optional<PublishedConstants> published;
+  bool ships = false;  ///< its bounds stand in filters/error_bounds.hpp
+};
+
+/// All expressions: those that ship, then the paper's orders of operations.
+[[nodiscard]] const std::vector<CatalogueEntry>& catalogue();
+
+/// The entry of a name.
+/// \throws std::invalid_argument if there is none.
+[[nodiscard]] const CatalogueEntry& find_expression(std::string_view name);
+
+/// The text of filters/error_bounds.hpp.
+[[nodiscard]] std::string error_bounds_header();
+
+}  // namespace touchstone::filters

@@ -1,0 +1,114 @@
+#include "filters/derivation/expression_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/filters/support.hpp"
+
+namespace touchstone::filters {
+namespace {
+
+TEST(ExpressionGraph, RecordsEachOperationOnce) {
+  const ExpressionGraph graph = record<Blend>();
+  EXPECT_EQ(graph.name, "blend");
+  EXPECT_EQ(graph.coordinates, 2U);
+  ASSERT_EQ(graph.nodes.size(), 7U);
+  const Node& result = graph.nodes.at(graph.result);
+  EXPECT_EQ(result.operation, Operation::add);
+  EXPECT_EQ(graph.nodes.at(result.left).operation, Operation::multiply);
+  EXPECT_EQ(graph.nodes.at(result.right).operation, Operation::multiply);
+}
+
+TEST(ExpressionGraph, EvaluatesLikeTheTemplate) {
+  // Run the recorded operations in double: bit by bit what the template computes.
+  std::mt19937_64 random(1);
+  const ExpressionGraph graph = record<VertexFace>();
+  for (int i = 0; i < 100; ++i) {
+    Inputs inputs{{}, random_weights<VertexFace>(random, 53)};
+    for (int j = 0; j < 8; ++j) inputs.coordinates.push_back(static_cast<double>(random()));
+    std::vector<double> values;
+    for (const auto& [operation, left, right] : graph.nodes) {
+      switch (operation) {
+        case Operation::coordinate:
+          values.push_back(inputs.coordinates.at(left));
+          break;
+        case Operation::weight:
+          values.push_back(inputs.weights.at(left));
+          break;
+        case Operation::add:
+          values.push_back(values[left] + values[right]);
+          break;
+        case Operation::subtract:
+          values.push_back(values[left] - values[right]);
+          break;
+        case Operation::multiply:
+          values.push_back(values[left] * values[right]);
+      }
+    }
+    EXPECT_EQ(values.at(graph.result), (computed_value<VertexFace, double>(inputs)));
+  }
+}
+
+TEST(ExpressionGraph, KnowsGroupsAndTheirVertices) {
+  const ExpressionGraph graph = record<VertexFace>();
+  EXPECT_EQ(graph.group_of(1), 0U);
+  EXPECT_EQ(graph.group_of(2), 1U);
+  EXPECT_EQ(graph.group_of(4), 1U);
+  const std::vector<std::vector<int>> vertices = graph.weight_vertices();
+  ASSERT_EQ(vertices.size(), 8U);
+  EXPECT_EQ(vertices.front(), (std::vector<int>{1, 0, 1, 0, 0}));
+  EXPECT_EQ(vertices.back(), (std::vector<int>{0, 1, -1, 1, 1}));
+  EXPECT_EQ(record<EdgeEdge>().weight_vertices().size(), 8U);
+}
+
+/// x w0 w1, both weights of one group: not affine in it.
+struct Square : Blend {
+  static constexpr std::string_view name = "square";
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 2>& x, const std::array<Scalar, 2>& w) {
+    return x[0] * w[0] * w[1];
+  }
+};
+
+/// The same, hidden in sums.
+struct HiddenSquare : Blend {
+  static constexpr std::string_view name = "hidden_square";
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 2>& x, const std::array<Scalar, 2>& w) {
+    return (x[0] * w[0] + x[1]) * (w[1] + w[1]);
+  }
+};
+
+/// Says that it has three weights, and has groups of two.
+struct Miscounted : Blend {
+  static constexpr std::string_view name = "miscounted";
+  static constexpr std::size_t weights = 3;
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 2>& x, const std::array<Scalar, 3>& w) {
+    return x[0] * w[0];
+  }
+};
+
+template <class Expression>
+std::string refusal() {
+  try {
+    static_cast<void>(record<Expression>());
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ExpressionGraph, RefusesWhatBreaksTheRules) {
+  EXPECT_EQ(refusal<Square>(),
+            "expression square: a product has weights of one group on both sides");
+  EXPECT_EQ(refusal<HiddenSquare>(),
+            "expression hidden_square: a product has weights of one group on both sides");
+  EXPECT_EQ(refusal<Miscounted>(),
+            "expression miscounted: its groups do not hold exactly its weights");
+  EXPECT_EQ(refusal<Blend>(), "accepted");
+}
+
+}  // namespace
+}  // namespace touchstone::filters

@@ -1,0 +1,106 @@
+#include "filters/derivation/rounding_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/filters/support.hpp"
+#include "tests/filters/worked_example/orientation.hpp"
+
+namespace touchstone::filters {
+namespace {
+
+/// The bound on the rounding error in units of u, second-order terms left out.
+template <class Expression>
+mpq_class first_order_units(const Format& format = double_format) {
+  const mpq_class units =
+      derive_bound(record<Expression>(), format).rounding() / format.unit_roundoff();
+  const mpz_class whole = units.get_num() / units.get_den();
+  // What is left must be of second order: a few hundred u.
+  EXPECT_LT(units - whole, 1000 * format.unit_roundoff());
+  return whole;
+}
+
+TEST(RoundingModel, FollowsABlendByHand) {
+  for (const Format& format : {double_format, float_format}) {
+    // At a vertex: a·1 is rounded (u), b·0 is 0, the sum is rounded: u + u (1 + u).
+    const mpq_class u = format.unit_roundoff(), eta = power_of_two(format.least_exponent - 1);
+    const DerivedBound bound = derive_bound(record<Blend>(), format);
+    ASSERT_EQ(bound.coefficients.size(), 2U);
+    EXPECT_EQ(bound.rounding(), 2 * u + u * u);
+    EXPECT_EQ(bound.coefficients[0], 2 * eta * (1 + u));
+    EXPECT_EQ(bound.greatest_x_exponent, format.greatest_exponent - 2);
+  }
+}
+
+TEST(RoundingModel, FollowsDegreeTwoByHand) {
+  const mpq_class u = double_format.unit_roundoff(), eta = power_of_two(-1075);
+  const DerivedBound bound = derive_bound(record<researcher::Orientation>(), double_format);
+  ASSERT_EQ(bound.coefficients.size(), 3U);
+  // Differences are 2x large and 2u x wrong; products inherit 8u + 4u² and round 4 + 8u + 4u²;
+  // the last difference has six terms left, for cx cy cancels.
+  EXPECT_EQ(bound.rounding(), 30 * u + 48 * u * u + 32 * u * u * u + 8 * u * u * u * u);
+  EXPECT_EQ(bound.coefficients[1], 0);
+  EXPECT_EQ(bound.coefficients[0], 2 * eta * (1 + u));
+}
+
+TEST(RoundingModel, GivesTheBoundsOfTheOrdersOfOperations) {
+  EXPECT_EQ(first_order_units<EdgeEdge>(), 10);
+  EXPECT_EQ(first_order_units<VertexFace>(), 20);
+  EXPECT_EQ(first_order_units<EdgeEdgeSeparated>(), 13);
+  EXPECT_EQ(first_order_units<VertexFaceSeparated>(), 25);
+  EXPECT_EQ(first_order_units<PaperEdgeEdge>(), 24);
+  EXPECT_EQ(first_order_units<PaperVertexFace>(), 28);
+  EXPECT_EQ(first_order_units<PaperEdgeEdgeSeparated>(), 27);
+  EXPECT_EQ(first_order_units<PaperVertexFaceSeparated>(), 33);
+  EXPECT_EQ(first_order_units<EdgeEdge>(float_format), 10);
+}
+
+TEST(RoundingModel, GivesTheKnownBoundsOfTheReleasedOrder) {
+  EXPECT_EQ(first_order_units<ReleasedEdgeEdge>(), 42);
+  EXPECT_EQ(first_order_units<ReleasedVertexFace>(), 49);
+}
+
+TEST(RoundingModel, KeepsTheErrorsOfValuesThatCancel) {
+  // Each product is wrong by u, the difference rounds what is left: the errors 2u.
+  const mpq_class u = double_format.unit_roundoff();
+  EXPECT_EQ(derive_bound(record<TwoErrors>(), double_format).rounding(), 2 * u + 2 * u * u);
+}
+
+TEST(RoundingModel, ExpandsValuesAtAVertex) {
+  const ExpressionGraph graph = record<PaperEdgeEdge>();
+  const std::vector<ExactValue> values = expand(graph, {1, 0, 0, 1, 1, 0});
+  const ExactValue& result = values.at(graph.result);  // ea1 − eb0 at t=0: ea0 has cancelled
+  ASSERT_EQ(result.terms.size(), 2U);
+  EXPECT_EQ(result.terms[0].monomial, std::vector<std::size_t>{1});
+  EXPECT_EQ(result.terms[0].coefficient, 1);
+  EXPECT_EQ(result.terms[1].monomial, std::vector<std::size_t>{2});
+  EXPECT_EQ(result.terms[1].coefficient, -1);
+  EXPECT_EQ(result.magnitude(), 2);
+  EXPECT_EQ(result.degree(), 1U);
+}
+
+/// x + x y: its error is no multiple of a power of x.
+struct Mixed : Blend {
+  static constexpr std::string_view name = "mixed";
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 2>& x,
+                                   const std::array<Scalar, 2>& /*w*/) {
+    return x[0] + x[0] * x[1];
+  }
+};
+
+TEST(RoundingModel, RefusesMixedDegrees) {
+  const ExpressionGraph graph = record<Mixed>();
+  EXPECT_THROW(static_cast<void>(derive_bound(graph, double_format)), std::invalid_argument);
+}
+
+TEST(RoundingModel, KnowsItsFormats) {
+  EXPECT_EQ(double_format.unit_roundoff(), mpq_class(0x1p-53));
+  EXPECT_EQ(float_format.unit_roundoff(), mpq_class(0x1p-24));
+  EXPECT_EQ(power_of_two(-1074), mpq_class(0x1p-1074));
+  EXPECT_EQ(power_of_two(100), mpq_class(0x1p100));
+}
+
+}  // namespace
+}  // namespace touchstone::filters

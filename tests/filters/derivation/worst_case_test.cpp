@@ -1,0 +1,129 @@
+#include "filters/derivation/worst_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/filters/support.hpp"
+#include "tests/filters/worked_example/orientation.hpp"
+
+namespace touchstone::filters {
+namespace {
+
+/// Checks in rationals what the search says of its worst input; its constant in units of u.
+template <class Expression, class Scalar>
+double checked_worst_case(const Format& format, int degree, std::uint64_t evaluations) {
+  const ExpressionGraph graph = record<Expression>();
+  const WorstCase worst = search_worst_case(graph, evaluators<Expression>(), format,
+                                            {.seed = 11, .evaluations = evaluations});
+  const mpq_class error =
+      abs(mpq_class(static_cast<double>(computed_value<Expression, Scalar>(worst.inputs))) -
+          exact_value<Expression>(worst.inputs));
+  mpq_class scale = format.unit_roundoff();
+  for (int i = 0; i < degree; ++i) scale *= mpq_class(greatest_coordinate(worst.inputs));
+  EXPECT_NEAR(mpq_class(error / scale).get_d(), worst.units, 1e-12);
+  EXPECT_LE(error / scale, derive_bound(graph, format).rounding() / format.unit_roundoff());
+  for (const double x : worst.inputs.coordinates) EXPECT_EQ(static_cast<double>(Scalar(x)), x);
+  for (const double w : worst.inputs.weights) EXPECT_EQ(static_cast<double>(Scalar(w)), w);
+  return worst.units;
+}
+
+template <class Expression>
+class Search : public ::testing::Test {};
+using Expressions =
+    ::testing::Types<EdgeEdge, VertexFace, EdgeEdgeSeparated, VertexFaceSeparated, PaperEdgeEdge,
+                     PaperVertexFace, PaperEdgeEdgeSeparated, PaperVertexFaceSeparated,
+                     ReleasedEdgeEdge, ReleasedVertexFace>;
+TYPED_TEST_SUITE(Search, Expressions);
+
+TYPED_TEST(Search, NeverExceedsTheBoundAndComesNearIt) {
+  const double units = derive_bound(record<TypeParam>(), double_format).rounding().get_d() * 0x1p53;
+  EXPECT_GT((checked_worst_case<TypeParam, double>(double_format, 1, 40'000)), units / 6);
+  EXPECT_GT((checked_worst_case<TypeParam, float>(float_format, 1, 40'000)), units / 6);
+}
+
+TEST(WorstCase, FindsMoreThanHalfOfTheTightestBounds) {
+  EXPECT_GT((checked_worst_case<EdgeEdge, double>(double_format, 1, 200'000)), 5.5);
+  EXPECT_GT((checked_worst_case<Blend, double>(double_format, 1, 50'000)), 1.6);
+  EXPECT_GT((checked_worst_case<researcher::Orientation, double>(double_format, 2, 50'000)), 9);
+}
+
+/// Searches with an evaluator that fails the test where MPFR rounds anything.
+template <class Expression>
+void expect_exact_truth(const Format& format) {
+  Evaluators watched = evaluators<Expression>();
+  watched.in_mpfr = [](const Inputs& inputs, mpfr_prec_t precision) {
+    mpfr_clear_inexflag();
+    const MpfrNumber value = evaluators<Expression>().in_mpfr(inputs, precision);
+    EXPECT_FALSE(mpfr_inexflag_p()) << Expression::name;
+    return value;
+  };
+  const WorstCase worst =
+      search_worst_case(record<Expression>(), watched, format, {.seed = 3, .evaluations = 5'000});
+  EXPECT_GT(worst.units, 1);
+}
+
+TEST(WorstCase, ComputesTheTruthExactly) {
+  for (const Format& format : {double_format, float_format}) {
+    expect_exact_truth<EdgeEdge>(format);
+    expect_exact_truth<VertexFaceSeparated>(format);
+    expect_exact_truth<PaperVertexFace>(format);
+    expect_exact_truth<researcher::Orientation>(format);
+  }
+}
+
+TEST(WorstCase, HasAPrecisionForTheSmallestAndLargestInputs) {
+  // x0 (2 − 2^-52), x1 2^-32 (1 + 2^-52), weights of 53 bits: all bits between are needed.
+  const Inputs inputs{{0x1.fffffffffffffp0, 0x1.0000000000001p-32},
+                      {0x1.fffffffffffffp-1, 0x1p-53}};
+  const mpfr_prec_t precision = exact_precision(record<Blend>(), double_format);
+  mpfr_clear_inexflag();
+  const MpfrNumber value = evaluators<Blend>().in_mpfr(inputs, precision);
+  EXPECT_FALSE(mpfr_inexflag_p());
+  EXPECT_EQ(value.to_double(), exact_value<Blend>(inputs).get_d());
+  static_cast<void>(evaluators<Blend>().in_mpfr(inputs, precision - 60));
+  EXPECT_TRUE(mpfr_inexflag_p()) << "a test of nothing: the precision is far more than is needed";
+}
+
+TEST(WorstCase, IsAFunctionOfTheSeed) {
+  const auto search = [](std::uint64_t seed) {
+    return search_worst_case(record<EdgeEdge>(), evaluators<EdgeEdge>(), double_format,
+                             {.seed = seed, .evaluations = 3'000});
+  };
+  EXPECT_EQ(search(1).inputs.coordinates, search(1).inputs.coordinates);
+  EXPECT_EQ(search(1).inputs.weights, search(1).inputs.weights);
+  EXPECT_NE(search(1).inputs.coordinates, search(2).inputs.coordinates);
+}
+
+/// Evaluators that count.
+std::uint64_t counted = 0;
+TEST(WorstCase, KeepsToItsBudget) {
+  Evaluators counting = evaluators<EdgeEdge>();
+  counting.in_double = [](const Inputs& inputs) {
+    ++counted;
+    return computed_value<EdgeEdge, double>(inputs);
+  };
+  for (const std::uint64_t budget : {1U, 150U, 201U, 10'000U}) {
+    counted = 0;
+    static_cast<void>(search_worst_case(record<EdgeEdge>(), counting, double_format,
+                                        {.seed = 1, .evaluations = budget}));
+    EXPECT_EQ(counted, budget);
+  }
+}
+
+/// Blend in another order of operations.
+struct OtherBlend : Blend {
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 2>& x, const std::array<Scalar, 2>& w) {
+    return x[0] + (x[1] - x[0]) * w[1];
+  }
+};
+
+TEST(WorstCase, FindsThatABoundIsOfAnotherOrderOfOperations) {
+  Evaluators other = evaluators<Blend>();
+  other.in_double = evaluators<OtherBlend>().in_double;
+  const WorstCase worst =
+      search_worst_case(record<Blend>(), other, double_format, {.seed = 1, .evaluations = 50'000});
+  EXPECT_GT(worst.units, 2.5) << "the bound of the graph is 2 u";
+}
+
+}  // namespace
+}  // namespace touchstone::filters

@@ -1,0 +1,122 @@
+#pragma once
+
+/// \file
+/// Expressions evaluated in rationals, random inputs for them, and expressions that only tests use.
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string_view>
+#include <vector>
+
+#include "filters/derivation/worst_case.hpp"
+#include "filters/expressions.hpp"
+
+namespace touchstone::filters {
+
+/// The exact value of an expression.
+template <class Expression>
+mpq_class exact_value(const Inputs& inputs) {
+  return evaluate_with<Expression>(inputs, [](double x) { return mpq_class(x); });
+}
+
+/// The value computed in Scalar (double or float).
+template <class Expression, class Scalar>
+Scalar computed_value(const Inputs& inputs) {
+  return evaluate_with<Expression>(inputs, [](double x) { return static_cast<Scalar>(x); });
+}
+
+inline double greatest_coordinate(const Inputs& inputs) {
+  double greatest = 0;
+  for (const double x : inputs.coordinates) greatest = std::max(greatest, std::abs(x));
+  return greatest;
+}
+
+/// Random weights of an expression's groups: t, u, v are multiples of 2^-bits. With two vertices a
+/// group is (1−t, t), with four (1−u−v, u, v).
+template <class Expression>
+std::vector<double> random_weights(std::mt19937_64& random, int bits) {
+  const auto fraction = [&] {
+    const std::uint64_t whole = std::uint64_t{1} << static_cast<unsigned>(bits);
+    return std::ldexp(static_cast<double>(random() % (whole + 1)), -bits);
+  };
+  std::vector<double> weights;
+  Expression::visit_groups([&](const auto& group) {
+    double rest = 1;
+    const std::size_t first = weights.size();
+    weights.push_back(0);
+    for (std::size_t i = 1; i < group.front().size(); ++i) {
+      weights.push_back(fraction());
+      rest -= weights.back();
+    }
+    weights[first] = rest;
+  });
+  return weights;
+}
+
+/// F of edge_edge in the order of operations of the released Tight-Inclusion: x(t) = (x1 − x0) t +
+/// x0.
+struct ReleasedEdgeEdge : EdgeEdge {
+  static constexpr std::string_view name = "released_edge_edge";
+
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 8>& x, const std::array<Scalar, 6>& w) {
+    const auto at_time = [&](std::size_t i) -> Scalar { return (x[4 + i] - x[i]) * w[1] + x[i]; };
+    const Scalar ea0 = at_time(0), eb0 = at_time(2);
+    return ((at_time(1) - ea0) * w[3] + ea0) - ((at_time(3) - eb0) * w[5] + eb0);
+  }
+};
+
+/// The same for vertex_face.
+struct ReleasedVertexFace : VertexFace {
+  static constexpr std::string_view name = "released_vertex_face";
+
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 8>& x, const std::array<Scalar, 5>& w) {
+    const auto at_time = [&](std::size_t i) -> Scalar { return (x[4 + i] - x[i]) * w[1] + x[i]; };
+    const Scalar f0 = at_time(1);
+    return at_time(0) - ((at_time(2) - f0) * w[3] + (at_time(3) - f0) * w[4] + f0);
+  }
+};
+
+/// (a, b) blended once: small enough to follow by hand.
+struct Blend {
+  static constexpr std::string_view name = "blend";
+  static constexpr std::size_t coordinates = 2;
+  static constexpr std::size_t weights = 2;
+
+  template <class Visitor>
+  static constexpr void visit_groups(const Visitor& visit) {
+    visit(unit_segment);
+  }
+
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 2>& x, const std::array<Scalar, 2>& w) {
+    return blend(x[0], x[1], w[0], w[1]);
+  }
+};
+
+/// a w0 − a w2: zero where both weights are 1, computed with two errors of their own.
+struct TwoErrors {
+  static constexpr std::string_view name = "two_errors";
+  static constexpr std::size_t coordinates = 1;
+  static constexpr std::size_t weights = 4;
+
+  template <class Visitor>
+  static constexpr void visit_groups(const Visitor& visit) {
+    visit(unit_segment);
+    visit(unit_segment);
+  }
+
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 1>& x, const std::array<Scalar, 4>& w) {
+    return x[0] * w[0] - x[0] * w[2];
+  }
+};
+
+}  // namespace touchstone::filters
