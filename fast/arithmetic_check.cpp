@@ -6,6 +6,10 @@
 
 #include "filters/strict_arithmetic.hpp"
 
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
 namespace touchstone::fast {
 namespace {
 
@@ -51,6 +55,16 @@ void require_strict_arithmetic() {
   if (!report.rounds_to_nearest) faults += " the rounding mode is not to nearest;";
   if (!report.gradual_underflow) faults += " subnormals are flushed to zero;";
   if (!faults.empty()) throw std::runtime_error("touchstone: arithmetic is not strict:" + faults);
+}
+
+void require_strict_environment() {
+#ifdef __SSE2__
+  static const bool build_is_strict = (require_strict_arithmetic(), true);
+  // Rounding control, flush to zero, subnormals are zeros: all off by default.
+  constexpr unsigned deviations = 0x6000U | 0x8000U | 0x0040U;
+  if (build_is_strict && (_mm_getcsr() & deviations) == 0) return;
+#endif
+  require_strict_arithmetic();
 }
 
 }  // namespace touchstone::fast

@@ -29,4 +29,9 @@ struct ArithmeticReport {
 /// \throws std::runtime_error naming what is wrong, if the arithmetic is not strict.
 void require_strict_arithmetic();
 
+/// The same, cheap enough for every query where the processor's control register tells (x86): what
+/// the build did is checked once, what the calling thread may have changed since (rounding mode,
+/// flushing of subnormals) each time.
+void require_strict_environment();
+
 }  // namespace touchstone::fast

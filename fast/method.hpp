@@ -62,6 +62,7 @@ class Method {
 
   /// Answers query i in answers[i], in this thread.
   /// \pre both spans have the same length.
+  /// \throws std::runtime_error if the arithmetic is not what the method needs; std::bad_alloc.
   virtual void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
                      const MethodOptions& options) const = 0;
 };

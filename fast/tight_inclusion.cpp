@@ -27,8 +27,6 @@ enum Axis : std::size_t { t_axis, u_axis, v_axis };
 
 /// Memory of a search, kept for the next.
 struct Workspace {
-  Workspace() { require_strict_arithmetic(); }
-
   BoxProblem problem;
   std::vector<LowerCorner> level;
   std::vector<LowerCorner> next_level;
@@ -257,10 +255,11 @@ class QuerySolver {
             ? *options_.scene_filter
             : error_filter(kind, x_max, workspace_.problem.separation, options_.error_model);
     if (scale_ == 1.0) return result;
-    for (double& x : result) {
-      if (options_.scene_filter) x *= scale_;
-      // What scaling cut off subnormal coordinates is far below a step of such a filter.
-      x = std::nextafter(x, infinity);
+    // Scaling does not shrink underflow, and adds as much again by what it cuts off coordinates.
+    const std::array<double, 3> underflow = error_filter(kind, {0.0, 0.0, 0.0}, 0.0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (options_.scene_filter) result[axis] *= scale_;
+      result[axis] = std::nextafter(result[axis] + 2.0 * underflow[axis], infinity);
     }
     return result;
   }
@@ -325,7 +324,10 @@ class TightInclusionMethod final : public Method {
     return base_.error_model == ErrorModel::derived ? "tight_inclusion"
                                                     : "tight_inclusion_published";
   }
-  [[nodiscard]] Promise promise() const override { return Promise::conservative; }
+  [[nodiscard]] Promise promise() const override {
+    // An answer cannot say that it is about a lower separation.
+    return base_.no_zero_toi ? Promise::none : Promise::conservative;
+  }
 
   void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
@@ -351,6 +353,7 @@ class TightInclusionMethod final : public Method {
 
 TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                      const TightInclusionOptions& options) {
+  require_strict_environment();
   return QuerySolver(workspace_of_this_thread(), options).solve(kind, query);
 }
 

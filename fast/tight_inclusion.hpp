@@ -50,7 +50,7 @@ struct TightInclusionOptions {
   std::size_t max_boxes = std::size_t{1} << 22U;
   /// d: contact is to come this near on every axis (L∞); finite, not negative.
   double min_separation = 0.0;
-  /// Only contacts up to this time count, in [0,1].
+  /// Only contacts up to this time count, in [0,1]; rounded up to a multiple of 2^-53.
   double t_max = 1.0;
   /// If the time of impact comes out as 0: try again with less separation, a smaller tolerance or a
   /// shorter time, until it does not or max_refinements is reached. For line searches that have to
@@ -59,7 +59,8 @@ struct TightInclusionOptions {
   /// Bounds the work of no_zero_toi to this many further searches.
   int max_refinements = 32;
   ErrorModel error_model = ErrorModel::derived;
-  /// Per axis, instead of the filter of each query: that of a scene (fast/filter.hpp).
+  /// Per axis, instead of the filter of each query: that of a scene (fast/filter.hpp). It must be
+  /// that of this kind and of min_separation, or more; the filter of vertex_face serves both kinds.
   std::optional<std::array<double, 3>> scene_filter = std::nullopt;
   /// For tests: instead of the best kernel for this processor.
   const BoxKernel* kernel = nullptr;
@@ -70,10 +71,12 @@ struct TightInclusionResult {
   Verdict verdict = Verdict::error;
   /// With yes: not above the time of impact, in [0, t_max].
   double toi = Answer::none;
-  /// With yes: the tolerance achieved. The points come within it, plus separation, plus twice the
-  /// filter, of each other at some time. δ, or more if the search ended early.
+  /// With yes: the tolerance achieved. The points come within it, plus the separation asked for,
+  /// plus twice the filter, of each other at some time. δ, or more if the search ended early, or
+  /// less if no_zero_toi lowered it.
   double tolerance = Answer::none;
-  /// Separation that the answer is about: below that asked for only where no_zero_toi lowered it.
+  /// Separation that `toi` is about: no contact within it before. Below that asked for only where
+  /// no_zero_toi lowered it.
   double min_separation = 0.0;
   /// Boxes examined, over all searches.
   std::int64_t checks = 0;
@@ -83,14 +86,16 @@ struct TightInclusionResult {
   std::string_view error;
 };
 
-/// Decides one query. Memory is kept for the thread's next call.
-/// \throws std::runtime_error on a thread's first call if the arithmetic is not strict
-/// (fast/arithmetic_check.hpp).
+/// Decides one query. Memory (max_boxes bounds it) is kept for the thread's next call, until the
+/// thread ends.
+/// \throws std::runtime_error if the arithmetic is not strict (fast/arithmetic_check.hpp);
+/// std::bad_alloc, after which the next call is as good as any.
 [[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                                    const TightInclusionOptions& options = {});
 
 /// As a method: its name is `tight_inclusion`, with the published filter
-/// `tight_inclusion_published`. What MethodOptions do not say is taken from `base`.
+/// `tight_inclusion_published`. What MethodOptions do not say is taken from `base`; a scene's filter
+/// must then be one for both kinds, and with no_zero_toi it promises nothing.
 [[nodiscard]] std::unique_ptr<Method> tight_inclusion_method(
     const TightInclusionOptions& base = {});
 

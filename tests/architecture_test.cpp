@@ -61,7 +61,10 @@ constexpr auto permissions = std::to_array<Permission>({
     {"fast/", "filters/"},
     {"fast/", "exact/query.hpp"},
     {"fast/", "Eigen/"},
+    // Vectors, and the processor's floating-point control.
     {"fast/", "hwy/"},
+    {"fast/", "immintrin.h"},
+    {"fast/", "xmmintrin.h"},
     {"fast/", "oneapi/tbb/"},
 
     {"verify/", "exact/"},
@@ -105,6 +108,9 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"exact/cgal.hpp",
      "a conversion that polynomial_test.cpp compares the oracle's algebra through"},
     {"verify/query_source.hpp", "an interface without code"},
+    {"fast/method.hpp", "an interface without code"},
+    {"fast/tight_inclusion/avx_halves.hpp", "a part of the kernels, tested through them"},
+    {"fast/tight_inclusion/box_kernel_on_lanes.hpp", "a part of the kernels, tested through them"},
     {"verify/cli/options.hpp", "tested through the commands that use it"},
     {"verify/families/grid.hpp", "a part of the families, tested through their queries"},
     {"verify/families/level.hpp", "a part of the families, tested through their queries"},

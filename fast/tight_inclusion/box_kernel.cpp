@@ -1,6 +1,8 @@
 #include "fast/tight_inclusion/box_kernel.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace touchstone::fast {
@@ -14,6 +16,19 @@ extern const BoxKernel avx512_box_kernel;
 
 namespace {
 
+/// Does the kernel round products before it adds them? Each kernel is compiled for its own
+/// instruction set, so each could be contracted by itself.
+bool rounds_products(const BoxKernel& kernel) {
+  // ea0 at t0 and ea1 at t1 are (1+ε)(1−ε) − 1 for ε = 2^-30: 0 if the product rounds to 1.
+  constexpr double epsilon = 0x1p-30;
+  BoxProblem problem;
+  problem.kind = Kind::edge_edge;
+  problem.coordinates[0] = {1.0 + epsilon,  -1.0 / epsilon, 0, 0,
+                            -1.0 / epsilon, 1.0 + epsilon,  0, 0};
+  const CornerValues f = kernel.corners(problem, {{epsilon, 1.0 - epsilon, 0, 1, 0, 1}}, 0);
+  return f[0] == 0.0 && f[6] == 0.0;
+}
+
 std::vector<const BoxKernel*> runnable_kernels() {
   std::vector<const BoxKernel*> kernels{&scalar_box_kernel};
 #ifdef TOUCHSTONE_X86_64
@@ -22,6 +37,14 @@ std::vector<const BoxKernel*> runnable_kernels() {
     kernels.push_back(&avx512_box_kernel);
   }
 #endif
+  for (const BoxKernel* const kernel : kernels) {
+    if (!rounds_products(*kernel)) {
+      throw std::runtime_error(
+          "touchstone: arithmetic is not strict: products are contracted in the " +
+          std::string(to_string(kernel->instructions)) +
+          " kernel (compile with -ffp-contract=off)");
+    }
+  }
   return kernels;
 }
 

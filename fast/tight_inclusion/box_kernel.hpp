@@ -66,6 +66,7 @@ struct BoxKernel {
 };
 
 /// Those that this processor can run, slowest first; scalar is always among them.
+/// \throws std::runtime_error if one was compiled so that products are contracted.
 [[nodiscard]] std::span<const BoxKernel* const> box_kernels();
 
 /// The fastest of box_kernels().

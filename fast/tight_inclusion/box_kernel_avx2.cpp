@@ -2,7 +2,7 @@
 
 #include <immintrin.h>
 
-#include "fast/tight_inclusion/axis_bounds_avx.hpp"
+#include "fast/tight_inclusion/avx_halves.hpp"
 #include "fast/tight_inclusion/box_kernel_on_lanes.hpp"
 
 namespace touchstone::fast {
@@ -22,8 +22,9 @@ struct Lanes {
     return {four, four};
   }
   static Lanes halves(double a, double b) { return {_mm256_set1_pd(a), _mm256_set1_pd(b)}; }
-  static Lanes eight(const double* values) {
-    return {_mm256_loadu_pd(values), _mm256_loadu_pd(values + 4)};
+  template <std::size_t axis>
+  static Lanes coordinate(const double* points) {
+    return {coordinate_avx<Lanes, axis>(points), coordinate_avx<Lanes, axis>(points + 12)};
   }
 
   friend Lanes operator+(const Lanes& a, const Lanes& b) {
@@ -54,12 +55,7 @@ struct Lanes {
                       _mm256_cmp_pd(_mm256_sub_pd(high, high), zero, _CMP_EQ_OQ));
     return _mm256_movemask_pd(is_zero) == 0b1111;
   }
-  [[nodiscard]] double magnitude() const {
-    const __m256d sign = _mm256_set1_pd(-0.0);
-    const __m256d four = _mm256_max_pd(_mm256_andnot_pd(sign, low), _mm256_andnot_pd(sign, high));
-    const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
-    return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
-  }
+  [[nodiscard]] double magnitude() const { return magnitude_avx<Lanes>(low, high); }
 
   static AxisBoundsAvx<Lanes> bounds(const Lanes& x, const Lanes& y, const Lanes& z) {
     return AxisBoundsAvx<Lanes>::from(_mm256_min_pd(x.low, x.high), _mm256_min_pd(y.low, y.high),

@@ -3,7 +3,7 @@
 
 #include <immintrin.h>
 
-#include "fast/tight_inclusion/axis_bounds_avx.hpp"
+#include "fast/tight_inclusion/avx_halves.hpp"
 #include "fast/tight_inclusion/box_kernel_on_lanes.hpp"
 
 namespace touchstone::fast {
@@ -22,7 +22,12 @@ struct Lanes {
   static Lanes halves(double a, double b) {
     return {_mm512_insertf64x4(_mm512_set1_pd(a), _mm256_set1_pd(b), 1)};
   }
-  static Lanes eight(const double* values) { return {_mm512_loadu_pd(values)}; }
+  template <std::size_t axis>
+  static Lanes coordinate(const double* points) {
+    const __m256d low = coordinate_avx<Lanes, axis>(points);
+    const __m256d high = coordinate_avx<Lanes, axis>(points + 12);
+    return {_mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1)};
+  }
 
   friend Lanes operator+(const Lanes& a, const Lanes& b) { return {_mm512_add_pd(a.all, b.all)}; }
   friend Lanes operator-(const Lanes& a, const Lanes& b) { return {_mm512_sub_pd(a.all, b.all)}; }
@@ -46,11 +51,7 @@ struct Lanes {
     return _mm256_max_pd(_mm512_castpd512_pd256(all), _mm512_extractf64x4_pd(all, 1));
   }
   [[nodiscard]] double magnitude() const {
-    const __m256d sign = _mm256_set1_pd(-0.0);
-    const __m256d upper = _mm256_andnot_pd(sign, greatest_of_halves());
-    const __m256d four = _mm256_max_pd(upper, _mm256_andnot_pd(sign, least_of_halves()));
-    const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
-    return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
+    return magnitude_avx<Lanes>(least_of_halves(), greatest_of_halves());
   }
 
   static AxisBoundsAvx<Lanes> bounds(const Lanes& x, const Lanes& y, const Lanes& z) {

@@ -10,7 +10,7 @@
 /// is computed twice, and lanes move within their half only.
 ///
 /// `Lanes` has: twice(a, b, c, d) and twice(pointer) — the same four in both halves; halves(a, b) —
-/// all of a half equal; eight(pointer); +, −, *; shuffled<a,b,c,d>() within halves; store(pointer);
+/// all of a half equal; coordinate<axis>(pointer) — of eight points; +, −, *; shuffled<a,b,c,d>() within halves; store(pointer);
 /// are_finite(); magnitude(), the greatest of eight finite values; and bounds(x, y, z), the bounding
 /// box of corner values. Such a type, and with it every
 /// instance of these templates, must be local to its file: code for one instruction set may not be
@@ -100,17 +100,19 @@ struct BoxKernelOnLanes {
     return values;
   }
 
+  template <std::size_t axis>
+  static void load_axis(const Query& query, BoxProblem& problem, Extent& extent) {
+    const Lanes x = Lanes::template coordinate<axis>(query.coordinates.data());
+    x.store(problem.coordinates[axis].data());
+    extent.finite = extent.finite && x.are_finite();
+    extent.x_max[axis] = x.magnitude();
+  }
+
   static Extent load(const Query& query, BoxProblem& problem) {
     Extent extent{.x_max = {}, .finite = true};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      auto& row = problem.coordinates[axis];
-      for (std::size_t point = 0; point < query_points; ++point) {
-        row[point] = query.coordinates[3 * point + axis];
-      }
-      const Lanes x = Lanes::eight(row.data());
-      extent.finite = extent.finite && x.are_finite();
-      extent.x_max[axis] = x.magnitude();
-    }
+    load_axis<0>(query, problem, extent);
+    load_axis<1>(query, problem, extent);
+    load_axis<2>(query, problem, extent);
     return extent;
   }
 

@@ -55,9 +55,10 @@ struct Lanes {
   static Lanes twice(double a, double b, double c, double d) { return {{a, b, c, d, a, b, c, d}}; }
   static Lanes twice(const double* four) { return twice(four[0], four[1], four[2], four[3]); }
   static Lanes halves(double a, double b) { return {{a, a, a, a, b, b, b, b}}; }
-  static Lanes eight(const double* values) {
+  template <std::size_t axis>
+  static Lanes coordinate(const double* points) {
     Lanes result;
-    for (std::size_t i = 0; i < size; ++i) result.lane[i] = values[i];
+    for (std::size_t i = 0; i < size; ++i) result.lane[i] = points[3 * i + axis];
     return result;
   }
 

@@ -59,5 +59,22 @@ TEST_F(ArithmeticCheck, SaysWhatIsWrong) {
   }
 }
 
+TEST_F(ArithmeticCheck, SeesTheEnvironmentChangeAfterItsFirstCall) {
+  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  EXPECT_NO_THROW(require_strict_environment());
+  const unsigned control = _mm_getcsr();
+  for (const unsigned flag : {flush_to_zero, denormals_are_zero}) {
+    _mm_setcsr(control | flag);
+    EXPECT_THROW(require_strict_environment(), std::runtime_error) << flag;
+    _mm_setcsr(control);
+  }
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(mode);
+    EXPECT_THROW(require_strict_environment(), std::runtime_error) << mode;
+    std::fesetround(FE_TONEAREST);
+  }
+  EXPECT_NO_THROW(require_strict_environment());
+}
+
 }  // namespace
 }  // namespace touchstone::fast

@@ -5,6 +5,7 @@
 #include "fast/tight_inclusion.hpp"
 
 #include <gtest/gtest.h>
+#include <xmmintrin.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include <map>
 #include <queue>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -586,6 +588,41 @@ TEST(Range, HugeAndTinyQueriesKeepTheirVerdict) {
   }
 }
 
+/// Random few-ulp coordinates on one axis and huge ones on another, in contact exactly at t=½.
+Query huge_and_tiny(Random& random) {
+  Query query{};
+  const int quantum = -1074;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int exponent = axis == 0 ? 1000 : quantum + random.between(0, 4);
+    const auto whole = [&] { return std::ldexp(random.between(-4096, 4096), exponent); };
+    // F is odd in time about ½ and vanishes there: p(1) = −p(0) for each point.
+    for (std::size_t point = 0; point < 4; ++point) {
+      query.at(0, point, axis) = whole();
+      query.at(1, point, axis) = -query.at(0, point, axis);
+    }
+  }
+  query.at(0, 0, 0) = 0x1p1017;
+  query.at(1, 0, 0) = -0x1p1017;
+  return query;
+}
+
+TEST(Range, ASceneFilterCoversUnderflowOfHugeQueriesToo) {
+  Random random(21);
+  for (int i = 0; i < 20000; ++i) {
+    const Kind kind = random.coin() ? Kind::edge_edge : Kind::vertex_face;
+    const Query query = huge_and_tiny(random);
+    BoxProblem problem;
+    const Extent extent = best_box_kernel().load(query, problem);
+    TightInclusionOptions options;
+    options.max_checks = 200;
+    options.t_max = 0.5;
+    for (const bool scene : {false, true}) {
+      if (scene) options.scene_filter = error_filter(kind, extent.x_max, 0.0);
+      ASSERT_EQ(tight_inclusion(kind, query, options).verdict, Verdict::yes) << i << ' ' << scene;
+    }
+  }
+}
+
 TEST(Range, ParametersReachTheirLastBitAndStop) {
   // A point, and a triangle 2^1000 across: parameters would have to be split a thousand times.
   const double far = 0x1p1000;
@@ -788,6 +825,18 @@ TEST(Method, SaysWhoItIs) {
   EXPECT_EQ(tight_inclusion_method({.error_model = ErrorModel::published})->name(),
             "tight_inclusion_published");
   EXPECT_EQ(tight_inclusion_method()->promise(), Promise::conservative);
+}
+
+TEST(Method, PromisesNothingWhereItMayLowerTheSeparation) {
+  EXPECT_EQ(tight_inclusion_method({.no_zero_toi = true})->promise(), Promise::none);
+}
+
+TEST(Method, RefusesToRunWithSubnormalsFlushed) {
+  const unsigned control = _mm_getcsr();
+  _mm_setcsr(control | 0x8000U);
+  EXPECT_THROW(static_cast<void>(solve(over_triangle(1, 1, 1, -1))), std::runtime_error);
+  _mm_setcsr(control);
+  EXPECT_EQ(solve(over_triangle(1, 1, 1, -1)).verdict, Verdict::yes);
 }
 
 TEST(Method, AnswersASpanAsQueryByQuery) {

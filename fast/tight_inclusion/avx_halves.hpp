@@ -1,15 +1,47 @@
 #pragma once
 
 /// \file
-/// The bounding box of corner values in one vector: its least ends on the three axes, and its
-/// greatest. What the AVX2 and the AVX-512 kernel share.
+/// What the AVX2 and the AVX-512 kernel share: work on halves of four lanes. All of it is templates
+/// on a type local to the including file, so that this code is too (see box_kernel_on_lanes.hpp).
 
 #include <immintrin.h>
 
+#include <cstddef>
+
 namespace touchstone::fast {
 
-/// `Local` is a type local to the including file, so that this code is too (see
-/// box_kernel_on_lanes.hpp).
+/// One coordinate of four points, which stand one after the other, x, y, z each.
+template <class Local, std::size_t axis>
+__m256d coordinate_avx(const double* points) {
+  // x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3
+  const __m256d first = _mm256_loadu_pd(points), second = _mm256_loadu_pd(points + 4),
+                third = _mm256_loadu_pd(points + 8);
+  if constexpr (axis == 0) {
+    const __m256d mixed =
+        _mm256_blend_pd(_mm256_blend_pd(first, second, 0b0100), third, 0b0010);  // x0 x3 x2 x1
+    return _mm256_permute4x64_pd(mixed, 0 | 3 << 2 | 2 << 4 | 1 << 6);
+  } else if constexpr (axis == 1) {
+    const __m256d mixed =
+        _mm256_blend_pd(_mm256_blend_pd(first, second, 0b1001), third, 0b0100);  // y1 y0 y3 y2
+    return _mm256_permute4x64_pd(mixed, 1 | 0 << 2 | 3 << 4 | 2 << 6);
+  } else {
+    const __m256d mixed =
+        _mm256_blend_pd(_mm256_blend_pd(first, second, 0b0010), third, 0b1001);  // z2 z1 z0 z3
+    return _mm256_permute4x64_pd(mixed, 2 | 1 << 2 | 0 << 4 | 3 << 6);
+  }
+}
+
+/// The greatest magnitude in two vectors.
+template <class Local>
+double magnitude_avx(__m256d a, __m256d b) {
+  const __m256d sign = _mm256_set1_pd(-0.0);
+  const __m256d four = _mm256_max_pd(_mm256_andnot_pd(sign, a), _mm256_andnot_pd(sign, b));
+  const __m128d two = _mm_max_pd(_mm256_castpd256_pd128(four), _mm256_extractf128_pd(four, 1));
+  return _mm_cvtsd_f64(_mm_max_sd(two, _mm_unpackhi_pd(two, two)));
+}
+
+/// The bounding box of corner values: its least ends on the three axes in one vector, and its
+/// greatest.
 template <class Local>
 struct AxisBoundsAvx {
   __m256d least;     ///< on x, y, z, z
