@@ -588,21 +588,27 @@ TEST(Range, HugeAndTinyQueriesKeepTheirVerdict) {
   }
 }
 
-/// Random few-ulp coordinates on one axis and huge ones on another, in contact exactly at t=½.
-Query huge_and_tiny(Random& random) {
+/// Coordinates of some least subnormals on two axes and huge ones on the third; two points, one of
+/// each primitive, meet exactly at t=½.
+Query huge_and_tiny(Random& random, Kind kind) {
   Query query{};
-  const int quantum = -1074;
+  const std::size_t partner = kind == Kind::vertex_face ? 1 : 2;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int exponent = axis == 0 ? 1000 : quantum + random.between(0, 4);
-    const auto whole = [&] { return std::ldexp(random.between(-4096, 4096), exponent); };
-    // F is odd in time about ½ and vanishes there: p(1) = −p(0) for each point.
+    const int exponent = axis == 0 ? 990 : -1074;
+    const auto set = [&](std::size_t end, std::size_t point, int whole) {
+      query.at(end, point, axis) = std::ldexp(whole, exponent);
+    };
+    const auto draw = [&] { return random.between(-(1 << 20), 1 << 20); };
     for (std::size_t point = 0; point < 4; ++point) {
-      query.at(0, point, axis) = whole();
-      query.at(1, point, axis) = -query.at(0, point, axis);
+      for (const std::size_t end : {0U, 1U}) set(end, point, draw());
     }
+    const int start = draw(), end = draw(), other_start = draw();
+    set(0, 0, start);
+    set(1, 0, end);
+    set(0, partner, other_start);
+    set(1, partner, start + end - other_start);
   }
-  query.at(0, 0, 0) = 0x1p1017;
-  query.at(1, 0, 0) = -0x1p1017;
+  query.at(0, 3, 0) = 0x1p1017;
   return query;
 }
 
@@ -610,7 +616,7 @@ TEST(Range, ASceneFilterCoversUnderflowOfHugeQueriesToo) {
   Random random(21);
   for (int i = 0; i < 20000; ++i) {
     const Kind kind = random.coin() ? Kind::edge_edge : Kind::vertex_face;
-    const Query query = huge_and_tiny(random);
+    const Query query = huge_and_tiny(random, kind);
     BoxProblem problem;
     const Extent extent = best_box_kernel().load(query, problem);
     TightInclusionOptions options;
