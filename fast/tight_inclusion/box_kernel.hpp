@@ -24,13 +24,13 @@ enum class InstructionSet : std::uint8_t { scalar, avx2, avx512 };
 
 /// A query as the kernel reads it.
 struct BoxProblem {
-  Kind kind = Kind::vertex_face;
   /// Per axis the coordinates of the four points at t=0, then at t=1.
   alignas(64) std::array<std::array<double, query_points>, 3> coordinates{};
   /// Per axis the error bound of F's computed values, in units of the coordinates; the fourth
   /// stays infinite, it fills the vector.
   std::array<double, 4> filter{0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
   double separation = 0.0;
+  Kind kind = Kind::vertex_face;
 };
 
 /// A box [t0,t1] × [u0,u1] × [v0,v1]. Its ends are dyadic numbers of at most 53 fractional bits, so

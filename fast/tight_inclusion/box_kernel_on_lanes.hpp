@@ -48,7 +48,7 @@ struct BoxKernelOnLanes {
   }
 
   static Lanes points_at_times(const std::array<double, query_points>& x, const BoxWeights& w) {
-    return filters::blend(Lanes::twice(&x[0]), Lanes::twice(&x[4]), w.early, w.late);
+    return filters::blend(Lanes::twice(x.data()), Lanes::twice(x.data() + 4), w.early, w.late);
   }
 
   /// filters::EdgeEdge on lanes.

@@ -135,9 +135,7 @@ class VertexAnalysis {
 
 mpq_class evaluate(const ErrorPolynomial& polynomial, const mpq_class& x) {
   mpq_class result;
-  for (auto coefficient = polynomial.rbegin(); coefficient != polynomial.rend(); ++coefficient) {
-    result = result * x + *coefficient;
-  }
+  for (std::size_t i = polynomial.size(); i-- > 0;) result = result * x + polynomial[i];
   return result;
 }
 

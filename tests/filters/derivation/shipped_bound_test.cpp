@@ -11,7 +11,7 @@ namespace {
 
 mpq_class value(const std::vector<mpq_class>& coefficients, const mpq_class& x) {
   mpq_class result;
-  for (auto c = coefficients.rbegin(); c != coefficients.rend(); ++c) result = result * x + *c;
+  for (std::size_t i = coefficients.size(); i-- > 0;) result = result * x + coefficients[i];
   return result;
 }
 
