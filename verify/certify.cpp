@@ -114,6 +114,7 @@ class BlockJudgement {
   void decide() {
     passes_.run(Passes::unit, [this](std::size_t first, std::size_t count) {
       decide_part(first, count, decided_[first / Passes::unit]);
+      return true;
     });
   }
 
@@ -147,7 +148,9 @@ class BlockJudgement {
                                 .indices = std::span(block_.indices).subspan(first, count)};
       Response response =
           respondent.answer(questions, std::span(said.answers).subspan(first, count));
+      const bool done = !response.stopped;
       said.parts[first / Passes::unit] = {.count = count, .response = std::move(response)};
+      return done;
     });
   }
 
@@ -176,6 +179,7 @@ class BlockJudgement {
         judgement.add(truths_[i], answers[i]);
       }
     }
+    judgement.add_unplaced_crashes(part.response.unplaced_crashes);
     judgement.nanoseconds += part.response.nanoseconds * static_cast<double>(last - first) /
                              static_cast<double>(part.count);
   }

@@ -75,7 +75,7 @@ struct CertifyResult {
   std::uint64_t errors = 0;   ///< errors that ended the reading
   double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
   std::vector<Mismatch> mismatches;
-  /// In the order of CertifyOptions::respondents; empty if the source could not be opened.
+  /// In the order of CertifyOptions::respondents.
   std::vector<MethodResult> methods;
   /// The error that ended the reading before the source's end; all of the above holds up to there.
   std::optional<std::string> error;

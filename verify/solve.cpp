@@ -15,15 +15,16 @@ class BlockAnswers {
   BlockAnswers(const Block& block, const Respondent& respondent, const std::atomic<bool>* stop)
       : block_(block),
         answers_(block.queries.size()),
-        nanoseconds_(block.queries.size() / Passes::unit + 1) {
+        responses_(block.queries.size() / Passes::unit + 1) {
     Passes passes(block.queries.size(), stop);
     passes.run(respondent.good_span(), [&](std::size_t first, std::size_t count) {
       const Questions questions{.source = *block.source,
                                 .kind = block.kind,
                                 .queries = std::span(block.queries).subspan(first, count),
                                 .indices = std::span(block.indices).subspan(first, count)};
-      nanoseconds_[first / Passes::unit] =
-          respondent.answer(questions, std::span(answers_).subspan(first, count)).nanoseconds;
+      Response& response = responses_[first / Passes::unit];
+      response = respondent.answer(questions, std::span(answers_).subspan(first, count));
+      return !response.stopped;
     });
     complete_ = passes.complete();
   }
@@ -43,14 +44,15 @@ class BlockAnswers {
       if (options.on_answer) options.on_answer(block_.indices[i], answer);
     }
     for (std::size_t part = 0; part * Passes::unit < complete_; ++part) {
-      result.nanoseconds += nanoseconds_[part];
+      result.nanoseconds += responses_[part].nanoseconds;
+      result.unplaced_crashes += responses_[part].unplaced_crashes;
     }
   }
 
  private:
   const Block& block_;
   std::vector<fast::Answer> answers_;
-  std::vector<double> nanoseconds_;  // of the part that begins with a unit
+  std::vector<Response> responses_;  // of the part that begins with a unit
   std::size_t complete_ = 0;
 };
 
@@ -66,6 +68,7 @@ SolveResult& SolveResult::operator+=(const SolveResult& other) {
   no += other.no;
   undecided += other.undecided;
   errors += other.errors;
+  unplaced_crashes += other.unplaced_crashes;
   nanoseconds += other.nanoseconds;
   skipped += other.skipped;
   rounded += other.rounded;

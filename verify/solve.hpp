@@ -34,7 +34,9 @@ struct SolveResult {
   std::uint64_t yes = 0;
   std::uint64_t no = 0;
   std::uint64_t undecided = 0;
-  std::uint64_t errors = 0;   ///< answers that are errors
+  std::uint64_t errors = 0;  ///< answers that are errors
+  /// Processes that the solver ended at no particular query: see isolation.hpp.
+  std::uint64_t unplaced_crashes = 0;
   double nanoseconds = 0.0;   ///< processor time of the solver, summed over the queries
   std::uint64_t skipped = 0;  ///< queries in error, left out
   std::uint64_t rounded = 0;  ///< coordinates rounded to double

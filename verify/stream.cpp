@@ -86,14 +86,14 @@ class Stream {
 Passes::Passes(std::size_t queries, const std::atomic<bool>* stop)
     : queries_(queries), stop_(stop), done_((queries + unit - 1) / unit) {}
 
-void Passes::run(std::size_t span, const std::function<void(std::size_t, std::size_t)>& work) {
+void Passes::run(std::size_t span, const std::function<bool(std::size_t, std::size_t)>& work) {
   const std::size_t step =
       std::clamp<std::size_t>(span / unit, 1, std::max<std::size_t>(done_.size(), 1));
   const std::size_t steps = (done_.size() + step - 1) / step;
   const auto part = [&](std::size_t i) {
     if (stop_ != nullptr && stop_->load()) return;
     const std::size_t first = i * step, last = std::min(first + step, done_.size());
-    work(first * unit, std::min(last * unit, queries_) - first * unit);
+    if (!work(first * unit, std::min(last * unit, queries_) - first * unit)) return;
     for (std::size_t u = first; u < last; ++u) ++done_[u];
   };
   // Isolated, so that a thread that waits here does not begin another block meanwhile.

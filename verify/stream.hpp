@@ -50,8 +50,9 @@ class Passes {
   Passes(std::size_t queries, const std::atomic<bool>* stop);
 
   /// Calls work(first, count) for parts of about `span` queries, at least a unit, which together
-  /// are the block; from several threads. Returns when all have returned.
-  void run(std::size_t span, const std::function<void(std::size_t, std::size_t)>& work);
+  /// are the block; from several threads. The work says whether it is done with the part: a stop
+  /// may have cut it short. Returns when all have returned.
+  void run(std::size_t span, const std::function<bool(std::size_t, std::size_t)>& work);
 
   /// So many queries, from the first, are done with in all passes so far.
   [[nodiscard]] std::size_t complete() const;

@@ -84,12 +84,13 @@ TEST(Solve, AnErrorOrAStopLosesNothingBeforeIt) {
 }
 
 TEST(Solve, ResultsAddUp) {
-  SolveResult sum{.queries = 1, .yes = 1, .nanoseconds = 10.0};
+  SolveResult sum{.queries = 1, .yes = 1, .unplaced_crashes = 1, .nanoseconds = 10.0};
   sum += SolveResult{.queries = 4,
                      .yes = 1,
                      .no = 1,
                      .undecided = 1,
                      .errors = 1,
+                     .unplaced_crashes = 2,
                      .nanoseconds = 40.0,
                      .skipped = 6,
                      .rounded = 7,
@@ -97,6 +98,7 @@ TEST(Solve, ResultsAddUp) {
   EXPECT_EQ(sum.queries, 5U);
   EXPECT_EQ(sum.yes, 2U);
   EXPECT_EQ(sum.no + sum.undecided + sum.errors, 3U);
+  EXPECT_EQ(sum.unplaced_crashes, 3U);
   EXPECT_EQ(sum.skipped, 6U);
   EXPECT_EQ(sum.rounded, 7U);
   EXPECT_EQ(sum.nanoseconds_per_query(), 10.0);

@@ -129,6 +129,7 @@ TEST(Passes, CoverEachQueryOnceWhateverTheSpan) {
         EXPECT_EQ(first % Passes::unit, 0U);
         EXPECT_LE(count, std::max(span, Passes::unit));
         for (std::size_t i = first; i < first + count; ++i) ++visits.at(i);
+        return true;
       });
       EXPECT_TRUE(std::ranges::all_of(visits, [](const auto& count) { return count == 1; }));
       EXPECT_EQ(passes.complete(), queries);
@@ -145,6 +146,7 @@ TEST(Passes, AStopLeavesAPrefixThatAllPassesHaveSeen) {
   passes.run(16, [&](std::size_t first, std::size_t) {
     const std::scoped_lock lock(mutex);
     first_pass.insert(first);
+    return true;
   });
   EXPECT_EQ(first_pass.size(), 10U);
   EXPECT_EQ(passes.complete(), 160U);
@@ -152,11 +154,18 @@ TEST(Passes, AStopLeavesAPrefixThatAllPassesHaveSeen) {
     const std::scoped_lock lock(mutex);
     second_pass.insert(first);
     stop = true;
+    return true;
   });
   EXPECT_LT(second_pass.size(), 5U);
   std::size_t expected = 0;
   while (second_pass.contains(expected)) expected += 32;
   EXPECT_EQ(passes.complete(), expected);
+}
+
+TEST(Passes, WhatTheWorkIsNotDoneWithIsNotComplete) {
+  Passes passes(160, nullptr);
+  passes.run(32, [](std::size_t first, std::size_t) { return first != 64; });
+  EXPECT_EQ(passes.complete(), 64U);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -55,10 +56,8 @@ class CertifyRun {
     if (json_.is(arguments.truth_file)) {
       throw std::runtime_error(arguments.json_file + ": named for two outputs");
     }
-    for (const fs::path& results : arguments.judged.results) {
-      if (is_output(results)) {
-        throw std::runtime_error(results.string() + ": named for input and output");
-      }
+    for (const fs::path& file : arguments.judged.files()) {
+      if (is_output(file)) throw std::runtime_error(file.string() + ": named for input and output");
     }
     if (truth_) truth_.write(truth_header());
   }
@@ -80,7 +79,8 @@ class CertifyRun {
       json_.write(to_json(results_).dump(2, ' ', false, replace_bad_utf8) + "\n");
     }
     json_.close();
-    fmt::print("{}", to_text(results_));
+    fmt::print(json_.is_standard_output() || truth_.is_standard_output() ? stderr : stdout, "{}",
+               to_text(results_));
     return status();
   }
 
@@ -112,6 +112,10 @@ class CertifyRun {
     CertifyResult result;
     result.name = path.string();
     result.fail(error.what());
+    for (const Respondent* respondent : respondents_.all()) {
+      result.methods.push_back(
+          {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
+    }
     add(std::move(result));
   }
 
@@ -124,6 +128,7 @@ class CertifyRun {
   void report_answers() const {
     for (std::size_t i = 0; i < sum_.methods.size(); ++i) {
       const MethodResult& method = sum_.methods[i];
+      report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
       if (method.judgement.missing == 0) continue;
       const auto first = std::ranges::find_if(results_, [i](const CertifyResult& result) {
         return i < result.methods.size() && result.methods[i].judgement.first_missing;
@@ -208,7 +213,10 @@ void add_certify_command(CLI::App& app, Status& status) {
       "without a recorded answer, or bad usage, 130 interrupted (what is done by then is reported\n"
       "and written).\n"
       "Example: touchstone certify data/handcrafted --json result.json --truth truth.csv");
-  command->callback([arguments, &status] { status = CertifyRun(*arguments).run(); });
+  command->callback([arguments, command, &status] {
+    settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);
+    status = CertifyRun(*arguments).run();
+  });
 }
 
 }  // namespace touchstone::verify::cli

@@ -5,10 +5,41 @@
 #include <charconv>
 #include <cstdio>
 #include <exception>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
 namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// More symbolic links than this in a row are a ring, as they are for the system.
+constexpr int most_links = 40;
+
+/// Where a file of this name would come to be: behind symbolic links, also to what is not there yet.
+fs::path behind_links(fs::path path) {
+  std::error_code error;
+  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  const fs::path canonical = fs::weakly_canonical(path, error);
+  return error ? path : canonical;
+}
+
+/// Is it a name that the system gives to what is open already?
+bool is_below_system_folder(const fs::path& path) {
+  const fs::path absolute = fs::absolute(path).lexically_normal();
+  const auto first = std::next(absolute.begin());
+  return first != absolute.end() && (*first == "dev" || *first == "proc");
+}
+
+bool is_device(const fs::path& path) {
+  const fs::file_status status = fs::status(path);
+  return (fs::exists(status) && !fs::is_regular_file(status)) || is_below_system_folder(path);
+}
+
+}  // namespace
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
   const auto check = [least, greatest](const std::string& text) -> std::string {
@@ -42,21 +73,22 @@ void report_warning(std::string_view message) {
 
 OptionalOutput::OptionalOutput(const std::string& name) : name_(name) {
   if (name.empty()) return;
-  const std::filesystem::file_status status = std::filesystem::status(name);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    device_.open(name, std::ios::binary);
+  if (is_device(name)) {
+    // Never truncates: standard output may be a file that others have written to.
+    device_.open(name, std::ios::binary | std::ios::app);
     if (!device_) throw std::runtime_error(name + ": cannot be opened for writing");
   } else {
-    file_ = std::make_unique<OutputFile>(name);
+    file_ = std::make_unique<OutputFile>(behind_links(name));
   }
 }
 
-bool OptionalOutput::is(const std::filesystem::path& path) const {
-  std::error_code error;
-  const auto canonical = [&](const std::filesystem::path& p) {
-    return std::filesystem::weakly_canonical(p, error);
-  };
-  return !name_.empty() && canonical(name_) == canonical(path) && !error;
+bool OptionalOutput::is(const fs::path& path) const {
+  return !name_.empty() && !path.empty() && behind_links(name_) == behind_links(path);
+}
+
+bool OptionalOutput::is_standard_output() const {
+  const fs::path path = name_.empty() ? fs::path() : fs::absolute(name_).lexically_normal();
+  return path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
 }
 
 void OptionalOutput::write(std::string_view text) {
@@ -64,6 +96,7 @@ void OptionalOutput::write(std::string_view text) {
     file_->write(text);
   } else {
     device_ << text;
+    if (!device_) throw std::runtime_error(name_ + ": cannot be written");
   }
 }
 

@@ -32,13 +32,17 @@ void report_warning(std::string_view message);
 
 /// A file to write to if the user named one. It is opened before the work begins, so that a bad name
 /// costs nothing, and takes its name when it is complete, so that nothing older is lost before.
-/// Devices and pipes are written to as they are.
+/// Devices and pipes, and all below /dev and /proc, are written to as they are; a symbolic link stays
+/// one.
 class OptionalOutput {
  public:
   /// No file if the name is empty. \throws DatasetError or std::runtime_error if none can be made.
   explicit OptionalOutput(const std::string& name);
 
   [[nodiscard]] explicit operator bool() const { return !name_.empty(); }
+
+  /// Is it this process's standard output, by a name of the system's for it?
+  [[nodiscard]] bool is_standard_output() const;
 
   /// Is it the file at `path`, by whatever name?
   [[nodiscard]] bool is(const std::filesystem::path& path) const;
@@ -64,6 +68,7 @@ class ReportedOutput {
   /// Was a file named?
   [[nodiscard]] explicit operator bool() const { return static_cast<bool>(output_); }
   [[nodiscard]] bool is(const std::filesystem::path& path) const { return output_.is(path); }
+  [[nodiscard]] bool is_standard_output() const { return output_.is_standard_output(); }
   [[nodiscard]] bool failed() const { return failed_; }
 
   /// Does nothing if no file was named or a step has failed.

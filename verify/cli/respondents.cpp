@@ -13,12 +13,14 @@
 #include "verify/cli/options.hpp"
 #include "verify/methods/plugin.hpp"
 #include "verify/methods/registry.hpp"
+#include "verify/terminal.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
 
 constexpr std::string_view no_method = "none";
 constexpr double longest_limit = 1e6;
+constexpr std::int64_t built_in_max_checks = 100'000;
 
 std::string method_names() {
   std::string names;
@@ -62,13 +64,45 @@ void add_solver_options(CLI::App& command, RespondentArguments& arguments) {
       ->check(real_number(DBL_TRUE_MIN, DBL_MAX));
   command
       .add_option("--max-checks", arguments.options.max_checks,
-                  "Steps that iterative methods may take a query (0: no limit)")
+                  fmt::format("Steps that iterative methods may take a query (0: no limit; "
+                              "built-in set: {})",
+                              built_in_max_checks))
       ->capture_default_str()
       ->check(whole_number(0, INT64_MAX));
 }
 
+std::vector<std::filesystem::path> RespondentArguments::files() const {
+  std::vector<std::filesystem::path> all = plugins;
+  all.insert(all.end(), results.begin(), results.end());
+  return all;
+}
+
+void settle_solver_options(const CLI::App& command, bool built_in_set,
+                           RespondentArguments& arguments) {
+  const auto is_given = [&](const std::string& name) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    return option != nullptr && option->count() != 0;
+  };
+  if (built_in_set) {
+    if (!is_given("--max-checks")) arguments.options.max_checks = built_in_max_checks;
+    return;
+  }
+  for (const std::string name : {"--exact", "--query-limit", "--tolerance", "--max-checks"}) {
+    if (arguments.empty() && is_given(name)) {
+      throw std::invalid_argument(name + " is for solvers, and none is named");
+    }
+  }
+}
+
+void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
+  if (crashes == 0) return;
+  report_error(
+      fmt::format("{} ended its process {} times, at no particular query", solver, crashes));
+}
+
 Respondents::Respondents(const RespondentArguments& arguments) {
-  const IsolationOptions isolation{.query_limit_seconds = arguments.query_limit};
+  const IsolationOptions isolation{.query_limit_seconds = arguments.query_limit,
+                                   .stop = &interrupted()};
   for (const fast::Method* method : named_methods(arguments.methods)) {
     add(arguments.query_limit > 0.0 ? respond_isolated(*method, arguments.options, isolation)
                                     : respond_in_process(*method, arguments.options),
@@ -86,6 +120,11 @@ Respondents::Respondents(const RespondentArguments& arguments) {
 
 void Respondents::add(std::unique_ptr<Respondent> respondent, bool exact) {
   if (exact) respondent->hold_to(fast::Promise::exact);
+  const std::string name = respondent->name();
+  const auto is_taken = [&](const auto& other) { return other->name() == respondent->name(); };
+  for (int number = 2; std::ranges::any_of(respondents_, is_taken); ++number) {
+    respondent->call(fmt::format("{} ({})", name, number));
+  }
   respondents_.push_back(std::move(respondent));
 }
 

@@ -4,10 +4,12 @@
 /// The solvers that a command line names: methods of ours, plugins, recorded answers.
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fast/method.hpp"
@@ -26,6 +28,9 @@ struct RespondentArguments {
   bool exact = false;
   fast::MethodOptions options;
 
+  /// Files that are read.
+  [[nodiscard]] std::vector<std::filesystem::path> files() const;
+
   [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
 };
 
@@ -33,11 +38,21 @@ struct RespondentArguments {
 /// until the command line is parsed.
 void add_solver_options(CLI::App& command, RespondentArguments& arguments);
 
+/// To be called on the arguments of a parsed command line: on the built-in set, which is made of the
+/// hardest queries, methods take fewer steps unless --max-checks says how many.
+/// \throws std::invalid_argument if an option of solvers is given and no solver is asked.
+void settle_solver_options(const CLI::App& command, bool built_in_set,
+                           RespondentArguments& arguments);
+
+/// Says on standard error that a solver ended its process so often, unless that is never.
+void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes);
+
 /// The respondents of a run, and all that they need to live.
 class Respondents {
  public:
   /// Those that the arguments name, in the order methods, plugins, results. Plugins, and with a
-  /// limit also methods, answer in child processes. The method "none" stands for no method.
+  /// limit also methods, answer in child processes, until interrupted. The method "none" stands for
+  /// no method. Of several with one name, the second is called "NAME (2)", and so on.
   /// \throws std::invalid_argument for an unknown method, or "none" beside others; DatasetError if a
   /// plugin or a file of answers cannot be loaded.
   explicit Respondents(const RespondentArguments& arguments);

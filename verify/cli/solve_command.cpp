@@ -4,6 +4,7 @@
 
 #include <cfloat>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -38,6 +39,7 @@ RespondentArguments the_solver(const Arguments& arguments) {
       (!arguments.solver.methods.empty() && arguments.solver.methods.front() == "none")) {
     throw std::invalid_argument("solve takes one solver: --method NAME or --plugin LIB.so");
   }
+  if (arguments.out_file.empty()) throw std::invalid_argument("--out has no file name");
   return arguments.solver;
 }
 
@@ -53,6 +55,9 @@ class SolveRun {
     if (json_.is(arguments.out_file)) {
       throw std::runtime_error(arguments.json_file + ": named for two outputs");
     }
+    for (const fs::path& file : arguments.solver.files()) {
+      if (is_output(file)) throw std::runtime_error(file.string() + ": named for input and output");
+    }
     out_.write(answers_header());
   }
 
@@ -64,19 +69,33 @@ class SolveRun {
                        const Progress& progress) { solve_source(source, progress); },
          .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); },
-         .is_output = [this](const fs::path& path) { return out_.is(path) || json_.is(path); }});
+         .is_output = [this](const fs::path& path) { return is_output(path); }});
     out_.close();
-    if (json_) json_.write(summary().dump(2) + "\n");
+    if (json_) {
+      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
+      json_.write(summary().dump(2, ' ', false, replace_bad_utf8) + "\n");
+    }
     json_.close();
-    fmt::print("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
-               solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
-               sum_.nanoseconds_per_query());
-    if (sum_.skipped != 0) fmt::print("{} queries in error skipped\n", sum_.skipped);
-    if (sum_.rounded != 0) fmt::print("{} coordinates rounded to double\n", sum_.rounded);
+    report_unplaced_crashes(solver_.name(), sum_.unplaced_crashes);
+    print_summary();
     return status();
   }
 
  private:
+  [[nodiscard]] bool is_output(const fs::path& path) const {
+    return out_.is(path) || json_.is(path);
+  }
+
+  void print_summary() const {
+    std::FILE* const stream =
+        out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
+    fmt::print(stream, "{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
+               solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
+               sum_.nanoseconds_per_query());
+    if (sum_.skipped != 0) fmt::print(stream, "{} queries in error skipped\n", sum_.skipped);
+    if (sum_.rounded != 0) fmt::print(stream, "{} coordinates rounded to double\n", sum_.rounded);
+  }
+
   void solve_source(QuerySource& source, const Progress& progress) {
     SolveOptions options;
     options.threads = arguments_.sources.threads;
@@ -84,10 +103,12 @@ class SolveRun {
     options.on_progress = progress;
     options.on_answer = [&](std::uint64_t index, const fast::Answer& answer) {
       out_.write(answer_row(source.name(), index, source.kind(), answer));
+      // An exception ends the solving at once; the failure itself is reported already.
+      if (out_.failed()) throw std::runtime_error("answers cannot be written");
     };
     const SolveResult result = solve(source, solver_, options);
     sum_ += result;
-    if (result.reading_error) fail(*result.reading_error);
+    if (result.reading_error && !out_.failed()) fail(*result.reading_error);
   }
 
   void fail(const std::string& message) {
@@ -107,6 +128,7 @@ class SolveRun {
             {"no", sum_.no},
             {"undecided", sum_.undecided},
             {"errors", sum_.errors},
+            {"unplaced_crashes", sum_.unplaced_crashes},
             {"ns_per_query", sum_.nanoseconds_per_query()},
             {"skipped", sum_.skipped},
             {"rounded", sum_.rounded},
@@ -163,7 +185,10 @@ void add_solve_command(CLI::App& app, Status& status) {
       "Exit status: 0 all is answered and written, 2 bad input or usage, 130 interrupted (what is\n"
       "done by then is written).\n"
       "Example: touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv");
-  command->callback([arguments, &status] { status = SolveRun(*arguments).run(); });
+  command->callback([arguments, command, &status] {
+    settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
+    status = SolveRun(*arguments).run();
+  });
 }
 
 }  // namespace touchstone::verify::cli

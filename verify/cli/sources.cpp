@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "exact/query.hpp"
+#include "verify/dataset/companions.hpp"
 #include "verify/dataset/dataset.hpp"
 #include "verify/families/families.hpp"
 #include "verify/terminal.hpp"
@@ -47,6 +48,17 @@ void for_each_family(const SourceArguments& arguments, const SourceHandlers& han
   }
 }
 
+/// \throws std::runtime_error if a dataset file or what accompanies it is an output.
+void check_outputs(const fs::path& file, const SourceHandlers& handlers) {
+  std::vector<fs::path> inputs = find_companions(file);
+  inputs.push_back(file);
+  for (const fs::path& input : inputs) {
+    if (handlers.is_output(input)) {
+      throw std::runtime_error(input.string() + ": named for input and output");
+    }
+  }
+}
+
 /// The dataset files of all paths, each once; empty if stopped.
 std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceHandlers& handlers) {
   std::vector<fs::path> files;
@@ -54,9 +66,7 @@ std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceH
   for (const fs::path& path : arguments.paths) {
     try {
       for (const fs::path& file : find_datasets({&path, 1})) {
-        if (handlers.is_output(file)) {
-          throw std::runtime_error(file.string() + ": named for input and output");
-        }
+        check_outputs(file, handlers);
         if (seen.insert(fs::weakly_canonical(file)).second) files.push_back(file);
       }
     } catch (const DatasetError& error) {

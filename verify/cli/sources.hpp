@@ -49,7 +49,8 @@ struct SourceHandlers {
 
 /// Opens and hands over the sources one after the other: the families of the built-in set, or the
 /// dataset files of all paths, each once. Queries skipped with keep_going are reported on standard
-/// error. \throws std::runtime_error if an input is an output.
+/// error. \throws std::runtime_error if an input, or a file of labels or times of
+/// impact beside one, is an output.
 void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers);
 
 }  // namespace touchstone::verify::cli

@@ -39,6 +39,14 @@ std::optional<std::filesystem::path> find_companion(const std::filesystem::path&
   return std::nullopt;
 }
 
+std::optional<std::filesystem::path> find_labels(const std::filesystem::path& dataset) {
+  return find_companion(dataset, "mma_bool", "_mma_bool.json");
+}
+
+std::optional<std::filesystem::path> find_tois(const std::filesystem::path& dataset) {
+  return find_companion(dataset, "toi", "_toi.csv");
+}
+
 }  // namespace
 
 LabelReader::LabelReader(std::filesystem::path path) : file_(std::move(path)) {
@@ -210,9 +218,17 @@ void ToiReader::fail(FilePosition position, const std::string& reason) const {
   throw DatasetError(lines_.path(), position, reason);
 }
 
+std::vector<std::filesystem::path> find_companions(const std::filesystem::path& dataset) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& path : {find_labels(dataset), find_tois(dataset)}) {
+    if (path) paths.push_back(*path);
+  }
+  return paths;
+}
+
 Companions::Companions(const std::filesystem::path& dataset) {
-  if (auto path = find_companion(dataset, "mma_bool", "_mma_bool.json")) labels_.emplace(*path);
-  if (auto path = find_companion(dataset, "toi", "_toi.csv")) tois_.emplace(*path);
+  if (auto path = find_labels(dataset)) labels_.emplace(*path);
+  if (auto path = find_tois(dataset)) tois_.emplace(*path);
 }
 
 Truth Companions::at(std::uint64_t index) {

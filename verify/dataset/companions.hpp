@@ -103,6 +103,10 @@ struct Truth {
   std::optional<exact::Rational> toi;
 };
 
+/// The companion files that there are of a dataset.
+[[nodiscard]] std::vector<std::filesystem::path> find_companions(
+    const std::filesystem::path& dataset);
+
 /// The companion files that a dataset has: of <dir>/<name>.csv the first that exists of
 /// <dir>/../mma_bool/<name>_mma_bool.json, <dir>/mma_bool/<name>_mma_bool.json and
 /// <dir>/<name>_mma_bool.json, and likewise toi/<name>_toi.csv.

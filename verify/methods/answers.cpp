@@ -138,18 +138,15 @@ class AnswersReader {
       fail(Column::none, fmt::format("{} columns, expected {}", split_.count, columns));
     }
     static constexpr std::uint64_t last_line = std::numeric_limits<std::uint32_t>::max();
-    Row row{.index = read_index(),
-            .toi_lower = read_number(Column::toi_lower),
-            .toi_upper = read_number(Column::toi_upper),
-            .tolerance = read_number(Column::tolerance),
-            .line = static_cast<std::uint32_t>(std::min(line_number_, last_line)),
-            .verdict = read_verdict(),
-            .asked = false};
-    if (row.tolerance < 0.0) fail(Column::tolerance, "tolerance must not be negative");
-    if (row.verdict != fast::Verdict::yes) {
-      row.toi_lower = row.toi_upper = fast::Answer::none;
-    }
-    rows_of(read_kind()).push_back(row);
+    const fast::Verdict verdict = read_verdict();
+    rows_of(read_kind())
+        .push_back({.index = read_index(),
+                    .toi_lower = read_time(Column::toi_lower, verdict),
+                    .toi_upper = read_time(Column::toi_upper, verdict),
+                    .tolerance = read_tolerance(),
+                    .line = static_cast<std::uint32_t>(std::min(line_number_, last_line)),
+                    .verdict = verdict,
+                    .asked = false});
   }
 
   /// The group of the row at hand: nearly always that of the row before.
@@ -188,16 +185,35 @@ class AnswersReader {
          "verdict must be yes, no, undecided or error: " + quote(field(Column::verdict)));
   }
 
-  /// NaN where the field is empty.
-  [[nodiscard]] double read_number(Column column) const {
+  /// The number in a field, if it is one: infinities and NaN are.
+  [[nodiscard]] std::optional<double> read_number(Column column) const {
     const std::string_view text = field(column);
-    if (text.empty()) return fast::Answer::none;
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-      fail(column, "must be a finite double or empty: " + quote(text));
-    }
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return value;
+  }
+
+  /// NaN where the field is empty or the time is none that counts.
+  [[nodiscard]] double read_time(Column column, fast::Verdict verdict) const {
+    if (field(column).empty()) return fast::Answer::none;
+    const std::optional<double> value = read_number(column);
+    const bool counts = verdict == fast::Verdict::yes;
+    if (!value || (counts && !std::isfinite(*value))) {
+      fail(column, "must be a finite double or empty: " + quote(field(column)));
+    }
+    return counts ? *value : fast::Answer::none;
+  }
+
+  /// NaN where the field is empty.
+  [[nodiscard]] double read_tolerance() const {
+    if (field(Column::tolerance).empty()) return fast::Answer::none;
+    const std::optional<double> value = read_number(Column::tolerance);
+    if (!value || std::isnan(*value)) {
+      fail(Column::tolerance, "must be a double or empty: " + quote(field(Column::tolerance)));
+    }
+    if (*value < 0.0) fail(Column::tolerance, "tolerance must not be negative");
+    return *value;
   }
 
   void check_unique(const RecordedAnswers::Key& key, const RecordedAnswers::Rows& rows) {

@@ -92,9 +92,10 @@ class RecordedAnswers {
 
 /// Reads a file of answers. The header must have these columns in this order; rows may come in any
 /// order, lines may end in LF or CRLF, and names (or any other field) may stand in quotes, where a
-/// line end counts as LF. Times of impact and tolerances are finite decimal numbers or empty; no
-/// range is asked of times, since to judge them is the judge's task. Times with any other verdict
-/// than yes are read, but dropped: solvers write 1 or the last step there.
+/// line end counts as LF. Times of impact are finite decimal numbers or empty; no range is asked of
+/// them, since to judge them is the judge's task. Times with any other verdict than yes may be any
+/// number and are dropped: solvers write 1, infinity or the last step there. Tolerances are numbers
+/// from 0 on, or empty; one of "inf" claims nothing.
 /// \throws DatasetError naming line, column (number of the field) and reason if anything else is
 /// found, or two rows that answer the same query.
 [[nodiscard]] RecordedAnswers load_answers(const std::filesystem::path& path);

@@ -126,6 +126,11 @@ void Judgement::add_missing(std::uint64_t index) {
   ++missing;
 }
 
+void Judgement::add_unplaced_crashes(std::uint64_t crashes) {
+  unplaced_crashes += crashes;
+  faults[static_cast<std::size_t>(Fault::error)] += crashes;
+}
+
 Judgement& Judgement::operator+=(const Judgement& next) {
   std::array<std::uint64_t, fault_count> so_far = faults;
   for (const WrongAnswer& wrong : next.wrong_answers) {
@@ -137,6 +142,7 @@ Judgement& Judgement::operator+=(const Judgement& next) {
   queries += next.queries;
   missing += next.missing;
   if (!first_missing) first_missing = next.first_missing;
+  unplaced_crashes += next.unplaced_crashes;
   undecided += next.undecided;
   nanoseconds += next.nanoseconds;
   toi_errors += next.toi_errors;

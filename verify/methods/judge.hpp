@@ -88,6 +88,8 @@ struct Judgement {
   std::uint64_t missing = 0;  ///< not answered (in recorded answers), and not in `queries`
   std::optional<std::uint64_t> first_missing;  ///< index of the first of these
   std::array<std::uint64_t, fault_count> faults{};
+  /// Of the errors, processes that the method ended at no particular query: see isolation.hpp.
+  std::uint64_t unplaced_crashes = 0;
   std::uint64_t undecided = 0;
   double nanoseconds = 0.0;  ///< processor time of the method, summed over the queries
   ToiErrors toi_errors;
@@ -106,6 +108,9 @@ struct Judgement {
 
   /// Notes that there is no answer to that query.
   void add_missing(std::uint64_t index);
+
+  /// Counts processes that the method ended at no particular query as errors.
+  void add_unplaced_crashes(std::uint64_t crashes);
 
   /// Adds the counts of the queries that follow, with the wrong answers.
   Judgement& operator+=(const Judgement& next);

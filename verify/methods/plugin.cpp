@@ -77,12 +77,14 @@ fast::Answer checked(const touchstone_answer& answer) {
   static constexpr fast::Answer error{.verdict = fast::Verdict::error};
   if (answer.verdict < touchstone_no || answer.verdict > touchstone_error) return error;
   const auto verdict = static_cast<fast::Verdict>(answer.verdict);
-  if (verdict != fast::Verdict::yes) return {.verdict = verdict, .tolerance = answer.tolerance};
+  // No comparison holds of a NaN: what is no tolerance becomes one.
+  const double tolerance = answer.tolerance >= 0.0 ? answer.tolerance : fast::Answer::none;
+  if (verdict != fast::Verdict::yes) return {.verdict = verdict, .tolerance = tolerance};
   if (std::isinf(answer.toi_lower) || std::isinf(answer.toi_upper)) return error;
   return {.verdict = verdict,
           .toi_lower = answer.toi_lower,
           .toi_upper = answer.toi_upper,
-          .tolerance = answer.tolerance};
+          .tolerance = tolerance};
 }
 
 class PluginMethod final : public fast::Method {

@@ -23,7 +23,8 @@ struct PluginOptions {
 ///
 /// The method's name is what the library calls itself. It answers Verdict::error where the library
 /// throws a C++ exception, gives a verdict that is none, or says yes with an infinite time of
-/// impact. Times of impact with any other verdict than yes are dropped.
+/// impact. Times of impact with any other verdict than yes are dropped, and so is a tolerance that
+/// is none (negative or NaN).
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
 /// made for another version of the interface, or has no printable name.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,

@@ -10,9 +10,9 @@
 namespace touchstone::verify {
 namespace {
 
-/// What a span of queries should take.
-constexpr double span_seconds = 0.01;
 constexpr double longest_span = 1e6;
+/// A child costs milliseconds: it is to solve much longer, and to begin with as much as it gets.
+constexpr Respondent::Pacing isolated_pacing{.span_seconds = 0.5, .first_guess = 0.0};
 
 /// Solves one by one; what throws is in error.
 void solve_despite_exceptions(const fast::Method& method, const Questions& questions,
@@ -43,7 +43,7 @@ class InProcess final : public Respondent {
       std::ranges::fill(answers, fast::Answer{});
       solve_despite_exceptions(method_, questions, answers, options_);
     }
-    return {.nanoseconds = thread_nanoseconds() - start, .missing = {}};
+    return {.nanoseconds = thread_nanoseconds() - start};
   }
 
   const fast::Method& method_;
@@ -54,7 +54,7 @@ class Isolated final : public Respondent {
  public:
   Isolated(const fast::Method& method, const fast::MethodOptions& options,
            const IsolationOptions& isolation)
-      : Respondent(std::string(method.name()), method.promise(), true),
+      : Respondent(std::string(method.name()), method.promise(), true, isolated_pacing),
         method_(method),
         options_(options),
         isolation_(isolation) {}
@@ -64,7 +64,10 @@ class Isolated final : public Respondent {
                                std::span<fast::Answer> answers) const override {
     const IsolatedSolve solved =
         solve_isolated(method_, questions.kind, questions.queries, answers, options_, isolation_);
-    return {.nanoseconds = 1e9 * solved.processor_seconds, .missing = {}};
+    return {.nanoseconds = 1e9 * solved.processor_seconds,
+            .seconds = solved.wall_seconds,
+            .unplaced_crashes = solved.unplaced_crashes,
+            .stopped = solved.stopped};
   }
 
   const fast::Method& method_;
@@ -98,20 +101,26 @@ class Recorded final : public Respondent {
 
 }  // namespace
 
-Respondent::Respondent(std::string name, fast::Promise promise, bool timed)
-    : name_(std::move(name)), promise_(promise), timed_(timed) {}
+Respondent::Respondent(std::string name, fast::Promise promise, bool timed, const Pacing& pacing)
+    : name_(std::move(name)),
+      promise_(promise),
+      timed_(timed),
+      span_seconds_(pacing.span_seconds),
+      pace_(pacing.first_guess) {}
 
 Response Respondent::answer(const Questions& questions, std::span<fast::Answer> answers) const {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   Response response = solve(questions, answers);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  if (!answers.empty()) pace_ = seconds / static_cast<double>(answers.size());
+  if (!answers.empty()) {
+    pace_ = response.seconds.value_or(seconds) / static_cast<double>(answers.size());
+  }
   return response;
 }
 
 std::size_t Respondent::good_span() const {
-  const double queries = span_seconds / std::max(pace_.load(), span_seconds / longest_span);
+  const double queries = span_seconds_ / std::max(pace_.load(), span_seconds_ / longest_span);
   return std::max<std::size_t>(1, static_cast<std::size_t>(queries));
 }
 

@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "exact/query.hpp"
@@ -30,15 +32,29 @@ struct Questions {
 /// What came with the answers.
 struct Response {
   double nanoseconds = 0.0;  ///< processor time; 0 where it is unknown
+  /// Wall-clock seconds of the solver alone, where that is less than all of it.
+  std::optional<double> seconds = std::nullopt;
   /// Positions in the span of the queries without an answer, ascending.
-  std::vector<std::size_t> missing;
+  std::vector<std::size_t> missing = {};
+  /// Processes that it ended at no particular query: see isolation.hpp.
+  std::uint64_t unplaced_crashes = 0;
+  /// Was it stopped? The answers are then no answers.
+  bool stopped = false;
 };
 
 /// Answers queries. Safe to use from several threads at once.
 class Respondent {
  public:
+  /// How long the spans of queries should be that it is asked.
+  struct Pacing {
+    double span_seconds = 0.01;  ///< wall-clock time of a span
+    double first_guess = 1.0;    ///< wall-clock seconds a query
+  };
+
   /// \param timed Is its processor time known?
-  Respondent(std::string name, fast::Promise promise, bool timed);
+  Respondent(std::string name, fast::Promise promise, bool timed)
+      : Respondent(std::move(name), promise, timed, Pacing{}) {}
+  Respondent(std::string name, fast::Promise promise, bool timed, const Pacing& pacing);
   Respondent(const Respondent&) = delete;
   Respondent& operator=(const Respondent&) = delete;
   Respondent(Respondent&&) = delete;
@@ -46,6 +62,8 @@ class Respondent {
   virtual ~Respondent() = default;
 
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Gives it another name.
+  void call(std::string name) { name_ = std::move(name); }
   /// What its answers are held to: its own promise unless hold_to() says otherwise.
   [[nodiscard]] fast::Promise promise() const { return promise_; }
   void hold_to(fast::Promise promise) { promise_ = promise; }
@@ -55,9 +73,10 @@ class Respondent {
   /// \pre all spans have the same length.
   [[nodiscard]] Response answer(const Questions& questions, std::span<fast::Answer> answers) const;
 
-  /// How many queries to ask at once: as many as take some milliseconds at the pace of the latest
-  /// answers. Few for slow solvers, so that all cores have work and an interrupt is soon obeyed;
-  /// many for fast ones, so that neither clock nor child process shows in the time.
+  /// How many queries to ask at once, by the pace of the latest answers: as many as take some
+  /// milliseconds, in child processes half a second. Few for slow solvers, so that all cores have
+  /// work and an interrupt costs little; many for fast ones, so that neither clock nor child process
+  /// shows in the time. The making of child processes is no part of the pace.
   [[nodiscard]] std::size_t good_span() const;
 
  private:
@@ -67,8 +86,9 @@ class Respondent {
   std::string name_;
   fast::Promise promise_;
   bool timed_;
-  /// Wall-clock seconds a query, of the latest span; a guess that is slow before there is one.
-  mutable std::atomic<double> pace_{1.0};
+  double span_seconds_;
+  /// Wall-clock seconds a query, of the latest span; a guess before there is one.
+  mutable std::atomic<double> pace_;
 };
 
 /// A method in this process. A query it throws an exception at is answered Verdict::error. The time

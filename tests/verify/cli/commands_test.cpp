@@ -155,7 +155,10 @@ TEST_F(Tool, UsageErrorsExitWithTwo) {
         {"certify", "--query-limit", "-1"},
         {"certify", "--tolerance", "0"},
         {"solve", "--out", path("x")},
+        {"certify", path("x.csv"), "--exact"},
+        {"certify", path("x.csv"), "--max-checks", "5"},
         {"solve", "--method", "tight_inclusion"},
+        {"solve", "--method", "tight_inclusion", "--count", "1", "--out", ""},
         {"solve", "--method", "none", "--out", path("x")},
         {"solve", "--method", "nonsense", "--out", path("x")},
         {"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--method", "tight_inclusion", "--out",
@@ -259,6 +262,57 @@ TEST_F(Tool, OutputsMustNotBeInputsNorEachOther) {
   }
   EXPECT_EQ(run({"certify", file, "--json", path("x"), "--truth", path("x")}).status, 2);
   EXPECT_EQ(read_file(file), text);
+}
+
+TEST_F(Tool, OutputsMustNotBeWhatAccompaniesInputsNorPlugins) {
+  const std::string file = write("queries/a_vf.csv", falling_vertex("1"));
+  const std::string tois = write("toi/a_vf_toi.csv", "query,toi\n0,0.25\n");
+  const std::string labels = write("mma_bool/a_vf_mma_bool.json", "[true]\n");
+  const std::string plugin = write("box_overlap.so", read_file(TOUCHSTONE_BOX_OVERLAP));
+  for (const std::string& victim : {tois, labels, plugin}) {
+    const std::string before = read_file(victim);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"certify", file, "--plugin", plugin, "--truth", victim},
+          {"certify", file, "--plugin", plugin, "--json", victim},
+          {"solve", file, "--plugin", plugin, "--out", victim},
+          {"solve", file, "--plugin", plugin, "--out", path("x"), "--json", victim}}) {
+      const Outcome refused = run(words);
+      EXPECT_EQ(refused.status, 2) << testing::PrintToString(words);
+      EXPECT_TRUE(contains(refused.err, "named for input and output")) << refused.err;
+      EXPECT_EQ(read_file(victim), before);
+    }
+  }
+}
+
+TEST_F(Tool, OutputsGoWhereSymbolicLinksPoint) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  write("target.json", "older");
+  fs::create_symlink("target.json", path("link.json"));
+  fs::create_symlink("new.csv", path("dangling.csv"));
+  EXPECT_EQ(
+      run({"certify", file, "--json", path("link.json"), "--truth", path("dangling.csv")}).status,
+      0);
+  EXPECT_TRUE(fs::is_symlink(path("link.json")));
+  EXPECT_TRUE(fs::is_symlink(path("dangling.csv")));
+  EXPECT_EQ(json("target.json").at("queries"), 1);
+  EXPECT_TRUE(read_file(path("new.csv")).starts_with("file,index,"));
+  EXPECT_EQ(
+      run({"certify", file, "--json", path("link.json"), "--truth", path("target.json")}).status, 2)
+      << "one file by two names";
+}
+
+TEST_F(Tool, AnswersOnStandardOutputAreNothingButAnswers) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  const Outcome solve =
+      run({"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", "/dev/stdout"});
+  EXPECT_EQ(solve.status, 0) << solve.err;
+  EXPECT_EQ(solve.out, std::string("file,index,kind,verdict,toi_lower,toi_upper,tolerance\n") +
+                           file + ",0,vertex-face,yes,0,,\n");
+  EXPECT_TRUE(contains(solve.err, "box_overlap: 1 queries")) << solve.err;
+  const Outcome certify = run({"certify", file, "--json", "/dev/stdout"});
+  EXPECT_EQ(certify.status, 0);
+  EXPECT_EQ(nlohmann::json::parse(certify.out).at("queries"), 1);
+  EXPECT_TRUE(contains(certify.err, "total")) << certify.err;
 }
 
 TEST_F(Tool, AFailedRunLeavesOlderResultsAlone) {
@@ -486,6 +540,57 @@ TEST_F(Tool, ACrashAndAHangCostAQueryEach) {
   EXPECT_EQ(method.at("undecided"), 1);
 }
 
+TEST_F(Tool, ACrashThatDoesNotRepeatIsReportedAndIsAnError) {
+  using tests::Misbehaviour;
+  const std::string query = falling_vertex("0").replace(
+      0, 1, std::to_string(static_cast<int>(Misbehaviour::dies_at_call_1500)));
+  std::string text;
+  for (int i = 0; i < 2048; ++i) text += query;
+  const std::string file = write("queries_vf.csv", text);
+  const std::string said = "misbehaving ended its process 1 times, at no particular query";
+  const Outcome solve = run({"solve", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--out",
+                             path("answers.csv"), "--json", path("summary.json")});
+  EXPECT_EQ(solve.status, 0);
+  EXPECT_TRUE(contains(solve.err, said)) << solve.err;
+  EXPECT_EQ(json("summary.json").at("no"), 2048);
+  EXPECT_EQ(json("summary.json").at("unplaced_crashes"), 1);
+  const Outcome certify =
+      run({"certify", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 1);
+  EXPECT_TRUE(contains(certify.err, said)) << certify.err;
+  EXPECT_EQ(json("result.json").at("methods")[0].at("errors"), 1);
+}
+
+TEST_F(Tool, OurOwnAnswersCanBeReadBack) {
+  ASSERT_EQ(run({"solve", "--count", "4", "--max-checks", "20", "--method", "tight_inclusion",
+                 "--out", path("answers.csv")})
+                .status,
+            0);
+  ASSERT_TRUE(contains(read_file(path("answers.csv")), ",inf\n")) << "what this test is about";
+  const Outcome certify = run({"certify", "--count", "4", "--results", path("answers.csv")});
+  EXPECT_EQ(certify.status, 0) << certify.err << certify.out;
+  EXPECT_EQ(certify.err, "");
+}
+
+TEST_F(Tool, NamesOfPluginsNeedNotBeUtf8) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  const Outcome solve = run({"solve", file, "--plugin", TOUCHSTONE_LATIN_NAME, "--out",
+                             path("answers.csv"), "--json", path("summary.json")});
+  EXPECT_EQ(solve.status, 0) << solve.err;
+  EXPECT_EQ(json("summary.json").at("method"), "caf\xef\xbf\xbd") << "the mark of what is no text";
+}
+
+TEST_F(Tool, SolversOfOneNameAreToldApartAndNamedEvenWithoutQueries) {
+  const Outcome certify = run({"certify", path("missing"), "--plugin", TOUCHSTONE_BOX_OVERLAP,
+                               "--plugin", TOUCHSTONE_BOX_OVERLAP, "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 2);
+  const nlohmann::json methods = json("result.json").at("methods");
+  ASSERT_EQ(methods.size(), 2U);
+  EXPECT_EQ(methods[0].at("name"), "box_overlap");
+  EXPECT_EQ(methods[1].at("name"), "box_overlap (2)");
+  EXPECT_EQ(methods[0].at("queries"), 0);
+}
+
 TEST_F(Tool, SolvedAnswersAreJudgedAsTheirSolverIs) {
   for (const bool built_in : {true, false}) {
     std::vector<std::string> sources{"--count", "8"};
@@ -527,7 +632,8 @@ TEST_F(Tool, MethodsAreJudgedUnaskedOnTheBuiltInSetOnly) {
   };
   EXPECT_GE(judged({"--count", "1"}), 1U);
   EXPECT_EQ(judged({"--count", "1", "--method", "none"}), 0U);
-  EXPECT_EQ(judged({file}), 0U);
+  EXPECT_EQ(run({"certify", "--json", path("result.json"), file}).status, 0);
+  EXPECT_EQ(json("result.json").at("methods").size(), 0U);
   EXPECT_EQ(judged({file, "--method", "tight_inclusion"}), 1U);
   EXPECT_EQ(judged({"--method", "tight_inclusion", file, "--query-limit", "10"}), 1U);
 }
@@ -553,6 +659,33 @@ TEST_F(Tool, SolveRefusesOutputsThatAreInputsOrEachOther) {
   EXPECT_EQ(with({"--out", path("x"), "--json", path("x")}), 2);
   EXPECT_EQ(with({"--out", "/dev/full"}), 2);
   EXPECT_EQ(read_file(file), text);
+}
+
+TEST_F(Tool, AFullDeviceEndsSolveEarly) {
+  const Outcome solve = run(
+      {"solve", "--count", "100000000", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", "/dev/full"});
+  EXPECT_EQ(solve.status, 2);
+  EXPECT_TRUE(contains(solve.err, "/dev/full: cannot be written")) << solve.err;
+}
+
+TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
+  using namespace std::chrono_literals;
+  using tests::Misbehaviour;
+  std::string text =
+      falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(Misbehaviour::hangs)));
+  const std::string file = write("queries_vf.csv", text);
+  for (const std::string command : {"solve", "certify"}) {
+    std::vector<std::string> words{
+        command, file, "--plugin", TOUCHSTONE_MISBEHAVING, "--json", path("result.json")};
+    if (command == "solve") words.insert(words.end(), {"--out", path("answers.csv")});
+    const pid_t process = start(words);
+    std::this_thread::sleep_for(1s);
+    kill(process, SIGINT);
+    const Outcome outcome = finish(process);
+    EXPECT_EQ(outcome.status, 130) << command << outcome.err;
+    EXPECT_EQ(json("result.json").at("interrupted"), true);
+    EXPECT_EQ(json("result.json").at("queries"), 0);
+  }
 }
 
 TEST_F(Tool, AnInterruptOfSolveKeepsWhatIsDone) {

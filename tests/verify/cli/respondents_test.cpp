@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "verify/dataset/dataset_error.hpp"
+#include "verify/methods/registry.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -74,6 +75,50 @@ TEST(Respondents, AreThoseNamedInOrder) {
   const Respondents held(arguments);
   for (const Respondent* respondent : held.all()) {
     EXPECT_EQ(respondent->promise(), fast::Promise::exact);
+  }
+}
+
+TEST(Respondents, OfOneNameAreToldApart) {
+  const std::string name(methods().front()->name());
+  RespondentArguments arguments;
+  arguments.methods = {name, name, name};
+  const Respondents respondents(arguments);
+  ASSERT_EQ(respondents.all().size(), 3U);
+  EXPECT_EQ(respondents.all()[0]->name(), name);
+  EXPECT_EQ(respondents.all()[1]->name(), name + " (2)");
+  EXPECT_EQ(respondents.all()[2]->name(), name + " (3)");
+}
+
+/// Settles the arguments of a parsed command line.
+RespondentArguments settled(std::vector<std::string> words, bool built_in_set) {
+  CLI::App app;
+  RespondentArguments arguments;
+  add_solver_options(app, arguments);
+  app.add_flag("--exact", arguments.exact);
+  std::ranges::reverse(words);
+  app.parse(std::move(words));
+  settle_solver_options(app, built_in_set, arguments);
+  return arguments;
+}
+
+TEST(RespondentOptions, TheBuiltInSetHasFewerChecksUnlessToldOtherwise) {
+  const std::int64_t otherwise = fast::MethodOptions().max_checks;
+  EXPECT_EQ(settled({}, true).options.max_checks, 100'000);
+  EXPECT_EQ(settled({"--max-checks", std::to_string(otherwise)}, true).options.max_checks,
+            otherwise);
+  EXPECT_EQ(settled({"--method", "a"}, false).options.max_checks, otherwise);
+}
+
+TEST(RespondentOptions, WithoutASolverAreRefused) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--exact"},
+                                                {"--query-limit", "1"},
+                                                {"--tolerance", "1e-6"},
+                                                {"--max-checks", "5"}}) {
+    EXPECT_THROW(static_cast<void>(settled(words, false)), std::invalid_argument) << words.front();
+    EXPECT_NO_THROW(static_cast<void>(settled(words, true))) << words.front();
+    std::vector<std::string> with_solver = words;
+    with_solver.insert(with_solver.end(), {"--method", "a"});
+    EXPECT_NO_THROW(static_cast<void>(settled(with_solver, false))) << words.front();
   }
 }
 

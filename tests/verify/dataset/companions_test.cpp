@@ -192,6 +192,18 @@ TEST(Companions, are_found_beside_and_below_the_folder_of_the_dataset_in_order) 
   }
 }
 
+TEST(Companions, are_known_by_their_paths) {
+  const TemporaryFolder folder;
+  const auto dataset = folder.file("queries/7vf.csv", "");
+  EXPECT_TRUE(find_companions(dataset).empty());
+  const auto tois = folder.file("toi/7vf_toi.csv", "");
+  const auto labels = folder.file("queries/7vf_mma_bool.json", "");
+  const auto found = find_companions(dataset);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].lexically_normal(), labels);
+  EXPECT_EQ(found[1].lexically_normal(), tois);
+}
+
 TEST(Companions, of_other_datasets_do_not_count) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("queries/7vf.npy", "");

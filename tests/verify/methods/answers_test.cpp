@@ -123,6 +123,22 @@ TEST(LoadAnswers, DropsTimesWithoutAYes) {
   expect_same(answers.answer_to("a", vf, 1), {.verdict = Verdict::undecided, .tolerance = 0.5});
 }
 
+TEST(LoadAnswers, TimesWithoutAYesMayBeAnyNumber) {
+  const RecordedAnswers answers = load_rows(
+      "a,0,vertex-face,no,inf,inf,inf\n"
+      "a,1,vertex-face,undecided,-inf,nan,\n"
+      "a,2,vertex-face,error,nan,inf,0\n");
+  expect_same(answers.answer_to("a", vf, 0),
+              {.verdict = Verdict::no, .tolerance = std::numeric_limits<double>::infinity()});
+  expect_same(answers.answer_to("a", vf, 1), {.verdict = Verdict::undecided});
+  expect_same(answers.answer_to("a", vf, 2), {.verdict = Verdict::error, .tolerance = 0.0});
+}
+
+TEST(LoadAnswers, AnInfiniteToleranceClaimsNothingAndIsReadBack) {
+  const Answer answer{Verdict::yes, 0.25, 0.5, std::numeric_limits<double>::infinity()};
+  expect_same(load_rows(answer_row("a", 0, vf, answer)).answer_to("a", vf, 0), answer);
+}
+
 TEST(LoadAnswers, LeavesTheRangeOfTimesToTheJudge) {
   expect_same(load_rows("a,0,vertex-face,yes,-1e-17,1.5,\n").answer_to("a", vf, 0),
               {.verdict = Verdict::yes, .toi_lower = -1e-17, .toi_upper = 1.5});
@@ -299,11 +315,14 @@ TEST(LoadAnswers, NamesLineColumnAndReason) {
       {"a,0,vertex-face,yes,half,,", "5: must be a finite double or empty: \"half\""},
       {"a,0,vertex-face,yes,0.5x,,", "5: must be a finite double or empty: \"0.5x\""},
       {"a,0,vertex-face,yes,nan,,", "5: must be a finite double or empty: \"nan\""},
-      {"a,0,vertex-face,no,inf,,", "5: must be a finite double or empty: \"inf\""},
+      {"a,0,vertex-face,yes,inf,,", "5: must be a finite double or empty: \"inf\""},
+      {"a,0,vertex-face,no,soon,,", "5: must be a finite double or empty: \"soon\""},
       {"a,0,vertex-face,yes,,-inf,", "6: must be a finite double or empty: \"-inf\""},
       {"a,0,vertex-face,yes,,1e999,", "6: must be a finite double or empty: \"1e999\""},
       {"a,0,vertex-face,yes,,\"0,5\",", "6: must be a finite double or empty: \"0,5\""},
-      {"a,0,vertex-face,yes,,,1e-6 m", "7: must be a finite double or empty: \"1e-6 m\""},
+      {"a,0,vertex-face,yes,,,1e-6 m", "7: must be a double or empty: \"1e-6 m\""},
+      {"a,0,vertex-face,yes,,,nan", "7: must be a double or empty: \"nan\""},
+      {"a,0,vertex-face,yes,,,-inf", "7: tolerance must not be negative"},
       {"a,0,vertex-face,yes,,,-1", "7: tolerance must not be negative"},
   };
   for (const auto& [row, error] : rows) {

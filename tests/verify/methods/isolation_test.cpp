@@ -14,6 +14,7 @@
 #include <csignal>
 #include <ctime>
 #include <filesystem>
+#include <functional>
 #include <new>
 #include <stdexcept>
 #include <string_view>
@@ -33,12 +34,14 @@ enum class Act {
   answer,  ///< yes; times: the second coordinate and the kind; tolerance: length of the span
   dies,
   throws,
-  exits,         ///< with status 0, as if all were well
-  hangs,         ///< asleep
-  burns,         ///< for ever
-  works,         ///< 50 ms of processor time, then answers
-  naps,          ///< 20 ms, then answers
-  dies_in_spans  ///< alone it answers
+  exits,          ///< with status 0, as if all were well
+  hangs,          ///< asleep
+  burns,          ///< for ever
+  works,          ///< 50 ms of processor time, then answers
+  naps,           ///< 20 ms, then answers
+  dies_in_spans,  ///< alone it answers
+  closes,         ///< all descriptors but the standard ones, then is asleep
+  forks           ///< a process that sleeps for ever, then answers
 };
 
 Query scripted(Act act, std::size_t number) {
@@ -92,6 +95,11 @@ class ScriptedMethod final : public fast::Method {
     if (act == Act::burns) burn();
     if (act == Act::works) work();
     if (act == Act::naps) std::this_thread::sleep_for(20ms);
+    if (act == Act::forks && ::fork() == 0) sleep_for_ever();
+    if (act == Act::closes) {
+      for (int descriptor = 3; descriptor < 1024; ++descriptor) ::close(descriptor);
+      sleep_for_ever();
+    }
   }
 };
 
@@ -110,10 +118,11 @@ struct Outcome {
   IsolatedSolve solve;
 };
 
-Outcome run(const std::vector<Query>& queries, double limit, Kind kind = Kind::vertex_face) {
+Outcome run(const std::vector<Query>& queries, double limit, Kind kind = Kind::vertex_face,
+            const std::atomic<bool>* stop = nullptr) {
   Outcome outcome{.answers = std::vector<Answer>(queries.size()), .solve = {}};
   outcome.solve = solve_isolated(ScriptedMethod(), kind, queries, outcome.answers, {.t_max = 0.5},
-                                 {.query_limit_seconds = limit});
+                                 {.query_limit_seconds = limit, .stop = stop});
   return outcome;
 }
 
@@ -139,6 +148,27 @@ void expect_answers(const std::vector<Answer>& answers, Verdict verdict = Verdic
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+double seconds_of(const std::function<void()>& work) {
+  const Clock::time_point start = Clock::now();
+  work();
+  return seconds_since(start);
+}
+
+/// Writes to every page of some memory.
+class TouchingMethod final : public fast::Method {
+ public:
+  explicit TouchingMethod(std::vector<char>& memory) : memory_(memory) {}
+  [[nodiscard]] std::string_view name() const override { return "touching"; }
+  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+  void solve(Kind, std::span<const Query>, std::span<Answer>,
+             const fast::MethodOptions&) const override {
+    for (std::size_t i = 0; i < memory_.size(); i += 4096) ++memory_[i];
+  }
+
+ private:
+  std::vector<char>& memory_;
+};
 
 constexpr double long_limit = 60.0;
 
@@ -199,16 +229,27 @@ TEST(SolveIsolated, SurvivesAMethodThatNeverDoes) {
   }
 }
 
-TEST(SolveIsolated, ADeathThatDoesNotRepeatCostsNothing) {
+TEST(SolveIsolated, ADeathThatDoesNotRepeatCostsNoAnswerButIsCounted) {
   std::vector<Query> queries = numbered(3000);
   plant(queries, Act::dies_in_spans, {1500});
   const Outcome outcome = run(queries, 0.0);
   expect_answers(outcome.answers);
   EXPECT_EQ(outcome.solve.crashes, 0U);
+  EXPECT_EQ(outcome.solve.unplaced_crashes, 1U);
   EXPECT_EQ(outcome.answers[1023].tolerance, 1024.0);
   EXPECT_EQ(outcome.answers[1024].tolerance, 1.0);
   EXPECT_EQ(outcome.answers[2047].tolerance, 1.0);
   EXPECT_EQ(outcome.answers[2048].tolerance, 952.0);
+}
+
+TEST(SolveIsolated, TellsDeathsThatRepeatFromThoseThatDoNot) {
+  std::vector<Query> queries = numbered(5000);
+  plant(queries, Act::dies_in_spans, {10, 3000});
+  plant(queries, Act::dies, {1500, 1501, 4999});
+  const Outcome outcome = run(queries, 0.0);
+  expect_answers(outcome.answers, Verdict::error, {1500, 1501, 4999});
+  EXPECT_EQ(outcome.solve.crashes, 3U);
+  EXPECT_EQ(outcome.solve.unplaced_crashes, 2U);
 }
 
 TEST(SolveIsolated, TheLimitCostsOneQuery) {
@@ -223,6 +264,33 @@ TEST(SolveIsolated, TheLimitCostsOneQuery) {
     EXPECT_EQ(outcome.solve.limit_hits, slow.size());
     EXPECT_EQ(outcome.solve.crashes, 0U);
   }
+}
+
+TEST(SolveIsolated, TheLimitHoldsForAChildThatClosesAllItsDescriptors) {
+  std::vector<Query> queries = numbered(3);
+  plant(queries, Act::closes, {1});
+  const Outcome outcome = run(queries, 0.25);
+  expect_answers(outcome.answers, Verdict::undecided, {1});
+  EXPECT_EQ(outcome.solve.limit_hits, 1U);
+}
+
+TEST(SolveIsolated, AStopIsObeyedInTheMidstOfAQuery) {
+  for (const double limit : {0.0, 600.0}) {
+    std::vector<Query> queries = numbered(10);
+    plant(queries, Act::hangs, {5});
+    std::atomic<bool> stop = false;
+    const Clock::time_point start = Clock::now();
+    std::jthread stopper([&] {
+      std::this_thread::sleep_for(100ms);
+      stop = true;
+    });
+    const Outcome outcome = run(queries, limit, Kind::vertex_face, &stop);
+    EXPECT_LT(seconds_since(start), 5.0);
+    EXPECT_TRUE(outcome.solve.stopped);
+    EXPECT_EQ(outcome.solve.limit_hits + outcome.solve.crashes, 0U);
+  }
+  std::atomic<bool> stop = false;
+  EXPECT_FALSE(run(numbered(10), 0.0, Kind::vertex_face, &stop).solve.stopped);
 }
 
 TEST(SolveIsolated, TheLimitIsThatOfAQueryAndNotOfTheSpan) {
@@ -258,10 +326,30 @@ TEST(SolveIsolated, CountsProcessorTime) {
   }
 }
 
-TEST(SolveIsolated, DoesNotCountSleep) {
+TEST(SolveIsolated, CountsSleepAsWallClockTimeOnly) {
   std::vector<Query> queries = numbered(10);
   for (std::size_t i = 0; i < queries.size(); ++i) plant(queries, Act::naps, {i});
-  EXPECT_LT(run(queries, 0.0).solve.processor_seconds, 0.1);
+  const IsolatedSolve solve = run(queries, 0.0).solve;
+  EXPECT_LT(solve.processor_seconds, 0.1);
+  EXPECT_GE(solve.wall_seconds, 0.2);
+}
+
+TEST(SolveIsolated, DoesNotCountTheFirstTouchOfThePagesOfThisProcess) {
+  // The child copies each page that the first query writes to; that is no time of the solver.
+  std::vector<char> pages(std::size_t{1} << 28U, 1);
+  const TouchingMethod method(pages);
+  const std::vector<Query> queries = numbered(1);
+  std::vector<Answer> answers(1);
+  const double cold = seconds_of([&] {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      method.solve(Kind::vertex_face, queries, answers, {});
+      ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+  });
+  const IsolatedSolve solve = solve_isolated(method, Kind::vertex_face, queries, answers, {});
+  EXPECT_LT(solve.processor_seconds, 0.5 * cold);
 }
 
 TEST(SolveIsolated, CountsTheTimeOfChildrenThatDied) {
@@ -301,6 +389,27 @@ TEST(SolveIsolated, LeavesNeitherChildrenNorDescriptors) {
   errno = 0;
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
+}
+
+TEST(SolveIsolated, NeitherWaitsForGrandchildrenNorLeavesThem) {
+  // Orphans become children of this process, which can then see how they ended.
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
+  std::vector<Query> queries = numbered(10);
+  plant(queries, Act::forks, {1, 2, 3});
+  plant(queries, Act::dies, {4, 5, 6, 7, 8, 9});
+  const Clock::time_point start = Clock::now();
+  const Outcome outcome = run(queries, long_limit);
+  EXPECT_LT(seconds_since(start), 4.0) << "seven children";
+  expect_answers(outcome.answers, Verdict::error, {4, 5, 6, 7, 8, 9});
+  int killed = 0;
+  for (int i = 0; i < 500 && killed < 3; ++i) {
+    int status = 0;
+    const pid_t orphan = ::waitpid(-1, &status, WNOHANG);
+    if (orphan > 0) killed += WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL ? 1 : 0;
+    std::this_thread::sleep_for(10ms);
+  }
+  EXPECT_EQ(killed, 3);
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 0), 0);
 }
 
 TEST(SolveIsolated, MayBeCalledFromSeveralThreads) {

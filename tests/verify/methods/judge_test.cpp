@@ -245,6 +245,19 @@ TEST(Judgement, KeepsSoManyWrongAnswersOfAFaultAndCountsAll) {
   EXPECT_EQ(alone.wrong_answers.size(), Judgement::most_kept);
 }
 
+TEST(Judgement, CrashesAtNoQueryAreErrorsThatBreakEveryPromise) {
+  Judgement judgement, sum;
+  judgement.add_unplaced_crashes(0);
+  EXPECT_TRUE(keeps(judgement, fast::Promise::none));
+  judgement.add_unplaced_crashes(2);
+  sum += judgement;
+  sum += judgement;
+  EXPECT_EQ(sum.unplaced_crashes, 4U);
+  EXPECT_EQ(sum.count(Fault::error), 4U);
+  EXPECT_EQ(sum.queries, 0U);
+  EXPECT_FALSE(keeps(sum, fast::Promise::none));
+}
+
 TEST(Promises, OnlyExactnessForbidsFalsePositives) {
   const Judgement false_positive = judge(miss(), {.verdict = Verdict::yes});
   const Judgement late = judge(hit(0.5, 0.5), {.verdict = Verdict::yes, .toi_lower = above(0.5)});

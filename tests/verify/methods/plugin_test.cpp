@@ -221,6 +221,17 @@ TEST(Plugin, HasTimesOfImpactOnlyWithYes) {
   EXPECT_EQ(answer.tolerance, 1e-9);
 }
 
+TEST(Plugin, WhatIsNoToleranceIsDropped) {
+  for (const Misbehaviour what : {Misbehaviour::negative_tolerance, Misbehaviour::nan_tolerance}) {
+    const Answer answer = ask_misbehaving(what);
+    EXPECT_EQ(answer.verdict, Verdict::yes);
+    EXPECT_EQ(answer.toi_lower, 0.25);
+    EXPECT_TRUE(std::isnan(answer.tolerance));
+  }
+  EXPECT_EQ(ask_misbehaving(Misbehaviour::infinite_tolerance).tolerance,
+            std::numeric_limits<double>::infinity());
+}
+
 TEST(Plugin, AnswersThatAreNoneBecomeErrors) {
   for (const Misbehaviour what :
        {Misbehaviour::verdict_too_large, Misbehaviour::verdict_negative,

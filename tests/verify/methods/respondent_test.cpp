@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "tests/support/methods.hpp"
+#include "verify/stream.hpp"
 #include "verify/thread_clock.hpp"
 
 namespace touchstone::verify {
@@ -153,6 +155,51 @@ TEST(Respondent, SpansAreShortForSlowAndLongForFastSolvers) {
   static_cast<void>(ask(*fast_respondent, 1000));
   EXPECT_LE(slow_respondent->good_span(), 2U);
   EXPECT_GE(fast_respondent->good_span(), 1000U);
+}
+
+TEST(Respondent, TheMakingOfChildProcessesDoesNotShortenSpans) {
+  const FunctionMethod method(echo);
+  const auto isolated = respond_isolated(method, {}, {});
+  EXPECT_GE(isolated->good_span(), Block::size) << "not known yet";
+  // What fork() costs grows with the memory of the process.
+  const std::vector<char> ballast(std::size_t{1} << 29U, 1);
+  EXPECT_EQ(ballast.back(), 1);
+  static_cast<void>(ask(*isolated, 16));
+  EXPECT_GE(isolated->good_span(), Block::size);
+
+  const FunctionMethod slow([](Kind, const Query&) -> Answer {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return {};
+  });
+  const auto slow_isolated = respond_isolated(slow, {}, {});
+  static_cast<void>(ask(*slow_isolated, 4));
+  EXPECT_LE(slow_isolated->good_span(), 10U);
+}
+
+TEST(Respondent, SaysWhatItsChildProcessesDid) {
+  const pid_t parent = getpid();
+  int calls = 0;  // of each process
+  const FunctionMethod dies_late([&calls, parent](Kind kind, const Query& query) {
+    if (getpid() != parent && ++calls == 1500) std::raise(SIGKILL);
+    return echo(kind, query);
+  });
+  const Outcome outcome = ask(*respond_isolated(dies_late, {}, {}), Block::size);
+  EXPECT_EQ(outcome.response.unplaced_crashes, 1U);
+  EXPECT_FALSE(outcome.response.stopped);
+  EXPECT_EQ(outcome.answers.back().verdict, Verdict::yes);
+
+  const std::atomic<bool> stop = true;
+  const FunctionMethod hangs([](Kind, const Query&) -> Answer {
+    for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+  });
+  EXPECT_TRUE(ask(*respond_isolated(hangs, {}, {.stop = &stop}), 10).response.stopped);
+}
+
+TEST(Respondent, MayBeCalledAnythingElse) {
+  const FunctionMethod method(echo, Promise::conservative, "echo");
+  const auto respondent = respond_in_process(method, {});
+  respondent->call("echo (2)");
+  EXPECT_EQ(respondent->name(), "echo (2)");
 }
 
 }  // namespace

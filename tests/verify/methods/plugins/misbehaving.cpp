@@ -19,8 +19,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
   for (volatile bool go_on = true;;) static_cast<void>(go_on);
 }
 
+/// Calls of what is to die after so many.
+int calls = 0;
+
 /// Those that end without an answer.
 void fail(Misbehaviour what) {
+  if (what == Misbehaviour::dies_at_call_1500 && ++calls == 1500) std::abort();
   if (what == Misbehaviour::throws) throw std::runtime_error("thrown by a plugin");
   if (what == Misbehaviour::aborts) std::abort();
   if (what == Misbehaviour::hangs) hang();
@@ -42,6 +46,7 @@ void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
   fail(what);
   switch (what) {
     case Misbehaviour::says_no:
+    case Misbehaviour::dies_at_call_1500:
       answer->verdict = touchstone_no;
       return;
     case Misbehaviour::says_no_with_toi:
@@ -64,6 +69,15 @@ void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
       return;
     case Misbehaviour::yes_without_toi:
       answer->verdict = touchstone_yes;
+      return;
+    case Misbehaviour::negative_tolerance:
+      *answer = {touchstone_yes, 0.25, 0.5, -1e-9};
+      return;
+    case Misbehaviour::nan_tolerance:
+      *answer = {touchstone_yes, 0.25, 0.5, std::numeric_limits<double>::quiet_NaN()};
+      return;
+    case Misbehaviour::infinite_tolerance:
+      *answer = {touchstone_yes, 0.25, 0.5, infinity};
       return;
     case Misbehaviour::repeats_query:
       *answer = {touchstone_yes, coordinates[1], coordinates[23], static_cast<double>(kind)};

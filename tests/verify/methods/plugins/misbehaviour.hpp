@@ -16,6 +16,10 @@ enum class Misbehaviour {
   yes_without_toi,
   repeats_query,    ///< yes; times: coordinates 1 and 23; tolerance: the kind
   repeats_options,  ///< yes if max_checks is 77; times: tolerance, min_separation; tolerance: t_max
+  negative_tolerance,
+  nan_tolerance,
+  infinite_tolerance,
+  dies_at_call_1500,  ///< of one process; until then it says no
   leaves_answer_alone,
   throws,
   aborts,
