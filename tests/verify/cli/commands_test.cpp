@@ -457,9 +457,10 @@ TEST_F(Tool, RecordedAnswersAreJudgedInEveryColumn) {
         Case{"yes,0.25000000000000006,0.5,", "no,,,", "late_toi", 1},
         Case{"yes,0,0.24999999999999997,", "no,,,", "early_toi_upper", 1},
         Case{"undecided,,,", "no,,,", "undecided", 0}, Case{"error,,,", "no,,,", "errors", 1}}) {
-    const std::string answers =
-        write("answers.csv", answers_header + file + ",0,vertex-face," + hit + "\n" + file +
-                                 ",1,vertex-face," + miss + "\n");
+    std::string rows = answers_header;
+    rows.append(file).append(",0,vertex-face,").append(hit).append("\n");
+    rows.append(file).append(",1,vertex-face,").append(miss).append("\n");
+    const std::string answers = write("answers.csv", rows);
     const Outcome certify =
         run({"certify", file, "--results", answers, "--json", path("result.json")});
     EXPECT_EQ(certify.status, status) << hit << miss << certify.err << certify.out;
