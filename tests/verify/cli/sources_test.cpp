@@ -30,92 +30,92 @@ class Sources : public ::testing::Test {
 
  protected:
   Sources()
-      : folder_(fs::path(::testing::TempDir()) /
-                (std::string("touchstone_sources_") +
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
-                 std::to_string(getpid()))) {
-    fs::create_directories(folder_);
+      : folder(fs::path(::testing::TempDir()) /
+               (std::string("touchstone_sources_") +
+                ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                std::to_string(getpid()))) {
+    fs::create_directories(folder);
     for (const char* name : {"a_vf.csv", "b_ee.csv"}) write(name);
-    handlers_ = {
+    handlers = {
         .title = "test",
         .use =
             [this](QuerySource& source, const std::function<void(double)>& progress) {
-              used_.emplace_back(source.name(), source.kind());
-              for (auto query = source.next(); query; query = source.next()) ++queries_;
+              used.emplace_back(source.name(), source.kind());
+              for (auto query = source.next(); query; query = source.next()) ++queries;
               progress(1.0);
             },
-        .fail = [this](const fs::path& path, const DatasetError&) { failed_.push_back(path); },
-        .stopped = [this] { return used_.size() + failed_.size() >= most_; },
-        .is_output = [this](const fs::path& path) { return path == output_; }};
+        .fail = [this](const fs::path& path, const DatasetError&) { failed.push_back(path); },
+        .stopped = [this] { return used.size() + failed.size() >= most; },
+        .is_output = [this](const fs::path& path) { return path == output; }};
   }
-  ~Sources() override { fs::remove_all(folder_); }
+  ~Sources() override { fs::remove_all(folder); }
 
   void write(const std::string& name) const {
-    std::ofstream file(folder_ / name);
+    std::ofstream file(folder / name);
     for (int row = 0; row < 8; ++row) file << row << ",1,2,1,3,1\n";
   }
 
-  fs::path folder_;
-  SourceHandlers handlers_;
-  std::vector<std::pair<std::string, Kind>> used_;
-  std::vector<fs::path> failed_;
-  std::uint64_t queries_ = 0;
-  std::size_t most_ = 1000;
-  fs::path output_;
+  fs::path folder;
+  SourceHandlers handlers;
+  std::vector<std::pair<std::string, Kind>> used;
+  std::vector<fs::path> failed;
+  std::uint64_t queries = 0;
+  std::size_t most = 1000;
+  fs::path output;
 };
 
 TEST_F(Sources, WithoutPathsAreTheBuiltInSet) {
   SourceArguments arguments;
   arguments.count = 2;
-  for_each_source(arguments, handlers_);
+  for_each_source(arguments, handlers);
   std::vector<std::pair<std::string, Kind>> expected;
   for (const Family& family : families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (supports(family, kind)) expected.emplace_back(family.name, kind);
     }
   }
-  EXPECT_EQ(used_, expected);
-  EXPECT_EQ(queries_, 2 * expected.size());
+  EXPECT_EQ(used, expected);
+  EXPECT_EQ(queries, 2 * expected.size());
 }
 
 TEST_F(Sources, FilesComeOnceAndInOrder) {
   SourceArguments arguments;
-  const fs::path b = folder_ / "b_ee.csv";
-  arguments.paths = {b, folder_};
-  for_each_source(arguments, handlers_);
-  ASSERT_EQ(used_.size(), 2U);
-  EXPECT_EQ(used_[0], std::pair(b.string(), Kind::edge_edge));
-  EXPECT_EQ(used_[1], std::pair((folder_ / "a_vf.csv").string(), Kind::vertex_face));
-  EXPECT_EQ(queries_, 2U);
+  const fs::path b = folder / "b_ee.csv";
+  arguments.paths = {b, folder};
+  for_each_source(arguments, handlers);
+  ASSERT_EQ(used.size(), 2U);
+  EXPECT_EQ(used[0], std::pair(b.string(), Kind::edge_edge));
+  EXPECT_EQ(used[1], std::pair((folder / "a_vf.csv").string(), Kind::vertex_face));
+  EXPECT_EQ(queries, 2U);
 }
 
 TEST_F(Sources, WhatCannotBeOpenedFailsAndTheRestGoesOn) {
   write("kindless.csv");
   SourceArguments arguments;
-  arguments.paths = {folder_ / "missing", folder_};
-  for_each_source(arguments, handlers_);
-  EXPECT_EQ(failed_, (std::vector<fs::path>{folder_ / "missing", folder_ / "kindless.csv"}));
-  EXPECT_EQ(used_.size(), 2U);
+  arguments.paths = {folder / "missing", folder};
+  for_each_source(arguments, handlers);
+  EXPECT_EQ(failed, (std::vector<fs::path>{folder / "missing", folder / "kindless.csv"}));
+  EXPECT_EQ(used.size(), 2U);
 }
 
 TEST_F(Sources, AStopLeavesTheRestAlone) {
-  most_ = 1;
+  most = 1;
   SourceArguments arguments;
-  for_each_source(arguments, handlers_);
-  EXPECT_EQ(used_.size(), 1U);
-  used_.clear();
-  arguments.paths = {folder_ / "missing", folder_};
-  for_each_source(arguments, handlers_);
-  EXPECT_TRUE(used_.empty());
-  EXPECT_EQ(failed_.size(), 1U);
+  for_each_source(arguments, handlers);
+  EXPECT_EQ(used.size(), 1U);
+  used.clear();
+  arguments.paths = {folder / "missing", folder};
+  for_each_source(arguments, handlers);
+  EXPECT_TRUE(used.empty());
+  EXPECT_EQ(failed.size(), 1U);
 }
 
 TEST_F(Sources, AnInputMustBeNoOutput) {
-  output_ = folder_ / "b_ee.csv";
+  output = folder / "b_ee.csv";
   SourceArguments arguments;
-  arguments.paths = {folder_};
-  EXPECT_THROW(for_each_source(arguments, handlers_), std::runtime_error);
-  EXPECT_TRUE(used_.empty()) << "before anything is done";
+  arguments.paths = {folder};
+  EXPECT_THROW(for_each_source(arguments, handlers), std::runtime_error);
+  EXPECT_TRUE(used.empty()) << "before anything is done";
 }
 
 TEST_F(Sources, OptionsFillTheArguments) {
