@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "filters/derivation/rounding_model.hpp"
+
 namespace touchstone::filters {
 namespace {
 
@@ -9,14 +11,6 @@ struct ValueAndError {
   mpq_class value;
   mpq_class error;
 };
-
-/// 2^⌊log2 x⌋ for x > 0.
-mpq_class power_of_two_below(const mpq_class& x) {
-  mpq_class result(1);
-  while (result > x) result /= 2;
-  while (2 * result <= x) result *= 2;
-  return result;
-}
 
 ValueAndError rounded(const mpq_class& value, const mpq_class& error) {
   return {value, error + power_of_two_below(value)};

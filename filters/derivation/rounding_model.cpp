@@ -157,6 +157,13 @@ mpq_class power_of_two(int exponent) {
   return result;
 }
 
+mpq_class power_of_two_below(const mpq_class& x) {
+  mpq_class result(1);
+  while (result > x) result /= 2;
+  while (2 * result <= x) result *= 2;
+  return result;
+}
+
 mpq_class Format::unit_roundoff() const { return power_of_two(-digits); }
 
 std::size_t ExactValue::degree() const {

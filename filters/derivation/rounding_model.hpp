@@ -39,6 +39,9 @@ namespace touchstone::filters {
 /// 2^exponent.
 [[nodiscard]] mpq_class power_of_two(int exponent);
 
+/// 2^⌊log2 x⌋. \pre x > 0.
+[[nodiscard]] mpq_class power_of_two_below(const mpq_class& x);
+
 /// A floating-point format.
 struct Format {
   const char* name;       ///< "double" or "float"

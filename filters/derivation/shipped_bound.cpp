@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 namespace touchstone::filters {
@@ -10,15 +11,9 @@ namespace {
 /// The least number of the format that is not below x ≥ 0.
 mpq_class round_up(const mpq_class& x, const Format& format) {
   if (x == 0) return x;
-  mpq_class spacing(1);  // the distance of neighbouring numbers of the format at x
-  spacing >>= static_cast<unsigned long>(format.digits - 1);
-  mpq_class power(1);
-  while (power > x) power /= 2;
-  while (2 * power <= x) power *= 2;
-  spacing *= power;
-  mpq_class least(1);
-  least >>= static_cast<unsigned long>(-format.least_exponent);
-  if (spacing < least) spacing = least;
+  // The distance of neighbouring numbers of the format at x.
+  const mpq_class spacing = std::max<mpq_class>(
+      power_of_two_below(x) * power_of_two(1 - format.digits), power_of_two(format.least_exponent));
   const mpq_class multiple = x / spacing;
   mpz_class up;
   mpz_cdiv_q(up.get_mpz_t(), multiple.get_num_mpz_t(), multiple.get_den_mpz_t());
@@ -51,8 +46,7 @@ std::vector<mpq_class> shipped_coefficients(const DerivedBound& bound, const For
   const std::size_t degree = bound.coefficients.size() - 1;
   mpq_class margin(1);
   for (std::size_t i = 0; i < 2 * degree; ++i) margin *= 1 + 3 * format.unit_roundoff();
-  mpq_class least(1);
-  least >>= static_cast<unsigned long>(-format.least_exponent);
+  const mpq_class least = power_of_two(format.least_exponent);
   std::vector<mpq_class> result;
   for (std::size_t j = 0; j <= degree; ++j) {
     const mpq_class raised = bound.coefficients[j] * margin + (j < degree ? least : mpq_class(0));

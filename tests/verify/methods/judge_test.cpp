@@ -82,19 +82,19 @@ TEST(Judge, UndecidedIsAConservativeYesInAColumnOfItsOwn) {
 
 TEST(Judge, ATimeIsLateByTheLastBit) {
   // The exact time is strictly between neighbouring doubles.
-  const double lower = 0.1, upper = above(0.1);
+  const double before = 0.1, after = above(0.1);
   const auto faults = [&](double toi_lower, double toi_upper) {
     const Judgement judgement =
-        judge(hit(lower, upper),
+        judge(hit(before, after),
               {.verdict = Verdict::yes, .toi_lower = toi_lower, .toi_upper = toi_upper});
     all_faults(judgement);
     return std::pair(judgement.count(Fault::late_toi), judgement.count(Fault::early_toi_upper));
   };
   using Counts = std::pair<std::uint64_t, std::uint64_t>;
-  EXPECT_EQ(faults(lower, upper), Counts(0, 0));
-  EXPECT_EQ(faults(upper, upper), Counts(1, 0));
-  EXPECT_EQ(faults(lower, lower), Counts(0, 1));
-  EXPECT_EQ(faults(upper, lower), Counts(1, 1));
+  EXPECT_EQ(faults(before, after), Counts(0, 0));
+  EXPECT_EQ(faults(after, after), Counts(1, 0));
+  EXPECT_EQ(faults(before, before), Counts(0, 1));
+  EXPECT_EQ(faults(after, before), Counts(1, 1));
   EXPECT_EQ(faults(-infinity, infinity), Counts(0, 0));
   EXPECT_EQ(faults(infinity, -infinity), Counts(1, 1));
   EXPECT_EQ(faults(Answer::none, Answer::none), Counts(0, 0));
