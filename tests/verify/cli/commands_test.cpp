@@ -106,6 +106,19 @@ class Tool : public ::testing::Test {
     }
   }
 
+  /// Until one of the tool's threads has a child: the process that the solver runs in.
+  static void wait_for_child(pid_t process) {
+    const auto has_child = [&] {
+      const fs::path threads = "/proc/" + std::to_string(process) + "/task";
+      return std::ranges::any_of(fs::directory_iterator(threads), [](const auto& thread) {
+        return !read_file(thread.path() / "children").empty();
+      });
+    };
+    for (int i = 0; i < 600 && !has_child(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+
   std::string write(const std::string& name, const std::string& text) const {
     fs::create_directories(fs::path(path(name)).parent_path());
     std::ofstream(path(name), std::ios::binary) << text;
@@ -670,7 +683,6 @@ TEST_F(Tool, AFullDeviceEndsSolveEarly) {
 }
 
 TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
-  using namespace std::chrono_literals;
   using tests::Misbehaviour;
   std::string text =
       falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(Misbehaviour::hangs)));
@@ -680,7 +692,7 @@ TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
         command, file, "--plugin", TOUCHSTONE_MISBEHAVING, "--json", path("result.json")};
     if (command == "solve") words.insert(words.end(), {"--out", path("answers.csv")});
     const pid_t process = start(words);
-    std::this_thread::sleep_for(1s);
+    wait_for_child(process);
     kill(process, SIGINT);
     const Outcome outcome = finish(process);
     EXPECT_EQ(outcome.status, 130) << command << outcome.err;

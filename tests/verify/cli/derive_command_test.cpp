@@ -69,7 +69,7 @@ TEST_F(Derive, PrintsAndWritesTheTable) {
   EXPECT_NE(read("out").find("6.217248937900877e-15"), std::string::npos);
   const nlohmann::json result = json();
   EXPECT_EQ(result.at("evaluations"), 2000);
-  ASSERT_EQ(result.at("bounds").size(), 8U);
+  ASSERT_EQ(result.at("bounds").size(), 13U);
   const nlohmann::json row = result.at("bounds")[0];
   EXPECT_EQ(row.at("expression"), "edge_edge");
   EXPECT_EQ(row.at("precision"), "double");
@@ -79,6 +79,21 @@ TEST_F(Derive, PrintsAndWritesTheTable) {
   EXPECT_TRUE(row.at("gappa").is_null());
   EXPECT_EQ(row.at("worst_input").at("coordinates").size(), 8U);
   EXPECT_GT(row.at("tightness"), 1.0);
+}
+
+TEST_F(Derive, PrintsTheRowsOfPairsOfDoubles) {
+  ASSERT_EQ(run("--model rigorous --model observed --precision double_double --evaluations 2000 "
+                "--json '" +
+                path("json") + "'"),
+            0)
+      << read("err");
+  EXPECT_NE(read("out").find("determinant_end  double_double"), std::string::npos) << read("out");
+  ASSERT_EQ(json().at("bounds").size(), 1U);
+  const nlohmann::json row = json().at("bounds")[0];
+  EXPECT_EQ(row.at("precision"), "double_double");
+  EXPECT_TRUE(row.at("published_constant").is_null());
+  EXPECT_DOUBLE_EQ(row.at("rigorous"), 0x1p-97);
+  EXPECT_EQ(row.at("worst_input").at("coordinates").size(), 18U);
 }
 
 TEST_F(Derive, TakesGappasAnswersFromGappa) {
@@ -91,7 +106,8 @@ TEST_F(Derive, TakesGappasAnswersFromGappa) {
                 "PATH='" + path("") + "'"),
             0)
       << read("err");
-  for (const nlohmann::json& row : json().at("bounds")) EXPECT_EQ(row.at("gappa_units"), 1.5);
+  const nlohmann::json result = json();
+  for (const nlohmann::json& row : result.at("bounds")) EXPECT_EQ(row.at("gappa_units"), 1.5);
   EXPECT_NE(read("out").find("1.5 u"), std::string::npos);
 }
 
