@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The error bounds of filters/expressions.hpp, derived from the expressions themselves.
+/// The error bounds of the filtered expressions, derived from the expressions themselves.
 ///
 /// Written by `touchstone derive --emit filters/error_bounds.hpp`; not to be edited. A test fails
 /// if it differs from what the derivation gives, another has Gappa prove each bound.
@@ -57,6 +57,47 @@ inline constexpr ErrorBound<double, 1> vertex_face_separated_double{
 inline constexpr ErrorBound<float, 1> vertex_face_separated_float{
     .coefficients = {{0x1.cp-147F, 0x1.90000ep-20F}},
     .greatest_x = 0x1p+124F,
+};
+
+/// measured_projected_gap in double: 34 u x^2 and underflow.
+inline constexpr ErrorBound<double, 2> measured_projected_gap_double{
+    .coefficients = {{0x0.0000000000006p-1022, 0x0.0000000000009p-1022, 0x1.1000000000008p-48}},
+    .greatest_x = 0x1p+510,
+};
+
+/// measured_determinant_end in double: 82 u x^3 and underflow.
+inline constexpr ErrorBound<double, 3> measured_determinant_end_double{
+    .coefficients = {{0x0.0000000000004p-1022, 0x0.0000000000006p-1022, 0x0.000000000001ep-1022,
+                      0x1.480000000001p-47}},
+    .greatest_x = 0x1p+340,
+};
+
+/// measured_determinant_middle in double: 276 u x^3 and underflow.
+inline constexpr ErrorBound<double, 3> measured_determinant_middle_double{
+    .coefficients = {{0x0.0000000000006p-1022, 0x0.000000000000cp-1022, 0x0.0000000000054p-1022,
+                      0x1.140000000000ep-45}},
+    .greatest_x = 0x1p+339,
+};
+
+/// measured_orientation_end in double: 70 u x^3 and underflow.
+inline constexpr ErrorBound<double, 3> measured_orientation_end_double{
+    .coefficients = {{0x0.0000000000004p-1022, 0x0.0000000000006p-1022, 0x0.0000000000018p-1022,
+                      0x1.180000000000dp-47}},
+    .greatest_x = 0x1p+340,
+};
+
+/// measured_orientation_middle in double: 152 u x^3 and underflow.
+inline constexpr ErrorBound<double, 3> measured_orientation_middle_double{
+    .coefficients = {{0x0.0000000000006p-1022, 0x0.0000000000009p-1022, 0x0.000000000002dp-1022,
+                      0x1.300000000000fp-46}},
+    .greatest_x = 0x1p+339,
+};
+
+/// determinant_end in double_double: 64 u x^3 and underflow.
+inline constexpr ErrorBound<double, 3> determinant_end_double_double{
+    .coefficients = {{0x0.000000000001bp-1022, 0x0.0000000000033p-1022, 0x0.0000000000123p-1022,
+                      0x1.000000000000ap-97}},
+    .greatest_x = 0x1p+328,
 };
 
 }  // namespace touchstone::filters

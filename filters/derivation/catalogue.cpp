@@ -5,6 +5,7 @@
 
 #include "filters/derivation/shipped_bound.hpp"
 #include "filters/expressions.hpp"
+#include "filters/polynomial_expressions.hpp"
 
 namespace touchstone::filters {
 namespace {
@@ -12,11 +13,22 @@ namespace {
 enum class Ships : bool { no, yes };
 
 template <class Expression>
-CatalogueEntry entry(Ships ships, std::optional<PublishedConstants> published = std::nullopt) {
+CatalogueEntry entry(Ships ships, const PublishedConstants& published) {
   return {.graph = record<Expression>(),
           .evaluators = evaluators<Expression>(),
           .published = published,
+          .formats = {double_format, float_format},
           .ships = ships == Ships::yes};
+}
+
+/// An expression of the certified solver, in the one format that it runs it in.
+template <class Expression>
+CatalogueEntry entry(const Format& format) {
+  return {.graph = record<Expression>(),
+          .evaluators = evaluators<Expression>(),
+          .published = std::nullopt,
+          .formats = {format},
+          .ships = true};
 }
 
 constexpr PublishedConstants edge_edge{"6.217248937900877e-15", "3.337861e-06",
@@ -34,6 +46,12 @@ std::vector<CatalogueEntry> make_catalogue() {
       entry<VertexFace>(Ships::yes, vertex_face),
       entry<EdgeEdgeSeparated>(Ships::yes, edge_edge_separated),
       entry<VertexFaceSeparated>(Ships::yes, vertex_face_separated),
+      entry<MeasuredProjectedGap>(double_format),
+      entry<MeasuredDeterminantEnd>(double_format),
+      entry<MeasuredDeterminantMiddle>(double_format),
+      entry<MeasuredOrientationEnd>(double_format),
+      entry<MeasuredOrientationMiddle>(double_format),
+      entry<DeterminantEnd>(double_double_format),
       entry<PaperEdgeEdge>(Ships::no, edge_edge),
       entry<PaperVertexFace>(Ships::no, vertex_face),
       entry<PaperEdgeEdgeSeparated>(Ships::no, edge_edge_separated),
@@ -58,11 +76,12 @@ const CatalogueEntry& find_expression(std::string_view name) {
 }
 
 std::string error_bounds_header() {
-  std::vector<ExpressionGraph> graphs;
+  std::vector<ShippedExpression> shipped;
   for (const CatalogueEntry& e : catalogue()) {
-    if (e.ships) graphs.push_back(e.graph);
+    if (!e.ships) continue;
+    for (const Format& format : e.formats) shipped.push_back({e.graph, format});
   }
-  return error_bounds_header(graphs);
+  return error_bounds_header(shipped);
 }
 
 }  // namespace touchstone::filters

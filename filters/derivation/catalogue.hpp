@@ -1,8 +1,9 @@
 #pragma once
 
 /// \file
-/// The list of all expressions. To add one, write its template in filters/expressions.hpp and its
-/// line in catalogue.cpp; filters/README.md shows how with an example.
+/// The list of all expressions. To add one, write its template in filters/expressions.hpp or
+/// filters/polynomial_expressions.hpp and its line in catalogue.cpp; filters/README.md shows how with
+/// an example.
 
 #include <optional>
 #include <string>
@@ -22,12 +23,13 @@ struct PublishedConstants {
   std::string_view order;  ///< name of an expression of the catalogue
 };
 
-/// An expression with all that is derived from it by.
+/// An expression, with what it is evaluated by and compared with.
 struct CatalogueEntry {
   ExpressionGraph graph;
   Evaluators evaluators;
   std::optional<PublishedConstants> published;
-  bool ships = false;  ///< its bounds stand in filters/error_bounds.hpp
+  std::vector<Format> formats;  ///< that it is run in
+  bool ships = false;           ///< its bounds stand in filters/error_bounds.hpp
 };
 
 /// All expressions: those that ship, then the paper's orders of operations.

@@ -24,6 +24,10 @@ struct Task {
   Model model;
 };
 
+bool runs_in(const CatalogueEntry& entry, const Format& format) {
+  return std::ranges::find(entry.formats, format.digits, &Format::digits) != entry.formats.end();
+}
+
 DeriveRow start_row(const CatalogueEntry& entry, const Format& format,
                     const DeriveOptions& options) {
   DeriveRow row{.expression = entry.graph.name,
@@ -122,7 +126,7 @@ std::string in_units(const std::optional<mpq_class>& bound) {
 std::string line(std::size_t name_width, std::string_view expression, std::string_view precision,
                  std::string_view constant, std::string_view published, std::string_view ours,
                  std::string_view gappa, std::string_view observed, std::string_view tightness) {
-  return fmt::format("{:<{}}  {:<9}  {:>21}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}\n", expression,
+  return fmt::format("{:<{}}  {:<13}  {:>21}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}\n", expression,
                      name_width, precision, constant, published, ours, gappa, observed, tightness);
 }
 
@@ -138,6 +142,7 @@ DeriveResult derive(const DeriveOptions& options) {
   std::vector<Task> tasks;
   for (const CatalogueEntry& entry : catalogue()) {
     for (const Format& format : options.formats) {
+      if (!runs_in(entry, format)) continue;
       for (const Model model : {Model::gappa, Model::observed}) {
         if (options.models.contains(model)) tasks.push_back({result.rows.size(), &entry, model});
       }

@@ -25,7 +25,7 @@ enum class Model : std::uint8_t {
 
 struct DeriveOptions {
   std::set<Model> models{Model::published, Model::rigorous, Model::gappa, Model::observed};
-  std::vector<Format> formats{double_format, float_format};
+  std::vector<Format> formats{double_format, float_format, double_double_format};
   WorstCaseOptions search;
   unsigned threads = 0;  ///< 0: as many as the machine has
   /// Called with the fraction done, from 0 to 1, from any thread but one at a time.

@@ -59,4 +59,30 @@ void require_multiaffine(const ExpressionGraph& graph, std::size_t weights) {
   }
 }
 
+void require_classes(const ExpressionGraph& graph, std::span<const std::size_t> classes) {
+  if (classes.size() != graph.coordinates) refuse(graph, "its classes are not one a coordinate");
+  std::vector<std::set<std::size_t>> held;  // the classes in each product of a node's value
+  for (const Node& node : graph.nodes) {
+    std::set<std::size_t>& of_node = held.emplace_back();
+    switch (node.operation) {
+      case Operation::coordinate:
+        of_node.insert(classes[node.left]);
+        break;
+      case Operation::weight:
+        break;
+      case Operation::multiply:
+        of_node = held[node.left];
+        of_node.insert(held[node.right].begin(), held[node.right].end());
+        if (of_node.size() != held[node.left].size() + held[node.right].size()) {
+          refuse(graph, "a product has coordinates of one class on both sides");
+        }
+        break;
+      case Operation::add:
+      case Operation::subtract:
+        if (held[node.left] != held[node.right]) refuse(graph, "a sum adds terms of other classes");
+        of_node = held[node.left];
+    }
+  }
+}
+
 }  // namespace touchstone::filters

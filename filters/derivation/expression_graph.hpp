@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,6 +69,12 @@ class Recorded {
 /// and no product has weights of one group on both sides: what the derivations rest on.
 void require_multiaffine(const ExpressionGraph& graph, std::size_t weights);
 
+/// Throws std::invalid_argument, naming the expression, unless each coordinate has a class, each
+/// product of coordinates in its value has at most one of each class, and all have the same classes.
+/// With x_i the greatest magnitude of class i, the x^k of the rounding error may then be read as
+/// x_1 ⋯ x_k (rounding_model.hpp has the proof).
+void require_classes(const ExpressionGraph& graph, std::span<const std::size_t> classes);
+
 /// The graph of an expression (filters/expressions.hpp says what that is).
 /// \throws std::invalid_argument if it breaks the rules for expressions.
 template <class Expression>
@@ -87,6 +94,7 @@ template <class Expression>
   const auto w = inputs(Operation::weight, std::make_index_sequence<Expression::weights>());
   graph.result = Expression::evaluate(x, w).place();
   require_multiaffine(graph, Expression::weights);
+  if constexpr (requires { Expression::classes; }) require_classes(graph, Expression::classes);
   return graph;
 }
 

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <regex>
 #include <string_view>
@@ -29,31 +32,19 @@ std::string dyadic(const mpq_class& x) {
   return fmt::format("{}b-{}", x.get_num().get_str(), exponent);
 }
 
-std::string polynomial(const ExactValue& value) {
-  std::string text;
-  for (const ExactValue::Term& term : value.terms) {
-    text += text.empty() ? "" : " + ";
-    text += dyadic(term.coefficient);
-    for (const std::size_t coordinate : term.monomial) text += fmt::format(" * x{}", coordinate);
-  }
-  return text.empty() ? "0" : text;
-}
-
-/// A script in the making. Small letters are computed values, capital ones exact.
+/// A script in the making. Small letters are computed values, capital ones exact. Whatever it names
+/// is numbered in the order in which it is met on the way down from the result.
 class Script {
  public:
   Script(const ExpressionGraph& graph, const Format& format, GappaGoal goal,
          const std::vector<int>& weights)
-      : graph_(graph), weights_(weights), digits_(format.digits), goal_(goal) {
-    const std::vector<ExactValue> values = expand(graph, weights);
-    for (std::size_t place = 0; place < graph.nodes.size(); ++place) {
-      add_input(graph.nodes[place]);
-      if (is_input(place)) continue;
-      define_computed(place);
-      if (goal != GappaGoal::rounding) continue;
-      define_exact(place, values[place]);
-      add_cancellation(place, values);
-    }
+      : graph_(graph),
+        weights_(weights),
+        digits_(format.digits),
+        goal_(goal),
+        values_(expand(graph, weights)),
+        numbers_(graph.nodes.size()) {
+    define(graph.result);
   }
 
   [[nodiscard]] std::string text(const std::optional<mpq_class>& bound) const {
@@ -65,23 +56,49 @@ class Script {
   }
 
  private:
-  [[nodiscard]] bool is_input(std::size_t place) const {
-    const Operation operation = graph_.nodes[place].operation;
-    return operation == Operation::coordinate || operation == Operation::weight;
+  [[nodiscard]] bool is_zero_weight(std::size_t place) const {
+    const Node& node = graph_.nodes[place];
+    return node.operation == Operation::weight && weights_[node.left] == 0;
   }
 
+  /// Is it a product with a weight that is 0? Then its computed value is 0 as its exact one is,
+  /// whatever the error (without a least exponent, that is).
+  [[nodiscard]] bool vanishes(std::size_t place) const {
+    const auto& [operation, left, right] = graph_.nodes[place];
+    return goal_ == GappaGoal::rounding && operation == Operation::multiply &&
+           (is_zero_weight(left) || is_zero_weight(right));
+  }
+
+  // ---- Names ----
+
   [[nodiscard]] std::string computed(std::size_t place) const {
-    const Node& node = graph_.nodes[place];
-    if (node.operation == Operation::coordinate) return fmt::format("x{}", node.left);
-    if (node.operation == Operation::weight) return fmt::format("w{}", node.left);
-    return fmt::format("n{}", place);
+    const Operation operation = graph_.nodes[place].operation;
+    const char letter = operation == Operation::coordinate ? 'x'
+                        : operation == Operation::weight   ? 'w'
+                                                           : 'n';
+    return fmt::format("{}{}", letter, *numbers_[place]);
   }
 
   [[nodiscard]] std::string exact(std::size_t place) const {
     const Node& node = graph_.nodes[place];
     if (node.operation == Operation::coordinate) return computed(place);
     if (node.operation == Operation::weight) return fmt::format("({})", weights_[node.left]);
-    return fmt::format("N{}", place);
+    return vanishes(place) ? "0" : fmt::format("N{}", *numbers_[place]);
+  }
+
+  /// The sum of the terms, in an order that the names alone decide.
+  [[nodiscard]] std::string polynomial(const ExactValue& value) const {
+    std::vector<std::string> terms;
+    for (const ExactValue::Term& term : value.terms) {
+      std::vector<std::string> factors;
+      for (const std::size_t coordinate : term.monomial) {
+        factors.push_back(coordinate_names_.at(coordinate));
+      }
+      std::ranges::sort(factors);
+      terms.push_back(fmt::format("{} * {}", fmt::join(factors, " * "), dyadic(term.coefficient)));
+    }
+    std::ranges::sort(terms);
+    return terms.empty() ? "0" : fmt::format("{}", fmt::join(terms, " + "));
   }
 
   /// An operation on the operands as they are named.
@@ -95,55 +112,95 @@ class Script {
     return operation == Operation::subtract ? '-' : '+';
   }
 
+  // ---- Definitions ----
+
+  /// The operands of a node. What is 0 comes last in a sum, wherever it stood.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> operands(std::size_t place) const {
+    const auto& [operation, left, right] = graph_.nodes[place];
+    if (operation == Operation::add && vanishes(left)) return {right, left};
+    return {left, right};
+  }
+
+  /// Defines a node after all that it depends on.
+  void define(std::size_t place) {
+    if (numbers_[place]) return;
+    const Operation operation = graph_.nodes[place].operation;
+    if (operation == Operation::coordinate || operation == Operation::weight) {
+      add_input(place);
+    } else if (vanishes(place)) {
+      numbers_[place] = next_number_++;
+      add_range(computed(place), "0,0");
+    } else {
+      const auto [left, right] = operands(place);
+      define(left);
+      define(right);
+      numbers_[place] = next_number_++;
+      define_computed(place);
+      if (goal_ != GappaGoal::rounding) return;
+      definitions_ +=
+          fmt::format("{} = {};\n", exact(place), plain(operation, exact(left), exact(right)));
+      add_cancellation(place);
+    }
+  }
+
   void add_range(std::string_view name, std::string_view range) {
     ranges_ += fmt::format("{}{} in [{}]", ranges_.empty() ? "" : " /\\ ", name, range);
   }
 
-  void add_input(const Node& node) {
+  void add_input(std::size_t place) {
+    const Node& node = graph_.nodes[place];
+    numbers_[place] = next_number_++;
     if (node.operation == Operation::coordinate) {
-      add_range(fmt::format("x{}", node.left), goal_ == GappaGoal::rounding ? "-1,1" : "0,0");
-    } else if (node.operation == Operation::weight) {
+      coordinate_names_[node.left] = computed(place);
+      add_range(computed(place), goal_ == GappaGoal::rounding ? "-1,1" : "0,0");
+    } else {
       const int value = weights_[node.left];
-      add_range(fmt::format("w{}", node.left), fmt::format("{},{}", value, value));
+      add_range(computed(place), fmt::format("{},{}", value, value));
     }
   }
 
   void define_computed(std::size_t place) {
-    const auto& [operation, left, right] = graph_.nodes[place];
+    const Operation operation = graph_.nodes[place].operation;
+    const auto [left, right] = operands(place);
     const bool multiplies = operation == Operation::multiply;
     const std::string_view function = multiplies                         ? "mul_rel"
                                       : operation == Operation::subtract ? "sub_rel"
                                                                          : "add_rel";
-    definitions_ += fmt::format("n{} = {}<{}>({}, {})", place, function, digits_, computed(left),
-                                computed(right));
+    definitions_ += fmt::format("{} = {}<{}>({}, {})", computed(place), function, digits_,
+                                computed(left), computed(right));
     if (multiplies && goal_ == GappaGoal::underflow) {
-      definitions_ += fmt::format(" + e{}", place);
-      add_range(fmt::format("e{}", place), "-1,1");
+      const std::string underflow = fmt::format("e{}", *numbers_[place]);
+      definitions_ += " + " + underflow;
+      add_range(underflow, "-1,1");
     }
     definitions_ += ";\n";
   }
 
-  void define_exact(std::size_t place, const ExactValue& value) {
-    const auto& [operation, left, right] = graph_.nodes[place];
-    definitions_ += fmt::format("N{} = {};\n", place, plain(operation, exact(left), exact(right)));
-    rules_ += fmt::format("N{} -> {};\n", place, polynomial(value));
-  }
-
-  /// A sum's rounding error is relative to the sum of the computed operands. Where things cancel,
-  /// that is best bounded by the exact sum and the operands' errors.
-  void add_cancellation(std::size_t place, const std::vector<ExactValue>& values) {
-    const auto& [operation, left, right] = graph_.nodes[place];
-    if (operation == Operation::multiply) return;
-    if (values[place].magnitude() == values[left].magnitude() + values[right].magnitude()) return;
-    rules_ += fmt::format("{} -> N{} + (({} - {}) {} ({} - {}));\n",
-                          plain(operation, computed(left), computed(right)), place, computed(left),
-                          exact(left), sum_sign(operation), computed(right), exact(right));
+  /// Where terms cancel, Gappa is told what is left. A sum's rounding error is relative to the sum
+  /// of the computed operands: that is then best bounded by the exact sum and the operands' errors.
+  void add_cancellation(std::size_t place) {
+    const Operation operation = graph_.nodes[place].operation;
+    const auto [left, right] = operands(place);
+    const bool multiplies = operation == Operation::multiply;
+    const mpq_class of_left = values_[left].magnitude(), of_right = values_[right].magnitude();
+    const mpq_class product = of_left * of_right, sum = of_left + of_right;
+    if (values_[place].magnitude() == (multiplies ? product : sum)) return;
+    rules_ += fmt::format("{} -> {};\n", exact(place), polynomial(values_[place]));
+    if (multiplies) return;
+    rules_ +=
+        fmt::format("{} -> {} + (({} - {}) {} ({} - {}));\n",
+                    plain(operation, computed(left), computed(right)), exact(place), computed(left),
+                    exact(left), sum_sign(operation), computed(right), exact(right));
   }
 
   const ExpressionGraph& graph_;
   const std::vector<int>& weights_;
   int digits_;
   GappaGoal goal_;
+  std::vector<ExactValue> values_;
+  std::size_t next_number_ = 0;
+  std::vector<std::optional<std::size_t>> numbers_;  ///< of the nodes, once they are defined
+  std::map<std::size_t, std::string> coordinate_names_;
   std::string definitions_, ranges_, rules_;
 };
 
@@ -216,13 +273,24 @@ pid_t start_gappa(std::FILE* input, std::FILE* output) {
   return process;
 }
 
-int exit_status(pid_t process) {
+/// The kernel ends the process by SIGXCPU when the time is over.
+void limit_time(pid_t process, std::chrono::seconds limit) {
+  const auto seconds = static_cast<rlim_t>(limit.count());
+  const rlimit of_processor{.rlim_cur = seconds, .rlim_max = seconds + 1};
+  if (prlimit(process, RLIMIT_CPU, &of_processor, nullptr) != 0 && errno != ESRCH) {
+    fail(errno, "gappa: its time cannot be limited");
+  }
+}
+
+/// Nothing if its time was over.
+std::optional<int> exit_status(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0) {
     if (errno != EINTR) fail(errno, "gappa: lost");
   }
-  if (!WIFEXITED(status)) throw std::runtime_error("gappa: ended by a signal");
-  return WEXITSTATUS(status);
+  if (WIFEXITED(status)) return WEXITSTATUS(status);
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return std::nullopt;
+  throw std::runtime_error("gappa: ended by a signal");
 }
 
 /// The upper end of the interval that Gappa prints as its answer.
@@ -249,14 +317,25 @@ std::string gappa_script(const ExpressionGraph& graph, const Format& format, Gap
   return introduction(graph, format, goal) + Script(graph, format, goal, weights).text(bound);
 }
 
-GappaAnswer run_gappa(const std::string& script) {
+std::set<std::string> gappa_scripts(const ExpressionGraph& graph, const Format& format,
+                                    GappaGoal goal, const std::optional<mpq_class>& bound) {
+  std::set<std::string> scripts;
+  for (const std::vector<int>& weights : graph.weight_vertices()) {
+    scripts.insert(gappa_script(graph, format, goal, weights, bound));
+  }
+  return scripts;
+}
+
+GappaAnswer run_gappa(const std::string& script, std::chrono::seconds limit) {
   const File input = temporary_file(), output = temporary_file();
   if (std::fwrite(script.data(), 1, script.size(), input.get()) != script.size() ||
       std::fflush(input.get()) != 0) {
     fail(errno, "gappa: script cannot be written");
   }
   std::rewind(input.get());
-  const int status = exit_status(start_gappa(input.get(), output.get()));
+  const pid_t process = start_gappa(input.get(), output.get());
+  limit_time(process, limit);
+  const std::optional<int> status = exit_status(process);
   GappaAnswer answer{.proved = status == 0, .bound = {}, .output = contents(output.get())};
   if (answer.proved) answer.bound = answered_bound(answer.output);
   return answer;
@@ -265,8 +344,8 @@ GappaAnswer run_gappa(const std::string& script) {
 std::optional<mpq_class> gappa_bound(const ExpressionGraph& graph, const Format& format,
                                      GappaGoal goal) {
   mpq_class greatest;
-  for (const std::vector<int>& weights : graph.weight_vertices()) {
-    const GappaAnswer answer = run_gappa(gappa_script(graph, format, goal, weights));
+  for (const std::string& script : gappa_scripts(graph, format, goal)) {
+    const GappaAnswer answer = run_gappa(script);
     if (!answer.bound) return std::nullopt;
     greatest = std::max(greatest, *answer.bound);
   }
@@ -275,9 +354,8 @@ std::optional<mpq_class> gappa_bound(const ExpressionGraph& graph, const Format&
 
 bool gappa_proves(const ExpressionGraph& graph, const Format& format, GappaGoal goal,
                   const mpq_class& bound) {
-  return std::ranges::all_of(graph.weight_vertices(), [&](const std::vector<int>& weights) {
-    return run_gappa(gappa_script(graph, format, goal, weights, bound)).proved;
-  });
+  return std::ranges::all_of(gappa_scripts(graph, format, goal, bound),
+                             [](const std::string& script) { return run_gappa(script).proved; });
 }
 
 }  // namespace touchstone::filters

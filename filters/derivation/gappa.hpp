@@ -7,21 +7,30 @@
 /// Gappa's operators `add_rel<p>`, `sub_rel<p>` and `mul_rel<p>` are the model of
 /// rounding_model.hpp: the exact result times (1 + δ), |δ| ≤ 2^-p, without a least exponent. What a
 /// script leaves to rounding_model.hpp is its theorem: there is a script for each vertex of the
-/// weights. The expanded value of each exact node is a rule in it (`N -> …`), because Gappa's
-/// intervals do not cancel; Gappa checks these rules and warns where one is no identity.
+/// weights. Where terms of an exact node cancel, its expanded value is a rule (`N -> …`),
+/// because Gappa's intervals do not cancel; Gappa checks these rules and warns where one is no
+/// identity.
 ///
 /// Gappa takes operations on the same operands for the same value, with the same δ. Operations that
 /// become equal only at a vertex (a·w0 and a·w2 where both weights are 1) have errors of their own
 /// in truth. Therefore computed values use a variable a weight, of which only the range, one
-/// number, is known; exact values use the number.
+/// number, is known; exact values use the number. A product with a weight that is 0 is a variable of
+/// its own too, of range 0, and what only it depends on is left out.
+///
+/// **Vertices alike.** Most vertices say the same of other coordinates: at t=1 what at t=0 is said of
+/// the points there. Inputs and operations have numbers in the order in which they are met from the
+/// result down, and a zero is the second operand of its sum; so vertices that differ in nothing else
+/// have scripts of one text, which Gappa is asked once.
 ///
 /// In this model an expression of degree k that is c x^k wrong for coordinates up to 1 is so for
 /// coordinates up to any x: scaling all of them by s scales every value and every error by s^k.
 
 #include <gmpxx.h>
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -63,10 +72,21 @@ struct GappaAnswer {
                                        GappaGoal goal, const std::vector<int>& weights,
                                        const std::optional<mpq_class>& bound = std::nullopt);
 
-/// Runs Gappa, found through PATH, on a script.
+/// The scripts of all vertices, equal ones once.
+/// \throws as gappa_script does.
+[[nodiscard]] std::set<std::string> gappa_scripts(
+    const ExpressionGraph& graph, const Format& format, GappaGoal goal,
+    const std::optional<mpq_class>& bound = std::nullopt);
+
+/// Processor time that a script may take. Those of the catalogue take seconds.
+inline constexpr std::chrono::seconds gappa_time_limit{600};
+
+/// Runs Gappa, found through PATH, on a script. It is ended, and has proved nothing, when it has
+/// used `limit` of processor time, at least a second.
 /// \throws GappaMissing if there is none, std::runtime_error if it cannot be run or is ended by a
 ///         signal.
-[[nodiscard]] GappaAnswer run_gappa(const std::string& script);
+[[nodiscard]] GappaAnswer run_gappa(const std::string& script,
+                                    std::chrono::seconds limit = gappa_time_limit);
 
 /// The greatest bound that Gappa finds over all vertices; nothing if it finds none at one of them.
 /// \throws as gappa_script and run_gappa do.

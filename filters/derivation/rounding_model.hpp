@@ -27,6 +27,21 @@
 /// Each is a polynomial in x with nonnegative rational coefficients: that of x^k is the rounding
 /// error, the lower ones are underflow. Nothing is dropped, all of it is exact rational arithmetic,
 /// and the largest coefficients over the vertices make the bound.
+///
+/// **Classes.** Let the coordinates be in classes such that every product of coordinates in a node's
+/// value has one of each class of a set S that is the node's (require_classes), and let x_i be the
+/// greatest magnitude in class i, x the greatest of all. Then the coefficient of x^k in an error,
+/// k = |S|, may be read as that of Π x_i over S, the others being left as they are: the exact value
+/// is at most B Π x_i, and so it stays along the graph. In a sum S is that of both operands. In a
+/// product the sets are disjoint, so that the leading terms of e_a |b|, |a| e_b and e_a e_b have
+/// Π over S_a times Π over S_b, each class once; in every other term of theirs a factor is an
+/// underflow's, of lower degree, and Π x_i ≤ x^k bounds the other one. Rounding multiplies by u what
+/// has this form already, and its η is of degree 0. (The vertices are as before: the theorem holds
+/// for fixed coordinates.)
+///
+/// **Measured coordinates.** A coordinate that was rounded before, computed x (1 + δ) for x, is a
+/// product with a weight that is 1, the one vertex of a group of its own. (Differences of numbers are
+/// rounded so. They have no underflow; the product's is counted all the same.)
 
 #include <gmpxx.h>
 
@@ -44,7 +59,7 @@ namespace touchstone::filters {
 
 /// A floating-point format.
 struct Format {
-  const char* name;       ///< "double" or "float"
+  const char* name;       ///< "double", "float" or "double_double"
   int digits;             ///< of the significand, the leading one included
   int least_exponent;     ///< the least positive number is 2^least_exponent
   int greatest_exponent;  ///< the greatest number is below 2^greatest_exponent
@@ -55,6 +70,14 @@ struct Format {
 
 inline constexpr Format double_format{"double", 53, -1074, 1024};
 inline constexpr Format float_format{"float", 24, -149, 128};
+/// Pairs of doubles (filters/double_double.hpp): not a format of fixed digits, but its operations
+/// err no more than those of this one.
+inline constexpr Format double_double_format{"double_double", 103, -1070, 990};
+
+/// The format whose numbers bounds for a format are: what code compares with.
+[[nodiscard]] constexpr const Format& format_of_bounds(const Format& format) {
+  return format.digits < double_format.digits ? float_format : double_format;
+}
 
 /// |computed − exact| ≤ Σ_j coefficients[j] x^j for coordinates of magnitude up to
 /// x ≤ 2^greatest_x_exponent, where nothing overflows. The last coefficient is the rounding error,

@@ -28,7 +28,7 @@ std::string literal(const mpq_class& x, const Format& format) {
 constexpr std::string_view preamble = R"(#pragma once
 
 /// \file
-/// The error bounds of filters/expressions.hpp, derived from the expressions themselves.
+/// The error bounds of the filtered expressions, derived from the expressions themselves.
 ///
 /// Written by `touchstone derive --emit filters/error_bounds.hpp`; not to be edited. A test fails
 /// if it differs from what the derivation gives, another has Gappa prove each bound.
@@ -43,14 +43,16 @@ namespace touchstone::filters {
 }  // namespace
 
 std::vector<mpq_class> shipped_coefficients(const DerivedBound& bound, const Format& format) {
+  const Format& numbers = format_of_bounds(format);
   const std::size_t degree = bound.coefficients.size() - 1;
   mpq_class margin(1);
-  for (std::size_t i = 0; i < 2 * degree; ++i) margin *= 1 + 3 * format.unit_roundoff();
-  const mpq_class least = power_of_two(format.least_exponent);
+  for (std::size_t i = 0; i < 2 * degree; ++i) margin *= 1 + 3 * numbers.unit_roundoff();
+  const mpq_class underflow = power_of_two(numbers.least_exponent) * (degree > 1 ? 2 : 1);
   std::vector<mpq_class> result;
   for (std::size_t j = 0; j <= degree; ++j) {
-    const mpq_class raised = bound.coefficients[j] * margin + (j < degree ? least : mpq_class(0));
-    result.push_back(round_up(raised, format));
+    const mpq_class raised =
+        bound.coefficients[j] * margin + (j < degree ? underflow : mpq_class(0));
+    result.push_back(round_up(raised, numbers));
   }
   return result;
 }
@@ -59,27 +61,31 @@ std::string error_bound_declaration(const ExpressionGraph& graph, const Format& 
   const DerivedBound bound = derive_bound(graph, format);
   const std::vector<mpq_class> coefficients = shipped_coefficients(bound, format);
   std::string list;
-  for (const mpq_class& coefficient : coefficients) {
-    list += (list.empty() ? "" : ", ") + literal(coefficient, format);
+  for (std::size_t j = 0; j < coefficients.size(); ++j) {
+    // As clang-format breaks the line, which holds three.
+    const std::string_view separator = j == 0       ? ""
+                                       : j % 3 == 0 ? ",\n                      "
+                                                    : ", ";
+    list += std::string(separator) + literal(coefficients[j], format);
   }
   const mpq_class units = bound.rounding() / format.unit_roundoff();
   const std::size_t degree = coefficients.size() - 1;
   // A comma at the end keeps clang-format from joining the lines.
   return fmt::format(
       "/// {0} in {1}: {2:.6g} u x{3} and underflow.\n"
-      "inline constexpr ErrorBound<{1}, {4}> {0}_{1}{{\n"
+      "inline constexpr ErrorBound<{7}, {4}> {0}_{1}{{\n"
       "    .coefficients = {{{{{5}}}}},\n"
       "    .greatest_x = {6},\n"
       "}};\n",
       graph.name, format.name, units.get_d(), degree == 1 ? "" : fmt::format("^{}", degree), degree,
-      list, literal(power_of_two(bound.greatest_x_exponent), format));
+      list, literal(power_of_two(bound.greatest_x_exponent), format),
+      format_of_bounds(format).name);
 }
 
-std::string error_bounds_header(std::span<const ExpressionGraph> graphs) {
+std::string error_bounds_header(std::span<const ShippedExpression> expressions) {
   std::string text(preamble);
-  for (const ExpressionGraph& graph : graphs) {
-    for (const Format& format : {double_format, float_format})
-      text += error_bound_declaration(graph, format) + "\n";
+  for (const auto& [graph, format] : expressions) {
+    text += error_bound_declaration(graph, format) + "\n";
   }
   text += "}  // namespace touchstone::filters\n";
   return text;

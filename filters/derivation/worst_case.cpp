@@ -30,10 +30,9 @@ class Search {
   Search(const ExpressionGraph& graph, const Evaluators& evaluators, const Format& format,
          const WorstCaseOptions& options)
       : graph_(graph),
-        evaluate_exactly_(evaluators.in_mpfr),
-        is_double_(format.digits == double_format.digits),
-        evaluate_rounded_(is_double_ ? evaluators.in_double : evaluators.in_float),
-        digits_(format.digits),
+        evaluators_(evaluators),
+        format_(format),
+        digits_(format_of_bounds(format).digits),
         degree_(static_cast<int>(derive_bound(graph, format).coefficients.size()) - 1),
         precision_(exact_precision(graph, format)),
         budget_(options.evaluations),
@@ -66,7 +65,13 @@ class Search {
     return (one_in(2) ? 1 : -1) * std::ldexp(1 + fraction, -scale);
   }
 
+  /// Just below 1, for the one vertex of a measured coordinate's weight.
+  GroupPoint random_measure() {
+    return {.bits = digits_, .shares = {(std::int64_t{1} << digits_) - random_bits(digits_ - 4)}};
+  }
+
   GroupPoint random_point(std::size_t vertices) {
+    if (vertices == 1) return random_measure();
     GroupPoint point{.bits = one_in(3) ? between(1, digits_) : digits_, .shares = {}};
     const std::int64_t whole = std::int64_t{1} << point.bits;
     std::vector<std::int64_t> cuts{0, whole};
@@ -124,13 +129,13 @@ class Search {
         x += (one_in(2) ? 1 : -1) *
              std::ldexp(static_cast<double>(random_bits(digits_ - 1)), std::ilogb(x) + 1 - digits_);
     }
-    if (!is_double_) x = static_cast<double>(static_cast<float>(x));
+    if (digits_ == float_format.digits) x = static_cast<double>(static_cast<float>(x));
     const bool in_range = std::abs(x) >= std::ldexp(1.0, -least_scale) && std::abs(x) < 2;
     if (!in_range) x = random_coordinate();
   }
 
   void change_point(GroupPoint& point) {
-    if (one_in(8)) {
+    if (one_in(8) || point.shares.size() == 1) {
       point = random_point(point.shares.size());
       return;
     }
@@ -155,16 +160,23 @@ class Search {
 
   // ---- The search -------------------------------------------------------------------------------
 
+  [[nodiscard]] MpfrNumber computed(const Inputs& at) const {
+    if (format_.digits == float_format.digits) return {evaluators_.in_float(at), precision_};
+    if (format_.digits == double_format.digits) return {evaluators_.in_double(at), precision_};
+    const auto [high, low] = evaluators_.in_double_double(at);
+    return MpfrNumber(high, precision_) + MpfrNumber(low, precision_);
+  }
+
   /// The error as a multiple of x^degree; counts as one evaluation.
   double error(const State& state) {
     --budget_;
     Inputs at = inputs(state);
-    const MpfrNumber computed(evaluate_rounded_(at), precision_);
-    const double distance = std::abs((computed - evaluate_exactly_(at, precision_)).to_double());
+    const MpfrNumber exact = evaluators_.in_mpfr(at, precision_);
+    const double distance = std::abs((computed(at) - exact).to_double());
     double greatest = 0;
     for (const double x : at.coordinates) greatest = std::max(greatest, std::abs(x));
     const double relative = distance / std::pow(greatest, degree_);
-    const double units = std::ldexp(relative, digits_);
+    const double units = std::ldexp(relative, format_.digits);
     if (units > worst_.units) worst_ = {.inputs = std::move(at), .units = units};
     return relative;
   }
@@ -196,10 +208,9 @@ class Search {
   }
 
   const ExpressionGraph& graph_;
-  MpfrNumber (*evaluate_exactly_)(const Inputs&, mpfr_prec_t);
-  bool is_double_;
-  double (*evaluate_rounded_)(const Inputs&);
-  int digits_;
+  const Evaluators& evaluators_;
+  const Format& format_;
+  int digits_;  ///< of the inputs
   int degree_;
   mpfr_prec_t precision_;
   std::uint64_t budget_;
@@ -220,10 +231,10 @@ mpfr_prec_t exact_precision(const ExpressionGraph& graph, const Format& format) 
   for (const auto& [operation, left, right] : graph.nodes) {
     switch (operation) {
       case Operation::coordinate:
-        sizes.push_back({least_scale + format.digits - 1, 1});
+        sizes.push_back({least_scale + format_of_bounds(format).digits - 1, 1});
         break;
       case Operation::weight:
-        sizes.push_back({format.digits, 1});
+        sizes.push_back({format_of_bounds(format).digits, 1});
         break;
       case Operation::multiply:
         sizes.push_back({sizes[left].fraction + sizes[right].fraction,

@@ -10,7 +10,9 @@
 ///
 /// Errors jump with magnitudes: a rounding error is largest, relatively, just above a power of two.
 /// Hence the coordinates that are tried are such, mostly, and the changes that the climb tries are
-/// of all kinds: last bits, sign, magnitude, another weight.
+/// of all kinds: last bits, sign, magnitude, another weight. The weights of measured coordinates
+/// (groups of one vertex, filters/polynomial_expressions.hpp) are drawn just below 1: a coordinate
+/// times its weight then is the exact value that is rounded, not greater than the coordinate.
 
 #include <array>
 #include <cstdint>
@@ -21,10 +23,12 @@
 #include "filters/derivation/expression_graph.hpp"
 #include "filters/derivation/mpfr_number.hpp"
 #include "filters/derivation/rounding_model.hpp"
+#include "filters/double_double.hpp"
 
 namespace touchstone::filters {
 
-/// The inputs of an expression. Values of float are held in double.
+/// The inputs of an expression. Values of float are held in double; those of double_double have a
+/// double's digits.
 struct Inputs {
   std::vector<double> coordinates;
   std::vector<double> weights;
@@ -34,6 +38,7 @@ struct Inputs {
 struct Evaluators {
   double (*in_double)(const Inputs& inputs);
   double (*in_float)(const Inputs& inputs);  ///< the inputs must be floats
+  DoubleDouble<double> (*in_double_double)(const Inputs& inputs);
   MpfrNumber (*in_mpfr)(const Inputs& inputs, mpfr_prec_t precision);
 };
 
@@ -72,6 +77,11 @@ template <class Expression>
           [](const Inputs& inputs) {
             return static_cast<double>(
                 evaluate_with<Expression>(inputs, [](double x) { return static_cast<float>(x); }));
+          },
+          [](const Inputs& inputs) {
+            return evaluate_with<Expression>(inputs, [](double x) {
+              return DoubleDouble<double>{x, 0};
+            });
           },
           [](const Inputs& inputs, mpfr_prec_t precision) {
             return evaluate_with<Expression>(

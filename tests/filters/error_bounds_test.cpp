@@ -6,9 +6,11 @@
 #include <iterator>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "filters/derivation/catalogue.hpp"
 #include "filters/derivation/gappa.hpp"
+#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 
 namespace touchstone::filters {
@@ -128,6 +130,236 @@ TYPED_TEST(EveryBound, TakesZerosOfBothSigns) {
   this->expect_within_bound_for([](std::mt19937_64& random) {
     return random() % 2 == 0 ? typename TestFixture::Scalar(0) : -typename TestFixture::Scalar(0);
   });
+}
+
+// ---- Bounds with classes, of differences of coordinates -----------------------------------------
+
+/// A difference of two doubles: exactly, rounded, and as a pair.
+struct Difference {
+  mpq_class exact;
+  DoubleDouble<double> pair;
+
+  Difference(double a, double b)
+      : exact(mpq_class(a) - mpq_class(b)), pair(exact_difference(a, b)) {}
+};
+
+/// The rounded differences in double.
+struct InDouble {
+  using Number = double;
+  static double of(const Difference& x) { return x.pair.high; }
+  static double of(double weight) { return weight; }
+  static mpq_class exactly(double x) { return {x}; }
+  static double high(double x) { return x; }
+};
+
+/// The exact differences in double-double.
+struct InDoubleDouble {
+  using Number = DoubleDouble<double>;
+  static Number of(const Difference& x) { return x.pair; }
+  static Number of(double weight) { return {weight, 0}; }
+  static mpq_class exactly(const Number& x) { return mpq_class(x.high) + mpq_class(x.low); }
+  static double high(const Number& x) { return x.high; }
+};
+
+/// A bound that ships: what it is of, what the solvers run, and in which arithmetic.
+template <class Of, class Run, class Computing, std::size_t of_degree,
+          const ErrorBound<double, of_degree>& constant>
+struct ShippedByClasses {
+  using Recorded = Of;
+  using Expression = Run;
+  using Arithmetic = Computing;
+  static constexpr std::size_t degree = of_degree;
+  static constexpr const ErrorBound<double, of_degree>& bound = constant;
+  static constexpr bool is_double = std::is_same_v<Computing, InDouble>;
+  static constexpr const Format& format = is_double ? double_format : double_double_format;
+  /// Of the bound, that errors of random inputs reach.
+  static constexpr double least_part = is_double ? 1.0 / 50 : 1.0 / 200;
+};
+
+/// How large the numbers are whose differences are taken: random exponents for each class.
+struct Sizes {
+  std::array<int, 3> least;
+  std::array<int, 3> greatest;
+  int motion = 0;  ///< the exponent of the numbers' distance, if they are to be near each other
+};
+
+template <class T>
+class EveryBoundByClasses : public ::testing::Test {
+ protected:
+  using Expression = typename T::Expression;
+  using Arithmetic = typename T::Arithmetic;
+  static constexpr std::size_t count = Expression::coordinates;
+
+  /// What was found in one test.
+  struct Found {
+    double worst = 0;  ///< the greatest error, as a part of the bound
+    int rounded = 0;   ///< differences that are no doubles
+  };
+
+  /// ± 1.… · 2^exponent, with a random number of bits.
+  double number(int exponent) {
+    const double fraction =
+        std::ldexp(static_cast<double>(random_() >> (12U + random_() % 52)), -52);
+    return (random_() % 2 == 0 ? 1 : -1) * std::ldexp(1 + fraction, exponent);
+  }
+
+  int between(int least, int greatest) {
+    return least + static_cast<int>(random_() % static_cast<unsigned>(greatest - least + 1));
+  }
+
+  /// Numbers and their differences, of the sizes of the class that each coordinate is in.
+  std::vector<Difference> differences(const Sizes& sizes) {
+    std::array<int, 3> scale{};
+    for (std::size_t i = 0; i < 3; ++i)
+      scale.at(i) = between(sizes.least.at(i), sizes.greatest.at(i));
+    std::vector<Difference> result;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t of = Expression::classes.at(i);
+      const int exponent =
+          random_() % 2 == 0 ? scale.at(of) : between(sizes.least.at(of), sizes.greatest.at(of));
+      const double a = number(exponent);
+      const double b =
+          sizes.motion != 0 ? a + number(sizes.motion) : number(exponent - between(0, 60));
+      result.emplace_back(a, b);
+    }
+    return result;
+  }
+
+  /// The greatest magnitudes of the rounded differences of each class, multiplied in each order.
+  static std::vector<double> leading_terms(const std::vector<Difference>& x) {
+    std::array<double, T::degree> magnitude{};
+    for (std::size_t i = 0; i < count; ++i) {
+      double& greatest = magnitude.at(Expression::classes.at(i));
+      greatest = std::max(greatest, std::abs(x[i].pair.high));
+    }
+    const double rounding = T::bound.rounding();
+    if constexpr (T::degree == 2) {
+      return {magnitude[0] * magnitude[1] * rounding, rounding * magnitude[1] * magnitude[0]};
+    } else {
+      return {magnitude[0] * magnitude[1] * magnitude[2] * rounding,
+              (magnitude[0] * rounding) * (magnitude[1] * magnitude[2])};
+    }
+  }
+
+  static double greatest_magnitude(const std::vector<Difference>& x) {
+    double greatest = 0;
+    for (const Difference& difference : x) {
+      greatest = std::max(greatest, std::abs(difference.pair.high));
+    }
+    return greatest;
+  }
+
+  template <std::size_t... i, std::size_t... j>
+  static std::pair<typename Arithmetic::Number, mpq_class> values(
+      const std::vector<Difference>& x, [[maybe_unused]] const std::vector<double>& w,
+      std::index_sequence<i...> /*inputs*/, std::index_sequence<j...> /*weights*/) {
+    using Number = typename Arithmetic::Number;
+    return {Expression::evaluate(std::array<Number, count>{Arithmetic::of(x[i])...},
+                                 std::array<Number, sizeof...(j)>{Arithmetic::of(w[j])...}),
+            Expression::evaluate(std::array<mpq_class, count>{x[i].exact...},
+                                 std::array<mpq_class, sizeof...(j)>{mpq_class(w[j])...})};
+  }
+
+  void expect_within_bound(const std::vector<Difference>& x, Found& found) {
+    const std::vector<double> w = random_weights<Expression>(random_, between(0, 53));
+    const auto [computed, exact] = values(x, w, std::make_index_sequence<count>(),
+                                          std::make_index_sequence<Expression::weights>());
+    const mpq_class error = abs(Arithmetic::exactly(computed) - exact);
+    for (const double leading : leading_terms(x)) {
+      const double bound = leading + T::bound.underflow(greatest_magnitude(x));
+      ASSERT_TRUE(std::isfinite(bound));
+      ASSERT_LE(error, mpq_class(bound));
+      // What solvers see of a pair is its high part: beyond the bound it has the sign of the truth.
+      const double high = Arithmetic::high(computed);
+      ASSERT_TRUE(std::abs(high) <= bound || sgn(exact) == (high > 0 ? 1 : -1));
+      if (bound > 0) found.worst = std::max(found.worst, mpq_class(error / bound).get_d());
+    }
+    for (const Difference& difference : x) found.rounded += difference.pair.low != 0 ? 1 : 0;
+  }
+
+  Found expect_within_bound_for(const Sizes& sizes) {
+    Found found;
+    for (int i = 0; i < 3000; ++i) {
+      expect_within_bound(differences(sizes), found);
+      if (HasFatalFailure()) break;
+    }
+    return found;
+  }
+
+ private:
+  std::mt19937_64 random_{9};
+};
+
+using BoundsByClasses =
+    ::testing::Types<ShippedByClasses<MeasuredProjectedGap, ProjectedGap, InDouble, 2,
+                                      measured_projected_gap_double>,
+                     ShippedByClasses<MeasuredDeterminantEnd, DeterminantEnd, InDouble, 3,
+                                      measured_determinant_end_double>,
+                     ShippedByClasses<MeasuredDeterminantMiddle, DeterminantMiddle, InDouble, 3,
+                                      measured_determinant_middle_double>,
+                     ShippedByClasses<MeasuredOrientationEnd, OrientationEnd, InDouble, 3,
+                                      measured_orientation_end_double>,
+                     ShippedByClasses<MeasuredOrientationMiddle, OrientationMiddle, InDouble, 3,
+                                      measured_orientation_middle_double>,
+                     ShippedByClasses<DeterminantEnd, DeterminantEnd, InDoubleDouble, 3,
+                                      determinant_end_double_double>>;
+TYPED_TEST_SUITE(EveryBoundByClasses, BoundsByClasses);
+
+TYPED_TEST(EveryBoundByClasses, IsProvedByGappa) {
+  const ExpressionGraph graph = record<typename TypeParam::Recorded>();
+  EXPECT_TRUE(gappa_proves(graph, TypeParam::format, GappaGoal::rounding,
+                           mpq_class(TypeParam::bound.rounding())));
+}
+
+TYPED_TEST(EveryBoundByClasses, HoldsForMixedMagnitudes) {
+  const auto found = this->expect_within_bound_for({{-20, -20, -20}, {20, 20, 20}});
+  EXPECT_GT(found.rounded, 10'000);
+}
+
+TYPED_TEST(EveryBoundByClasses, HoldsFarFromTheOriginAndIsNotFarFromTheError) {
+  // Of one magnitude: what comes nearest to the bound.
+  const auto found = this->expect_within_bound_for({{0, 0, 0}, {0, 0, 0}});
+  EXPECT_GT(found.worst, TypeParam::least_part) << "a bound so much smaller would pass";
+  const auto near = this->expect_within_bound_for({{20, 20, 20}, {22, 22, 22}, -10});
+  EXPECT_EQ(near.rounded, 0) << "near each other and far from the origin: exact differences";
+}
+
+TYPED_TEST(EveryBoundByClasses, HoldsForClassesOfVeryDifferentMagnitudes) {
+  constexpr int far = TypeParam::is_double ? 300 : 90;
+  for (const auto& sizes :
+       {Sizes{{far, 0, -far}, {far + 2, 2, 2 - far}}, Sizes{{-far, far, 0}, {2 - far, far + 2, 2}},
+        Sizes{{0, -far, far}, {2, 2 - far, far + 2}}}) {
+    EXPECT_GT(this->expect_within_bound_for(sizes).worst, TypeParam::least_part);
+  }
+}
+
+TYPED_TEST(EveryBoundByClasses, HoldsAmongSubnormals) {
+  static_cast<void>(this->expect_within_bound_for({{-1074, -1074, -1074}, {-1020, -1020, -1020}}));
+}
+
+TYPED_TEST(EveryBoundByClasses, HoldsWhereProductsUnderflow) {
+  // Products of two underflow, products of three, and of one subnormal class with a large one.
+  const auto pairs = this->expect_within_bound_for({{-545, -545, -545}, {-480, -480, -480}});
+  EXPECT_GT(pairs.worst, 0.0);
+  const auto triples = this->expect_within_bound_for({{-370, -370, -370}, {-310, -310, -310}});
+  EXPECT_GT(triples.worst, 0.0);
+  const auto mixed = this->expect_within_bound_for({{60, -1074, -1074}, {62, -1020, -40}});
+  EXPECT_GT(mixed.worst, 0.0);
+}
+
+TYPED_TEST(EveryBoundByClasses, HoldsAtTheGreatestMagnitudesOfTheSolver) {
+  // Differences up to 2^100; the first class of orientations and gaps are directions, up to 2^204.
+  constexpr bool has_direction = TypeParam::Expression::coordinates != DeterminantEnd::coordinates;
+  const int first = has_direction ? 202 : 98;
+  const auto found = this->expect_within_bound_for({{first, 98, 98}, {first, 98, 98}});
+  EXPECT_GT(found.worst, TypeParam::least_part);
+}
+
+TYPED_TEST(EveryBoundByClasses, HoldsAtTheGreatestCoordinateWithoutOverflow) {
+  const int greatest = std::ilogb(TypeParam::bound.greatest_x) - 2;
+  const auto found = this->expect_within_bound_for(
+      {{greatest, greatest, greatest}, {greatest, greatest, greatest}});
+  EXPECT_GT(found.worst, TypeParam::least_part);
 }
 
 }  // namespace

@@ -137,9 +137,11 @@ void add_derive_command(CLI::App& app, Status& status) {
                    "Only these columns: published, rigorous, gappa, observed (default: all)")
       ->type_name("NAME")
       ->check(CLI::IsMember(models_by_name));
-  command->add_option("--precision", arguments->precision, "double or float (default: both)")
+  command
+      ->add_option("--precision", arguments->precision,
+                   "double, float or double_double (default: all)")
       ->type_name("NAME")
-      ->check(CLI::IsMember({"double", "float"}));
+      ->check(CLI::IsMember({"double", "float", "double_double"}));
   command
       ->add_option("--emit", arguments->header_file,
                    "Write the header of bounds (filters/error_bounds.hpp)")

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
 
+#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 
 namespace touchstone::filters {
@@ -90,6 +92,31 @@ struct Miscounted : Blend {
   }
 };
 
+/// The area of a parallelogram, its sides' coordinates in classes as given.
+template <std::size_t... classes_of_coordinates>
+struct Area {
+  static constexpr std::string_view name = "area";
+  static constexpr std::size_t coordinates = 4;
+  static constexpr std::size_t weights = 0;
+  static constexpr std::array<std::size_t, sizeof...(classes_of_coordinates)> classes{
+      classes_of_coordinates...};
+
+  template <class Visitor>
+  static constexpr void visit_groups(const Visitor& /*visit*/) {}
+
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 4>& x,
+                                   const std::array<Scalar, 0>& /*w*/) {
+    return x[0] * x[3] - x[1] * x[2];
+  }
+};
+
+/// A sum of coordinates of two classes, hidden in weights.
+struct MixedSum : Blend {
+  static constexpr std::string_view name = "mixed_sum";
+  static constexpr std::array<std::size_t, 2> classes{0, 1};
+};
+
 template <class Expression>
 std::string refusal() {
   try {
@@ -108,6 +135,27 @@ TEST(ExpressionGraph, RefusesWhatBreaksTheRules) {
   EXPECT_EQ(refusal<Miscounted>(),
             "expression miscounted: its groups do not hold exactly its weights");
   EXPECT_EQ(refusal<Blend>(), "accepted");
+}
+
+TEST(ExpressionGraph, RefusesClassesThatItsProductsDoNotHave) {
+  EXPECT_EQ((refusal<Area<0, 0, 1, 1>>()), "accepted");
+  EXPECT_EQ((refusal<Area<7, 7, 2, 2>>()), "accepted") << "classes are names";
+  EXPECT_EQ((refusal<Area<0, 0, 0, 0>>()),
+            "expression area: a product has coordinates of one class on both sides");
+  EXPECT_EQ((refusal<Area<0, 1, 1, 0>>()),
+            "expression area: a product has coordinates of one class on both sides");
+  EXPECT_EQ((refusal<Area<0, 2, 1, 1>>()), "expression area: a sum adds terms of other classes");
+  EXPECT_EQ((refusal<Area<0, 1, 0, 1>>()), "accepted") << "x and y instead of sides";
+  EXPECT_EQ((refusal<Area<0, 0, 1>>()), "expression area: its classes are not one a coordinate");
+  EXPECT_EQ((refusal<Area<0, 0, 1, 1, 1>>()),
+            "expression area: its classes are not one a coordinate");
+  EXPECT_EQ(refusal<MixedSum>(), "expression mixed_sum: a sum adds terms of other classes");
+}
+
+TEST(ExpressionGraph, AcceptsTheClassesOfThePolynomials) {
+  EXPECT_EQ(refusal<ProjectedGap>(), "accepted");
+  EXPECT_EQ(refusal<MeasuredDeterminantMiddle>(), "accepted");
+  EXPECT_EQ(refusal<MeasuredOrientationMiddle>(), "accepted");
 }
 
 }  // namespace

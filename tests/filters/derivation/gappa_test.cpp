@@ -1,16 +1,24 @@
 #include "filters/derivation/gappa.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <utility>
 
 #include "filters/derivation/shipped_bound.hpp"
+#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 
 namespace touchstone::filters {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// The nearest multiple of 2^-200 below x.
 mpq_class dyadic_below(const mpq_class& x) {
@@ -35,6 +43,8 @@ TEST(Gappa, FindsOurBoundsAndNoLess) {
   }
   EXPECT_LT(abs(excess(record<PaperVertexFace>(), float_format, GappaGoal::rounding)), precision);
   EXPECT_LT(abs(excess(record<researcher::Orientation>(), double_format, GappaGoal::rounding)),
+            precision);
+  EXPECT_LT(abs(excess(record<MeasuredOrientationEnd>(), double_format, GappaGoal::rounding)),
             precision);
 }
 
@@ -75,11 +85,67 @@ TEST(Gappa, TakesOperationsThatAgreeOnlyAtAVertexForDifferentOnes) {
 TEST(Gappa, ScriptsSayWhatIsComputedAndWhatIsExact) {
   const std::string script =
       gappa_script(record<Blend>(), float_format, GappaGoal::rounding, {0, 1}, mpq_class(3, 1024));
-  EXPECT_NE(script.find("= mul_rel<24>(x0, w0);"), std::string::npos) << script;
-  EXPECT_NE(script.find("w0 in [0,0] /\\ w1 in [1,1]"), std::string::npos) << script;
-  EXPECT_NE(script.find("= x0 * (0);"), std::string::npos) << script;
-  EXPECT_NE(script.find("-> 1b-0 * x1;"), std::string::npos) << script;
-  EXPECT_NE(script.find("<= 3b-10 }"), std::string::npos) << script;
+  // x1 and w1, the first that are met; the other product is 0 and comes last.
+  EXPECT_TRUE(
+      script.ends_with("n2 = mul_rel<24>(x0, w1);\n"
+                       "N2 = x0 * (1);\n"
+                       "n4 = add_rel<24>(n2, n3);\n"
+                       "N4 = N2 + 0;\n"
+                       "{ x0 in [-1,1] /\\ w1 in [1,1] /\\ n3 in [0,0]\n"
+                       "->\n"
+                       "  |n4 - N4| <= 3b-10 }\n"))
+      << script;
+}
+
+TEST(Gappa, ScriptsSayWhatIsLeftWhereTermsCancel) {
+  const std::string script = gappa_script(record<TwoErrors>(), double_format, GappaGoal::rounding,
+                                          {1, 0, 1, 0}, mpq_class(1));
+  EXPECT_NE(script.find(" -> 0;\n"), std::string::npos) << script;
+  EXPECT_NE(script.find("n2 - n4 -> N5 + ((n2 - N2) - (n4 - N4));\n"), std::string::npos) << script;
+}
+
+/// The number of scripts that prove a bound, of how many vertices.
+template <class Expression>
+std::pair<std::size_t, std::size_t> scripts_and_vertices() {
+  const ExpressionGraph graph = record<Expression>();
+  return {gappa_scripts(graph, double_format, GappaGoal::rounding).size(),
+          graph.weight_vertices().size()};
+}
+
+TEST(Gappa, AsksOnceWhatIsAlikeAtManyVertices) {
+  using Pair = std::pair<std::size_t, std::size_t>;
+  EXPECT_EQ(scripts_and_vertices<Blend>(), Pair(1, 2));
+  EXPECT_EQ(scripts_and_vertices<EdgeEdge>(), Pair(1, 8)) << "a point of each edge at one time";
+  EXPECT_EQ(scripts_and_vertices<VertexFace>(), Pair(3, 8)) << "f0; f1 or f2; f1 + f2 − f0";
+  EXPECT_EQ(scripts_and_vertices<TwoErrors>(), Pair(4, 4)) << "x − x, x − 0, 0 − x, 0 − 0";
+  EXPECT_EQ(scripts_and_vertices<MeasuredDeterminantEnd>(), Pair(1, 8));
+  EXPECT_EQ(scripts_and_vertices<MeasuredDeterminantMiddle>(), Pair(8, 64))
+      << "r, p and q each at one end or at both";
+  EXPECT_EQ(scripts_and_vertices<MeasuredOrientationMiddle>(), Pair(4, 16));
+  EXPECT_EQ(gappa_scripts(record<Blend>(), double_format, GappaGoal::underflow).size(), 2U)
+      << "there products with 0 underflow too";
+}
+
+/// Two sums that share a term and differ in one that vanishes at a vertex.
+struct TwoSums : Blend {
+  static constexpr std::string_view name = "two_sums";
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 2>& x, const std::array<Scalar, 2>& w) {
+    const Scalar shared = x[0] * w[0];
+    return (shared + x[1] * w[1]) - (shared + x[0] * w[1]);
+  }
+};
+
+TEST(Gappa, TakesZerosForDifferentOnes) {
+  // At (1, 0) both sums are fl(shared + 0), with a rounding error each.
+  const std::optional<mpq_class> found =
+      gappa_bound(record<TwoSums>(), double_format, GappaGoal::rounding);
+  ASSERT_TRUE(found);
+  const GappaAnswer at_vertex =
+      run_gappa(gappa_script(record<TwoSums>(), double_format, GappaGoal::rounding, {1, 0}));
+  ASSERT_TRUE(at_vertex.bound);
+  EXPECT_GE(*at_vertex.bound, 2 * double_format.unit_roundoff());
+  EXPECT_GE(*found, *at_vertex.bound);
 }
 
 TEST(Gappa, AcceptsEveryRuleOfAScript) {
@@ -115,17 +181,67 @@ TEST(Gappa, RefusesGoalsThatItsModelDoesNotHave) {
                std::invalid_argument);
 }
 
+/// Another PATH as long as it lives.
+class OtherPath {
+ public:
+  explicit OtherPath(const std::string& path) {
+    if (const char* const before = std::getenv("PATH")) before_ = before;
+    setenv("PATH", path.c_str(), 1);
+  }
+  OtherPath(const OtherPath&) = delete;
+  OtherPath& operator=(const OtherPath&) = delete;
+  OtherPath(OtherPath&&) = delete;
+  OtherPath& operator=(OtherPath&&) = delete;
+  ~OtherPath() { setenv("PATH", before_.c_str(), 1); }
+
+ private:
+  std::string before_;
+};
+
+/// A program called gappa in a folder of its own.
+class FakeGappa {
+ public:
+  explicit FakeGappa(const std::string& body)
+      : folder_(fs::path(::testing::TempDir()) / ("touchstone_gappa_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "gappa") << "#!/bin/sh\n" << body << "\n";
+    fs::permissions(folder_ / "gappa", fs::perms::owner_all);
+  }
+  FakeGappa(const FakeGappa&) = delete;
+  FakeGappa& operator=(const FakeGappa&) = delete;
+  FakeGappa(FakeGappa&&) = delete;
+  FakeGappa& operator=(FakeGappa&&) = delete;
+  ~FakeGappa() { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string path() const { return folder_.string(); }
+
+ private:
+  fs::path folder_;
+};
+
+TEST(Gappa, HasProvedNothingWhenItsTimeIsOver) {
+  const FakeGappa endless("echo said; while :; do :; done");
+  const OtherPath path(endless.path());
+  const GappaAnswer answer = run_gappa("{ x in [0,1] -> x in ? }", std::chrono::seconds(1));
+  EXPECT_FALSE(answer.proved);
+  EXPECT_FALSE(answer.bound);
+  EXPECT_EQ(answer.output, "said\n");
+}
+
+TEST(Gappa, HasFailedIfItIsEndedByAnotherSignal) {
+  const FakeGappa killed("kill -9 $$");
+  const OtherPath path(killed.path());
+  EXPECT_THROW(static_cast<void>(run_gappa("{ x in [0,1] -> x in ? }")), std::runtime_error);
+}
+
 TEST(Gappa, IsMissedByThePackagesName) {
-  const char* const path = std::getenv("PATH");
-  const std::string before = path == nullptr ? "" : path;
-  setenv("PATH", "/nonexistent", 1);
+  const OtherPath path("/nonexistent");
   std::string reason;
   try {
     static_cast<void>(run_gappa("{ x in [0,1] -> x in ? }"));
   } catch (const GappaMissing& missing) {
     reason = missing.what();
   }
-  setenv("PATH", before.c_str(), 1);
   EXPECT_NE(reason.find("install the Debian package gappa"), std::string::npos) << reason;
 }
 

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <stdexcept>
+#include <string_view>
 
+#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 
@@ -16,8 +19,8 @@ mpq_class first_order_units(const Format& format = double_format) {
   const mpq_class units =
       derive_bound(record<Expression>(), format).rounding() / format.unit_roundoff();
   const mpz_class whole = units.get_num() / units.get_den();
-  // What is left must be of second order: a few hundred u.
-  EXPECT_LT(units - whole, 1000 * format.unit_roundoff());
+  // What is left must be of second order: up to half the square of the units.
+  EXPECT_LT(units - whole, whole * whole * format.unit_roundoff());
   return whole;
 }
 
@@ -54,6 +57,55 @@ TEST(RoundingModel, GivesTheBoundsOfTheOrdersOfOperations) {
   EXPECT_EQ(first_order_units<PaperEdgeEdgeSeparated>(), 27);
   EXPECT_EQ(first_order_units<PaperVertexFaceSeparated>(), 33);
   EXPECT_EQ(first_order_units<EdgeEdge>(float_format), 10);
+}
+
+TEST(RoundingModel, GivesTheBoundsOfThePolynomials) {
+  EXPECT_EQ(first_order_units<MeasuredProjectedGap>(), 34);
+  EXPECT_EQ(first_order_units<MeasuredOrientationEnd>(), 70);
+  EXPECT_EQ(first_order_units<MeasuredOrientationMiddle>(), 152);
+  EXPECT_EQ(first_order_units<MeasuredDeterminantEnd>(), 82);
+  EXPECT_EQ(first_order_units<MeasuredDeterminantMiddle>(), 276);
+  EXPECT_EQ(first_order_units<DeterminantEnd>(), 64);
+  EXPECT_EQ(first_order_units<DeterminantEnd>(double_double_format), 64);
+}
+
+/// (a b) c of three measured coordinates.
+struct TripleProduct {
+  static constexpr std::string_view name = "triple_product";
+  static constexpr std::size_t coordinates = 3;
+  static constexpr std::size_t weights = 0;
+  static constexpr std::array<std::size_t, 3> classes{0, 1, 2};
+
+  template <class Visitor>
+  static constexpr void visit_groups(const Visitor& /*visit*/) {}
+
+  template <class Scalar>
+  static constexpr Scalar evaluate(const std::array<Scalar, 3>& x,
+                                   const std::array<Scalar, 0>& /*w*/) {
+    return x[0] * x[1] * x[2];
+  }
+};
+struct MeasuredTripleProduct : Measured<TripleProduct> {
+  static constexpr std::string_view name = "measured_triple_product";
+};
+
+TEST(RoundingModel, FollowsUnderflowThroughDegreeThreeByHand) {
+  const mpq_class u = double_format.unit_roundoff(), eta = power_of_two(-1075);
+  const DerivedBound bound = derive_bound(record<TripleProduct>(), double_format);
+  ASSERT_EQ(bound.coefficients.size(), 4U);
+  // a b is wrong by u x² + η; times c that is u x³ + η x, rounded by u (x³ + u x³ + η x) + η.
+  EXPECT_EQ(bound.coefficients[3], 2 * u + u * u);
+  EXPECT_EQ(bound.coefficients[2], 0);
+  EXPECT_EQ(bound.coefficients[1], eta * (1 + u));
+  EXPECT_EQ(bound.coefficients[0], eta);
+}
+
+TEST(RoundingModel, TakesMeasuredCoordinatesForRoundedOnce) {
+  const mpq_class u = double_format.unit_roundoff();
+  const DerivedBound bound = derive_bound(record<MeasuredTripleProduct>(), double_format);
+  mpq_class five_roundings(1);
+  for (int i = 0; i < 5; ++i) five_roundings *= 1 + u;
+  EXPECT_EQ(bound.rounding(), five_roundings - 1);
 }
 
 TEST(RoundingModel, GivesTheKnownBoundsOfTheReleasedOrder) {
@@ -98,6 +150,10 @@ TEST(RoundingModel, RefusesMixedDegrees) {
 TEST(RoundingModel, KnowsItsFormats) {
   EXPECT_EQ(double_format.unit_roundoff(), mpq_class(0x1p-53));
   EXPECT_EQ(float_format.unit_roundoff(), mpq_class(0x1p-24));
+  EXPECT_EQ(double_double_format.unit_roundoff(), power_of_two(-103));
+  EXPECT_STREQ(format_of_bounds(double_double_format).name, "double");
+  EXPECT_STREQ(format_of_bounds(double_format).name, "double");
+  EXPECT_STREQ(format_of_bounds(float_format).name, "float");
   EXPECT_EQ(power_of_two(-1074), mpq_class(0x1p-1074));
   EXPECT_EQ(power_of_two(100), mpq_class(0x1p100));
 }

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "filters/error_bound.hpp"
+#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 
@@ -15,22 +19,29 @@ mpq_class value(const std::vector<mpq_class>& coefficients, const mpq_class& x) 
   return result;
 }
 
-/// The bound as it runs, in Scalar, is nowhere below the one that is proved.
+/// The bound as it ships: its coefficients are numbers of Scalar.
 template <class Scalar, std::size_t degree>
-void expect_covers(const DerivedBound& proved, const Format& format) {
-  const std::vector<mpq_class> shipped = shipped_coefficients(proved, format);
+ErrorBound<Scalar, degree> shipped(const DerivedBound& proved, const Format& format) {
+  const std::vector<mpq_class> coefficients = shipped_coefficients(proved, format);
   ErrorBound<Scalar, degree> bound{.coefficients = {},
                                    .greatest_x = std::ldexp(Scalar(1), proved.greatest_x_exponent)};
   for (std::size_t i = 0; i <= degree; ++i) {
-    bound.coefficients.at(i) = static_cast<Scalar>(shipped.at(i).get_d());
-    ASSERT_EQ(mpq_class(static_cast<double>(bound.coefficients.at(i))), shipped.at(i));
+    bound.coefficients.at(i) = static_cast<Scalar>(coefficients.at(i).get_d());
+    EXPECT_EQ(mpq_class(static_cast<double>(bound.coefficients.at(i))), coefficients.at(i));
   }
+  return bound;
+}
+
+/// The bound as it runs, in Scalar, is nowhere below the one that is proved.
+template <class Scalar, std::size_t degree>
+void expect_covers(const DerivedBound& proved, const Format& format) {
+  const auto bound = shipped<Scalar, degree>(proved, format);
+  const int least = format_of_bounds(format).least_exponent;
   std::mt19937_64 random(1);
-  const auto range = static_cast<std::uint64_t>(proved.greatest_x_exponent - format.least_exponent);
+  const auto range = static_cast<std::uint64_t>(proved.greatest_x_exponent - least);
   for (int i = 0; i < 20000; ++i) {
     const Scalar fraction = std::ldexp(static_cast<Scalar>(random() >> 40U), -24);
-    const Scalar x =
-        std::ldexp(1 + fraction, format.least_exponent + static_cast<int>(random() % range));
+    const Scalar x = std::ldexp(1 + fraction, least + static_cast<int>(random() % range));
     ASSERT_GE(mpq_class(static_cast<double>(bound(x))),
               value(proved.coefficients, mpq_class(static_cast<double>(x))))
         << x;
@@ -46,6 +57,58 @@ TEST(ShippedBound, CoversTheProvedOneInItsOwnArithmetic) {
                            double_format);
   expect_covers<float, 2>(derive_bound(record<researcher::Orientation>(), float_format),
                           float_format);
+  expect_covers<double, 3>(derive_bound(record<MeasuredDeterminantEnd>(), double_format),
+                           double_format);
+  expect_covers<double, 3>(derive_bound(record<DeterminantEnd>(), double_double_format),
+                           double_double_format);
+}
+
+/// What is proved for three classes of exact magnitudes.
+mpq_class value(const DerivedBound& proved, const std::array<mpq_class, 3>& x) {
+  std::vector<mpq_class> lower = proved.coefficients;
+  lower.back() = 0;
+  return proved.rounding() * x[0] * x[1] * x[2] + value(lower, *std::ranges::max_element(x));
+}
+
+/// How often the bound, as it runs with classes in double, is below the proved one, of many random
+/// magnitudes. These are of coordinates whose exact values are greater by as much as they can be.
+int failures_by_classes(const ErrorBound<double, 3>& bound, const DerivedBound& proved) {
+  std::mt19937_64 random(2);
+  const auto magnitude = [&] {
+    const double fraction = std::ldexp(static_cast<double>(random() >> 40U), -24);
+    return std::ldexp(1 + fraction, static_cast<int>(random() % 1500) - 1200);
+  };
+  int failures = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const std::array<double, 3> x{magnitude(), magnitude(), magnitude()};
+    std::array<mpq_class, 3> exact;
+    for (std::size_t k = 0; k < 3; ++k) exact.at(k) = mpq_class(x.at(k)) / (1 - mpq_class(0x1p-53));
+    const mpq_class truth = value(proved, exact);
+    const double c = bound.rounding(), underflow = bound.underflow(*std::ranges::max_element(x));
+    for (const double computed :
+         {x[0] * x[1] * x[2] * c + underflow, c * x[2] * x[1] * x[0] + underflow,
+          (x[0] * c) * (x[1] * x[2]) + underflow, (x[2] * x[0]) * (x[1] * c) + underflow}) {
+      failures += mpq_class(computed) < truth ? 1 : 0;
+    }
+  }
+  return failures;
+}
+
+TEST(ShippedBound, CoversTheProvedOneByClassesInAnyOrder) {
+  const DerivedBound end = derive_bound(record<MeasuredDeterminantEnd>(), double_format);
+  EXPECT_EQ(failures_by_classes(shipped<double, 3>(end, double_format), end), 0);
+  const DerivedBound pairs = derive_bound(record<DeterminantEnd>(), double_double_format);
+  EXPECT_EQ(failures_by_classes(shipped<double, 3>(pairs, double_double_format), pairs), 0);
+}
+
+TEST(ShippedBound, WouldNotCoverItWithoutItsMargins) {
+  const DerivedBound proved = derive_bound(record<MeasuredDeterminantEnd>(), double_format);
+  ErrorBound<double, 3> bound = shipped<double, 3>(proved, double_format);
+  bound.coefficients[3] = std::nextafter(proved.rounding().get_d(), 1.0);
+  EXPECT_GT(failures_by_classes(bound, proved), 100);
+  bound = shipped<double, 3>(proved, double_format);
+  for (std::size_t j = 0; j < 3; ++j) bound.coefficients.at(j) = 0;
+  EXPECT_GT(failures_by_classes(bound, proved), 100);
 }
 
 TEST(ShippedBound, IsHardlyLargerThanTheProvedOne) {
@@ -80,6 +143,30 @@ TEST(ShippedBound, IsDeclaredWithExactLiterals) {
             "    .coefficients = {{0x1.8p-147F, 0x1.40000cp-21F}},\n"
             "    .greatest_x = 0x1p+125F,\n"
             "};\n");
+}
+
+TEST(ShippedBound, OfPairsOfDoublesIsDeclaredInDoublesOfThreeALine) {
+  const std::string declaration =
+      error_bound_declaration(record<DeterminantEnd>(), double_double_format);
+  EXPECT_TRUE(declaration.starts_with(
+      "/// determinant_end in double_double: 64 u x^3 and underflow.\n"
+      "inline constexpr ErrorBound<double, 3> determinant_end_double_double{\n"
+      "    .coefficients = {{0x"))
+      << declaration;
+  EXPECT_NE(declaration.find(",\n                      0x1.000000000000ap-97}},\n"),
+            std::string::npos)
+      << declaration;
+}
+
+TEST(ShippedBound, HeadersDeclareEachBoundInItsFormat) {
+  const std::vector<ShippedExpression> expressions{
+      {record<EdgeEdge>(), float_format}, {record<DeterminantEnd>(), double_double_format}};
+  const std::string header = error_bounds_header(expressions);
+  EXPECT_TRUE(header.starts_with("#pragma once\n"));
+  for (const auto& [graph, format] : expressions) {
+    EXPECT_NE(header.find(error_bound_declaration(graph, format)), std::string::npos);
+  }
+  EXPECT_EQ(header.find("edge_edge_double"), std::string::npos) << "not asked for";
 }
 
 }  // namespace

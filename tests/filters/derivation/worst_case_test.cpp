@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 
@@ -46,6 +47,34 @@ TEST(WorstCase, FindsMoreThanHalfOfTheTightestBounds) {
   EXPECT_GT((checked_worst_case<researcher::Orientation, double>(double_format, 2, 50'000)), 9);
 }
 
+TEST(WorstCase, MeasuresCoordinatesToo) {
+  // Their weights are just below 1, so that a coordinate times its weight is rounded.
+  const double units = checked_worst_case<MeasuredProjectedGap, double>(double_format, 2, 40'000);
+  EXPECT_GT(units, 34.0 / 6);
+  const WorstCase worst =
+      search_worst_case(record<MeasuredProjectedGap>(), evaluators<MeasuredProjectedGap>(),
+                        double_format, {.seed = 11, .evaluations = 1'000});
+  for (const double weight : worst.inputs.weights) {
+    EXPECT_GT(weight, 0.9);
+    EXPECT_LE(weight, 1.0);
+  }
+}
+
+TEST(WorstCase, SearchesInPairsOfDoubles) {
+  const ExpressionGraph graph = record<DeterminantEnd>();
+  const WorstCase worst =
+      search_worst_case(graph, evaluators<DeterminantEnd>(), double_double_format,
+                        {.seed = 11, .evaluations = 20'000});
+  const auto [high, low] = evaluators<DeterminantEnd>().in_double_double(worst.inputs);
+  const mpq_class error =
+      abs(mpq_class(high) + mpq_class(low) - exact_value<DeterminantEnd>(worst.inputs));
+  const mpq_class x(greatest_coordinate(worst.inputs));
+  const mpq_class units = error / (double_double_format.unit_roundoff() * x * x * x);
+  EXPECT_NEAR(units.get_d(), worst.units, 1e-12);
+  EXPECT_GT(worst.units, 0.5);
+  EXPECT_LT(worst.units, 64);
+}
+
 /// Searches with an evaluator that fails the test where MPFR rounds anything.
 template <class Expression>
 void expect_exact_truth(const Format& format) {
@@ -68,6 +97,8 @@ TEST(WorstCase, ComputesTheTruthExactly) {
     expect_exact_truth<PaperVertexFace>(format);
     expect_exact_truth<researcher::Orientation>(format);
   }
+  expect_exact_truth<MeasuredProjectedGap>(double_format);
+  expect_exact_truth<DeterminantEnd>(double_format);
 }
 
 TEST(WorstCase, HasAPrecisionForTheSmallestAndLargestInputs) {

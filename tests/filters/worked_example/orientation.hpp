@@ -35,7 +35,7 @@ using touchstone::filters::ErrorBound;
 // README: the bound
 /// orientation in double: 30 u x^2 and underflow.
 inline constexpr ErrorBound<double, 2> orientation_double{
-    .coefficients = {{0x0.0000000000003p-1022, 0x0.0000000000001p-1022, 0x1.e00000000000dp-49}},
+    .coefficients = {{0x0.0000000000004p-1022, 0x0.0000000000002p-1022, 0x1.e00000000000dp-49}},
     .greatest_x = 0x1p+510,
 };
 // README: end

@@ -1,0 +1,290 @@
+#include "filters/polynomial_expressions.hpp"
+
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <random>
+
+namespace touchstone::filters {
+namespace {
+
+/// A random integer, small enough that no expression of a few of them rounds in double.
+template <class Scalar>
+Scalar small_integer(std::mt19937_64& random) {
+  return Scalar(static_cast<double>(random() % 31) - 15);
+}
+
+/// Some k/8 of [0,1].
+template <class Scalar>
+Scalar small_fraction(std::mt19937_64& random) {
+  return Scalar(static_cast<double>(random() % 9) / 8);
+}
+
+/// The start of a motion and its end.
+template <class Scalar>
+struct Motion {
+  Vector3<Scalar> start;
+  Vector3<Scalar> end;
+
+  [[nodiscard]] Vector3<Scalar> at(const Scalar& time) const {
+    Vector3<Scalar> result;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = start[i] + time * (end[i] - start[i]);
+    return result;
+  }
+};
+
+template <class Scalar>
+Vector3<Scalar> random_vector(std::mt19937_64& random) {
+  return {small_integer<Scalar>(random), small_integer<Scalar>(random),
+          small_integer<Scalar>(random)};
+}
+
+template <class Scalar>
+Motion<Scalar> random_motion(std::mt19937_64& random) {
+  return {random_vector<Scalar>(random), random_vector<Scalar>(random)};
+}
+
+template <class Scalar>
+Vector3<Scalar> combined(const Vector3<Scalar>& a, const Scalar& x, const Vector3<Scalar>& b,
+                         const Scalar& y) {
+  Vector3<Scalar> result;
+  for (std::size_t i = 0; i < 3; ++i) result[i] = a[i] * x + b[i] * y;
+  return result;
+}
+
+/// The determinant with these rows, by the rule of Sarrus.
+template <class Scalar>
+Scalar sarrus(const Vector3<Scalar>& a, const Vector3<Scalar>& b, const Vector3<Scalar>& c) {
+  return a[0] * b[1] * c[2] + a[1] * b[2] * c[0] + a[2] * b[0] * c[1] - a[2] * b[1] * c[0] -
+         a[1] * b[0] * c[2] - a[0] * b[2] * c[1];
+}
+
+/// The inputs of the expressions in the order of their coordinates.
+template <class Scalar, class... Vectors>
+std::array<Scalar, 3 * sizeof...(Vectors)> joined(const Vectors&... vectors) {
+  std::array<Scalar, 3 * sizeof...(Vectors)> x;
+  std::size_t next = 0;
+  const auto append = [&](const Vector3<Scalar>& vector) {
+    for (const Scalar& coordinate : vector) x.at(next++) = coordinate;
+  };
+  (append(vectors), ...);
+  return x;
+}
+
+/// The weights (1−t, t) of each of the times, the list repeated for each moving vector.
+template <std::size_t vectors, class Scalar, class... Times>
+std::array<Scalar, 2 * vectors * sizeof...(Times)> weights_of(const Times&... times) {
+  std::array<Scalar, 2 * vectors * sizeof...(Times)> w;
+  std::size_t next = 0;
+  const auto append = [&](const Scalar& time) {
+    w.at(next++) = Scalar(1) - time;
+    w.at(next++) = time;
+  };
+  for (std::size_t i = 0; i < vectors; ++i) (append(times), ...);
+  return w;
+}
+
+/// Three moving vectors and their determinant's expressions.
+template <class Scalar>
+struct Three {
+  Motion<Scalar> r, p, q;
+
+  [[nodiscard]] std::array<Scalar, 18> inputs() const {
+    return joined<Scalar>(r.start, p.start, q.start, r.end, p.end, q.end);
+  }
+  [[nodiscard]] Scalar end(const Scalar& time) const {
+    return DeterminantEnd::evaluate(inputs(), weights_of<3, Scalar>(time));
+  }
+  [[nodiscard]] Scalar middle(const Scalar& a, const Scalar& b) const {
+    return DeterminantMiddle::evaluate(inputs(), weights_of<3, Scalar>(a, b));
+  }
+  /// By the Bernstein coefficients on [a,b], at a + s (b − a).
+  [[nodiscard]] Scalar by_coefficients(const Scalar& a, const Scalar& b, const Scalar& s) const {
+    const Scalar m = Scalar(1) - s;
+    return m * m * m * end(a) + m * m * s * middle(a, b) + m * s * s * middle(b, a) +
+           s * s * s * end(b);
+  }
+};
+
+/// A direction, two moving vectors, and the expressions of their orientation.
+template <class Scalar>
+struct Oriented {
+  Vector3<Scalar> d;
+  Motion<Scalar> x, y;
+
+  [[nodiscard]] std::array<Scalar, 15> inputs() const {
+    return joined<Scalar>(d, x.start, y.start, x.end, y.end);
+  }
+  [[nodiscard]] Scalar end(const Scalar& time) const {
+    return OrientationEnd::evaluate(inputs(), weights_of<2, Scalar>(time));
+  }
+  [[nodiscard]] Scalar middle(const Scalar& a, const Scalar& b) const {
+    return OrientationMiddle::evaluate(inputs(), weights_of<2, Scalar>(a, b));
+  }
+  [[nodiscard]] Scalar by_coefficients(const Scalar& a, const Scalar& b, const Scalar& s) const {
+    const Scalar m = Scalar(1) - s;
+    return m * m * end(a) + m * s * middle(a, b) + s * s * end(b);
+  }
+};
+
+/// In rationals, and in double on inputs where nothing rounds.
+template <class Scalar>
+class PolynomialExpressions : public ::testing::Test {
+ protected:
+  [[nodiscard]] Three<Scalar> random_three() {
+    return {random_motion<Scalar>(random_), random_motion<Scalar>(random_),
+            random_motion<Scalar>(random_)};
+  }
+  [[nodiscard]] Oriented<Scalar> random_oriented() {
+    return {random_vector<Scalar>(random_), random_motion<Scalar>(random_),
+            random_motion<Scalar>(random_)};
+  }
+  [[nodiscard]] Scalar time() { return small_fraction<Scalar>(random_); }
+  [[nodiscard]] Vector3<Scalar> vector() { return random_vector<Scalar>(random_); }
+  [[nodiscard]] Scalar integer() { return small_integer<Scalar>(random_); }
+
+  static constexpr int trials = 300;
+
+ private:
+  std::mt19937_64 random_{1};
+};
+
+using Scalars = ::testing::Types<mpq_class, double>;
+TYPED_TEST_SUITE(PolynomialExpressions, Scalars);
+
+TYPED_TEST(PolynomialExpressions, CoefficientsOfTheDeterminantAreItsOwn) {
+  for (int i = 0; i < this->trials; ++i) {
+    const auto three = this->random_three();
+    const TypeParam a = this->time(), b = this->time(), s = this->time(), t = a + s * (b - a);
+    const TypeParam truth = sarrus(three.r.at(t), three.p.at(t), three.q.at(t));
+    EXPECT_EQ(three.by_coefficients(a, b, s), truth);
+    EXPECT_EQ(three.end(t), truth);
+  }
+}
+
+TYPED_TEST(PolynomialExpressions, CoefficientsOfAnOrientationAreItsOwn) {
+  for (int i = 0; i < this->trials; ++i) {
+    const auto oriented = this->random_oriented();
+    const TypeParam a = this->time(), b = this->time(), s = this->time(), t = a + s * (b - a);
+    const TypeParam truth = sarrus(oriented.x.at(t), oriented.d, oriented.y.at(t));
+    EXPECT_EQ(oriented.by_coefficients(a, b, s), truth);
+    EXPECT_EQ(oriented.end(t), truth);
+  }
+}
+
+TYPED_TEST(PolynomialExpressions, MiddleOfAPointOfTimeIsAMultipleOfTheEnd) {
+  for (int i = 0; i < this->trials; ++i) {
+    const auto three = this->random_three();
+    const auto oriented = this->random_oriented();
+    const TypeParam t = this->time();
+    EXPECT_EQ(three.middle(t, t), TypeParam(3) * three.end(t));
+    EXPECT_EQ(oriented.middle(t, t), TypeParam(2) * oriented.end(t));
+  }
+}
+
+/// The polynomial on [0,1] the other way round: motions from end to start.
+TYPED_TEST(PolynomialExpressions, WhatIsLastIsFirstWithTheEndsExchanged) {
+  for (int i = 0; i < this->trials; ++i) {
+    const auto [r, p, q] = this->random_three();
+    const Three<TypeParam> forwards{r, p, q};
+    const Three<TypeParam> backwards{{r.end, r.start}, {p.end, p.start}, {q.end, q.start}};
+    EXPECT_EQ(forwards.middle(TypeParam(1), TypeParam(0)),
+              backwards.middle(TypeParam(0), TypeParam(1)));
+    const auto [d, x, y] = this->random_oriented();
+    const Oriented<TypeParam> other{d, {x.end, x.start}, {y.end, y.start}};
+    EXPECT_EQ((Oriented<TypeParam>{d, x, y}.middle(TypeParam(0), TypeParam(1))),
+              other.middle(TypeParam(0), TypeParam(1)))
+        << "its middle is its own mirror image";
+  }
+}
+
+TYPED_TEST(PolynomialExpressions, NormalHasTheCoefficientsOfTheBlossom) {
+  for (int i = 0; i < this->trials; ++i) {
+    const auto [r, p, q] = this->random_three();
+    const TypeParam s = this->time(), m = TypeParam(1) - s;
+    const auto n_a = cross(p.start, q.start), n_b = cross(p.end, q.end);
+    const auto twice_n_ab = normal_middle(p.start, p.end, q.start, q.end);
+    const auto truth = cross(p.at(s), q.at(s));
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(m * m * n_a[k] + m * s * twice_n_ab[k] + s * s * n_b[k], truth[k]);
+    }
+  }
+}
+
+TYPED_TEST(PolynomialExpressions, DeterminantsOfDependentVectorsVanish) {
+  for (int i = 0; i < this->trials; ++i) {
+    const auto [r, p, q] = this->random_three();
+    const TypeParam a = this->time(), b = this->time(), x = this->integer(), y = this->integer();
+    const Three<TypeParam> in_plane{
+        {combined(p.start, x, q.start, y), combined(p.end, x, q.end, y)}, p, q};
+    const Three<TypeParam> parallel{
+        r, p, {combined(p.start, x, p.start, y), combined(p.end, x, p.end, y)}};
+    const Three<TypeParam> nothing{r, {}, q};
+    for (const auto& three : {in_plane, parallel, nothing}) {
+      EXPECT_EQ(three.end(a), TypeParam(0));
+      EXPECT_EQ(three.middle(a, b), TypeParam(0));
+    }
+  }
+}
+
+TYPED_TEST(PolynomialExpressions, OrientationsOfDependentVectorsVanish) {
+  for (int i = 0; i < this->trials; ++i) {
+    const auto [d, x, y] = this->random_oriented();
+    const TypeParam a = this->time(), b = this->time(), k = this->integer(), l = this->integer();
+    const Oriented<TypeParam> parallel{
+        d, x, {combined(x.start, k, d, l), combined(x.end, k, d, l)}};
+    const Oriented<TypeParam> along{d, {combined(d, k, d, l), combined(d, l, d, l)}, y};
+    for (const auto& oriented : {parallel, along, Oriented<TypeParam>{{}, x, y}}) {
+      EXPECT_EQ(oriented.end(a), TypeParam(0));
+      EXPECT_EQ(oriented.middle(a, b), TypeParam(0));
+    }
+  }
+}
+
+TYPED_TEST(PolynomialExpressions, GapIsTheProjectionOfTheDifference) {
+  for (int i = 0; i < this->trials; ++i) {
+    const auto d = this->vector(), a = this->vector(), b = this->vector();
+    const auto difference = combined(a, TypeParam(1), b, TypeParam(-1));
+    EXPECT_EQ(ProjectedGap::evaluate(joined<TypeParam>(d, a, b), {}), dot(d, difference));
+    EXPECT_EQ(ProjectedGap::evaluate(joined<TypeParam>(d, a, a), {}), TypeParam(0));
+  }
+}
+
+/// The measured expression at weights 1, and one coordinate measured wrong by a factor.
+template <class Expression, class Scalar, std::size_t count, std::size_t weights>
+void expect_measures(std::array<Scalar, count> x, const std::array<Scalar, weights>& w) {
+  std::array<Scalar, weights + count> with_ones;
+  with_ones.fill(Scalar(1));
+  std::copy(w.begin(), w.end(), with_ones.begin());
+  EXPECT_EQ(Measured<Expression>::evaluate(x, with_ones), Expression::evaluate(x, w));
+  for (std::size_t i = 0; i < count; ++i) {
+    with_ones[weights + i] = Scalar(3);
+    std::array<Scalar, count> tripled = x;
+    tripled[i] = tripled[i] * Scalar(3);
+    EXPECT_EQ(Measured<Expression>::evaluate(x, with_ones), Expression::evaluate(tripled, w));
+    with_ones[weights + i] = Scalar(1);
+  }
+}
+
+TYPED_TEST(PolynomialExpressions, MeasuredOnesTakeEachCoordinateTimesItsWeight) {
+  const auto three = this->random_three().inputs();
+  const auto oriented = this->random_oriented().inputs();
+  const TypeParam a = this->time(), b = this->time();
+  expect_measures<DeterminantEnd>(three, weights_of<3, TypeParam>(a));
+  expect_measures<DeterminantMiddle>(three, weights_of<3, TypeParam>(a, b));
+  expect_measures<OrientationEnd>(oriented, weights_of<2, TypeParam>(a));
+  expect_measures<OrientationMiddle>(oriented, weights_of<2, TypeParam>(a, b));
+  expect_measures<ProjectedGap>(joined<TypeParam>(this->vector(), this->vector(), this->vector()),
+                                std::array<TypeParam, 0>{});
+}
+
+TEST(PolynomialExpressionsAlone, CanRunAtCompileTime) {
+  static_assert(ProjectedGap::evaluate<double>({1, 2, 3, 4, 5, 6, 3, 3, 3}, {}) == 14);
+  static_assert(DeterminantEnd::evaluate<double>({1, 0, 0, 0, 1, 0, 0, 0, 1,  //
+                                                  3, 0, 0, 0, 3, 0, 0, 0, 3},
+                                                 {.5, .5, .5, .5, .5, .5}) == 8);
+}
+
+}  // namespace
+}  // namespace touchstone::filters
