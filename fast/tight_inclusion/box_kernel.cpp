@@ -32,9 +32,11 @@ bool rounds_products(const BoxKernel& kernel) {
 std::vector<const BoxKernel*> runnable_kernels() {
   std::vector<const BoxKernel*> kernels{&scalar_box_kernel};
 #ifdef TOUCHSTONE_X86_64
-  if (static_cast<bool>(__builtin_cpu_supports("avx2"))) kernels.push_back(&avx2_box_kernel);
-  if (static_cast<bool>(__builtin_cpu_supports("avx512f")) &&
-      static_cast<bool>(__builtin_cpu_supports("fma"))) {
+  const bool has_fma = static_cast<bool>(__builtin_cpu_supports("fma"));
+  if (has_fma && static_cast<bool>(__builtin_cpu_supports("avx2"))) {
+    kernels.push_back(&avx2_box_kernel);
+  }
+  if (has_fma && static_cast<bool>(__builtin_cpu_supports("avx512f"))) {
     kernels.push_back(&avx512_box_kernel);
   }
 #endif

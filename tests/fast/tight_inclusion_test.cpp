@@ -23,6 +23,7 @@
 
 #include "exact/number.hpp"
 #include "exact/oracle.hpp"
+#include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "verify/dataset/dataset.hpp"
@@ -142,22 +143,8 @@ TEST(TightInclusion, GivesTheSameResultOnAllKernels) {
   });
 }
 
-/// The public data, or nothing (loudly) where it is missing.
-std::vector<std::filesystem::path> public_data() {
-  const char* const variable = std::getenv("TOUCHSTONE_DATA");  // NOLINT(concurrency-mt-unsafe)
-  const std::filesystem::path folder =
-      variable != nullptr ? std::filesystem::path(variable)
-                          : std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "../shared/datasets";
-  if (!std::filesystem::exists(folder)) {
-    std::printf("MISSING public data: %s (set TOUCHSTONE_DATA)\n", folder.c_str());
-    return {};
-  }
-  const std::array paths{folder / "handcrafted", folder / "simulation"};
-  return verify::find_datasets(paths);
-}
-
 TEST(TightInclusion, MissesNothingOnThePublicData) {
-  const auto files = public_data();
+  const auto files = tests::public_datasets();
   if (files.empty()) GTEST_SKIP() << "public data missing";
   std::map<ErrorModel, int> false_positives;
   for (const auto& file : files) {

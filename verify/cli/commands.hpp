@@ -25,6 +25,12 @@ void add_solve_command(CLI::App& app, Status& status);
 /// `touchstone generate`
 void add_generate_command(CLI::App& app, Status& status);
 
+/// `touchstone bench`
+void add_bench_command(CLI::App& app, Status& status);
+
+/// `touchstone candidates`
+void add_candidates_command(CLI::App& app, Status& status);
+
 /// `touchstone derive`
 void add_derive_command(CLI::App& app, Status& status);
 

@@ -23,6 +23,8 @@ int run(int argc, char** argv) {
   touchstone::verify::cli::add_certify_command(app, status);
   touchstone::verify::cli::add_solve_command(app, status);
   touchstone::verify::cli::add_generate_command(app, status);
+  touchstone::verify::cli::add_candidates_command(app, status);
+  touchstone::verify::cli::add_bench_command(app, status);
   touchstone::verify::cli::add_derive_command(app, status);
   try {
     app.parse(argc, argv);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "fast/certified.hpp"
 #include "fast/tight_inclusion.hpp"
 
 namespace touchstone::verify {
@@ -17,6 +18,7 @@ using Methods = std::vector<std::unique_ptr<const fast::Method>>;
 
 Methods make_methods() {
   Methods all;
+  all.push_back(fast::certified_method());
   all.push_back(fast::tight_inclusion_method());
   all.push_back(fast::tight_inclusion_method({.error_model = fast::ErrorModel::published}));
   return all;

@@ -1,6 +1,6 @@
 // The AVX-512 kernel from its own source, with its intrinsics emulated and under another name.
 
-#include "tests/fast/tight_inclusion/emulated_immintrin.hpp"
+#include "tests/fast/emulated_immintrin.hpp"
 
 // The kernel's file includes <immintrin.h>, which here is the header above (see CMakeLists.txt).
 #define avx512_box_kernel emulated_avx512_box_kernel

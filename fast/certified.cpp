@@ -1,0 +1,328 @@
+#include "fast/certified.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "fast/certified/exact_stage.hpp"
+#include "fast/certified/kernel.hpp"
+#include "fast/floating_point_state.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+// ---- Options ------------------------------------------------------------------------------------
+
+void check(const CertifiedOptions& options) {
+  // Written so that NaN fails too.
+  if (!(options.toi_tolerance >= 0.0 && std::isfinite(options.toi_tolerance))) {
+    throw std::invalid_argument("certified: toi_tolerance must be finite and not negative");
+  }
+  if (!(options.t_max >= 0.0 && options.t_max <= 1.0)) {
+    throw std::invalid_argument("certified: t_max must be in [0,1]");
+  }
+  if (options.max_threads < 0) {
+    throw std::invalid_argument("certified: max_threads must not be negative");
+  }
+}
+
+// ---- Queries ------------------------------------------------------------------------------------
+
+/// Where the queries of a batch are.
+struct Batch {
+  Kind kind = Kind::vertex_face;
+  std::size_t size = 0;
+  std::span<const Query> queries;            ///< either these
+  const MovingVertices* vertices = nullptr;  ///< or these,
+  Candidates candidates;                     ///< with these
+
+  [[nodiscard]] KernelInput block(std::size_t first) const {
+    KernelInput input{.kind = kind, .count = std::min(kernel_block, size - first)};
+    if (vertices == nullptr) {
+      input.queries = queries.data() + first;
+    } else {
+      input.vertices = vertices->data();
+      input.edges = candidates.edges.data();
+      input.faces = candidates.faces.data();
+      input.pairs = candidates.pairs.data() + first;
+    }
+    return input;
+  }
+
+  [[nodiscard]] Query query(std::size_t i) const {
+    return vertices == nullptr ? queries[i] : query_of(*vertices, candidates, candidates.pairs[i]);
+  }
+};
+
+Batch batch_of(Kind kind, std::span<const Query> queries) {
+  return {.kind = kind, .size = queries.size(), .queries = queries, .candidates = {}};
+}
+
+Batch batch_of(const MovingVertices& vertices, const Candidates& candidates) {
+  require_in_range(vertices, candidates);
+  return {.kind = candidates.kind,
+          .size = candidates.pairs.size(),
+          .queries = {},
+          .vertices = &vertices,
+          .candidates = candidates};
+}
+
+bool is_finite(const Query& query) {
+  return std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); });
+}
+
+// ---- A block ------------------------------------------------------------------------------------
+
+CertifiedResult decide_last(const Batch& batch, std::size_t i, const CertifiedOptions& options) {
+  const Query query = batch.query(i);
+  CertifiedResult result{.verdict = Verdict::error, .stage = Stage::exact};
+  if (!is_finite(query)) return result;
+  const std::optional<ExactImpact> impact =
+      decide_exactly(batch.kind, query, options.toi_tolerance, options.t_max);
+  if (!impact) {
+    result.verdict = Verdict::no;
+    return result;
+  }
+  return {.verdict = Verdict::yes,
+          .stage = Stage::exact,
+          .toi_lower = impact->toi_lower,
+          .toi_upper = impact->toi_upper,
+          .u = impact->u,
+          .v = impact->v};
+}
+
+/// The result of a hit, if it is as narrow as wanted and on one side of t_max.
+std::optional<CertifiedResult> result_of(const KernelHit& hit, const CertifiedOptions& options) {
+  if (hit.toi_lower >= options.t_max) {
+    return CertifiedResult{.verdict = Verdict::no, .stage = Stage::bisection};
+  }
+  if (hit.toi_upper > options.t_max || options.toi_tolerance < least_kernel_tolerance) {
+    return std::nullopt;
+  }
+  return CertifiedResult{.verdict = Verdict::yes,
+                         .stage = Stage::bisection,
+                         .toi_lower = hit.toi_lower,
+                         .toi_upper = hit.toi_upper,
+                         .u = hit.u,
+                         .v = hit.v};
+}
+
+/// Runs the kernel on the block that begins at `first`, with contacts after t_limit of no interest,
+/// and hands on the results of queries that may have a contact: report(number, result).
+template <class Report>
+const KernelOutput& decide_block(const Batch& batch, std::size_t first, double t_limit,
+                                 const CertifiedOptions& options, const Report& report) {
+  thread_local KernelOutput output;
+  KernelInput input = batch.block(first);
+  input.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
+  input.t_limit = t_limit;
+  const CertifiedKernel& kernel =
+      options.kernel != nullptr ? *options.kernel : best_certified_kernel();
+  kernel.decide(input, output);
+  for (std::size_t i = 0; i < output.hits.count; ++i) {
+    const KernelHit& hit = output.hits.items[i];
+    const std::optional<CertifiedResult> result = result_of(hit, options);
+    report(first + hit.index, result ? *result : decide_last(batch, first + hit.index, options));
+  }
+  for (std::size_t i = 0; i < output.undecided.count; ++i) {
+    const std::size_t number = first + output.undecided.items[i];
+    report(number, decide_last(batch, number, options));
+  }
+  return output;
+}
+
+/// Calls body(first) for each block, under strict floating point, in as many threads as allowed.
+template <class Body>
+void for_each_block(std::size_t size, int max_threads, const Body& body) {
+  const std::size_t blocks = (size + kernel_block - 1) / kernel_block;
+  const auto run = [&](std::size_t begin, std::size_t end) {
+    const StrictFloatingPoint strict;
+    for (std::size_t block = begin; block < end; ++block) body(block * kernel_block);
+  };
+  if (max_threads == 1 || blocks <= 1) {
+    run(0, blocks);
+    return;
+  }
+  constexpr std::size_t blocks_a_task = 8;
+  const int cores = tbb::info::default_concurrency();
+  tbb::task_arena arena(max_threads == 0 ? cores : std::min(max_threads, cores));
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, blocks, blocks_a_task),
+        [&](const tbb::blocked_range<std::size_t>& range) { run(range.begin(), range.end()); });
+  });
+}
+
+void mark(std::span<CertifiedResult> results, const KernelOutput::List<std::uint32_t>& list,
+          Stage stage) {
+  for (std::size_t i = 0; i < list.count; ++i) results[list.items[i]].stage = stage;
+}
+
+void solve(const Batch& batch, std::span<CertifiedResult> results,
+           const CertifiedOptions& options) {
+  check(options);
+  if (results.size() != batch.size) {
+    throw std::invalid_argument("certified: as many results as queries are needed");
+  }
+  for_each_block(batch.size, options.max_threads, [&](std::size_t first) {
+    const std::size_t count = std::min(kernel_block, batch.size - first);
+    const std::span<CertifiedResult> of_block = results.subspan(first, count);
+    std::ranges::fill(of_block, CertifiedResult{.verdict = Verdict::no, .stage = Stage::axis});
+    const KernelOutput& output = decide_block(
+        batch, first, options.t_max, options,
+        [&](std::size_t number, const CertifiedResult& result) { results[number] = result; });
+    mark(of_block, output.separated_in_direction, Stage::direction);
+    mark(of_block, output.one_sided, Stage::determinant);
+    mark(of_block, output.rejected, Stage::bisection);
+  });
+}
+
+// ---- Earliest -----------------------------------------------------------------------------------
+
+/// Lowers the number to x if that is less.
+void lower_to(std::atomic<double>& number, double x) {
+  double known = number.load();
+  while (x < known && !number.compare_exchange_weak(known, x)) {
+  }
+}
+
+/// A time such that a contact after it has an enclosure whose ends are both above toi_upper: the
+/// lower end is above it · (1 − tolerance − 2^-52).
+double limit_after(double toi_upper, double tolerance) {
+  constexpr double far_from_subnormal = 0x1p-900;
+  if (tolerance > 0.5) return 1.0;
+  const double limit = toi_upper / (1.0 - tolerance) * (1.0 + 0x1p-50);
+  return std::clamp(limit, far_from_subnormal, 1.0);
+}
+
+}  // namespace
+
+// ---- Interface ----------------------------------------------------------------------------------
+
+std::string_view name(Stage stage) {
+  switch (stage) {
+    case Stage::axis:
+      return "axis";
+    case Stage::direction:
+      return "direction";
+    case Stage::determinant:
+      return "determinant";
+    case Stage::bisection:
+      return "bisection";
+    case Stage::exact:
+      break;
+  }
+  return "exact";
+}
+
+CertifiedResult certified(Kind kind, const Query& query, const CertifiedOptions& options) {
+  CertifiedResult result;
+  solve(batch_of(kind, std::span(&query, 1)), std::span(&result, 1), options);
+  return result;
+}
+
+void solve(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
+           const CertifiedOptions& options) {
+  solve(batch_of(kind, queries), results, options);
+}
+
+void solve(const MovingVertices& vertices, const Candidates& candidates,
+           std::span<CertifiedResult> results, const CertifiedOptions& options) {
+  solve(batch_of(vertices, candidates), results, options);
+}
+
+std::vector<Collision> collisions(const MovingVertices& vertices, const Candidates& candidates,
+                                  const CertifiedOptions& options) {
+  check(options);
+  const Batch batch = batch_of(vertices, candidates);
+  tbb::enumerable_thread_specific<std::vector<Collision>> found;
+  for_each_block(batch.size, options.max_threads, [&](std::size_t first) {
+    std::vector<Collision>& of_thread = found.local();
+    decide_block(batch, first, options.t_max, options,
+                 [&](std::size_t number, const CertifiedResult& result) {
+                   if (result.verdict != Verdict::no) of_thread.push_back({number, result});
+                 });
+  });
+  std::vector<Collision> all;
+  for (const std::vector<Collision>& some : found) all.insert(all.end(), some.begin(), some.end());
+  std::ranges::sort(all, {}, &Collision::candidate);
+  return all;
+}
+
+std::optional<EarliestImpact> earliest(const MovingVertices& vertices, const Candidates& candidates,
+                                       const CertifiedOptions& options) {
+  check(options);
+  const Batch batch = batch_of(vertices, candidates);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::atomic<double> lower = none, upper = none;
+  for_each_block(batch.size, options.max_threads, [&](std::size_t first) {
+    const double limit =
+        std::min(options.t_max, limit_after(std::min(upper.load(), 1.0), options.toi_tolerance));
+    decide_block(batch, first, limit, options,
+                 [&](std::size_t number, const CertifiedResult& result) {
+                   if (result.verdict == Verdict::no) return;
+                   if (result.verdict == Verdict::error) {
+                     throw std::domain_error("certified: candidate " + std::to_string(number) +
+                                             " has a coordinate that is not finite");
+                   }
+                   lower_to(lower, result.toi_lower);
+                   lower_to(upper, result.toi_upper);
+                 });
+  });
+  if (upper.load() == none) return std::nullopt;
+  return EarliestImpact{.toi_lower = lower.load(), .toi_upper = upper.load()};
+}
+
+namespace {
+
+class CertifiedMethod : public Method {
+ public:
+  explicit CertifiedMethod(const CertifiedOptions& base) : base_(base) { check(base); }
+
+  [[nodiscard]] std::string_view name() const override { return "certified"; }
+  [[nodiscard]] Promise promise() const override { return Promise::exact; }
+
+  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
+             const MethodOptions& options) const override {
+    CertifiedOptions of_call = base_;
+    of_call.t_max = options.t_max;
+    of_call.max_threads = 1;
+    check(of_call);
+    if (options.min_separation != 0.0) {
+      std::ranges::fill(answers, Answer{.verdict = Verdict::error});
+      return;
+    }
+    const Batch batch = batch_of(kind, queries);
+    for_each_block(batch.size, of_call.max_threads, [&](std::size_t first) {
+      const std::size_t count = std::min(kernel_block, batch.size - first);
+      std::ranges::fill(answers.subspan(first, count), Answer{.verdict = Verdict::no});
+      decide_block(batch, first, of_call.t_max, of_call,
+                   [&](std::size_t number, const CertifiedResult& result) {
+                     answers[number] = {.verdict = result.verdict,
+                                        .toi_lower = result.toi_lower,
+                                        .toi_upper = result.toi_upper,
+                                        .tolerance = Answer::none};
+                   });
+    });
+  }
+
+ private:
+  CertifiedOptions base_;
+};
+
+}  // namespace
+
+std::unique_ptr<Method> certified_method(const CertifiedOptions& base) {
+  return std::make_unique<CertifiedMethod>(base);
+}
+
+}  // namespace touchstone::fast

@@ -1,0 +1,95 @@
+#pragma once
+
+/// \file
+/// Instants in [0,1] that are roots of polynomials, and exact signs of other polynomials there.
+///
+/// A polynomial is a form Σ c_k x^(n−k) y^k at t = y/(x+y) (contact_rule.hpp) whose first and last
+/// coefficients are not 0: this drops only roots at t=0 and t=1, which are asked for by themselves.
+/// On an interval from (x0,y0) to (x1,y1) it becomes the form f(X x0 + Y x1, X y0 + Y y1), whose sign
+/// changes bound the number of roots inside (Descartes), and equal it if they are none or one. Of a
+/// squarefree polynomial, intervals that are small enough have none or one (Vincent), so bisection
+/// finds all roots in ascending order.
+///
+/// An instant α is a dyadic number or the only root of a squarefree f in an open dyadic interval.
+/// The sign of q(α): if q's form on the interval has no sign change, the sign of its coefficients.
+/// Otherwise it is 0 iff gcd(f,q) has a root in the interval, that is iff its form there has an odd
+/// number of sign changes; if it is not 0, halving the interval brings the first case about.
+///
+/// Narrowing guesses the root in floating point and asks for two exact signs around it; a wrong
+/// guess costs a bisection instead and nothing else.
+
+#include <functional>
+#include <vector>
+
+#include "fast/certified/big_integer.hpp"
+#include "fast/certified/contact_rule.hpp"
+
+namespace touchstone::fast::exact_stage {
+
+/// c_0, …, c_n with c_0 and c_n not 0; empty for the zero polynomial.
+using Polynomial = std::vector<BigInteger>;
+
+/// A form as a polynomial, without its roots at t=0 and t=1.
+[[nodiscard]] Polynomial inner_polynomial(Polynomial coefficients);
+
+template <std::size_t size>
+[[nodiscard]] Polynomial inner_polynomial(const std::array<BigInteger, size>& form) {
+  return inner_polynomial(Polynomial(form.begin(), form.end()));
+}
+
+/// The greatest common divisor, up to a constant. \pre neither is zero.
+[[nodiscard]] Polynomial common_divisor(Polynomial a, Polynomial b);
+
+/// A polynomial with the same roots, each simple. \pre not zero.
+[[nodiscard]] Polynomial squarefree(const Polynomial& f);
+
+/// numerator / 2^exponent, in [0,1].
+struct Dyadic {
+  BigInteger numerator;
+  long exponent = 0;
+};
+
+/// A number strictly between them that halves the interval, or halves the logarithm of the ratio of
+/// its ends (or of their distances from 1) where these are far apart: so a root near 0 or 1 takes no
+/// more steps than the logarithm of its exponent. \pre lower < upper.
+[[nodiscard]] Dyadic split(const Dyadic& lower, const Dyadic& upper);
+
+/// A time in [0,1].
+class Instant {
+ public:
+  /// A dyadic number.
+  explicit Instant(Dyadic value);
+  /// The only root of f in the open interval. \pre f is squarefree, and has just one there.
+  Instant(Polynomial f, Dyadic lower, Dyadic upper);
+
+  /// The sign of a form at this time. Narrows as far as that takes.
+  [[nodiscard]] int sign_of(const Form<BigInteger, 2>& q);
+
+  /// Is this time later than the double of these bits (double_search.hpp)?
+  [[nodiscard]] bool is_above(std::uint64_t bits);
+
+  /// Near this time; a guess.
+  [[nodiscard]] double guess() const;
+
+  /// numerator/denominator at this time, to about the accuracy of a double (absolute, below 1).
+  /// \pre the denominator is not 0 there, and the quotient is in [0,1].
+  [[nodiscard]] double quotient_of(const Form<BigInteger, 2>& numerator,
+                                   const Form<BigInteger, 2>& denominator);
+
+ private:
+  void narrow();
+  [[nodiscard]] bool narrow_by_guess(const Polynomial& local);
+  /// Is this time later than `t`, which lies inside the interval? Notes what it finds.
+  [[nodiscard]] bool cut(const Dyadic& t);
+  [[nodiscard]] bool is_dyadic() const { return f_.empty(); }
+
+  Polynomial f_;  // empty: the time is lower_
+  Dyadic lower_, upper_;
+  int sign_below_ = 0;  // of f_, between lower_ and the root
+};
+
+/// Calls `visit` for every root of f in the open interval (0,1), ascending, until it returns true.
+/// Returns whether it did. \pre f is squarefree.
+bool visit_roots(const Polynomial& f, const std::function<bool(Instant&)>& visit);
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,84 @@
+#pragma once
+
+/// \file
+/// Integers of any size, with the few operations that exact decisions need: no division.
+///
+/// Sign and magnitude; the magnitude is limbs of 64 bits, the least significant first. Up to
+/// `inline_limbs` of them lie in the object itself, so that usual numbers cost no allocation.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace touchstone::fast::exact_stage {
+
+/// significand · 2^exponent, near a number: relative error below 2^-52. The significand is 0 or has
+/// a magnitude in [1/2, 1]. A guess, never a proof.
+struct Approximation {
+  double significand = 0.0;
+  long exponent = 0;
+};
+
+/// a / b; 0 if b is 0. As large as a double can be if the quotient is not one.
+[[nodiscard]] double quotient(const Approximation& a, const Approximation& b);
+
+/// An integer of any size.
+class BigInteger {
+ public:
+  static constexpr std::size_t inline_limbs = 10;
+
+  BigInteger() = default;
+  BigInteger(std::int64_t value);  // NOLINT(google-explicit-constructor): numbers of one kind
+
+  /// −1, 0 or 1.
+  [[nodiscard]] int sign() const {
+    if (size_ == 0) return 0;
+    return negative_ ? -1 : 1;
+  }
+  /// Of the magnitude: 0 for 0, else 1 + the index of the highest bit.
+  [[nodiscard]] long bit_length() const;
+  /// The index of the lowest bit that is set. \pre not 0.
+  [[nodiscard]] long trailing_zeros() const;
+  [[nodiscard]] Approximation approximation() const;
+
+  BigInteger& operator+=(const BigInteger& other) { return add(other, other.negative_); }
+  BigInteger& operator-=(const BigInteger& other) { return add(other, !other.negative_); }
+  /// Multiplies by 2^bits. \pre bits ≥ 0.
+  BigInteger& operator<<=(long bits);
+  /// Divides by 2^bits. \pre 0 ≤ bits ≤ trailing_zeros(), or the number is 0.
+  BigInteger& operator>>=(long bits);
+
+  friend BigInteger operator+(BigInteger a, const BigInteger& b) { return a += b; }
+  friend BigInteger operator-(BigInteger a, const BigInteger& b) { return a -= b; }
+  friend BigInteger operator-(BigInteger a) {
+    a.negative_ = !a.negative_ && a.size_ != 0;
+    return a;
+  }
+  friend BigInteger operator<<(BigInteger a, long bits) { return a <<= bits; }
+  friend BigInteger operator>>(BigInteger a, long bits) { return a >>= bits; }
+  friend BigInteger operator*(const BigInteger& a, const BigInteger& b);
+  friend bool operator==(const BigInteger& a, const BigInteger& b) { return (a - b).sign() == 0; }
+
+ private:
+  [[nodiscard]] std::uint64_t* limbs() { return many_.empty() ? few_.data() : many_.data(); }
+  [[nodiscard]] const std::uint64_t* limbs() const {
+    return many_.empty() ? few_.data() : many_.data();
+  }
+  /// Makes the magnitude `size` limbs long; new ones are 0.
+  void resize(std::size_t size);
+  /// Takes zeros off the top.
+  void trim();
+  [[nodiscard]] int compare_magnitude(const BigInteger& other) const;
+  BigInteger& add(const BigInteger& other, bool negative);
+  void add_magnitude(const BigInteger& other);
+  /// |this| ← larger − smaller, one of which is |this|.
+  void set_difference(const BigInteger& larger, const BigInteger& smaller);
+
+  std::array<std::uint64_t, inline_limbs> few_{};
+  std::vector<std::uint64_t> many_;  // in use once the number has not fitted into few_
+  std::size_t size_ = 0;             // limbs of the magnitude; the top one is not 0
+  bool negative_ = false;
+};
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,260 @@
+#pragma once
+
+/// \file
+/// When a moving polygon holds the origin, in signs of polynomials in time; over any integers.
+///
+/// F = r − u p − v q, where for vertex_face r = v − f0, p = f1 − f0, q = f2 − f0 and Ω is the
+/// triangle u, v ≥ 0, u + v ≤ 1; for edge_edge r = ea0 − eb0, p = ea0 − ea1, q = eb1 − eb0 and Ω is
+/// the unit square. r, p and q move linearly. Contact at time t: some (u,v) ∈ Ω has r = u p + v q.
+/// Let N = p × q, U = r × q, V = p × r and D = r · N.
+///
+/// **Theorem 1** (a fixed time). Let `bounds` be U, V and N−U−V (triangle), or U, V, N−U and N−V
+/// (square).
+///   - N ≠ 0, say N_k ≠ 0: contact iff D = 0 and every bound's component k is 0 or has N_k's sign.
+///   - N = 0: contact iff U = V = 0 and w_i · w_j ≤ 0 for the two ends of some side of the polygon
+///     with the corners w, the last side left out.
+/// Proof. If r = u p + v q then D = 0, U = u N and V = v N; so with N ≠ 0 there is at most one
+/// (u,v), it is U_k/N_k, V_k/N_k, and the bounds say that it lies in Ω. Conversely D = 0 with N ≠ 0
+/// puts r into the plane of p and q. If N = 0, then r = u p + v q implies U = V = 0. N = U = V = 0
+/// says that r, p and q, and so the corners, lie on one line through the origin. These sides
+/// are a path on it through all corners and cover all between the outermost ones, hence the polygon;
+/// and a side on a line through the origin holds it iff the product of its ends is not positive. ∎
+///
+/// **Theorem 2** (the first contact). The first time of contact in [0,1], if there is one, is 0 or
+/// a root of one of the `events`:
+///   - D ≢ 0: D.
+///   - D ≡ 0, N_k ≢ 0: N_k and the components k of the bounds.
+///   - D ≡ 0, N ≡ 0, a component of U or V ≢ 0: that component.
+///   - D ≡ N ≡ U ≡ V ≡ 0: w_i · w_j for every side but the last.
+/// (Events that are identically zero are left out.)
+/// Proof. In the first and third case every contact is at a root of the event, by theorem 1 (N = 0
+/// implies D = 0). In the others no sign that theorem 1 asks for changes between neighbouring roots
+/// of the events, so the answer is the same at all times strictly between them. The set of times of
+/// contact is closed, so if it holds such an interval then also its lower end. ∎
+///
+/// Times are pairs (x,y) with t = y/(x+y), and polynomials of degree n are forms Σ c_k x^(n−k) y^k:
+/// a point that moves from a to b is the form (a,b), a product is a convolution, and the signs of
+/// c_k speak for all of [0,1] (Descartes: as many positive roots y/x as sign changes, or fewer by
+/// an even number).
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "exact/query.hpp"
+
+namespace touchstone::fast::exact_stage {
+
+/// Σ c_k x^(degree−k) y^k.
+template <class Number, std::size_t degree>
+using Form = std::array<Number, degree + 1>;
+
+/// The coordinates of a vector that moves: a form a axis.
+template <class Number>
+using MovingVector = std::array<Form<Number, 1>, 3>;
+
+template <class Number>
+using Square = decltype(Number() * Number());
+template <class Number>
+using Cube = decltype(Square<Number>() * Number());
+
+/// r, p and q. For numbers of fixed size: the greatest coordinate must be at most a quarter of what
+/// the type holds; then everything below fits into Square and Cube. (With coordinates up to 2^b,
+/// two products make up 2^(2b+1), a coefficient of N, U, V or a bound 2^(2b+2), of a product of
+/// corners 6·2^2b, and one of D, three determinants of vectors of length up to √3·2^b, 16·2^3b.)
+template <class Number>
+struct Motion {
+  Kind kind = Kind::vertex_face;
+  MovingVector<Number> r, p, q;
+};
+
+template <class Number, std::size_t size>
+[[nodiscard]] bool is_zero(const std::array<Number, size>& form) {
+  return std::ranges::all_of(form, [](const Number& c) { return c.sign() == 0; });
+}
+
+template <class Number, std::size_t size>
+[[nodiscard]] std::array<Number, size> difference(const std::array<Number, size>& a,
+                                                  const std::array<Number, size>& b) {
+  std::array<Number, size> result = a;
+  for (std::size_t k = 0; k < size; ++k) result[k] -= b[k];
+  return result;
+}
+
+template <class Number>
+[[nodiscard]] MovingVector<Number> difference(const MovingVector<Number>& a,
+                                              const MovingVector<Number>& b) {
+  return {difference(a[0], b[0]), difference(a[1], b[1]), difference(a[2], b[2])};
+}
+
+/// Component k of a × b.
+template <class Number>
+[[nodiscard]] Form<Square<Number>, 2> cross(const MovingVector<Number>& a,
+                                            const MovingVector<Number>& b, std::size_t k) {
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+  return {a[i][0] * b[j][0] - a[j][0] * b[i][0],
+          a[i][0] * b[j][1] + a[i][1] * b[j][0] - a[j][0] * b[i][1] - a[j][1] * b[i][0],
+          a[i][1] * b[j][1] - a[j][1] * b[i][1]};
+}
+
+template <class Number>
+[[nodiscard]] Form<Square<Number>, 2> dot(const MovingVector<Number>& a,
+                                          const MovingVector<Number>& b) {
+  Form<Square<Number>, 2> sum{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum[0] += a[k][0] * b[k][0];
+    sum[1] += a[k][0] * b[k][1] + a[k][1] * b[k][0];
+    sum[2] += a[k][1] * b[k][1];
+  }
+  return sum;
+}
+
+template <class Number>
+using MovingNormal = std::array<Form<Square<Number>, 2>, 3>;
+
+/// N.
+template <class Number>
+[[nodiscard]] MovingNormal<Number> normal(const Motion<Number>& motion) {
+  return {cross(motion.p, motion.q, 0), cross(motion.p, motion.q, 1), cross(motion.p, motion.q, 2)};
+}
+
+/// D.
+template <class Number>
+[[nodiscard]] Form<Cube<Number>, 3> determinant(const Motion<Number>& motion,
+                                                const MovingNormal<Number>& normal) {
+  Form<Cube<Number>, 3> sum{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum[i] += normal[k][i] * motion.r[k][0];
+      sum[i + 1] += normal[k][i] * motion.r[k][1];
+    }
+  }
+  return sum;
+}
+
+/// Component k of N, U and V, and what theorem 1 says of it.
+template <class Number>
+struct Bounds {
+  Form<Square<Number>, 2> n, u, v;
+  std::array<Form<Square<Number>, 2>, 4> bound;
+  std::size_t count = 0;  ///< of bounds
+};
+
+template <class Number>
+[[nodiscard]] Bounds<Number> bounds(const Motion<Number>& motion, const Form<Square<Number>, 2>& n,
+                                    std::size_t k) {
+  const auto u = cross(motion.r, motion.q, k), v = cross(motion.p, motion.r, k);
+  if (motion.kind == Kind::vertex_face) {
+    return {n, u, v, {u, v, difference(difference(n, u), v), {}}, 3};
+  }
+  return {n, u, v, {u, v, difference(n, u), difference(n, v)}, 4};
+}
+
+/// A corner of the polygon.
+template <class Number>
+struct MovingCorner {
+  MovingVector<Number> w;
+  bool u = false, v = false;  ///< its parameters, 0 or 1
+};
+
+/// The corners in cyclic order.
+template <class Number>
+[[nodiscard]] std::vector<MovingCorner<Number>> moving_corners(const Motion<Number>& motion) {
+  const MovingVector<Number> u_corner = difference(motion.r, motion.p);
+  const MovingVector<Number> v_corner = difference(motion.r, motion.q);
+  std::vector<MovingCorner<Number>> result{{motion.r, false, false}, {u_corner, true, false}};
+  if (motion.kind == Kind::edge_edge) {
+    result.push_back({difference(u_corner, motion.q), true, true});
+  }
+  result.push_back({v_corner, false, true});
+  return result;
+}
+
+/// (u,v) = (u/denominator, v/denominator); (0,0) where the denominator is 0.
+template <class Number>
+struct ContactForms {
+  Form<Square<Number>, 2> u, v, denominator;
+};
+
+/// (u,v) of the origin on the side from a to b, which lie on one line through it: it divides the
+/// side as w_a·(w_a − w_b) to w_b·(w_b − w_a).
+template <class Number>
+[[nodiscard]] ContactForms<Number> contact_on_side(const MovingCorner<Number>& a,
+                                                   const MovingCorner<Number>& b) {
+  const auto side = difference(b.w, a.w);
+  const auto weight_a = dot(b.w, side), weight_b = dot(difference(a.w, b.w), a.w);
+  const auto weighted = [&](bool at_a, bool at_b) {
+    Form<Square<Number>, 2> sum{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (at_a) sum[k] += weight_a[k];
+      if (at_b) sum[k] += weight_b[k];
+    }
+    return sum;
+  };
+  return {weighted(a.u, b.u), weighted(a.v, b.v), dot(side, side)};
+}
+
+/// Theorem 1 where N = 0.
+template <class Number, class SignOf>
+[[nodiscard]] std::optional<ContactForms<Number>> contact_on_line(const Motion<Number>& motion,
+                                                                  SignOf&& sign_of) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (sign_of(cross(motion.r, motion.q, k)) != 0) return std::nullopt;
+    if (sign_of(cross(motion.p, motion.r, k)) != 0) return std::nullopt;
+  }
+  const auto corner = moving_corners(motion);
+  // A side of length 0 can be the first to hold the origin only as the first of all, from (0,0): if
+  // both ends of another are 0, the side before it ends there.
+  for (std::size_t i = 0; i + 1 < corner.size(); ++i) {
+    const auto &a = corner[i], &b = corner[i + 1];
+    if (sign_of(dot(a.w, b.w)) <= 0) return contact_on_side(a, b);
+  }
+  return std::nullopt;
+}
+
+/// Theorem 1 at a time when D = 0. `sign_of` gives the sign of a quadratic form at that time; the
+/// first of `axes` with N_k ≠ 0 is taken for k.
+template <class Number, class SignOf>
+[[nodiscard]] std::optional<ContactForms<Number>> contact_in_plane(
+    const Motion<Number>& motion, const MovingNormal<Number>& normal, SignOf&& sign_of,
+    const std::array<std::size_t, 3>& axes = {0, 1, 2}) {
+  for (const std::size_t k : axes) {
+    const int orientation = sign_of(normal[k]);
+    if (orientation == 0) continue;
+    const Bounds<Number> in = bounds(motion, normal[k], k);
+    for (std::size_t i = 0; i < in.count; ++i) {
+      if (sign_of(in.bound[i]) * orientation < 0) return std::nullopt;
+    }
+    return ContactForms<Number>{in.u, in.v, in.n};
+  }
+  return contact_on_line(motion, sign_of);
+}
+
+/// The events of theorem 2 where D ≡ 0.
+template <class Number>
+[[nodiscard]] std::vector<Form<Square<Number>, 2>> events_in_plane(
+    const Motion<Number>& motion, const MovingNormal<Number>& normal) {
+  std::vector<Form<Square<Number>, 2>> events;
+  const auto add = [&](const Form<Square<Number>, 2>& form) {
+    if (!is_zero(form)) events.push_back(form);
+    return !events.empty();
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!add(normal[k])) continue;
+    const Bounds<Number> in = bounds(motion, normal[k], k);
+    for (std::size_t i = 0; i < in.count; ++i) add(in.bound[i]);
+    return events;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (add(cross(motion.r, motion.q, k)) || add(cross(motion.p, motion.r, k))) return events;
+  }
+  const auto corner = moving_corners(motion);
+  for (std::size_t i = 0; i + 1 < corner.size(); ++i) {
+    add(dot(corner[i].w, corner[i + 1].w));
+  }
+  return events;
+}
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,153 @@
+#pragma once
+
+/// \file
+/// Integers of a fixed number of bits, for decisions whose numbers are known to be small.
+///
+/// Two's complement in limbs of 64 bits, the least significant first. A product is as long as its
+/// factors together, so it cannot overflow; sums can, and whoever adds must know that they do not
+/// (contact_rule.hpp says how large each polynomial's coefficients are).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace touchstone::fast::exact_stage {
+
+// Only a typedef can say that the extension is meant.
+// NOLINTNEXTLINE(modernize-use-using)
+__extension__ typedef unsigned __int128 WideLimb;
+// NOLINTNEXTLINE(modernize-use-using)
+__extension__ typedef __int128 SignedWideLimb;
+
+/// An integer of `size` limbs; without an initialiser, of any value.
+template <std::size_t size>
+class FixedInteger {
+ public:
+  constexpr FixedInteger() = default;
+  constexpr explicit FixedInteger(std::int64_t value) {
+    limb_.fill(value < 0 ? ~std::uint64_t{0} : 0);
+    limb_[0] = static_cast<std::uint64_t>(value);
+  }
+  constexpr explicit FixedInteger(SignedWideLimb value) {
+    static_assert(size >= 2);
+    limb_.fill(value < 0 ? ~std::uint64_t{0} : 0);
+    limb_[0] = static_cast<std::uint64_t>(value);
+    limb_[1] = static_cast<std::uint64_t>(value >> 64U);
+  }
+
+  /// −1, 0 or 1.
+  [[nodiscard]] int sign() const {
+    std::uint64_t any = 0;
+    for (const std::uint64_t x : limb_) any |= x;
+    if (any == 0) return 0;
+    return is_negative() ? -1 : 1;
+  }
+
+  FixedInteger& operator+=(const FixedInteger& other) {
+    std::uint64_t carry = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const WideLimb sum = WideLimb{limb_[i]} + other.limb_[i] + carry;
+      limb_[i] = static_cast<std::uint64_t>(sum);
+      carry = static_cast<std::uint64_t>(sum >> 64U);
+    }
+    return *this;
+  }
+  FixedInteger& operator-=(const FixedInteger& other) {
+    std::uint64_t borrow = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const WideLimb difference = WideLimb{limb_[i]} - other.limb_[i] - borrow;
+      limb_[i] = static_cast<std::uint64_t>(difference);
+      borrow = static_cast<std::uint64_t>(difference >> 64U) & 1U;
+    }
+    return *this;
+  }
+  friend FixedInteger operator+(FixedInteger a, const FixedInteger& b) { return a += b; }
+  friend FixedInteger operator-(FixedInteger a, const FixedInteger& b) { return a -= b; }
+  friend FixedInteger operator-(const FixedInteger& a) { return FixedInteger() -= a; }
+  friend bool operator==(const FixedInteger&, const FixedInteger&) = default;
+
+  template <std::size_t other_size>
+  friend FixedInteger<size + other_size> operator*(const FixedInteger& a,
+                                                   const FixedInteger<other_size>& b) {
+    return a.times(b);
+  }
+
+  /// a x + b y, with weights of one limb or two. \pre 0 ≤ x, y; and x + y is below half of what its
+  /// unsigned type holds.
+  friend FixedInteger<size + 1> blend(const FixedInteger& a, std::int64_t x, const FixedInteger& b,
+                                      std::int64_t y) {
+    return a.times_unsigned(static_cast<std::uint64_t>(x)) +=
+           b.times_unsigned(static_cast<std::uint64_t>(y));
+  }
+
+  friend FixedInteger<size + 2> blend(const FixedInteger& a, SignedWideLimb x,
+                                      const FixedInteger& b, SignedWideLimb y) {
+    return a * FixedInteger<2>(x) + b * FixedInteger<2>(y);
+  }
+
+  /// Near the number, relative error below 2^-50: a guess.
+  [[nodiscard]] double guess() const {
+    const FixedInteger magnitude = is_negative() ? -*this : *this;
+    double value = 0.0;
+    for (std::size_t i = size; i-- > 0;) {
+      value = value * 0x1p64 + static_cast<double>(magnitude.limb_[i]);
+    }
+    return is_negative() ? -value : value;
+  }
+
+ private:
+  template <std::size_t>
+  friend class FixedInteger;
+
+  [[nodiscard]] bool is_negative() const { return (limb_[size - 1] >> 63U) != 0; }
+
+  [[nodiscard]] FixedInteger<size + 1> times_unsigned(std::uint64_t factor) const {
+    FixedInteger<size + 1> product;
+    std::uint64_t carry = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const WideLimb sum = WideLimb{limb_[i]} * factor + carry;
+      product.limb_[i] = static_cast<std::uint64_t>(sum);
+      carry = static_cast<std::uint64_t>(sum >> 64U);
+    }
+    product.limb_[size] = carry - (is_negative() ? factor : 0);
+    return product;
+  }
+
+  template <std::size_t other_size>
+  [[nodiscard]] FixedInteger<size + other_size> times(const FixedInteger<other_size>& b) const {
+    if constexpr (size == 1 && other_size == 1) {
+      return FixedInteger<2>(SignedWideLimb{static_cast<std::int64_t>(limb_[0])} *
+                             static_cast<std::int64_t>(b.limb_[0]));
+    }
+    FixedInteger<size + other_size> product{};
+    for (std::size_t i = 0; i < size; ++i) {
+      std::uint64_t carry = 0;
+      for (std::size_t j = 0; j < other_size; ++j) {
+        const WideLimb sum = WideLimb{limb_[i]} * b.limb_[j] + product.limb_[i + j] + carry;
+        product.limb_[i + j] = static_cast<std::uint64_t>(sum);
+        carry = static_cast<std::uint64_t>(sum >> 64U);
+      }
+      product.limb_[i + other_size] = carry;
+    }
+    // A negative factor was read as itself plus 2^(64 limbs).
+    if (is_negative()) product.subtract_above(size, b);
+    if (b.is_negative()) product.subtract_above(other_size, *this);
+    return product;
+  }
+
+  /// Subtracts 2^(64 limbs) times a number that is that much shorter.
+  template <std::size_t other_size>
+  void subtract_above(std::size_t limbs, const FixedInteger<other_size>& other) {
+    std::uint64_t borrow = 0;
+    for (std::size_t i = 0; i < other_size; ++i) {
+      std::uint64_t& limb = limb_[limbs + i];
+      const WideLimb difference = WideLimb{limb} - other.limb_[i] - borrow;
+      limb = static_cast<std::uint64_t>(difference);
+      borrow = static_cast<std::uint64_t>(difference >> 64U) & 1U;
+    }
+  }
+
+  std::array<std::uint64_t, size> limb_;
+};
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,83 @@
+#pragma once
+
+/// \file
+/// The stages of the certified solver that run in floating point, for blocks of queries, one
+/// implementation for each instruction set. (The algorithm: kernel_on_lanes.hpp.)
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "exact/query.hpp"
+#include "fast/mesh.hpp"
+#include "fast/tight_inclusion/box_kernel.hpp"
+
+namespace touchstone::fast {
+
+/// Queries that a kernel takes at a time: few enough that they stay in the cache between stages.
+inline constexpr std::size_t kernel_block = 512;
+
+/// A block of queries: from an array, or from pairs of indices.
+struct KernelInput {
+  Kind kind = Kind::vertex_face;
+  std::size_t count = 0;  ///< at most kernel_block
+  /// With an array: its first query of the block.
+  const Query* queries = nullptr;
+  /// Else: all vertices, all edges or faces, and the first pair of the block.
+  const MovingVertex* vertices = nullptr;
+  const Edge* edges = nullptr;
+  const Face* faces = nullptr;
+  const IndexPair* pairs = nullptr;
+  /// As CertifiedOptions::toi_tolerance, at least least_kernel_tolerance.
+  double toi_tolerance = 1e-12;
+  /// Contacts after this time do not matter: found or not.
+  double t_limit = 1.0;
+};
+
+/// Below this, the rounding of the enclosure's own ends would count.
+inline constexpr double least_kernel_tolerance = 0x1p-48;
+
+/// A collision: the contact is the only one up to toi_upper, and after toi_lower.
+struct KernelHit {
+  std::uint32_t index;  ///< in the block
+  double toi_lower;
+  double toi_upper;
+  double u;
+  double v;
+};
+
+/// What became of a block. Queries that are in no list are separated on an axis.
+struct KernelOutput {
+  template <class T>
+  struct List {
+    std::size_t count = 0;
+    std::array<T, kernel_block> items;
+  };
+  List<std::uint32_t> separated_in_direction;
+  List<std::uint32_t> one_sided;  ///< the determinant keeps its sign
+  List<std::uint32_t> rejected;   ///< by bisection, no contact up to t_limit
+  List<KernelHit> hits;
+  List<std::uint32_t> undecided;  ///< to be decided exactly
+};
+
+/// The functions of one instruction set. All sets come to the same decisions.
+struct CertifiedKernel {
+  InstructionSet instructions;
+  void (*decide)(const KernelInput& input, KernelOutput& output);
+  /// a b + c on its lanes: lets certified_kernels() see whether products are rounded before they are
+  /// added.
+  double (*product_then_sum)(double a, double b, double c);
+};
+
+/// Those that this processor can run, slowest first; scalar is always among them.
+/// \throws std::runtime_error if one was compiled so that products are contracted.
+[[nodiscard]] std::span<const CertifiedKernel* const> certified_kernels();
+
+/// The fastest of certified_kernels().
+[[nodiscard]] const CertifiedKernel& best_certified_kernel();
+
+/// The kernel of an instruction set; nullptr if this processor cannot run it.
+[[nodiscard]] const CertifiedKernel* find_certified_kernel(InstructionSet instructions);
+
+}  // namespace touchstone::fast

@@ -1,0 +1,862 @@
+#pragma once
+
+/// \file
+/// The floating-point stages of the certified solver, written once for lanes: each lane has a query.
+/// For the kernels alone: one file an instruction set includes this one (kernel_*.cpp).
+///
+/// F = r − u p − v q (filters/polynomial_expressions.hpp), the corners w_i are F at the vertices of
+/// its domain, and a query collides at a time t iff 0 ∈ conv{w_i(t)}. Each stage ends the queries
+/// that it can prove something of:
+///
+/// 1. **Axis.** On some coordinate axis all corners are on one side of 0 at t=0, and on the same at
+///    t=1. They move linearly, so they are there all the time. Signs of differences are comparisons:
+///    nothing is rounded.
+/// 2. **Direction.** The same for d·w_i, with d the sum of the corners or a normal in between; beyond
+///    its error bound.
+/// 3. **Determinant**, and 4. **bisection.** An interval [a,b] of times, first [0,1]:
+///    - det = r·(p×q) vanishes at each contact: no contact if its Bernstein coefficients on [a,b]
+///      are all beyond their bound on one side.
+///    - Let d be a fixed direction and o_i = d·(w_i × w_{i+1}) the orientations of consecutive
+///      corners. If 0 = Σ λ_i w_i with barycentric λ ≥ 0, each o_i is d·N times a number ≥ 0: in a
+///      contact they all have one sign. No contact if two of them keep opposite signs on [a,b].
+///    - If all of them keep one sign (not 0) on [a,b], so does d·N, the sum of three of them or of
+///      two opposite ones. Hence N ≠ 0, and each zero of det in [a,b] is a contact, in the inside of
+///      the primitives. If the coefficients of det change sign once, certainly, it has exactly one
+///      zero there (Descartes' rule for Bernstein coefficients).
+///    Intervals are taken in order of time, halved if nothing is proved, so that what is before the
+///    current one has no contact, and the zero found is the time of impact.
+/// 5. **Refinement.** Newton's method finds the zero, once corrected by det in double-double; an
+///    enclosure around it, clipped to [a,b], is right if det has at its ends the signs that it has at
+///    a and b, beyond the bound of its value in double-double.
+///
+/// Queries that no stage ends, or whose coordinates are so large, or not numbers, that the bounds do
+/// not hold, are undecided here.
+///
+/// Lanes is a type local to its file (anonymous namespace) with Value and Mask (a lane each), Row
+/// and RowMask (a point each), so that all that is instantiated here stays in that file.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "fast/certified/kernel.hpp"
+#include "filters/double_double.hpp"
+#include "filters/error_bounds.hpp"
+#include "filters/polynomial_expressions.hpp"
+
+namespace touchstone::fast {
+
+/// Queries are taken whose points are this near to one of them on each axis. Squares and cubes of
+/// their differences are far from overflow.
+inline constexpr double greatest_distance = 0x1p100;
+/// What differences of any two of the points stay below, and sums of these or of products of two:
+/// with room for rounding.
+inline constexpr double greatest_difference = 0x1p102;
+inline constexpr double greatest_direction = 0x1p210;
+
+// What underflow adds to an error, at most: so small that no scene needs it smaller.
+inline constexpr double gap_underflow =
+    filters::measured_projected_gap_double.underflow(greatest_direction);
+inline constexpr double determinant_underflow =
+    filters::measured_determinant_middle_double.underflow(greatest_difference);
+inline constexpr double orientation_underflow =
+    filters::measured_orientation_middle_double.underflow(greatest_direction);
+inline constexpr double double_double_underflow =
+    filters::determinant_end_double_double.underflow(greatest_difference);
+static_assert(greatest_direction <= filters::measured_projected_gap_double.greatest_x);
+static_assert(greatest_difference <= filters::determinant_end_double_double.greatest_x);
+static_assert(greatest_direction <= filters::measured_orientation_middle_double.greatest_x);
+// One bound serves all Bernstein coefficients of a polynomial: that of the middle ones is greater.
+static_assert(filters::measured_determinant_end_double.rounding() <=
+              filters::measured_determinant_middle_double.rounding());
+static_assert(filters::measured_orientation_end_double.rounding() <=
+              filters::measured_orientation_middle_double.rounding());
+
+template <class Lanes>
+class CertifiedStages {
+ public:
+  static void decide(const KernelInput& input, KernelOutput& output) {
+    if (input.kind == Kind::vertex_face) {
+      decide_kind<Kind::vertex_face>(input, output);
+    } else {
+      decide_kind<Kind::edge_edge>(input, output);
+    }
+  }
+
+  static double product_then_sum(double a, double b, double c) {
+    std::array<double, Lanes::width> result;
+    (Value(a) * Value(b) + Value(c)).store(result.data());
+    return result[0];
+  }
+
+ private:
+  using Value = typename Lanes::Value;
+  using Mask = typename Lanes::Mask;
+  using Row = typename Lanes::Row;
+  using RowMask = typename Lanes::RowMask;
+  using Vector = std::array<Value, 3>;
+  using Indices = std::array<std::uint32_t, kernel_block>;
+
+  static constexpr std::size_t width = Lanes::width;
+
+  /// Indices of the block that are still open.
+  struct Open {
+    std::size_t count = 0;
+    Indices items;
+  };
+
+  /// The points of a query: at t=0, then at t=1.
+  using Points = std::array<const double*, query_points>;
+
+  template <Kind kind>
+  static void decide_kind(const KernelInput& input, KernelOutput& output) {
+    if (input.queries != nullptr) {
+      run_stages<kind, FromArray>(input, output);
+    } else {
+      run_stages<kind, FromPairs<kind>>(input, output);
+    }
+  }
+
+  template <Kind kind, class Source>
+  static void run_stages(const KernelInput& input, KernelOutput& output) {
+    output.separated_in_direction.count = output.one_sided.count = 0;
+    output.rejected.count = output.hits.count = output.undecided.count = 0;
+    Open open;
+    axis_stage<kind, Source>(input, open);
+    Moving<kind> moving;
+    unit_interval_stages<kind, Source>(input, open, moving, output);
+    Bisection<kind> bisection(input, moving, output);
+    bisection.run();
+    refine<kind, Source>(input, bisection.crossings(), output);
+  }
+
+  // ---- Where queries come from ------------------------------------------------------------------
+
+  struct FromArray {
+    static Points points(const KernelInput& input, std::size_t i) {
+      const double* const first = input.queries[i].coordinates.data();
+      Points result;
+      for (std::size_t k = 0; k < query_points; ++k) result[k] = first + 3 * k;
+      return result;
+    }
+    /// What is behind a query's last point may be another's memory.
+    static constexpr bool may_read_behind = false;
+
+    /// Fetches what will be read soon.
+    static void prefetch(const KernelInput& input, std::size_t i) {
+      constexpr std::size_t ahead = 40;
+      const double* const next = input.queries[i].coordinates.data() + ahead * 3 * query_points;
+      __builtin_prefetch(next);
+      __builtin_prefetch(next + 8);
+      __builtin_prefetch(next + 16);
+    }
+  };
+
+  template <Kind kind>
+  struct FromPairs {
+    static Points points(const KernelInput& input, std::size_t i) {
+      const auto [first, second] = input.pairs[i];
+      std::array<std::int32_t, 4> indices;
+      if constexpr (kind == Kind::vertex_face) {
+        const Face& face = input.faces[static_cast<std::size_t>(second)];
+        indices = {first, face[0], face[1], face[2]};
+      } else {
+        const Edge& a = input.edges[static_cast<std::size_t>(first)];
+        const Edge& b = input.edges[static_cast<std::size_t>(second)];
+        indices = {a[0], a[1], b[0], b[1]};
+      }
+      Points result;
+      for (std::size_t k = 0; k < moving_points; ++k) {
+        const MovingVertex& vertex = input.vertices[static_cast<std::size_t>(indices[k])];
+        result[k] = vertex.start.data();
+        result[moving_points + k] = vertex.end.data();
+      }
+      return result;
+    }
+    static constexpr bool may_read_behind = true;
+
+    /// Fetches the vertices of a pair that is read soon.
+    static void prefetch(const KernelInput& input, std::size_t i) {
+      constexpr std::size_t ahead = 12;
+      if (i + ahead >= input.count) return;
+      const Points next = points(input, i + ahead);
+      for (std::size_t k = 0; k < moving_points; ++k) __builtin_prefetch(next[k]);
+    }
+  };
+
+  // ---- 1. Axis ----------------------------------------------------------------------------------
+
+  template <Kind kind, class Source>
+  static void axis_stage(const KernelInput& input, Open& open) {
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < input.count; ++i) {
+      Source::prefetch(input, i);
+      open.items[count] = i;
+      count += separated_on_axis<kind, Source>(Source::points(input, i)) ? 0U : 1U;
+    }
+    open.count = count;
+  }
+
+  template <Kind kind, class Source>
+  static bool separated_on_axis(const Points& points) {
+    std::array<Row, query_points> rows;
+    for (std::size_t k = 0; k + 1 < query_points; ++k) rows[k] = Row::load(points[k]);
+    rows[7] = Source::may_read_behind ? Row::load(points[7]) : Row::load_backwards(points[7]);
+    const Sides start = sides<kind>(rows[0], rows[1], rows[2], rows[3]);
+    const Sides end = sides<kind>(rows[4], rows[5], rows[6], rows[7]);
+    const Row sum =
+        ((rows[0] + rows[1]) + (rows[2] + rows[3])) + ((rows[4] + rows[5]) + (rows[6] + rows[7]));
+    return ((start.above & end.above) | (start.below & end.below)).any() && sum.is_finite();
+  }
+
+  /// On which axes the first primitive is above the second, and below.
+  struct Sides {
+    RowMask above;
+    RowMask below;
+  };
+
+  template <Kind kind>
+  static Sides sides(const Row& a, const Row& b, const Row& c, const Row& d) {
+    if constexpr (kind == Kind::vertex_face) {
+      return {a > max(max(b, c), d), a < min(min(b, c), d)};
+    } else {
+      return {min(a, b) > max(c, d), max(a, b) < min(c, d)};
+    }
+  }
+
+  // ---- Vectors of lanes -------------------------------------------------------------------------
+
+  static Vector minus(const Vector& a, const Vector& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  }
+
+  static Value greatest(const Vector& a) { return max(max(abs(a[0]), abs(a[1])), abs(a[2])); }
+
+  static Value magnitude(const std::array<Vector, 2>& moving) {
+    return max(greatest(moving[0]), greatest(moving[1]));
+  }
+
+  /// The points of `width` queries, lane by lane. Lanes beyond `count` repeat the last.
+  template <class Source>
+  static std::array<Vector, query_points> load(const KernelInput& input,
+                                               const std::uint32_t* indices, std::size_t count) {
+    std::array<std::array<const double*, width>, query_points> rows;
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const Points points = Source::points(input, indices[lane < count ? lane : count - 1]);
+      for (std::size_t k = 0; k < query_points; ++k) rows[k][lane] = points[k];
+    }
+    std::array<Vector, query_points> result;
+    for (std::size_t k = 0; k + 1 < query_points; ++k) result[k] = Lanes::load(rows[k]);
+    result[7] = Source::may_read_behind ? Lanes::load(rows[7]) : Lanes::load_backwards(rows[7]);
+    return result;
+  }
+
+  /// What of the first `count` lanes is in the mask.
+  static unsigned valid_bits(const Mask& mask, std::size_t count) {
+    return mask.bits() & ((1U << count) - 1U);
+  }
+
+  // ---- 2 and 3. Direction and determinant, on [0,1] ------------------------------------------
+
+  /// The corners are all a − b for a of the first and b of the second list; differences from one
+  /// point, at t=0 and t=1.
+  template <Kind kind>
+  struct Differences {
+    static constexpr std::size_t firsts = kind == Kind::vertex_face ? 1 : 2;
+    static constexpr std::size_t seconds = kind == Kind::vertex_face ? 2 : 1;
+
+    std::array<std::array<Vector, 2>, firsts> a;
+    std::array<std::array<Vector, 2>, seconds> b;  ///< besides the origin, which is a b too
+
+    explicit Differences(const std::array<Vector, query_points>& x) {
+      constexpr std::size_t origin = kind == Kind::vertex_face ? 1 : 2;
+      for (std::size_t end = 0; end < 2; ++end) {
+        const Vector& from = x[4 * end + origin];
+        for (std::size_t i = 0; i < firsts; ++i) a[i][end] = minus(x[4 * end + i], from);
+        for (std::size_t i = 0; i < seconds; ++i) {
+          b[i][end] = minus(x[4 * end + origin + 1 + i], from);
+        }
+      }
+    }
+
+    /// The sum of the corners, up to a factor.
+    [[nodiscard]] Vector sum_of_corners() const {
+      Vector sum;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if constexpr (kind == Kind::vertex_face) {
+          const Value of_a = a[0][0][k] + a[0][1][k];
+          sum[k] = ((of_a + of_a) + of_a) - ((b[0][0][k] + b[0][1][k]) + (b[1][0][k] + b[1][1][k]));
+        } else {
+          sum[k] =
+              ((a[0][0][k] + a[0][1][k]) + (a[1][0][k] + a[1][1][k])) - (b[0][0][k] + b[0][1][k]);
+        }
+      }
+      return sum;
+    }
+
+    [[nodiscard]] Value magnitude() const {
+      Value result = CertifiedStages::magnitude(a[0]);
+      for (std::size_t i = 1; i < firsts; ++i)
+        result = max(result, CertifiedStages::magnitude(a[i]));
+      for (std::size_t i = 0; i < seconds; ++i) {
+        result = max(result, CertifiedStages::magnitude(b[i]));
+      }
+      return result;
+    }
+
+    /// The least d·a − d·b, at both ends.
+    [[nodiscard]] Value gap(const Vector& d) const {
+      std::array<Value, 2> least;
+      for (std::size_t end = 0; end < 2; ++end) {
+        Value least_a = filters::dot(d, a[0][end]);
+        for (std::size_t i = 1; i < firsts; ++i) least_a = min(least_a, filters::dot(d, a[i][end]));
+        Value greatest_b(0.0);
+        for (std::size_t i = 0; i < seconds; ++i) {
+          greatest_b = max(greatest_b, filters::dot(d, b[i][end]));
+        }
+        least[end] = least_a - greatest_b;
+      }
+      return min(least[0], least[1]);
+    }
+  };
+
+  static Mask separates(const Vector& d, const Value& gap, const Value& magnitude) {
+    const Value bound =
+        greatest(d) * magnitude * Value(filters::measured_projected_gap_double.rounding()) +
+        Value(gap_underflow);
+    return gap > bound;
+  }
+
+  /// The moving vectors of a query, by their places: r, p, q, and for the orientations
+  /// vertex_face: a = f1 − v, e = f2 − f1; edge_edge: a = eb0 − ea1, e = eb1 − ea0.
+  enum Place : std::size_t { r, p, q, a, e };
+  static constexpr std::size_t vector_count = 5;
+
+  /// The points whose differences they are.
+  template <Kind kind>
+  static constexpr std::array<std::array<std::size_t, 2>, vector_count> ends_of_vectors() {
+    if constexpr (kind == Kind::vertex_face) return {{{0, 1}, {2, 1}, {3, 1}, {2, 0}, {3, 2}}};
+    return {{{0, 2}, {0, 1}, {3, 2}, {2, 1}, {3, 0}}};
+  }
+
+  /// An orientation as ± x · (d × y).
+  struct Orientation {
+    Place x;
+    Place y;
+    bool negative;
+  };
+
+  /// In this order they are proportional to the barycentric v, u, 1−u−v or v, u, 1−u, 1−v.
+  template <Kind kind>
+  static constexpr auto orientations() {
+    if constexpr (kind == Kind::vertex_face) {
+      return std::array<Orientation, 3>{{{r, p, false}, {r, q, true}, {a, e, true}}};
+    } else {
+      return std::array<Orientation, 4>{{{r, p, false}, {r, q, true}, {a, q, true}, {e, p, false}}};
+    }
+  }
+
+  /// The moving vectors of `width` queries as they lie in memory, and what their bounds need.
+  template <Kind kind>
+  struct MovingLanes {
+    static constexpr std::size_t orientation_count = orientations<kind>().size();
+    static constexpr std::size_t rows = 6 * vector_count + 1 + orientation_count;
+
+    /// x, y, z of each vector at t=0, then at t=1; the bound of det; for each orientation the product
+    /// of its vectors' magnitudes.
+    alignas(64) std::array<std::array<double, width>, rows> row;
+
+    [[nodiscard]] Value load(std::size_t i) const { return Value::load(row[i].data()); }
+    [[nodiscard]] Vector vector(std::size_t place, std::size_t end) const {
+      const std::size_t first = 6 * place + 3 * end;
+      return {load(first), load(first + 1), load(first + 2)};
+    }
+    [[nodiscard]] Value determinant_bound() const { return load(6 * vector_count); }
+    [[nodiscard]] Value orientation_scale(std::size_t i) const {
+      return load(6 * vector_count + 1 + i);
+    }
+  };
+
+  /// The same in registers, from points.
+  template <Kind kind>
+  struct Vectors {
+    std::array<std::array<Vector, 2>, vector_count> at;  ///< at t=0 and t=1
+
+    explicit Vectors(const std::array<Vector, query_points>& x) {
+      constexpr auto ends = ends_of_vectors<kind>();
+      for (std::size_t i = 0; i < vector_count; ++i) {
+        for (std::size_t end = 0; end < 2; ++end) {
+          at[i][end] = minus(x[4 * end + ends[i][0]], x[4 * end + ends[i][1]]);
+        }
+      }
+    }
+
+    [[nodiscard]] std::array<Value, 4> determinant() const {
+      const Vector n_a = filters::cross(at[p][0], at[q][0]);
+      const Vector n_b = filters::cross(at[p][1], at[q][1]);
+      const Vector n_ab = filters::normal_middle(at[p][0], at[p][1], at[q][0], at[q][1]);
+      return determinant_coefficients(at[r], n_a, n_ab, n_b);
+    }
+
+    [[nodiscard]] Value determinant_bound() const {
+      return magnitude(at[r]) * magnitude(at[p]) * magnitude(at[q]) *
+                 Value(filters::measured_determinant_middle_double.rounding()) +
+             Value(determinant_underflow);
+    }
+
+    void store(MovingLanes<kind>& lanes, const Value& determinant_bound) const {
+      std::array<Value, vector_count> magnitudes;
+      for (std::size_t i = 0; i < vector_count; ++i) {
+        magnitudes[i] = magnitude(at[i]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          at[i][0][k].store(lanes.row[6 * i + k].data());
+          at[i][1][k].store(lanes.row[6 * i + 3 + k].data());
+        }
+      }
+      determinant_bound.store(lanes.row[6 * vector_count].data());
+      constexpr auto all_orientations = orientations<kind>();
+      for (std::size_t i = 0; i < all_orientations.size(); ++i) {
+        const Value scale = magnitudes[all_orientations[i].x] * magnitudes[all_orientations[i].y];
+        scale.store(lanes.row[6 * vector_count + 1 + i].data());
+      }
+    }
+  };
+
+  /// d0, 3 d1, 3 d2, d3 of the Bernstein coefficients of det, from r at both ends and N's.
+  static std::array<Value, 4> determinant_coefficients(const std::array<Vector, 2>& of_r,
+                                                       const Vector& n_a, const Vector& twice_n_ab,
+                                                       const Vector& n_b) {
+    return {
+        filters::dot(of_r[0], n_a), filters::determinant_middle(of_r[0], of_r[1], n_a, twice_n_ab),
+        filters::determinant_middle(of_r[1], of_r[0], n_b, twice_n_ab), filters::dot(of_r[1], n_b)};
+  }
+
+  /// What is proved of det on an interval.
+  struct DeterminantTest {
+    Mask one_sided;     ///< no zero
+    Mask crosses_once;  ///< one zero
+  };
+
+  static DeterminantTest test_determinant(const std::array<Value, 4>& c, const Value& bound) {
+    const Value minus_bound = Value(0.0) - bound;
+    const Mask one_sided = (min(min(c[0], c[1]), min(c[2], c[3])) > bound) |
+                           (max(max(c[0], c[1]), max(c[2], c[3])) < minus_bound);
+    const Mask rises =
+        (c[0] < minus_bound) & (c[3] > bound) & ((c[1] < minus_bound) | (c[2] > bound));
+    const Mask falls =
+        (c[0] > bound) & (c[3] < minus_bound) & ((c[1] > bound) | (c[2] < minus_bound));
+    return {one_sided, rises | falls};
+  }
+
+  /// Queries that [0,1] as a whole does not end, by groups of lanes as they were loaded.
+  template <Kind kind>
+  struct Moving {
+    struct Place {
+      std::uint32_t index;  ///< in the block
+      std::uint16_t group;
+      std::uint16_t lane;
+    };
+    std::size_t count = 0;
+    std::size_t group_count = 0;
+    std::array<Place, kernel_block> items;
+    std::array<MovingLanes<kind>, (kernel_block + width - 1) / width> groups;
+  };
+
+  template <Kind kind, class Source>
+  static void unit_interval_stages(const KernelInput& input, const Open& open, Moving<kind>& moving,
+                                   KernelOutput& output) {
+    for (std::size_t first = 0; first < open.count; first += width) {
+      const std::uint32_t* const indices = open.items.data() + first;
+      const std::size_t count = open.count - first < width ? open.count - first : width;
+      const auto points = load<Source>(input, indices, count);
+      const Differences<kind> differences(points);
+      const Value magnitude = differences.magnitude();
+      const Vector d = differences.sum_of_corners();
+      const Mask bounded = (magnitude <= Value(greatest_distance)) & is_number(d);
+      const Mask separated = separates(d, differences.gap(d), magnitude);
+      const Vectors<kind> vectors(points);
+      const Value bound = vectors.determinant_bound();
+      const Mask one_sided = test_determinant(vectors.determinant(), bound).one_sided;
+      const unsigned bits = valid_bits(bounded, count);
+      const unsigned of_direction = bits & separated.bits();
+      const unsigned of_determinant = bits & ~of_direction & one_sided.bits();
+      const unsigned rest = bits & ~of_direction & ~of_determinant;
+      if (rest != 0) vectors.store(moving.groups[moving.group_count], bound);
+      for (std::size_t lane = 0; lane < count; ++lane) {
+        append(output.undecided, indices[lane], (~bits >> lane & 1U) != 0);
+        append(output.separated_in_direction, indices[lane], (of_direction >> lane & 1U) != 0);
+        append(output.one_sided, indices[lane], (of_determinant >> lane & 1U) != 0);
+        append(moving,
+               typename Moving<kind>::Place{indices[lane],
+                                            static_cast<std::uint16_t>(moving.group_count),
+                                            static_cast<std::uint16_t>(lane)},
+               (rest >> lane & 1U) != 0);
+      }
+      moving.group_count += rest != 0 ? 1U : 0U;
+    }
+  }
+
+  /// The sum of the corners has every coordinate in it: NaN and infinities show.
+  static Mask is_number(const Vector& sum) {
+    const Value zero(0.0);
+    const Value difference = ((sum[0] - sum[0]) + (sum[1] - sum[1])) + (sum[2] - sum[2]);
+    return difference <= zero;
+  }
+
+  template <class List, class Item>
+  static void append(List& list, const Item& item, bool condition) {
+    list.items[list.count] = item;
+    list.count += condition ? 1U : 0U;
+  }
+
+  // ---- 4. Bisection -----------------------------------------------------------------------------
+
+  /// A zero of det that is a contact: the only one in [begin, begin + length], none before.
+  struct Crossing {
+    std::uint32_t index;
+    double begin;
+    double length;
+    /// d0, 3 d1, 3 d2, d3 of the Bernstein coefficients there.
+    std::array<double, 4> determinant;
+  };
+
+  struct Crossings {
+    std::size_t count = 0;
+    std::array<Crossing, kernel_block> items;
+  };
+
+  /// Runs `width` queries at a time, each with an interval of its own; a lane that is done takes the
+  /// next query.
+  template <Kind kind>
+  class Bisection {
+   public:
+    Bisection(const KernelInput& input, const Moving<kind>& moving, KernelOutput& output)
+        : input_(input), moving_(moving), output_(output) {}
+
+    void run() {
+      for (std::size_t lane = 0; lane < width; ++lane) take(lane);
+      while (active_ != 0) step();
+    }
+
+    [[nodiscard]] const Crossings& crossings() const { return crossings_; }
+
+   private:
+    /// Intervals are not halved below this length, nor more of them examined than this.
+    static constexpr double least_length = 0x1p-40;
+    static constexpr double most_steps = 150;
+
+    static constexpr auto all_orientations = orientations<kind>();
+    static constexpr std::size_t orientation_count = all_orientations.size();
+
+    using Row = std::array<double, width>;
+
+    // ---- Lanes ----
+
+    /// The next query, if there is one, to the lane.
+    void take(std::size_t lane) {
+      active_ &= ~(1U << lane);
+      if (next_ == moving_.count) return;
+      const auto [index, group, from] = moving_.items[next_++];
+      const MovingLanes<kind>& lanes = moving_.groups[group];
+      for (std::size_t i = 0; i < lanes.row.size(); ++i) lanes_.row[i][lane] = lanes.row[i][from];
+      index_[lane] = index;
+      begin_[lane] = 0.0;
+      length_[lane] = 1.0;
+      steps_[lane] = 0.0;
+      active_ |= 1U << lane;
+    }
+
+    static Value load(const Row& row) { return Value::load(row.data()); }
+
+    [[nodiscard]] Vector vector(std::size_t place, const Value& time) const {
+      return filters::at_time<Value>(lanes_.vector(place, 0), lanes_.vector(place, 1),
+                                     Value(1.0) - time, time);
+    }
+
+    // ---- An interval ----
+
+    /// What is proved of the orientations on an interval.
+    struct OrientationTest {
+      Mask opposed;  ///< two keep opposite signs
+      Mask agree;    ///< all keep one sign
+    };
+
+    [[nodiscard]] OrientationTest test_orientations(
+        const Vector& d, const std::array<std::array<Vector, 2>, vector_count>& at) const {
+      const Value scale =
+          greatest(d) * Value(filters::measured_orientation_middle_double.rounding());
+      Mask any_positive = Mask::none(), any_negative = Mask::none();
+      Mask all_positive = Mask::all(), all_negative = Mask::all();
+      for (std::size_t i = 0; i < orientation_count; ++i) {
+        const auto [x, y, is_negative] = all_orientations[i];
+        const Vector d_y_a = filters::cross(d, at[y][0]), d_y_b = filters::cross(d, at[y][1]);
+        const Value o_a = filters::dot(at[x][0], d_y_a), o_b = filters::dot(at[x][1], d_y_b);
+        const Value o_ab = filters::orientation_middle(at[x][0], at[x][1], d_y_a, d_y_b);
+        const Value bound = scale * lanes_.orientation_scale(i) + Value(orientation_underflow);
+        const Mask above = min(min(o_a, o_b), o_ab) > bound;
+        const Mask below = max(max(o_a, o_b), o_ab) < Value(0.0) - bound;
+        const Mask positive = is_negative ? below : above;
+        const Mask negative = is_negative ? above : below;
+        any_positive = any_positive | positive;
+        any_negative = any_negative | negative;
+        all_positive = all_positive & positive;
+        all_negative = all_negative & negative;
+      }
+      return {any_positive & any_negative, all_positive | all_negative};
+    }
+
+    void step() {
+      const Value begin = load(begin_), length = load(length_), end = begin + length;
+      std::array<std::array<Vector, 2>, vector_count> at;
+      for (std::size_t i = 0; i < vector_count; ++i) at[i] = {vector(i, begin), vector(i, end)};
+      const Vector n_a = filters::cross(at[p][0], at[q][0]);
+      const Vector n_b = filters::cross(at[p][1], at[q][1]);
+      const Vector n_ab = filters::normal_middle(at[p][0], at[p][1], at[q][0], at[q][1]);
+      const std::array<Value, 4> coefficients = determinant_coefficients(at[r], n_a, n_ab, n_b);
+      const DeterminantTest determinant =
+          test_determinant(coefficients, lanes_.determinant_bound());
+      const Vector d = filters::add(filters::add(n_a, n_b), n_ab);
+      const OrientationTest orientation = test_orientations(d, at);
+      const unsigned contact = (determinant.crosses_once & orientation.agree).bits() & active_;
+      if (contact != 0) keep_crossings(contact, coefficients);
+      advance(determinant.one_sided | orientation.opposed, contact);
+    }
+
+    // ---- What follows ----
+
+    /// Goes on to the next interval where this one has no contact, to its first half elsewhere; the
+    /// lanes that are done take other queries.
+    void advance(const Mask& rejected, unsigned contact) {
+      const Value begin = load(begin_), length = load(length_), end = begin + length;
+      // The next interval is as long as its place in the dyadic order allows, at most twice this.
+      const Value doubled = length + length, places = end / doubled, shift(0x1p52);
+      const Mask can_double = ((places + shift) - shift) == places;
+      const Value steps = load(steps_) + Value(1.0);
+      const Value next_length =
+          select(rejected, select(can_double, doubled, length), length * Value(0.5));
+      const unsigned over = (rejected & (end >= Value(input_.t_limit))).bits() & active_ & ~contact;
+      const Mask is_hopeless = (next_length < Value(least_length)) | (steps > Value(most_steps));
+      const unsigned hopeless = is_hopeless.bits() & active_ & ~contact & ~over;
+      select(rejected, end, begin).store(begin_.data());
+      next_length.store(length_.data());
+      steps.store(steps_.data());
+      for (unsigned rest = over | contact | hopeless; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+        append(output_.rejected, index_[lane], (over >> lane & 1U) != 0);
+        append(output_.undecided, index_[lane], (hopeless >> lane & 1U) != 0);
+        take(lane);
+      }
+    }
+
+    void keep_crossings(unsigned lanes, const std::array<Value, 4>& coefficients) {
+      alignas(64) std::array<Row, 4> stored;
+      for (std::size_t i = 0; i < 4; ++i) coefficients[i].store(stored[i].data());
+      for (unsigned rest = lanes; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+        Crossing& crossing = crossings_.items[crossings_.count++];
+        crossing = {index_[lane], begin_[lane], length_[lane], {}};
+        for (std::size_t i = 0; i < 4; ++i) crossing.determinant[i] = stored[i][lane];
+      }
+    }
+
+    MovingLanes<kind> lanes_{};
+    alignas(64) Row begin_{};
+    alignas(64) Row length_{};
+    alignas(64) Row steps_{};
+    Crossings crossings_;
+    std::array<std::uint32_t, width> index_{};
+    unsigned active_ = 0;   ///< the lanes that hold a query
+    std::size_t next_ = 0;  ///< of the queries
+    const KernelInput& input_;
+    const Moving<kind>& moving_;
+    KernelOutput& output_;
+  };
+
+  // ---- 5. Refinement ----------------------------------------------------------------------------
+
+  using Precise = filters::DoubleDouble<Value>;
+
+  /// det in double-double, at any time.
+  class PreciseDeterminant {
+   public:
+    template <Kind kind>
+    static PreciseDeterminant of(const std::array<Vector, query_points>& x) {
+      constexpr auto ends = ends_of_vectors<kind>();
+      PreciseDeterminant result;
+      std::array<Value, 3> magnitude{Value(0.0), Value(0.0), Value(0.0)};
+      for (std::size_t end = 0; end < 2; ++end) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          for (std::size_t k = 0; k < 3; ++k) {
+            const Precise difference =
+                filters::exact_difference(x[4 * end + ends[i][0]][k], x[4 * end + ends[i][1]][k]);
+            result.coordinates_[9 * end + 3 * i + k] = difference;
+            magnitude[i] = max(magnitude[i], abs(difference.high));
+          }
+        }
+      }
+      result.bound_ = magnitude[0] * magnitude[1] * magnitude[2] *
+                          Value(filters::determinant_end_double_double.rounding()) +
+                      Value(double_double_underflow);
+      return result;
+    }
+
+    [[nodiscard]] Value at(const Value& time) const {
+      const Precise end{time, Value(0.0)};
+      const Precise start = filters::exact_difference(Value(1.0), time);
+      return filters::DeterminantEnd::evaluate<Precise>(coordinates_,
+                                                        {start, end, start, end, start, end})
+          .high;
+    }
+
+    [[nodiscard]] const Value& bound() const { return bound_; }
+
+   private:
+    std::array<Precise, filters::DeterminantEnd::coordinates> coordinates_;
+    Value bound_{0.0};
+  };
+
+  /// det on an interval as a rising cubic of s ∈ [0,1].
+  struct Cubic {
+    std::array<Value, 4> c;  ///< d0, 3 d1, 3 d2, d3
+
+    [[nodiscard]] Value at(const Value& s) const {
+      const Value m = Value(1.0) - s;
+      return m * m * (c[0] * m + c[1] * s) + s * s * (c[2] * m + c[3] * s);
+    }
+    [[nodiscard]] Value slope(const Value& s) const {
+      const Value m = Value(1.0) - s, three(3.0);
+      const Value first = c[1] - three * c[0], second = c[2] - c[1], third = three * c[3] - c[2];
+      return m * m * first + (m * s + m * s) * second + s * s * third;
+    }
+
+    /// Its zero, by Newton's method, bisection where that leads away.
+    [[nodiscard]] Value zero() const {
+      Value low(0.0), high(1.0), s = c[0] / (c[0] - c[3]);
+      for (int i = 0; i < 6; ++i) {
+        const Value value = at(s);
+        const Mask before = value < Value(0.0);
+        low = select(before, s, low);
+        high = select(before, high, s);
+        const Value next = s - value / slope(s);
+        s = select((next >= low) & (next <= high), next, (low + high) * Value(0.5));
+      }
+      return s;
+    }
+  };
+
+  template <Kind kind, class Source>
+  static void refine(const KernelInput& input, const Crossings& crossings, KernelOutput& output) {
+    for (std::size_t first = 0; first < crossings.count; first += width) {
+      const std::size_t rest = crossings.count - first;
+      refine_lanes<kind, Source>(input, crossings.items.data() + first, rest < width ? rest : width,
+                                 output);
+    }
+  }
+
+  /// The crossings of `width` queries, lane by lane.
+  struct CrossingLanes {
+    std::array<std::uint32_t, width> indices;
+    Value begin{0.0};
+    Value length{0.0};
+    Value sign{0.0};  ///< that makes det rise
+    Cubic cubic{};
+
+    CrossingLanes(const Crossing* crossings, std::size_t count) {
+      alignas(64) std::array<std::array<double, width>, 7> rows;
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        const Crossing& crossing = crossings[lane < count ? lane : count - 1];
+        indices[lane] = crossing.index;
+        rows[0][lane] = crossing.begin;
+        rows[1][lane] = crossing.length;
+        rows[2][lane] = crossing.determinant[0] < 0 ? 1.0 : -1.0;
+        for (std::size_t i = 0; i < 4; ++i) rows[3 + i][lane] = crossing.determinant[i];
+      }
+      begin = Value::load(rows[0].data());
+      length = Value::load(rows[1].data());
+      sign = Value::load(rows[2].data());
+      for (std::size_t i = 0; i < 4; ++i) cubic.c[i] = sign * Value::load(rows[3 + i].data());
+    }
+  };
+
+  template <Kind kind, class Source>
+  static void refine_lanes(const KernelInput& input, const Crossing* crossings, std::size_t count,
+                           KernelOutput& output) {
+    const CrossingLanes lanes(crossings, count);
+    const auto points = load<Source>(input, lanes.indices.data(), width);
+    const PreciseDeterminant determinant = PreciseDeterminant::template of<kind>(points);
+    const Value end = lanes.begin + lanes.length;
+
+    const Value s = lanes.cubic.zero();
+    const Value newton = lanes.begin + lanes.length * s;
+    const Value slope = lanes.cubic.slope(s) / lanes.length;
+    const Value corrected = newton - lanes.sign * determinant.at(newton) / slope;
+    const Mask is_inside = (corrected >= lanes.begin) & (corrected <= end);
+    const Value toi = select(is_inside, corrected, newton);
+    const Value half_width = toi * Value(0.4 * input.toi_tolerance);
+    const Value lower = max(toi - half_width, lanes.begin), upper = min(toi + half_width, end);
+    const Value at_lower = lanes.sign * determinant.at(lower);
+    const Value at_upper = lanes.sign * determinant.at(upper);
+    const Mask proved =
+        (at_lower < Value(0.0) - determinant.bound()) & (at_upper > determinant.bound());
+    store_hits<kind>(output, lanes, count, proved.bits(), {lower, upper},
+                     contact<kind>(points, toi));
+  }
+
+  /// u and v of the contact at a time, from the orientations, which are proportional to the
+  /// barycentric coordinates.
+  template <Kind kind>
+  static std::array<Value, 2> contact(const std::array<Vector, query_points>& x,
+                                      const Value& time) {
+    constexpr auto ends = ends_of_vectors<kind>();
+    constexpr auto all_orientations = orientations<kind>();
+    std::array<Vector, vector_count> at;
+    for (std::size_t i = 0; i < vector_count; ++i) {
+      at[i] =
+          filters::at_time(minus(x[ends[i][0]], x[ends[i][1]]),
+                           minus(x[4 + ends[i][0]], x[4 + ends[i][1]]), Value(1.0) - time, time);
+    }
+    const Vector d = filters::cross(at[p], at[q]);
+    std::array<Value, all_orientations.size()> o;
+    for (std::size_t i = 0; i < o.size(); ++i) {
+      const auto [first, second, is_negative] = all_orientations[i];
+      const Value value = filters::dot(at[first], filters::cross(d, at[second]));
+      o[i] = max(is_negative ? Value(0.0) - value : value, Value(0.0));
+    }
+    const Value one(1.0);
+    if constexpr (kind == Kind::vertex_face) {
+      const Value sum = o[0] + o[1] + o[2];
+      const Value u = min(o[1] / sum, one);
+      return {u, min(o[0] / sum, one - u)};
+    } else {
+      return {min(o[1] / (o[1] + o[2]), one), min(o[0] / (o[0] + o[3]), one)};
+    }
+  }
+
+  template <Kind kind>
+  static void store_hits(KernelOutput& output, const CrossingLanes& lanes, std::size_t count,
+                         unsigned proved, const std::array<Value, 2>& enclosure,
+                         const std::array<Value, 2>& uv) {
+    alignas(64) std::array<std::array<double, width>, 4> rows;
+    enclosure[0].store(rows[0].data());
+    enclosure[1].store(rows[1].data());
+    uv[0].store(rows[2].data());
+    uv[1].store(rows[3].data());
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const bool is_proved = (proved >> lane & 1U) != 0;
+      const std::uint32_t index = lanes.indices[lane];
+      append(output.hits,
+             KernelHit{index, rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]},
+             is_proved);
+      append(output.undecided, index, !is_proved);
+    }
+  }
+};
+
+template <class Lanes>
+constexpr CertifiedKernel certified_kernel_on(InstructionSet instructions) {
+  return {.instructions = instructions,
+          .decide = CertifiedStages<Lanes>::decide,
+          .product_then_sum = CertifiedStages<Lanes>::product_then_sum};
+}
+
+}  // namespace touchstone::fast

@@ -1,0 +1,732 @@
+#include "fast/certified/quick_decision.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "fast/certified/double_search.hpp"
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+/// A form whose coefficients have so many limbs.
+template <std::size_t limbs, std::size_t degree>
+using Fixed = Form<FixedInteger<limbs>, degree>;
+
+/// t = y/(x+y). \pre x, y ≥ 0, and x + y is positive and at most a quarter of what the type holds:
+/// then a mean of two coefficients, weighted with x and y, fits into the weight's limbs more.
+template <class Weight>
+struct BasicTime {
+  Weight x, y;
+
+  [[nodiscard]] Weight sum() const { return x + y; }
+  [[nodiscard]] double guess() const { return static_cast<double>(y) / static_cast<double>(x + y); }
+};
+
+using Time = BasicTime<std::int64_t>;
+using FineTime = BasicTime<SignedWideLimb>;
+
+constexpr Time start_time{1, 0}, end_time{0, 1};
+
+template <class Weight>
+constexpr std::size_t limbs_of = sizeof(Weight) / 8;
+
+template <class Weight>
+FixedInteger<limbs_of<Weight>> fixed(Weight weight) {
+  return FixedInteger<limbs_of<Weight>>(weight);
+}
+
+/// Sign of a − b.
+template <class A, class B>
+int compare(const BasicTime<A>& a, const BasicTime<B>& b) {
+  return (fixed(a.y) * fixed(b.sum()) - fixed(b.y) * fixed(a.sum())).sign();
+}
+
+template <class AnyTime>
+AnyTime as(const Time& t) {
+  return {t.x, t.y};
+}
+
+/// The double of these bits, if its denominator is not too large.
+template <class AnyTime>
+std::optional<AnyTime> time_of(std::uint64_t bits) {
+  using Weight = decltype(AnyTime::x);
+  const DyadicDouble t = dyadic(bits);
+  if (t.exponent > 64 * static_cast<int>(limbs_of<Weight>) - 2) return std::nullopt;
+  const Weight y = t.numerator;
+  return AnyTime{static_cast<Weight>((Weight{1} << static_cast<unsigned>(t.exponent)) - y), y};
+}
+
+/// Is the time later than the double of these bits? A time that is not 0 is at least 2^-62.
+bool is_later(const Time& t, std::uint64_t bits) {
+  const auto other = time_of<FineTime>(bits);
+  return other ? compare(t, *other) > 0 : t.y != 0;
+}
+
+// ---- Forms by their Bernstein coefficients, times their degree ---------------------------------
+
+template <std::size_t limbs>
+Fixed<limbs, 2> bernstein(const Fixed<limbs, 2>& c) {
+  return {c[0] + c[0], c[1], c[2] + c[2]};
+}
+template <std::size_t limbs>
+Fixed<limbs, 3> bernstein(const Fixed<limbs, 3>& c) {
+  return {c[0] + c[0] + c[0], c[1], c[2], c[3] + c[3] + c[3]};
+}
+
+/// A step of de Casteljau's: the form with one of its arguments set to a time.
+template <std::size_t limbs, std::size_t count, class Weight>
+auto blended(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& t) {
+  std::array<decltype(blend(b[0], t.x, b[0], t.y)), count - 1> result;
+  for (std::size_t i = 0; i + 1 < count; ++i) result[i] = blend(b[i], t.x, b[i + 1], t.y);
+  return result;
+}
+
+template <std::size_t limbs, std::size_t count, class Weight>
+auto value_at(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& t) {
+  if constexpr (count == 1) {
+    return b[0];
+  } else {
+    return value_at(blended(b, t), t);
+  }
+}
+
+template <std::size_t limbs, std::size_t count, class Weight>
+int sign_at(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& t) {
+  return value_at(b, t).sign();
+}
+
+/// The signs of the form's coefficients on an interval that is not [0,1].
+template <std::size_t limbs, class Weight>
+std::array<int, 2> signs_within(const Fixed<limbs, 1>& b, const BasicTime<Weight>& lower,
+                                const BasicTime<Weight>& upper) {
+  return {sign_at(b, lower), sign_at(b, upper)};
+}
+template <std::size_t limbs, class Weight>
+std::array<int, 3> signs_within(const Fixed<limbs, 2>& b, const BasicTime<Weight>& lower,
+                                const BasicTime<Weight>& upper) {
+  const auto low = blended(b, lower), high = blended(b, upper);
+  return {sign_at(low, lower), sign_at(low, upper), sign_at(high, upper)};
+}
+template <std::size_t limbs, class Weight>
+std::array<int, 4> signs_within(const Fixed<limbs, 3>& b, const BasicTime<Weight>& lower,
+                                const BasicTime<Weight>& upper) {
+  const auto low = blended(blended(b, lower), lower), high = blended(blended(b, upper), upper);
+  return {sign_at(low, lower), sign_at(low, upper), sign_at(high, lower), sign_at(high, upper)};
+}
+
+/// The signs of the form's coefficients on an interval.
+template <std::size_t limbs, std::size_t count, class Weight>
+std::array<int, count> signs_on(const std::array<FixedInteger<limbs>, count>& b,
+                                const BasicTime<Weight>& lower, const BasicTime<Weight>& upper) {
+  if (lower.y != 0 || upper.x != 0) return signs_within(b, lower, upper);
+  std::array<int, count> signs;
+  for (std::size_t i = 0; i < count; ++i) signs[i] = b[i].sign();
+  return signs;
+}
+
+template <std::size_t size>
+int sign_changes(const std::array<int, size>& signs) {
+  int changes = 0, last = 0;
+  for (const int sign : signs) {
+    if (sign == 0) continue;
+    if (sign == -last) ++changes;
+    last = sign;
+  }
+  return changes;
+}
+
+template <std::size_t size>
+int first_sign(const std::array<int, size>& signs) {
+  for (const int sign : signs) {
+    if (sign != 0) return sign;
+  }
+  return 0;
+}
+
+// ---- Signs at roots ----------------------------------------------------------------------------
+
+/// The form with x and y exchanged, and the time with 1 − t for t.
+template <std::size_t limbs, std::size_t count>
+std::array<FixedInteger<limbs>, count> reversed(std::array<FixedInteger<limbs>, count> form) {
+  std::ranges::reverse(form);
+  return form;
+}
+template <class Weight>
+BasicTime<Weight> mirrored(const BasicTime<Weight>& t) {
+  return {t.y, t.x};
+}
+
+/// With minors m_ij = f_i g_j − f_j g_i: f g_2 − g f_2 = x (m_02 x + m_12 y). This is the linear
+/// form.
+template <std::size_t f_limbs, std::size_t g_limbs>
+Fixed<f_limbs + g_limbs, 1> remainder(const Fixed<f_limbs, 2>& f, const Fixed<g_limbs, 2>& g) {
+  return {f[0] * g[2] - f[2] * g[0], f[1] * g[2] - f[2] * g[1]};
+}
+
+/// What a form does on an open interval.
+struct Course {
+  int changes = 0;
+  int first = 0;  ///< its sign near the lower end
+  int last = 0;   ///< its sign near the upper end
+};
+
+template <std::size_t limbs, std::size_t count, class Weight>
+Course course(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& lower,
+              const BasicTime<Weight>& upper) {
+  auto signs = signs_on(b, lower, upper);
+  const int first = first_sign(signs);
+  std::ranges::reverse(signs);
+  return {sign_changes(signs), first, first_sign(signs)};
+}
+
+template <std::size_t limbs, std::size_t count, class Weight>
+bool changes_sign(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& lower,
+                  const BasicTime<Weight>& upper) {
+  return sign_at(b, lower) * sign_at(b, upper) < 0;
+}
+
+/// The sign of q at the root of a linear form.
+template <std::size_t limbs, std::size_t q_limbs>
+int sign_at_root(const Fixed<limbs, 1>& line, const Fixed<q_limbs, 2>& q) {
+  return (line[1] * line[1] * q[0] - line[0] * line[1] * q[1] + line[0] * line[0] * q[2]).sign();
+}
+
+/// The sign of q at f's only root α in the open interval, if q has one root β there. The linear
+/// form is f(β) times the sign of `factor` at β.
+///
+/// If the linear form changes its sign, the sign of q at its root says on which side of that β is.
+/// So the sign of f(β) is known, and with it on which side of α β is.
+template <std::size_t limbs, std::size_t q_limbs, class Weight>
+std::optional<int> sign_by_remainder(const Fixed<limbs, 1>& line, int factor, const Course& of_f,
+                                     const Fixed<q_limbs, 2>& q, const BasicTime<Weight>& lower,
+                                     const BasicTime<Weight>& upper) {
+  const Course of_q = course(bernstein(q), lower, upper), of_line = course(line, lower, upper);
+  if (of_q.changes != 1) return std::nullopt;
+  int at_beta = of_line.first;
+  if (of_line.changes == 1) {
+    const int at_root = sign_at_root(line, q);
+    if (at_root == 0) return 0;
+    at_beta = at_root == of_q.first ? of_line.last : of_line.first;
+  }
+  if (at_beta == 0) return 0;
+  return at_beta * factor == of_f.last ? of_q.first : of_q.last;
+}
+
+/// The sign of q at the only root of f in the open interval, a simple one. Nothing if q is not
+/// known to have one root or none there. (f and q not by Bernstein coefficients.)
+template <std::size_t f_limbs, std::size_t q_limbs, class Weight>
+std::optional<int> sign_at_root(const Fixed<f_limbs, 1>& f, const Fixed<q_limbs, 2>& q,
+                                const BasicTime<Weight>& /*lower*/,
+                                const BasicTime<Weight>& /*upper*/) {
+  return sign_at_root(f, q);
+}
+
+/// At a root β of q the remainder is f q_2 / x, and x > 0. If q_2 = 0, x and y change places.
+template <std::size_t f_limbs, std::size_t q_limbs, class Weight>
+std::optional<int> sign_at_root(const Fixed<f_limbs, 2>& f, const Fixed<q_limbs, 2>& q,
+                                const BasicTime<Weight>& lower, const BasicTime<Weight>& upper) {
+  if (q[2].sign() == 0 && q[0].sign() != 0) {
+    return sign_at_root(reversed(f), reversed(q), mirrored(upper), mirrored(lower));
+  }
+  return sign_by_remainder(remainder(f, q), q[2].sign(), course(bernstein(f), lower, upper), q,
+                           lower, upper);
+}
+
+/// With g such that x g = q_2 f − f_3 y q, the remainder at β is g q_2 / x = f q_2² / x².
+template <std::size_t f_limbs, std::size_t q_limbs, class Weight>
+std::optional<int> sign_at_root(const Fixed<f_limbs, 3>& f, const Fixed<q_limbs, 2>& q,
+                                const BasicTime<Weight>& lower, const BasicTime<Weight>& upper) {
+  if (q[2].sign() == 0 && q[0].sign() != 0) {
+    return sign_at_root(reversed(f), reversed(q), mirrored(upper), mirrored(lower));
+  }
+  const Fixed<f_limbs + q_limbs, 2> g{f[0] * q[2], f[1] * q[2] - f[3] * q[0],
+                                      f[2] * q[2] - f[3] * q[1]};
+  return sign_by_remainder(remainder(g, q), 1, course(bernstein(f), lower, upper), q, lower, upper);
+}
+
+/// A linear form with the multiple root of a cubic form, if it has one.
+template <std::size_t limbs>
+struct MultipleRoot {
+  int multiplicity = 1;
+  Fixed<limbs, 1> root{};
+};
+
+/// A multiple root is one that both derivatives, by x and by y, share: they are proportional, or
+/// both are 0 at the root of their remainder.
+template <std::size_t limbs>
+MultipleRoot<2 * limbs> multiple_root(const Fixed<limbs, 3>& f) {
+  const auto twice = [](const FixedInteger<limbs>& c) { return c + c; };
+  const auto thrice = [](const FixedInteger<limbs>& c) { return c + c + c; };
+  const Fixed<limbs, 2> by_x{thrice(f[0]), twice(f[1]), f[2]};
+  const Fixed<limbs, 2> by_y{f[1], twice(f[2]), thrice(f[3])};
+  const auto line = remainder(by_x, by_y);
+  if (is_zero(line)) {
+    const FixedInteger<limbs> one(std::int64_t{1});
+    return {3, {by_x[0] * one, f[1] * one}};
+  }
+  const bool shared = sign_at_root(line, by_x) == 0 && sign_at_root(line, by_y) == 0;
+  return shared ? MultipleRoot<2 * limbs>{2, line} : MultipleRoot<2 * limbs>{};
+}
+
+// ---- Guesses -----------------------------------------------------------------------------------
+
+/// Guesses of roots, none, one or more.
+struct Guesses {
+  std::array<double, 4> t{};
+  std::size_t count = 0;
+
+  void add(double guess) {
+    if (guess > 0.0 && guess < 1.0 && count < t.size()) t[count++] = guess;
+  }
+};
+
+/// Roots of b0 (1−t)² + 2 b1 t (1−t) + b2 t², a double one as one.
+Guesses quadratic_roots(double b0, double b1, double b2) {
+  Guesses roots;
+  const double square = b1 * b1, discriminant = square - b0 * b2;
+  const auto add = [&](double y, double x) { roots.add(y / (x + y)); };
+  if (std::abs(discriminant) <= 0x1p-40 * square) {
+    add(-b1, b2);
+    return roots;
+  }
+  if (discriminant < 0.0) return roots;
+  const double sum = -(b1 + std::copysign(std::sqrt(discriminant), b1));
+  add(sum, b2);
+  add(b0, sum);
+  return roots;
+}
+
+template <std::size_t limbs>
+Guesses quadratic_roots(const Fixed<limbs, 2>& b) {
+  return quadratic_roots(b[0].guess(), b[1].guess(), b[2].guess());
+}
+
+/// A root where the form changes its sign between two times.
+template <std::size_t limbs>
+double guess_root(const Fixed<limbs, 1>& b, double /*lower*/, double /*upper*/) {
+  const double b0 = b[0].guess(), b1 = b[1].guess();
+  return b0 / (b0 - b1);
+}
+
+template <std::size_t limbs>
+double guess_root(const Fixed<limbs, 2>& b, double lower, double upper) {
+  const Guesses roots = quadratic_roots(b);
+  for (std::size_t i = 0; i < roots.count; ++i) {
+    if (roots.t[i] >= lower && roots.t[i] <= upper) return roots.t[i];
+  }
+  return 0.5 * (lower + upper);
+}
+
+template <std::size_t limbs>
+double guess_root(const Fixed<limbs, 3>& form, double lower, double upper) {
+  const std::array<double, 4> b{form[0].guess(), form[1].guess(), form[2].guess(), form[3].guess()};
+  const auto value = [&](double t) {
+    const double s = 1.0 - t;
+    return ((b[0] * s / 3.0 + b[1] * t) * s + b[2] * t * t) * s + b[3] * t * t * t / 3.0;
+  };
+  const auto slope = [&](double t) {
+    const double s = 1.0 - t;
+    return ((b[1] - b[0]) * s + 2.0 * (b[2] - b[1]) * t) * s + (b[3] - b[2]) * t * t;
+  };
+  const bool rises = value(upper) > value(lower);
+  double t = 0.5 * (lower + upper);
+  for (int i = 0; i < 40; ++i) {
+    const double at = value(t);
+    ((at > 0.0) == rises ? upper : lower) = t;
+    double next = t - at / slope(t);
+    if (!(next > lower && next < upper)) next = 0.5 * (lower + upper);
+    if (std::abs(next - t) <= 0x1p-53 * t) return next;
+    t = next;
+  }
+  return t;
+}
+
+/// Where a split may be of use: roots of quadratic events, extrema of a cubic one.
+template <std::size_t limbs>
+Guesses landmarks(const Fixed<limbs, 2>& b) {
+  return quadratic_roots(b);
+}
+template <std::size_t limbs>
+Guesses landmarks(const Fixed<limbs, 3>& b) {
+  return quadratic_roots((b[1] - b[0]).guess(), (b[2] - b[1]).guess(), (b[3] - b[2]).guess());
+}
+
+/// The first fraction of the continued fraction of t that is t up to rounding, if one has a small
+/// denominator.
+std::optional<Time> small_fraction(double t) {
+  constexpr double largest_denominator = 0x1p20, accuracy = 0x1p-44;
+  double numerator = 0.0, denominator = 1.0;            // of this convergent
+  double last_numerator = 1.0, last_denominator = 0.0;  // of the one before
+  double rest = t;
+  for (;;) {
+    if (std::abs(t * denominator - numerator) <= accuracy * denominator) break;
+    rest = 1.0 / rest;
+    const double whole = std::floor(rest);
+    const double next = whole * denominator + last_denominator;
+    if (!(next <= largest_denominator)) return std::nullopt;
+    last_denominator = std::exchange(denominator, next);
+    last_numerator = std::exchange(numerator, whole * numerator + last_numerator);
+    rest -= whole;
+  }
+  if (!(numerator >= 0.0 && numerator <= denominator)) return std::nullopt;
+  const auto y = static_cast<std::int64_t>(numerator);
+  return Time{static_cast<std::int64_t>(denominator) - y, y};
+}
+
+/// The dyadic number of the least exponent between two guesses, if there is one of at most 40 bits.
+std::optional<Time> dyadic_between(double lower, double upper) {
+  if (!(lower >= 0.0 && lower < upper && upper <= 1.0)) return std::nullopt;
+  for (int exponent = 1; exponent <= 40; ++exponent) {
+    const double scale = std::ldexp(1.0, exponent);
+    const double numerator = std::floor(lower * scale) + 1.0;
+    if (numerator < upper * scale) {
+      const auto y = static_cast<std::int64_t>(numerator);
+      return Time{(std::int64_t{1} << static_cast<unsigned>(exponent)) - y, y};
+    }
+  }
+  return std::nullopt;
+}
+
+// ---- The decision ------------------------------------------------------------------------------
+
+enum class Outcome : std::uint8_t {
+  none,     ///< no first contact here
+  decided,  ///< the answer is known
+  unknown   ///< to be handed on
+};
+
+/// An event of theorem 2.
+template <std::size_t limbs, std::size_t degree>
+struct Event {
+  explicit Event(const Fixed<limbs, degree>& f) : form(f), b(f) {
+    if constexpr (degree > 1) b = bernstein(f);
+  }
+  Fixed<limbs, degree> form;
+  Fixed<limbs, degree> b;  ///< by its Bernstein coefficients
+};
+
+/// A form with the same roots inside (0,1), each simple: a double root of c_0 x² + c_1 x y + c_2 y²
+/// is the one of its derivative c_1 x + 2 c_2 y.
+template <std::size_t limbs>
+Fixed<limbs, 2> simple(const Fixed<limbs, 2>& c) {
+  const auto twice = c[2] + c[2];
+  if (c[1] * c[1] != (c[0] + c[0]) * twice) return c;
+  return {c[1], twice, {}};
+}
+
+bool is_inside(const Time& t, const Time& lower, const Time& upper) {
+  return compare(lower, t) < 0 && compare(t, upper) < 0;
+}
+
+/// A time strictly inside at which to go on: a root (or extremum) that is a small fraction, or one
+/// after the first landmark and before the next, or one near the middle.
+template <std::size_t limbs, std::size_t degree>
+std::optional<Time> split(std::span<const Event<limbs, degree>> events, const Time& lower,
+                          const Time& upper) {
+  constexpr double resolution = 0x1p-30;
+  const double low = lower.guess(), high = upper.guess();
+  double first = high, second = high;
+  for (const auto& event : events) {
+    const Guesses marks = landmarks(event.b);
+    for (std::size_t i = 0; i < marks.count; ++i) {
+      const double t = marks.t[i];
+      if (!(t > low && t < high)) continue;
+      const auto fraction = small_fraction(t);
+      if (fraction && sign_at(event.b, *fraction) == 0 && is_inside(*fraction, lower, upper)) {
+        return fraction;
+      }
+      if (t < first - resolution) second = std::exchange(first, t);
+      if (t > first + resolution) second = std::min(second, t);
+    }
+  }
+  auto middle = dyadic_between(first, 0.75 * first + 0.25 * second);
+  if (!middle) middle = dyadic_between(0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high);
+  if (!middle || !is_inside(*middle, lower, upper)) return std::nullopt;
+  return middle;
+}
+
+/// The decision of one motion with coordinates of so many limbs.
+template <std::size_t limbs>
+class Decision {
+ public:
+  Decision(const Motion<FixedInteger<limbs>>& motion, std::uint64_t latest, std::uint64_t step)
+      : motion_(motion),
+        latest_(latest),
+        step_(std::min(step, widest_step)),
+        normal_(normal(motion)),
+        determinant_(determinant(motion, normal_)) {}
+
+  QuickAnswer run() {
+    const Outcome outcome = first();
+    return {outcome != Outcome::unknown, impact_};
+  }
+
+ private:
+  using Quadratic = Fixed<2 * limbs, 2>;
+  using Cubic = Fixed<3 * limbs, 3>;
+  using PlaneEvent = Event<2 * limbs, 2>;
+  using SpaceEvent = Event<3 * limbs, 3>;
+
+  static constexpr int deepest = 12;
+  /// Multiple and shared roots are looked for where splitting has not separated roots.
+  static constexpr int deep = 2;
+  /// Wider enclosures would save little, and (u,v) are evaluated in them.
+  static constexpr std::uint64_t widest_step = 16;
+
+  Outcome first() {
+    if (determinant_.form[0].sign() == 0) {
+      const auto contact =
+          contact_in_plane(motion_, normal_, [](const Quadratic& form) { return form[0].sign(); });
+      if (contact) return found(*contact, start_time, {bits_of_zero, bits_of_zero});
+    }
+    const Outcome inner =
+        is_zero(determinant_.form)
+            ? search_plane()
+            : search(std::span<const SpaceEvent>(&determinant_, 1), start_time, end_time, 0);
+    return inner == Outcome::none ? at_time(end_time) : inner;
+  }
+
+  Outcome search_plane() {
+    std::vector<PlaneEvent> events;
+    for (const Quadratic& form : events_in_plane(motion_, normal_)) {
+      events.emplace_back(simple(form));
+    }
+    return search(std::span<const PlaneEvent>(events), start_time, end_time, 0);
+  }
+
+  /// The open interval; there is no contact at its lower end.
+  template <class AnyEvent>
+  Outcome search(std::span<const AnyEvent> events, const Time& lower, const Time& upper,
+                 int depth) {
+    int changes = 0;
+    const AnyEvent* active = nullptr;
+    for (const auto& event : events) {
+      const int here = sign_changes(signs_on(event.b, lower, upper));
+      if (here != 0) active = &event;
+      changes += here;
+    }
+    if (changes == 0 || is_separated(lower, upper)) return Outcome::none;
+    if (changes == 1) return at_root(*active, lower, upper);
+    if (depth >= deep) {
+      const auto outcome = at_joint_root(events, changes, lower, upper);
+      if (outcome) return *outcome;
+    }
+    const auto middle = split(events, lower, upper);
+    if (depth == deepest || !middle) return Outcome::unknown;
+    Outcome outcome = search(events, lower, *middle, depth + 1);
+    if (outcome == Outcome::none) outcome = at_time(*middle);
+    if (outcome == Outcome::none) outcome = search(events, *middle, upper, depth + 1);
+    return outcome;
+  }
+
+  /// If the determinant's only root in the open interval is a multiple one.
+  std::optional<Outcome> at_joint_root(std::span<const SpaceEvent> events, int changes,
+                                       const Time& lower, const Time& upper) {
+    const auto root = multiple_root(events[0].form);
+    if (changes != root.multiplicity || !changes_sign(root.root, lower, upper)) return std::nullopt;
+    return at_root(Event<6 * limbs, 1>(root.root), lower, upper);
+  }
+
+  /// If all events with a root in the open interval share their only one.
+  std::optional<Outcome> at_joint_root(std::span<const PlaneEvent> events, int /*changes*/,
+                                       const Time& lower, const Time& upper) {
+    const PlaneEvent* first = nullptr;
+    for (const PlaneEvent& event : events) {
+      const int changes = sign_changes(signs_on(event.b, lower, upper));
+      if (changes == 0) continue;
+      if (changes > 1) return std::nullopt;
+      if (first == nullptr) {
+        first = &event;
+      } else if (sign_at_root(first->form, event.form, lower, upper) != 0) {
+        return std::nullopt;
+      }
+    }
+    if (first == nullptr) return std::nullopt;
+    return at_root(*first, lower, upper);
+  }
+
+  /// Do N_k and a bound keep opposite signs in the open interval?
+  bool is_separated(const Time& lower, const Time& upper) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto on_normal = signs_on(bernstein(normal_[k]), lower, upper);
+      const int orientation = first_sign(on_normal);
+      if (orientation == 0 || sign_changes(on_normal) != 0) continue;
+      const auto in = bounds(motion_, normal_[k], k);
+      for (std::size_t i = 0; i < in.count; ++i) {
+        const auto on_bound = signs_on(bernstein(in.bound[i]), lower, upper);
+        if (first_sign(on_bound) == -orientation && sign_changes(on_bound) == 0) return true;
+      }
+      return false;
+    }
+    return false;
+  }
+
+  /// A time that is known exactly, after 0.
+  Outcome at_time(const Time& t) {
+    if (sign_at(determinant_.b, t) != 0) return Outcome::none;
+    if (is_later(t, latest_)) return Outcome::decided;
+    const auto contact = contact_in_plane(
+        motion_, normal_, [&](const Quadratic& form) { return sign_at(bernstein(form), t); });
+    if (!contact) return Outcome::none;
+    const auto is_above = [&](std::uint64_t bits) { return is_later(t, bits); };
+    return found(*contact, t, enclose(t.guess(), step_, is_above));
+  }
+
+  /// The only root of any event in the open interval, a simple one of this event.
+  template <class AnyEvent>
+  Outcome at_root(const AnyEvent& event, const Time& lower, const Time& upper) {
+    const double root = guess_root(event.b, lower.guess(), upper.guess());
+    const auto fraction = small_fraction(root);
+    if (fraction && is_inside(*fraction, lower, upper) && sign_at(event.b, *fraction) == 0) {
+      return at_time(*fraction);
+    }
+    return at_irrational<Time>(event, root, lower, upper);
+  }
+
+  /// The same for a root that is perhaps irrational, with doubles as times of a type.
+  template <class AnyTime, class AnyEvent>
+  Outcome at_irrational(const AnyEvent& event, double root, const Time& lower, const Time& upper) {
+    const int sign_below = first_sign(signs_on(event.b, lower, upper));
+    bool beyond = false;
+    const auto is_above = [&](std::uint64_t bits) {
+      const auto t = time_of<AnyTime>(bits);
+      if (!t) beyond = true;
+      if (!t || compare(*t, lower) <= 0) return true;
+      return compare(*t, upper) < 0 && sign_at(event.b, *t) == sign_below;
+    };
+    const BitInterval cell = enclose(root, step_, is_above);
+    const bool too_late = latest_ <= cell.lower || (latest_ < cell.upper && is_above(latest_));
+    const auto first = time_of<AnyTime>(cell.lower), last = time_of<AnyTime>(cell.upper);
+    if (beyond || !first || !last) {
+      if constexpr (std::is_same_v<AnyTime, FineTime>) return Outcome::unknown;
+      return at_irrational<FineTime>(event, root, lower, upper);
+    }
+    if (too_late) return Outcome::decided;
+    // The cell may reach beyond the interval, where other roots may be.
+    const AnyTime low = compare(*first, lower) < 0 ? as<AnyTime>(lower) : *first;
+    const AnyTime high = compare(*last, upper) > 0 ? as<AnyTime>(upper) : *last;
+    const Outcome outcome = in_cell(event, cell, low, high);
+    if constexpr (std::is_same_v<AnyTime, Time>) {
+      if (outcome == Outcome::unknown) return in_narrow_cell(event, cell, low, high);
+    }
+    return outcome;
+  }
+
+  /// A root of this event in a cell of doubles, not below `low`: the only one of any event strictly
+  /// between `low` and `high`, or `high` itself if the event is 0 there.
+  template <class AnyTime, class AnyEvent>
+  Outcome in_cell(const AnyEvent& event, const BitInterval& cell, const AnyTime& low,
+                  const AnyTime& high) {
+    constexpr double accuracy = 0x1p-44;
+    const bool is_high = compare(high, end_time) < 0 && sign_at(event.b, high) == 0;
+    bool unsure = false;
+    const auto sign_of = [&](const Quadratic& form) {
+      const auto b = bernstein(form);
+      if (is_high) return sign_at(b, high);
+      const auto signs = signs_on(b, low, high);
+      if (sign_changes(signs) == 0) return first_sign(signs);
+      const auto sign = sign_at_root(event.form, form, low, high);
+      if (!sign) unsure = true;
+      return sign.value_or(0);
+    };
+    const auto contact = contact_in_plane(motion_, normal_, sign_of, axes_at(high.guess()));
+    if (unsure) return Outcome::unknown;
+    if (!contact) return Outcome::none;
+    const auto [first_u, first_v] = parameters(*contact, is_high ? high : low);
+    const auto [last_u, last_v] = parameters(*contact, high);
+    if (!(std::abs(first_u - last_u) + std::abs(first_v - last_v) <= accuracy)) {
+      return Outcome::unknown;
+    }
+    impact_ = {cell, 0.5 * (first_u + last_u), 0.5 * (first_v + last_v)};
+    return Outcome::decided;
+  }
+
+  /// The same between two times that are nearer to the root, as it is guessed by a secant.
+  template <class AnyEvent>
+  Outcome in_narrow_cell(const AnyEvent& event, const BitInterval& cell, const Time& low,
+                         const Time& high) {
+    constexpr unsigned bits = 44;
+    constexpr std::int64_t whole = std::int64_t{1} << bits, slack = 4;
+    const auto scaled_value = [&](const Time& t) {
+      double value = value_at(event.b, t).guess();
+      for (std::size_t i = 1; i < event.b.size(); ++i) value /= static_cast<double>(t.sum());
+      return value;
+    };
+    const double at_low = scaled_value(low), at_high = scaled_value(high);
+    const double low_sum = static_cast<double>(low.sum()) * at_low;
+    const double high_sum = -static_cast<double>(high.sum()) * at_high;
+    const double part = low_sum / (low_sum + high_sum) * static_cast<double>(whole);
+    if (!(part >= 0.0 && part <= static_cast<double>(whole))) return Outcome::unknown;
+    const auto weight = static_cast<std::int64_t>(part);
+    const auto mixed = [&](std::int64_t of_high) {
+      const auto mix = [&](std::int64_t a, std::int64_t b) {
+        return SignedWideLimb{a} * (whole - of_high) + SignedWideLimb{b} * of_high;
+      };
+      return FineTime{mix(low.x, high.x), mix(low.y, high.y)};
+    };
+    const FineTime first = mixed(std::max(weight - slack, std::int64_t{0}));
+    const FineTime last = mixed(std::min(weight + slack, whole));
+    if (!changes_sign(event.b, first, last)) return Outcome::unknown;
+    return in_cell(event, cell, first, last);
+  }
+
+  /// The axes, that first on which the normal's component is furthest from 0 beside its
+  /// coefficients, so that its errors are small beside it.
+  std::array<std::size_t, 3> axes_at(double t) const {
+    std::array<double, 3> weight{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::array<double, 3> c{normal_[k][0].guess(), normal_[k][1].guess(),
+                                    normal_[k][2].guess()};
+      const double size = std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])});
+      const double s = 1.0 - t, value = (c[0] * s + c[1] * t) * s + c[2] * t * t;
+      weight[k] = size > 0.0 ? std::abs(value) / size : 0.0;
+    }
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    std::ranges::sort(axes, std::greater{}, [&](std::size_t k) { return weight[k]; });
+    return axes;
+  }
+
+  Outcome found(const ContactForms<FixedInteger<limbs>>& contact, const Time& t,
+                const BitInterval& cell) {
+    const auto [u, v] = parameters(contact, t);
+    impact_ = {cell, std::isnan(u) ? 0.0 : u, std::isnan(v) ? 0.0 : v};
+    return Outcome::decided;
+  }
+
+  template <class AnyTime>
+  static std::array<double, 2> parameters(const ContactForms<FixedInteger<limbs>>& contact,
+                                          const AnyTime& t) {
+    const auto value = [&](const Quadratic& form) { return value_at(bernstein(form), t).guess(); };
+    const double denominator = value(contact.denominator);
+    if (is_zero(contact.denominator)) return {0.0, 0.0};
+    return {value(contact.u) / denominator, value(contact.v) / denominator};
+  }
+
+  const Motion<FixedInteger<limbs>>& motion_;
+  std::uint64_t latest_;
+  std::uint64_t step_;
+  MovingNormal<FixedInteger<limbs>> normal_;
+  SpaceEvent determinant_;
+  std::optional<Impact> impact_;
+};
+
+}  // namespace
+
+QuickAnswer quick_first_impact(const Motion<FixedInteger<1>>& motion, std::uint64_t latest,
+                               std::uint64_t step) {
+  return Decision<1>(motion, latest, step).run();
+}
+
+QuickAnswer quick_first_impact(const Motion<FixedInteger<2>>& motion, std::uint64_t latest,
+                               std::uint64_t step) {
+  return Decision<2>(motion, latest, step).run();
+}
+
+}  // namespace touchstone::fast::exact_stage

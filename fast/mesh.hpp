@@ -1,0 +1,84 @@
+#pragma once
+
+/// \file
+/// A moving mesh as simulators hold it: vertices at the start and at the end of a step, edges and
+/// faces as indices, and candidates as pairs of these. Eight times smaller than queries, and the
+/// vertices stay in the cache.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "exact/query.hpp"
+
+namespace touchstone::fast {
+
+/// The two vertices of an edge.
+using Edge = std::array<std::int32_t, 2>;
+/// The three vertices of a face.
+using Face = std::array<std::int32_t, 3>;
+/// What may touch. vertex_face: a vertex and a face; edge_edge: two edges.
+using IndexPair = std::array<std::int32_t, 2>;
+
+/// Where a vertex is at t=0 and t=1: one cache line, so that reaching for a vertex costs one.
+struct alignas(64) MovingVertex {
+  std::array<double, 4> start;  ///< x, y, z and 0
+  std::array<double, 4> end;    ///< x, y, z and 0
+};
+
+/// The vertices of a step.
+class MovingVertices {
+ public:
+  /// From two matrices of any floating-point type and storage order, a row for each vertex. Copies
+  /// them, which costs about as much as reading as many candidates.
+  /// \throws std::invalid_argument unless both are n×3.
+  template <class Start, class End>
+  MovingVertices(const Eigen::MatrixBase<Start>& start, const Eigen::MatrixBase<End>& end)
+      : vertices_(static_cast<std::size_t>(start.rows())) {
+    if (start.cols() != 3 || end.cols() != 3 || start.rows() != end.rows()) {
+      throw std::invalid_argument(
+          "vertices: both matrices must have three columns and as many rows");
+    }
+    for (Eigen::Index i = 0; i < start.rows(); ++i) {
+      MovingVertex& vertex = vertices_[static_cast<std::size_t>(i)];
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        vertex.start[static_cast<std::size_t>(k)] = static_cast<double>(start(i, k));
+        vertex.end[static_cast<std::size_t>(k)] = static_cast<double>(end(i, k));
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return vertices_.size(); }
+  [[nodiscard]] const MovingVertex& operator[](std::size_t i) const { return vertices_[i]; }
+  [[nodiscard]] const MovingVertex* data() const { return vertices_.data(); }
+
+ private:
+  std::vector<MovingVertex> vertices_;
+};
+
+/// Pairs of one kind with what their indices mean. Does not own anything.
+struct Candidates {
+  Kind kind = Kind::vertex_face;
+  std::span<const IndexPair> pairs;
+  std::span<const Edge> edges;  ///< needed for edge_edge
+  std::span<const Face> faces;  ///< needed for vertex_face
+};
+
+/// The vertices of a pair, in the order of a query's points. \pre its indices are in range.
+[[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(const Candidates& candidates,
+                                                                  const IndexPair& pair);
+
+/// A pair as a query. \pre its indices are in range.
+[[nodiscard]] Query query_of(const MovingVertices& vertices, const Candidates& candidates,
+                             const IndexPair& pair);
+
+/// \throws std::out_of_range, naming the first pair (or edge or face of a pair) with an index that
+/// is out of range.
+void require_in_range(const MovingVertices& vertices, const Candidates& candidates);
+
+}  // namespace touchstone::fast

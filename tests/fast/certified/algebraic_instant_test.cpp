@@ -1,0 +1,154 @@
+#include "fast/certified/algebraic_instant.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "fast/certified/double_search.hpp"
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+using Quadratic = Form<BigInteger, 2>;
+
+std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
+
+/// a + b t + c t² as a form: t = y/(x+y).
+Quadratic in_time(std::int64_t a, std::int64_t b, std::int64_t c) {
+  return {a, 2 * a + b, a + b + c};
+}
+
+/// (m − n t)(x+y), a root at m/n.
+Quadratic root_at(std::int64_t m, std::int64_t n) { return in_time(m, -n, 0); }
+
+/// a + b t + c t² + d t³.
+Polynomial cubic(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+  return inner_polynomial(Polynomial{a, 3 * a + b, 3 * a + 2 * b + c, a + b + c + d});
+}
+
+double value(const Dyadic& t) {
+  return std::ldexp(t.numerator.approximation().significand,
+                    static_cast<int>(t.numerator.approximation().exponent - t.exponent));
+}
+
+/// The doubles around all roots, from visit_roots.
+std::vector<BitInterval> roots(const Polynomial& f) {
+  std::vector<BitInterval> result;
+  visit_roots(squarefree(f), [&](Instant& instant) {
+    result.push_back(
+        enclose(instant.guess(), 1, [&](std::uint64_t bits) { return instant.is_above(bits); }));
+    return false;
+  });
+  return result;
+}
+
+void expect_roots(const Polynomial& f, const std::vector<double>& expected) {
+  const auto found = roots(f);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_LE(std::bit_cast<double>(found[i].lower), expected[i]);
+    EXPECT_GE(std::bit_cast<double>(found[i].upper), expected[i]);
+    EXPECT_EQ(found[i].upper - found[i].lower, 1U);
+  }
+}
+
+TEST(AlgebraicInstant, FindsAllRootsInOrder) {
+  expect_roots(cubic(-3, 32, -64, 0), {1.0 / 8.0, 3.0 / 8.0});
+  expect_roots(cubic(-3, 44, -192, 256), {1.0 / 8.0, 0.25, 3.0 / 8.0});
+  expect_roots(cubic(-1, 0, 2, 0), {std::sqrt(0.5)});
+  expect_roots(cubic(1, 0, 2, 0), {});
+  expect_roots(cubic(1, -5, 6, 0), {1.0 / 3.0, 0.5});
+}
+
+TEST(AlgebraicInstant, FindsMultipleRootsOnce) {
+  expect_roots(cubic(1, -6, 9, 0), {1.0 / 3.0});          // (1−3t)²
+  expect_roots(cubic(1, -9, 27, -27), {1.0 / 3.0});       // (1−3t)³
+  expect_roots(cubic(1, -8, 21, -18), {1.0 / 3.0, 0.5});  // (1−3t)²(1−2t)
+  expect_roots(cubic(1, -6, 12, -8), {0.5});              // (1−2t)³
+}
+
+TEST(AlgebraicInstant, LeavesRootsAtTheEndsOut) {
+  EXPECT_TRUE(roots(cubic(0, 1, -1, 0)).empty());  // t(1−t)
+  expect_roots(cubic(0, 1, -3, 2), {0.5});         // t(1−t)(1−2t)
+}
+
+TEST(AlgebraicInstant, FindsRootsFarApart) {
+  // (1 − 2^70 t)(1 − 2^35 t)
+  const BigInteger one = 1;
+  const BigInteger a = one << 70, b = one << 35;
+  const Polynomial f{one, BigInteger(2) - a - b, one - a - b + a * b};
+  expect_roots(f, {0x1p-70, 0x1p-35});
+}
+
+TEST(AlgebraicInstant, StopsWhereTheVisitorSays) {
+  int visits = 0;
+  EXPECT_TRUE(visit_roots(cubic(-3, 44, -192, 256), [&](Instant&) { return ++visits == 2; }));
+  EXPECT_EQ(visits, 2);
+}
+
+TEST(AlgebraicInstant, KnowsSignsAndZerosOfOtherForms) {
+  // (1 − 2t²): irrational, √½ = 0.70710678…
+  Instant root(cubic(1, 0, -2, 0), {0, 0}, {1, 0});
+  EXPECT_EQ(root.sign_of(in_time(1, 0, -2)), 0);
+  EXPECT_EQ(root.sign_of(in_time(-3, 0, 6)), 0);
+  EXPECT_EQ(root.sign_of(in_time(0, 0, 0)), 0);
+  EXPECT_EQ(root.sign_of(root_at(70710678, 100000000)), -1);
+  EXPECT_EQ(root.sign_of(root_at(70710679, 100000000)), 1);
+  EXPECT_EQ(root.sign_of(root_at(33461, 47321)), 1);   // 2·33461² = 47321² + 1
+  EXPECT_EQ(root.sign_of(root_at(13860, 19601)), -1);  // 2·13860² = 19601² − 1
+}
+
+TEST(AlgebraicInstant, TellsARootFromTheOtherOfTheSameDivisor) {
+  // f = (1−3t)(2−3t); q = (2−3t)(1+t) shares the other root only.
+  Instant first(cubic(2, -9, 9, 0), {0, 0}, {1, 1});
+  EXPECT_EQ(first.sign_of(in_time(2, -1, -3)), 1);
+  EXPECT_EQ(first.sign_of(in_time(1, -2, -3)), 0);  // (1−3t)(1+t)
+}
+
+TEST(AlgebraicInstant, KnowsADyadicRootExactly) {
+  Instant root(cubic(5, -16, 0, 0), {0, 0}, {1, 0});
+  EXPECT_FALSE(root.is_above(bits_of(0.3125)));
+  EXPECT_TRUE(root.is_above(bits_of(std::nextafter(0.3125, 0.0))));
+  EXPECT_EQ(root.sign_of(root_at(5, 16)), 0);
+  EXPECT_EQ(root.sign_of(root_at(5000001, 16000000)), 1);
+}
+
+TEST(AlgebraicInstant, DividesAccurately) {
+  Instant root(cubic(1, 0, -2, 0), {0, 0}, {1, 0});
+  EXPECT_NEAR(root.quotient_of(in_time(0, 1, 0), in_time(1, 0, 0)), std::sqrt(0.5), 0x1p-46);
+  Instant point(Dyadic{1, 2});
+  EXPECT_EQ(point.quotient_of(in_time(0, 2, 0), in_time(1, 0, 0)), 0.5);
+}
+
+TEST(AlgebraicInstant, SplitsBetweenTheEndsAndQuicklyTowardsThem) {
+  Dyadic lower{0, 0}, upper{1, 0};
+  int steps = 0;
+  for (; value(upper) > 0x1p-1000; ++steps) upper = split(lower, upper);
+  EXPECT_LE(steps, 12);
+  lower = {1, 1};
+  upper = {1, 0};
+  for (int i = 0; i < 60; ++i) {
+    const Dyadic middle = split(lower, upper);
+    EXPECT_LT(value(lower), value(middle));
+    EXPECT_LT(value(middle), value(upper));
+    (i % 2 == 0 ? lower : upper) = middle;
+    if (value(upper) - value(lower) < 0x1p-50) break;
+  }
+}
+
+TEST(AlgebraicInstant, FindsCommonDivisors) {
+  const Polynomial both = inner_polynomial(in_time(2, -9, 9));  // (1−3t)(2−3t)
+  const Polynomial other = cubic(1, -8, 21, -18);               // (1−3t)²(1−2t)
+  EXPECT_EQ(common_divisor(both, other).size(), 2U);
+  EXPECT_EQ(common_divisor(both, inner_polynomial(in_time(1, 0, -2))).size(), 1U);
+  EXPECT_EQ(common_divisor(other, other).size(), 4U);
+  EXPECT_EQ(squarefree(other).size(), 3U);
+  EXPECT_EQ(squarefree(both).size(), 3U);
+}
+
+}  // namespace
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,60 @@
+#pragma once
+
+/// \file
+/// Impacts of integer motions held against the oracle: for the tests of both decisions.
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "exact/oracle.hpp"
+#include "fast/certified/contact_rule.hpp"
+#include "fast/certified/general_decision.hpp"
+#include "tests/support/queries.hpp"
+
+namespace touchstone::tests {
+
+/// r, p and q of a query with integer coordinates, times a power of two; all below 2^63.
+template <class Number>
+[[nodiscard]] fast::exact_stage::Motion<Number> integer_motion(const PosedQuery& posed,
+                                                               double scale = 1.0) {
+  fast::exact_stage::Motion<Number> motion{posed.kind, {}, {}, {}};
+  const auto line = [&](std::size_t a, std::size_t b, std::size_t k) {
+    const auto at = [&](std::size_t end) {
+      const double difference = posed.query.at(end, a, k) - posed.query.at(end, b, k);
+      return Number(static_cast<std::int64_t>(difference * scale));
+    };
+    return fast::exact_stage::Form<Number, 1>{at(0), at(1)};
+  };
+  const bool face = posed.kind == Kind::vertex_face;
+  for (std::size_t k = 0; k < 3; ++k) {
+    motion.r[k] = face ? line(0, 1, k) : line(0, 2, k);
+    motion.p[k] = face ? line(2, 1, k) : line(0, 1, k);
+    motion.q[k] = face ? line(3, 1, k) : line(3, 2, k);
+  }
+  return motion;
+}
+
+/// Is it the query's first contact, `step` spacings of doubles at most around?
+inline void expect_truth(const PosedQuery& posed,
+                         const std::optional<fast::exact_stage::Impact>& impact,
+                         std::uint64_t step) {
+  const exact::Verdict truth = exact::decide(posed.kind, posed.query);
+  ASSERT_EQ(impact.has_value(), truth.collides()) << posed;
+  if (!impact) return;
+  const exact::AlgebraicNumber& toi = truth.impact->toi;
+  const exact::Rational lower(std::bit_cast<double>(impact->time.lower));
+  const exact::Rational upper(std::bit_cast<double>(impact->time.upper));
+  EXPECT_TRUE(toi <= upper) << posed;
+  if (toi == exact::Rational(0)) {
+    EXPECT_TRUE(lower == 0 && upper == 0) << posed;
+  } else {
+    EXPECT_TRUE(toi > lower) << posed;
+    EXPECT_LE(impact->time.upper - impact->time.lower, step) << posed;
+  }
+}
+
+}  // namespace touchstone::tests

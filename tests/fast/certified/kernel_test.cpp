@@ -1,0 +1,207 @@
+/// \file
+/// The kernels against each other, bit for bit, and with faults planted in each of their stages,
+/// which the built-in families must find.
+
+#include "fast/certified/kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "exact/number.hpp"
+#include "fast/certified.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "verify/families/families.hpp"
+
+namespace touchstone::fast {
+
+extern const CertifiedKernel emulated_avx512_certified_kernel;
+
+// The scalar kernel with a fault each (CMakeLists.txt says which).
+extern const CertifiedKernel fault_in_axis;
+extern const CertifiedKernel fault_in_direction;
+extern const CertifiedKernel fault_in_determinant;
+extern const CertifiedKernel fault_in_bound;
+extern const CertifiedKernel fault_in_rejection;
+extern const CertifiedKernel fault_in_agreement;
+extern const CertifiedKernel fault_in_refinement;
+
+namespace {
+
+using exact::Rational;
+using tests::Random;
+
+Query random_query(Random& random, Kind kind) {
+  Query query = random.between(0, 2) == 0 ? tests::full_significand_query(random)
+                                          : tests::near_contact_query(random, kind);
+  switch (random.between(0, 5)) {
+    case 0:
+      return tests::integer_query(random, 2);
+    case 1:
+      for (double& x : query.coordinates) x = std::ldexp(x, random.between(-1070, 1000));
+      return query;
+    case 2:
+      for (double& x : query.coordinates) x += 1000.0;
+      return query;
+    case 3:
+      query.coordinates.at(static_cast<std::size_t>(random.between(0, 23))) =
+          random.coin() ? std::numeric_limits<double>::infinity()
+                        : std::numeric_limits<double>::quiet_NaN();
+      return query;
+    default:
+      return query;
+  }
+}
+
+/// The sorted numbers in a list.
+std::vector<std::uint32_t> numbers(const KernelOutput::List<std::uint32_t>& list) {
+  std::vector<std::uint32_t> result(list.items.begin(),
+                                    list.items.begin() + static_cast<std::ptrdiff_t>(list.count));
+  std::ranges::sort(result);
+  return result;
+}
+
+std::vector<KernelHit> hits(const KernelOutput& output) {
+  std::vector<KernelHit> result(
+      output.hits.items.begin(),
+      output.hits.items.begin() + static_cast<std::ptrdiff_t>(output.hits.count));
+  std::ranges::sort(result, {}, &KernelHit::index);
+  return result;
+}
+
+void expect_same(const KernelOutput& a, const KernelOutput& b) {
+  EXPECT_EQ(numbers(a.separated_in_direction), numbers(b.separated_in_direction));
+  EXPECT_EQ(numbers(a.one_sided), numbers(b.one_sided));
+  EXPECT_EQ(numbers(a.rejected), numbers(b.rejected));
+  EXPECT_EQ(numbers(a.undecided), numbers(b.undecided));
+  const std::vector<KernelHit> of_a = hits(a), of_b = hits(b);
+  ASSERT_EQ(of_a.size(), of_b.size());
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    EXPECT_EQ(of_a[i].index, of_b[i].index);
+    EXPECT_EQ(of_a[i].toi_lower, of_b[i].toi_lower);
+    EXPECT_EQ(of_a[i].toi_upper, of_b[i].toi_upper);
+    EXPECT_EQ(of_a[i].u, of_b[i].u);
+    EXPECT_EQ(of_a[i].v, of_b[i].v);
+  }
+}
+
+std::vector<const CertifiedKernel*> all_kernels() {
+  std::vector<const CertifiedKernel*> kernels(certified_kernels().begin(),
+                                              certified_kernels().end());
+  kernels.push_back(&emulated_avx512_certified_kernel);
+  return kernels;
+}
+
+TEST(CertifiedKernels, GiveTheSameBits) {
+  const auto plain = std::make_unique<KernelOutput>(), other = std::make_unique<KernelOutput>();
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(1);
+    for (int round = 0; round < 60; ++round) {
+      std::vector<Query> queries(static_cast<std::size_t>(random.between(1, kernel_block)));
+      for (Query& query : queries) query = random_query(random, kind);
+      const KernelInput input{.kind = kind,
+                              .count = queries.size(),
+                              .queries = queries.data(),
+                              .t_limit = round % 3 == 0 ? 0.5 : 1.0};
+      certified_kernels().front()->decide(input, *plain);
+      for (const CertifiedKernel* const kernel : all_kernels()) {
+        SCOPED_TRACE(to_string(kernel->instructions));
+        kernel->decide(input, *other);
+        expect_same(*plain, *other);
+      }
+    }
+  }
+}
+
+TEST(CertifiedKernels, TakeNoQueries) {
+  const auto output = std::make_unique<KernelOutput>();
+  for (const CertifiedKernel* const kernel : all_kernels()) {
+    kernel->decide({.kind = Kind::edge_edge}, *output);
+    EXPECT_EQ(output->separated_in_direction.count + output->one_sided.count +
+                  output->rejected.count + output->hits.count + output->undecided.count,
+              0U);
+  }
+}
+
+TEST(CertifiedKernels, ReadNothingBehindTheLastQuery) {
+  // On the heap: the address sanitizer sees what is behind.
+  for (std::size_t count : {1U, 3U, 4U, 5U, 8U, 9U}) {
+    Random random(count);
+    std::vector<Query> queries(count);
+    for (Query& query : queries) query = tests::near_contact_query(random, Kind::edge_edge);
+    const auto output = std::make_unique<KernelOutput>();
+    for (const CertifiedKernel* const kernel : all_kernels()) {
+      kernel->decide({.kind = Kind::edge_edge, .count = count, .queries = queries.data()}, *output);
+      EXPECT_LE(output->hits.count, count);
+    }
+  }
+}
+
+TEST(CertifiedKernels, AreFoundByTheirInstructions) {
+  EXPECT_EQ(certified_kernels().front()->instructions, InstructionSet::scalar);
+  EXPECT_EQ(&best_certified_kernel(), certified_kernels().back());
+  for (const CertifiedKernel* const kernel : certified_kernels()) {
+    EXPECT_EQ(find_certified_kernel(kernel->instructions), kernel);
+  }
+}
+
+// ---- Planted faults -----------------------------------------------------------------------------
+
+bool is_wrong(const verify::KnownQuery& known, const CertifiedResult& result) {
+  if (result.verdict != (known.collides ? Verdict::yes : Verdict::no)) return true;
+  if (!known.collides || !known.toi) return false;
+  const bool is_late =
+      *known.toi == 0 ? result.toi_lower != 0 : Rational(result.toi_lower) >= *known.toi;
+  return is_late || Rational(result.toi_upper) < *known.toi;
+}
+
+/// The families in which the kernel's answers are wrong.
+std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
+  constexpr std::uint64_t count = 120;
+  std::vector<std::string> found;
+  for (const verify::Family& family : verify::families()) {
+    bool wrong = false;
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (!verify::supports(family, kind)) continue;
+      for (std::uint64_t i = 0; i < count && !wrong; ++i) {
+        const verify::KnownQuery known = verify::make_query(family, kind, 5, i);
+        wrong = is_wrong(known, certified(kind, known.query, {.kernel = &kernel}));
+      }
+    }
+    if (wrong) found.emplace_back(family.name);
+  }
+  return found;
+}
+
+TEST(CertifiedKernels, FamiliesFindNoFaultWhereThereIsNone) {
+  for (const CertifiedKernel* const kernel : all_kernels()) {
+    EXPECT_TRUE(families_that_find(*kernel).empty()) << to_string(kernel->instructions);
+  }
+}
+
+TEST(CertifiedKernels, FamiliesFindAFaultInEachStage) {
+  const std::map<std::string, const CertifiedKernel*> faults{{"axis", &fault_in_axis},
+                                                             {"direction", &fault_in_direction},
+                                                             {"determinant", &fault_in_determinant},
+                                                             {"bound", &fault_in_bound},
+                                                             {"rejection", &fault_in_rejection},
+                                                             {"agreement", &fault_in_agreement},
+                                                             {"refinement", &fault_in_refinement}};
+  for (const auto& [fault, kernel] : faults) {
+    const std::vector<std::string> found = families_that_find(*kernel);
+    std::printf("fault in %s: found by %zu families\n", fault.c_str(), found.size());
+    EXPECT_FALSE(found.empty()) << fault;
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::fast

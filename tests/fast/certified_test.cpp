@@ -1,0 +1,545 @@
+/// \file
+/// The certified solver against the oracle: verdicts and every promise of the result, on all that
+/// the project can generate, on public data, at all magnitudes, under every floating-point state.
+
+#include "fast/certified.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cfenv>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fast/certified/kernel.hpp"
+#include "tests/support/certified.hpp"
+#include "tests/support/public_data.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "verify/dataset/dataset.hpp"
+#include "verify/families/families.hpp"
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+namespace touchstone::fast {
+namespace {
+
+using tests::fault;
+using tests::over_edge;
+using tests::over_triangle;
+using tests::PosedQuery;
+using tests::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+CertifiedResult solve(const PosedQuery& posed, const CertifiedOptions& options = {}) {
+  return certified(posed.kind, posed.query, options);
+}
+
+/// Fails unless each query's result is what the oracle says.
+void expect_truth(Kind kind, const std::vector<Query>& queries,
+                  const CertifiedOptions& options = {}) {
+  std::vector<CertifiedResult> results(queries.size());
+  solve(kind, queries, results, options);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const auto wrong = fault(kind, queries[i], results[i], options);
+    ASSERT_FALSE(wrong) << *wrong << " [" << name(results[i].stage) << "] "
+                        << PosedQuery{kind, queries[i]};
+  }
+}
+
+/// How many random queries a test takes, or a thousand times as many in the soak.
+std::size_t scaled(std::size_t count) {
+  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
+  return soak ? 1000 * count : count;
+}
+
+// ---- By hand ------------------------------------------------------------------------------------
+
+TEST(Certified, FindsAnImpactAndItsPlace) {
+  for (const PosedQuery& posed : {over_triangle(1, 2, 3, -1), over_edge(1, 2, 3, -1)}) {
+    const CertifiedResult result = solve(posed);
+    ASSERT_EQ(result.verdict, Verdict::yes);
+    EXPECT_LT(result.toi_lower, 0.75);
+    EXPECT_GE(result.toi_upper, 0.75);
+    EXPECT_LE(result.toi_upper - result.toi_lower, 1e-12);
+    EXPECT_NEAR(result.u, 0.25, 1e-9);
+    EXPECT_NEAR(result.v, 0.5, 1e-9);
+  }
+}
+
+TEST(Certified, EndsEachSortOfQueryInItsStage) {
+  // Far above; beyond the slanted side; crossing its plane beside the triangle at no time (above it
+  // all the time, in a tilted frame); crossing it beside the triangle; touching an edge.
+  EXPECT_EQ(solve(over_triangle(1, 1, 3, 1)).stage, Stage::axis);
+  EXPECT_EQ(solve(over_triangle(3, 3, 1, -1)).stage, Stage::direction);
+  EXPECT_EQ(solve(over_triangle(1, 1, 1, -1)).stage, Stage::bisection);
+  EXPECT_EQ(solve(over_triangle(2, 2, 1, -1)).stage, Stage::exact);
+  EXPECT_EQ(solve(over_triangle(2, 2, 1, -1)).verdict, Verdict::yes);
+}
+
+TEST(Certified, EveryStageIsReachedAndNamed) {
+  std::array<std::size_t, stages> reached{};
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(7);
+    std::vector<Query> queries(3000);
+    for (Query& query : queries) query = tests::full_significand_query(random);
+    for (std::size_t i = 0; i < queries.size(); i += 10) {
+      queries[i] = tests::near_contact_query(random, kind);
+    }
+    std::vector<CertifiedResult> results(queries.size());
+    solve(kind, queries, results);
+    for (const CertifiedResult& result : results)
+      ++reached.at(static_cast<std::size_t>(result.stage));
+  }
+  for (std::size_t i = 0; i < stages; ++i) {
+    EXPECT_GT(reached.at(i), 0U) << name(static_cast<Stage>(i));
+  }
+  EXPECT_EQ(name(Stage::axis), "axis");
+  EXPECT_EQ(name(Stage::exact), "exact");
+}
+
+TEST(Certified, AStepToTheLowerEndNeverTouches) {
+  // The toi is a double: the lower end is below it all the same, however narrow the enclosure.
+  for (const double tolerance : {1e-12, 1e-15, 0.0, 0.1}) {
+    const CertifiedResult result = solve(over_triangle(1, 1, 1, -1), {.toi_tolerance = tolerance});
+    EXPECT_LT(result.toi_lower, 0.5);
+    EXPECT_GE(result.toi_upper, 0.5);
+  }
+  const CertifiedResult narrowest = solve(over_triangle(1, 1, 1, -1), {.toi_tolerance = 0.0});
+  EXPECT_EQ(narrowest.toi_lower, std::nextafter(0.5, 0.0));
+  EXPECT_EQ(narrowest.toi_upper, 0.5);
+}
+
+TEST(Certified, ContactAtTheStartIsAtZero) {
+  const CertifiedResult result = solve(over_triangle(1, 1, 0, 1));
+  EXPECT_EQ(result.verdict, Verdict::yes);
+  EXPECT_EQ(result.toi_lower, 0.0);
+  EXPECT_EQ(result.toi_upper, 0.0);
+}
+
+TEST(Certified, CountsOnlyWhatIsUpToTMax) {
+  const PosedQuery half = over_triangle(1, 1, 1, -1), quarter = over_triangle(1.25, 0.5, 1, -3);
+  EXPECT_EQ(solve(half, {.t_max = 0.5}).verdict, Verdict::yes);
+  EXPECT_EQ(solve(half, {.t_max = std::nextafter(0.5, 0.0)}).verdict, Verdict::no);
+  EXPECT_EQ(solve(half, {.t_max = std::nextafter(0.5, 1.0)}).verdict, Verdict::yes);
+  EXPECT_EQ(solve(half, {.t_max = 0.25}).verdict, Verdict::no);
+  EXPECT_EQ(solve(half, {.t_max = 0.0}).verdict, Verdict::no);
+  EXPECT_EQ(solve(quarter, {.t_max = 0.25}).verdict, Verdict::yes);
+  EXPECT_EQ(solve(over_triangle(1, 1, 0, 1), {.t_max = 0.0}).verdict, Verdict::yes);
+}
+
+// ---- Errors -------------------------------------------------------------------------------------
+
+TEST(Certified, WhatIsNoNumberIsAnErrorOfItsQueryAlone) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
+      for (std::size_t place = 0; place < 24; ++place) {
+        // One that any axis separates, one that collides.
+        for (const double height : {5.0, -1.0}) {
+          std::vector<Query> queries(3, kind == Kind::vertex_face
+                                            ? over_triangle(1, 1, 7, height).query
+                                            : over_edge(1, 1, 7, height).query);
+          queries[1].coordinates.at(place) = bad;
+          std::vector<CertifiedResult> results(3);
+          solve(kind, queries, results);
+          EXPECT_EQ(results[1].verdict, Verdict::error) << bad << " at " << place;
+          EXPECT_EQ(results[0].verdict, height < 0 ? Verdict::yes : Verdict::no);
+          EXPECT_EQ(results[2].verdict, results[0].verdict);
+        }
+      }
+    }
+  }
+}
+
+TEST(Certified, RefusesOptionsOutOfRange) {
+  const PosedQuery posed = over_triangle(1, 1, 1, -1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double tolerance : {-1e-300, nan, infinity}) {
+    EXPECT_THROW(solve(posed, {.toi_tolerance = tolerance}), std::invalid_argument);
+  }
+  for (const double t_max : {-1e-300, std::nextafter(1.0, 2.0), nan}) {
+    EXPECT_THROW(solve(posed, {.t_max = t_max}), std::invalid_argument);
+  }
+  EXPECT_THROW(solve(posed, {.max_threads = -1}), std::invalid_argument);
+  std::vector<CertifiedResult> results(2);
+  EXPECT_THROW(solve(posed.kind, std::span(&posed.query, 1), results), std::invalid_argument);
+}
+
+// ---- Against the oracle -------------------------------------------------------------------------
+
+TEST(Certified, IsRightOnAllFamilies) {
+  for (const verify::Family& family : verify::families()) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (!verify::supports(family, kind)) continue;
+      SCOPED_TRACE(family.name);
+      std::vector<Query> queries;
+      for (std::uint64_t i = 0; i < 150; ++i) {
+        queries.push_back(verify::make_query(family, kind, 4, i).query);
+      }
+      expect_truth(kind, queries);
+    }
+  }
+}
+
+TEST(Certified, IsRightOnRandomAndNearContactQueries) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(11);
+    constexpr std::size_t portion = 500;
+    for (std::size_t done = 0; done < scaled(5000); done += portion) {
+      std::vector<Query> queries(portion);
+      for (std::size_t i = 0; i < portion; ++i) {
+        constexpr std::array families{tests::Family::tiny_integers, tests::Family::small_integers,
+                                      tests::Family::full_significands,
+                                      tests::Family::near_contact};
+        queries[i] = tests::random_query(random, kind, families.at(i % families.size())).query;
+      }
+      expect_truth(kind, queries);
+    }
+  }
+}
+
+TEST(Certified, IsRightAtAllMagnitudes) {
+  constexpr std::array exponents{-1080, -1074, -1030, -500, -340, -120, -60,
+                                 60,    99,    120,   340,  1000, 1018};
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(13);
+    for (const int exponent : exponents) {
+      SCOPED_TRACE(exponent);
+      std::vector<Query> queries(100);
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        queries[i] =
+            i % 2 == 0 ? tests::near_contact_query(random, kind) : tests::integer_query(random, 2);
+        for (double& x : queries[i].coordinates) x = std::ldexp(x, exponent);
+      }
+      expect_truth(kind, queries);
+    }
+  }
+}
+
+TEST(Certified, IsRightOnMixedMagnitudes) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(17);
+    std::vector<Query> queries(300);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      if (i % 3 == 0) {
+        for (double& x : queries[i].coordinates) x = random.finite_double();
+        continue;
+      }
+      // One axis, or one point, far out of scale.
+      queries[i] = tests::near_contact_query(random, kind);
+      const int exponent = random.between(-900, 900);
+      const auto chosen = static_cast<std::size_t>(random.between(0, 2));
+      for (std::size_t k = 0; k < 24; ++k) {
+        const bool scale = i % 3 == 1 ? k % 3 == chosen : k / 3 % 4 == chosen;
+        if (scale)
+          queries[i].coordinates.at(k) = std::ldexp(queries[i].coordinates.at(k), exponent);
+      }
+    }
+    expect_truth(kind, queries);
+  }
+}
+
+TEST(Certified, IsRightFarFromTheOrigin) {
+  // Small primitives at a distance: differences cancel, and round.
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(19);
+    std::vector<Query> queries(400);
+    for (Query& query : queries) {
+      query = tests::near_contact_query(random, kind);
+      const double distance = std::ldexp(random.uniform(1.0, 2.0), random.between(0, 52));
+      for (double& x : query.coordinates) x += distance;
+    }
+    expect_truth(kind, queries);
+  }
+}
+
+TEST(Certified, IsRightForEveryToleranceAndTMax) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Random random(23);
+    std::vector<Query> queries(100);
+    for (Query& query : queries) query = tests::near_contact_query(random, kind);
+    for (const double tolerance : {0.0, 1e-16, 1e-14, 1e-9, 0.25, 3.0}) {
+      expect_truth(kind, queries, {.toi_tolerance = tolerance});
+    }
+    for (const double t_max : {0.0, 0.125, 0.5, 0.9}) expect_truth(kind, queries, {.t_max = t_max});
+  }
+}
+
+TEST(Certified, IsRightOnPublicData) {
+  const auto files = tests::public_datasets();
+  if (files.empty()) GTEST_SKIP() << "public data missing";
+  std::size_t count = 0;
+  for (const auto& file : files) {
+    SCOPED_TRACE(file);
+    const auto source = verify::open_dataset(file);
+    std::vector<Query> queries;
+    while (const auto recorded = source->next()) queries.push_back(recorded->query);
+    count += queries.size();
+    expect_truth(source->kind(), queries);
+  }
+  EXPECT_GE(count, 9891U);
+}
+
+// ---- Floating-point state -----------------------------------------------------------------------
+
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+void expect_same(const std::vector<CertifiedResult>& a, const std::vector<CertifiedResult>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].verdict, b[i].verdict) << i;
+    EXPECT_EQ(a[i].stage, b[i].stage) << i;
+    EXPECT_TRUE(same(a[i].toi_lower, b[i].toi_lower) && same(a[i].toi_upper, b[i].toi_upper)) << i;
+    EXPECT_TRUE(same(a[i].u, b[i].u) && same(a[i].v, b[i].v)) << i;
+  }
+}
+
+std::vector<Query> queries_for_states(Kind kind) {
+  Random random(29);
+  std::vector<Query> queries(600);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    queries[i] =
+        i % 3 == 0 ? tests::integer_query(random, 2) : tests::near_contact_query(random, kind);
+    // Subnormals, which a flushing caller would lose.
+    if (i % 5 == 0) {
+      for (double& x : queries[i].coordinates) x = std::ldexp(x, -1060);
+    }
+  }
+  return queries;
+}
+
+TEST(Certified, TheRoundingModeDoesNotMatter) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const std::vector<Query> queries = queries_for_states(kind);
+    for (const int threads : {1, 3}) {
+      const CertifiedOptions options{.max_threads = threads};
+      std::vector<CertifiedResult> plain(queries.size()), other(queries.size());
+      solve(kind, queries, plain, options);
+      for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+        std::fesetround(mode);
+        solve(kind, queries, other, options);
+        const int after = std::fegetround();
+        std::fesetround(FE_TONEAREST);
+        EXPECT_EQ(after, mode);
+        expect_same(plain, other);
+      }
+    }
+  }
+}
+
+#ifdef __SSE2__
+TEST(Certified, FlushingSubnormalsDoesNotMatter) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const std::vector<Query> queries = queries_for_states(kind);
+    std::vector<CertifiedResult> plain(queries.size()), other(queries.size());
+    solve(kind, queries, plain);
+    const unsigned before = _mm_getcsr();
+    // Flush to zero and subnormals are zeros, alone and together, upwards too, with a flag raised.
+    for (const unsigned state : {0x8000U, 0x0040U, 0x8040U, 0xC040U, 0x8041U}) {
+      _mm_setcsr(0x1F80U | state);
+      solve(kind, queries, other);
+      const unsigned after = _mm_getcsr();
+      _mm_setcsr(before);
+      EXPECT_EQ(after, 0x1F80U | state) << "the caller's state";
+      expect_same(plain, other);
+    }
+  }
+}
+#endif
+
+// ---- Meshes -------------------------------------------------------------------------------------
+
+/// Two sheets of n×n vertices, the upper one falling through the lower, both wrinkled.
+struct Sheets {
+  Eigen::MatrixXd start, end;
+  std::vector<Face> faces;
+  std::vector<Edge> edges;
+  std::vector<IndexPair> vertex_face, edge_edge;
+
+  explicit Sheets(int n) : start(2 * n * n, 3), end(2 * n * n, 3) {
+    Random random(31);
+    for (int sheet = 0; sheet < 2; ++sheet) {
+      for (int i = 0; i < n * n; ++i) {
+        const Eigen::RowVector3d at(i % n + random.uniform(-0.2, 0.2),
+                                    i / n + random.uniform(-0.2, 0.2),
+                                    0.5 * sheet + random.uniform(-0.2, 0.2));
+        start.row(sheet * n * n + i) = at;
+        const double fall = sheet == 0 ? 0.0 : -1.0;
+        end.row(sheet * n * n + i) = at + Eigen::RowVector3d(random.uniform(-0.2, 0.2), 0.0,
+                                                             fall + random.uniform(-0.1, 0.1));
+      }
+      add_faces(n, sheet * n * n);
+    }
+    pair_up(n * n);
+  }
+
+  void add_faces(int n, int first) {
+    for (int y = 0; y + 1 < n; ++y) {
+      for (int x = 0; x + 1 < n; ++x) {
+        const int i = first + y * n + x;
+        faces.push_back({i, i + 1, i + n});
+        faces.push_back({i + 1, i + n + 1, i + n});
+        edges.push_back({i, i + 1});
+        edges.push_back({i, i + n});
+        edges.push_back({i + 1, i + n});
+      }
+    }
+  }
+
+  /// All pairs between the sheets.
+  void pair_up(int vertices) {
+    const auto face_count = static_cast<int>(faces.size()),
+               edge_count = static_cast<int>(edges.size());
+    for (int v = 0; v < 2 * vertices; ++v) {
+      for (int f = 0; f < face_count; ++f) {
+        if ((v < vertices) != (f < face_count / 2)) vertex_face.push_back({v, f});
+      }
+    }
+    for (int a = 0; a < edge_count / 2; ++a) {
+      for (int b = edge_count / 2; b < edge_count; ++b) edge_edge.push_back({a, b});
+    }
+  }
+
+  [[nodiscard]] Candidates candidates(Kind kind) const {
+    return {.kind = kind,
+            .pairs = kind == Kind::vertex_face ? vertex_face : edge_edge,
+            .edges = edges,
+            .faces = faces};
+  }
+};
+
+TEST(Certified, IndexPairsGiveWhatTheirQueriesGive) {
+  const Sheets sheets(7);
+  const MovingVertices vertices(sheets.start, sheets.end);
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const Candidates candidates = sheets.candidates(kind);
+    std::vector<Query> queries;
+    for (const IndexPair& pair : candidates.pairs) {
+      queries.push_back(query_of(vertices, candidates, pair));
+    }
+    std::vector<CertifiedResult> of_queries(queries.size()), of_pairs(queries.size());
+    for (const CertifiedKernel* const kernel : certified_kernels()) {
+      for (const int threads : {1, 4}) {
+        const CertifiedOptions options{.max_threads = threads, .kernel = kernel};
+        solve(kind, queries, of_queries, options);
+        solve(vertices, candidates, of_pairs, options);
+        expect_same(of_queries, of_pairs);
+        const std::vector<Collision> all = collisions(vertices, candidates, options);
+        std::vector<CertifiedResult> rebuilt(of_pairs);
+        std::size_t hits = 0;
+        for (const CertifiedResult& result : of_pairs)
+          hits += result.verdict == Verdict::yes ? 1U : 0U;
+        EXPECT_GT(hits, 5U);
+        ASSERT_EQ(all.size(), hits);
+        for (const Collision& collision : all) rebuilt.at(collision.candidate) = collision.result;
+        expect_same(of_pairs, rebuilt);
+        EXPECT_TRUE(std::ranges::is_sorted(all, {}, &Collision::candidate));
+      }
+    }
+  }
+}
+
+TEST(Certified, TheEarliestImpactIsTheLeastOfAll) {
+  const Sheets sheets(7);
+  const MovingVertices vertices(sheets.start, sheets.end);
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    Candidates candidates = sheets.candidates(kind);
+    std::vector<IndexPair> reversed(candidates.pairs.rbegin(), candidates.pairs.rend());
+    for (const double tolerance : {0.0, 1e-12, 1e-3, 0.7, 2.0}) {
+      std::vector<CertifiedResult> results(candidates.pairs.size());
+      solve(vertices, candidates, results, {.toi_tolerance = tolerance});
+      double lower = infinity, upper = infinity;
+      for (const CertifiedResult& result : results) {
+        if (result.verdict != Verdict::yes) continue;
+        lower = std::min(lower, result.toi_lower);
+        upper = std::min(upper, result.toi_upper);
+      }
+      for (const int threads : {1, 2, 5}) {
+        for (const bool backwards : {false, true}) {
+          Candidates ordered = candidates;
+          if (backwards) ordered.pairs = reversed;
+          const auto first =
+              earliest(vertices, ordered, {.toi_tolerance = tolerance, .max_threads = threads});
+          ASSERT_TRUE(first);
+          EXPECT_EQ(first->toi_lower, lower) << tolerance;
+          EXPECT_EQ(first->toi_upper, upper) << tolerance;
+        }
+      }
+      EXPECT_FALSE(earliest(vertices, candidates, {.t_max = lower / 2}));
+    }
+  }
+}
+
+TEST(Certified, NothingIsEarliestWhereNothingCollides) {
+  const Sheets sheets(3);
+  const MovingVertices still(sheets.start, sheets.start);
+  Candidates candidates = sheets.candidates(Kind::vertex_face);
+  EXPECT_FALSE(earliest(still, {.kind = Kind::edge_edge, .pairs = {}, .edges = {}, .faces = {}}));
+  std::vector<CertifiedResult> results(candidates.pairs.size());
+  solve(still, candidates, results);
+  const bool any = std::ranges::any_of(
+      results, [](const CertifiedResult& result) { return result.verdict == Verdict::yes; });
+  EXPECT_EQ(earliest(still, candidates).has_value(), any);
+}
+
+TEST(Certified, RefusesCandidatesThatAreNone) {
+  const Sheets sheets(3);
+  const MovingVertices vertices(sheets.start, sheets.end);
+  Candidates candidates = sheets.candidates(Kind::vertex_face);
+  std::vector<CertifiedResult> results(1);
+  for (const IndexPair& bad :
+       std::initializer_list<IndexPair>{{-1, 0}, {18, 0}, {0, -1}, {0, 16}}) {
+    candidates.pairs = std::span(&bad, 1);
+    EXPECT_THROW(solve(vertices, candidates, results), std::out_of_range);
+    EXPECT_THROW(static_cast<void>(earliest(vertices, candidates)), std::out_of_range);
+    EXPECT_THROW(static_cast<void>(collisions(vertices, candidates)), std::out_of_range);
+  }
+  Eigen::MatrixXd bad_start = sheets.start;
+  bad_start(0, 1) = infinity;
+  EXPECT_THROW(static_cast<void>(earliest(MovingVertices(bad_start, sheets.end),
+                                          sheets.candidates(Kind::vertex_face))),
+               std::domain_error);
+}
+
+// ---- As a method --------------------------------------------------------------------------------
+
+TEST(CertifiedMethod, AnswersWhatTheSolverFinds) {
+  const std::unique_ptr<Method> method = certified_method();
+  EXPECT_EQ(method->name(), "certified");
+  EXPECT_EQ(method->promise(), Promise::exact);
+  const std::vector<Query> queries = queries_for_states(Kind::edge_edge);
+  std::vector<CertifiedResult> results(queries.size());
+  solve(Kind::edge_edge, queries, results);
+  std::vector<Answer> answers(queries.size());
+  method->solve(Kind::edge_edge, queries, answers, {});
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    EXPECT_EQ(answers[i].verdict, results[i].verdict);
+    EXPECT_TRUE(same(answers[i].toi_lower, results[i].toi_lower));
+    EXPECT_TRUE(same(answers[i].toi_upper, results[i].toi_upper));
+  }
+}
+
+TEST(CertifiedMethod, HeedsTMaxAndRefusesASeparation) {
+  const Query query = over_triangle(1, 1, 1, -1).query;
+  Answer answer;
+  certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
+                            {.t_max = 0.25});
+  EXPECT_EQ(answer.verdict, Verdict::no);
+  certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
+                            {.min_separation = 1e-8});
+  EXPECT_EQ(answer.verdict, Verdict::error);
+}
+
+}  // namespace
+}  // namespace touchstone::fast

@@ -1,0 +1,35 @@
+#pragma once
+
+/// \file
+/// AVX-512 in portable C++ (SIMDe), standing in for <immintrin.h>: so the AVX-512 kernels are
+/// tested on processors without it too, from their own sources.
+
+#define SIMDE_ENABLE_NATIVE_ALIASES
+#include <simde/x86/avx2.h>
+#include <simde/x86/avx512.h>
+#include <simde/x86/fma.h>
+
+#include <cmath>
+
+using __mmask8 = simde__mmask8;
+
+/// What this version of SIMDe lacks, from Intel's description: lanes move within halves.
+template <int order>
+simde__m512d permutex_pd(simde__m512d x) {
+  const simde__m256d low = simde_mm512_castpd512_pd256(x), high = simde_mm512_extractf64x4_pd(x, 1);
+  return simde_mm512_insertf64x4(
+      simde_mm512_castpd256_pd512(simde_mm256_permute4x64_pd(low, order)),
+      simde_mm256_permute4x64_pd(high, order), 1);
+}
+#define _mm512_permutex_pd(x, order) permutex_pd<(order)>(x)
+
+/// SIMDe rounds the product where the processor cannot fuse.
+inline simde__m512d fused_multiply_subtract(simde__m512d a, simde__m512d b, simde__m512d c) {
+  const simde__m512d_private x = simde__m512d_to_private(a), y = simde__m512d_to_private(b);
+  const simde__m512d_private z = simde__m512d_to_private(c);
+  simde__m512d_private result;
+  for (std::size_t i = 0; i < 8; ++i) result.f64[i] = std::fma(x.f64[i], y.f64[i], -z.f64[i]);
+  return simde__m512d_from_private(result);
+}
+#undef _mm512_fmsub_pd
+#define _mm512_fmsub_pd(a, b, c) fused_multiply_subtract(a, b, c)

@@ -1,0 +1,117 @@
+#include "fast/mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "exact/query.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+/// Vertex i is at (3i, 3i+1, 3i+2) and moves by 100.
+Eigen::MatrixX3d places(Eigen::Index count, double offset) {
+  Eigen::MatrixX3d result(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index k = 0; k < 3; ++k) result(i, k) = static_cast<double>(3 * i + k) + offset;
+  }
+  return result;
+}
+
+MovingVertices counted(Eigen::Index count) { return {places(count, 0), places(count, 100)}; }
+
+const std::vector<Edge> some_edges{{0, 1}, {4, 2}};
+const std::vector<Face> some_faces{{0, 1, 2}, {4, 3, 1}};
+
+Candidates candidates(Kind kind, const std::vector<IndexPair>& pairs) {
+  return {.kind = kind, .pairs = pairs, .edges = some_edges, .faces = some_faces};
+}
+
+/// The message of require_in_range with five vertices, or "".
+std::string range_error(const Candidates& given) {
+  try {
+    require_in_range(counted(5), given);
+  } catch (const std::out_of_range& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MovingVertices, HoldsWhatItIsMadeFromWhateverTheStorage) {
+  const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor> start =
+      places(5, 0).cast<float>();
+  const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> end = places(5, 100);
+  const MovingVertices vertices(start, end);
+  ASSERT_EQ(vertices.size(), 5U);
+  EXPECT_EQ(vertices[4].start, (std::array<double, 4>{12, 13, 14, 0}));
+  EXPECT_EQ(vertices[4].end, (std::array<double, 4>{112, 113, 114, 0}));
+  EXPECT_EQ(vertices.data() + 4, &vertices[4]);
+  EXPECT_EQ(MovingVertices(places(0, 0), places(0, 0)).size(), 0U);
+}
+
+TEST(MovingVertices, RefusesMatricesOfOtherShapes) {
+  const Eigen::MatrixXd two_columns = Eigen::MatrixXd::Zero(5, 2);
+  const Eigen::MatrixXd four_rows = Eigen::MatrixXd::Zero(4, 3);
+  EXPECT_THROW(MovingVertices(two_columns, two_columns), std::invalid_argument);
+  EXPECT_THROW(MovingVertices(places(5, 0), two_columns), std::invalid_argument);
+  EXPECT_THROW(MovingVertices(places(5, 0), four_rows), std::invalid_argument);
+}
+
+TEST(Candidates, HaveTheirVerticesInTheOrderOfAQuery) {
+  EXPECT_EQ(vertices_of(candidates(Kind::vertex_face, {}), {0, 1}),
+            (std::array<std::int32_t, 4>{0, 4, 3, 1}));
+  EXPECT_EQ(vertices_of(candidates(Kind::edge_edge, {}), {1, 0}),
+            (std::array<std::int32_t, 4>{4, 2, 0, 1}));
+}
+
+TEST(Candidates, AreQueries) {
+  const Query vertex_face = query_of(counted(5), candidates(Kind::vertex_face, {}), {0, 1});
+  EXPECT_EQ(vertex_face, (Query{{0,   1,   2,   12,  13,  14,  9,   10,  11,  3,   4,   5,
+                                 100, 101, 102, 112, 113, 114, 109, 110, 111, 103, 104, 105}}));
+  const Query edge_edge = query_of(counted(5), candidates(Kind::edge_edge, {}), {1, 0});
+  EXPECT_EQ(edge_edge, (Query{{12,  13,  14,  6,   7,   8,   0,   1,   2,   3,   4,   5,
+                               112, 113, 114, 106, 107, 108, 100, 101, 102, 103, 104, 105}}));
+}
+
+TEST(RequireInRange, AcceptsTheOutermostIndices) {
+  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{0, 0}, {4, 1}})), "");
+  EXPECT_EQ(range_error(candidates(Kind::edge_edge, {{0, 1}, {1, 0}})), "");
+  EXPECT_EQ(range_error(candidates(Kind::edge_edge, {})), "");
+}
+
+TEST(RequireInRange, NamesTheFirstPairAndWhatIsWrongThere) {
+  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{0, 0}, {5, 1}, {-1, 0}})),
+            "pair 1: vertex 5, but there are 5");
+  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{-1, 0}})),
+            "pair 0: vertex -1, but there are 5");
+  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{0, 2}})),
+            "pair 0: face 2, but there are 2");
+  EXPECT_EQ(range_error(candidates(Kind::vertex_face, {{0, -1}})),
+            "pair 0: face -1, but there are 2");
+  EXPECT_EQ(range_error(candidates(Kind::edge_edge, {{0, 1}, {2, 0}})),
+            "pair 1: edge 2, but there are 2");
+  EXPECT_EQ(range_error(candidates(Kind::edge_edge, {{0, std::numeric_limits<int>::min()}})),
+            "pair 0: edge -2147483648, but there are 2");
+}
+
+TEST(RequireInRange, LooksIntoTheEdgesAndFacesOfPairs) {
+  const std::vector<Edge> edges{{0, 1}, {0, 5}};
+  const std::vector<Face> faces{{0, 1, -2}, {0, 1, 2}};
+  const std::vector<IndexPair> sound{{0, 1}}, unsound{{0, 1}, {0, 0}}, swapped{{1, 0}};
+  EXPECT_EQ(range_error({Kind::vertex_face, sound, edges, faces}), "");
+  EXPECT_EQ(range_error({Kind::vertex_face, unsound, edges, faces}),
+            "pair 1: face 0, vertex -2, but there are 5");
+  EXPECT_EQ(range_error({Kind::edge_edge, sound, edges, faces}),
+            "pair 0: edge 1, vertex 5, but there are 5");
+  EXPECT_EQ(range_error({Kind::edge_edge, swapped, edges, faces}),
+            "pair 0: edge 1, vertex 5, but there are 5");
+}
+
+}  // namespace
+}  // namespace touchstone::fast

@@ -1,0 +1,36 @@
+#pragma once
+
+/// \file
+/// Where the public benchmark data are: outside the project, and not everywhere.
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "verify/dataset/dataset.hpp"
+
+namespace touchstone::tests {
+
+/// The folder that TOUCHSTONE_DATA names, by default ../shared/datasets beside the project; empty,
+/// with a loud word, if it is missing.
+[[nodiscard]] inline std::filesystem::path public_data_folder() {
+  const char* const variable = std::getenv("TOUCHSTONE_DATA");  // NOLINT(concurrency-mt-unsafe)
+  std::filesystem::path folder =
+      variable != nullptr ? std::filesystem::path(variable)
+                          : std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "../shared/datasets";
+  if (std::filesystem::exists(folder)) return folder;
+  std::printf("MISSING public data: %s (set TOUCHSTONE_DATA)\n", folder.c_str());
+  return {};
+}
+
+/// All its files of queries; none if it is missing.
+[[nodiscard]] inline std::vector<std::filesystem::path> public_datasets() {
+  const std::filesystem::path folder = public_data_folder();
+  if (folder.empty()) return {};
+  const std::array paths{folder / "handcrafted", folder / "simulation"};
+  return verify::find_datasets(paths);
+}
+
+}  // namespace touchstone::tests

@@ -1,0 +1,128 @@
+#pragma once
+
+/// \file
+/// The public simulation steps with their labels, pair by pair: meshes before and after a step, and
+/// which of the pairs that a conservative solver reported truly collide. Every other pair of the
+/// step does not collide.
+///
+/// The dataset numbers vertices first, then edges, then faces, and edges as fast::edges_of does.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/mesh.hpp"
+#include "tests/support/public_data.hpp"
+#include "verify/mesh/mesh.hpp"
+
+namespace touchstone::tests {
+
+/// Pairs of one kind, each with its label.
+struct LabelledPairs {
+  std::vector<fast::IndexPair> pairs;  ///< vertex and face, or two edges, the smaller index first
+  std::vector<bool> collides;
+};
+
+/// A step of a simulation.
+struct SimulationStep {
+  std::string scene;
+  fast::MovingVertices vertices;
+  std::vector<fast::Edge> edges;
+  std::vector<fast::Face> faces;
+  LabelledPairs vertex_face;
+  LabelledPairs edge_edge;
+
+  [[nodiscard]] const LabelledPairs& labelled(Kind kind) const {
+    return kind == Kind::vertex_face ? vertex_face : edge_edge;
+  }
+
+  /// Pairs with what their indices mean; refers to both.
+  [[nodiscard]] fast::Candidates candidates(Kind kind,
+                                            const std::vector<fast::IndexPair>& pairs) const {
+    return {.kind = kind, .pairs = pairs, .edges = edges, .faces = faces};
+  }
+};
+
+/// The scenes, each with one step.
+inline constexpr std::array<std::string_view, 3> simulation_scenes{
+    "cloth-ball", "armadillo-rollers", "cloth-funnel"};
+
+/// Where the public simulation steps are; empty, with a loud word, if they are missing.
+[[nodiscard]] inline std::filesystem::path simulation_folder() {
+  const std::filesystem::path data = public_data_folder();
+  return data.empty() ? data : data / "simulation";
+}
+
+/// The files of a folder whose names end so, in order.
+[[nodiscard]] inline std::vector<std::filesystem::path> files_ending(
+    const std::filesystem::path& folder, std::string_view ending) {
+  std::vector<std::filesystem::path> result;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().filename().string().ends_with(ending)) result.push_back(entry.path());
+  }
+  std::ranges::sort(result);
+  return result;
+}
+
+/// Reads boxes/NAME.json and its labels. \param first_of_kind of the ids of first and second
+/// \throws std::runtime_error if there are not as many labels as pairs.
+[[nodiscard]] inline LabelledPairs read_labelled_pairs(
+    const std::filesystem::path& scene, std::string_view kind,
+    const std::array<std::size_t, 2>& first_of_kind) {
+  const std::filesystem::path boxes =
+      files_ending(scene / "boxes", std::string(kind) + ".json").at(0);
+  const auto parsed = [](const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return nlohmann::json::parse(file);
+  };
+  LabelledPairs result;
+  for (auto ids : parsed(boxes).get<std::vector<std::array<std::size_t, 2>>>()) {
+    std::ranges::sort(ids);
+    result.pairs.push_back({static_cast<std::int32_t>(ids[0] - first_of_kind[0]),
+                            static_cast<std::int32_t>(ids[1] - first_of_kind[1])});
+  }
+  const std::string labels = boxes.stem().string() + "_mma_bool.json";
+  result.collides = parsed(scene / "mma_bool" / labels).get<std::vector<bool>>();
+  if (result.collides.size() != result.pairs.size()) {
+    throw std::runtime_error(boxes.string() + ": not as many labels as pairs");
+  }
+  return result;
+}
+
+/// Loads the step of a scene: its two frames and its labelled pairs.
+/// \param folder what simulation_folder gave
+/// \throws std::exception if anything about it is unreadable, or a pair is none of the mesh.
+[[nodiscard]] inline SimulationStep load_simulation_step(const std::filesystem::path& folder,
+                                                         std::string_view scene_name) {
+  const std::filesystem::path scene = folder / scene_name;
+  const auto frames = files_ending(scene / "frames", ".ply");
+  verify::Mesh before = verify::read_mesh(frames.at(0));
+  const verify::Mesh after = verify::read_mesh(frames.at(1));
+  if (before.faces != after.faces) throw std::runtime_error(scene.string() + ": faces differ");
+  const auto vertices = static_cast<std::size_t>(before.vertices.rows());
+  const std::size_t first_face = vertices + before.edges.size();
+  SimulationStep step{
+      .scene = std::string(scene_name),
+      .vertices = fast::MovingVertices(before.vertices, after.vertices),
+      .edges = std::move(before.edges),
+      .faces = std::move(before.faces),
+      .vertex_face = read_labelled_pairs(scene, "vf", {0, first_face}),
+      .edge_edge = read_labelled_pairs(scene, "ee", {vertices, vertices}),
+  };
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    fast::require_in_range(step.vertices, step.candidates(kind, step.labelled(kind).pairs));
+  }
+  return step;
+}
+
+}  // namespace touchstone::tests

@@ -1,0 +1,251 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+// `touchstone bench` as users meet it: by running the tool.
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Bench : public ::testing::Test {
+ public:
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+  Bench(Bench&&) = delete;
+  Bench& operator=(Bench&&) = delete;
+
+ protected:
+  Bench() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) /
+              (std::string("touchstone_bench_") + test->name() + "_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  ~Bench() override { fs::remove_all(folder_); }
+
+  /// Runs the tool, after shell words such as a limit of time; its exit status.
+  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = before + " '" TOUCHSTONE_TOOL "' bench " + arguments + " >'" +
+                                path("out") + "' 2>'" + path("err") + "'";
+    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+  [[nodiscard]] std::string read(const std::string& name) const { return read_file(path(name)); }
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
+
+  /// Writes a file and returns its path in quotes.
+  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
+    fs::create_directories(fs::path(path(name)).parent_path());
+    std::ofstream(path(name), std::ios::binary) << text;
+    return quoted(name);
+  }
+  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
+
+ private:
+  fs::path folder_;
+};
+
+/// A vertex over a resting triangle that falls to a height, as rows without labels.
+std::string falling_vertex(const std::string& end_height) {
+  const auto rows = [](const std::string& height) {
+    return "1,1,1,1," + height + ",1\n0,1,0,1,0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
+  };
+  return rows("1") + rows(end_height);
+}
+
+/// Few and short: tests ask what is done, not how fast.
+const std::string quick = " --repetitions 2 --seconds 0.01 ";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(Bench, HelpHasAnExample) {
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_TRUE(contains(read("out"), "Example: touchstone bench ")) << read("out");
+  EXPECT_FALSE(contains(read("out"), "--query-limit"));
+}
+
+TEST_F(Bench, TimesAndJudgesTheGivenQueries) {
+  const std::string folder = quoted("data");
+  static_cast<void>(write("data/a_vf.csv", falling_vertex("-3") + falling_vertex("0")));
+  static_cast<void>(write("data/b_vf.csv", falling_vertex("1")));
+  ASSERT_EQ(run(folder + quick + "--method tight_inclusion --json " + quoted("json")), 0)
+      << read("err");
+  EXPECT_TRUE(contains(read("out"), path("data") + ", vertex-face: 3 queries, 2 collisions; "))
+      << read("out");
+  EXPECT_EQ(read("err"), "");
+  const nlohmann::json result = json();
+  EXPECT_EQ(result.at("repetitions"), 2);
+  ASSERT_EQ(result.at("groups").size(), 1U) << "both files are one group";
+  const nlohmann::json& group = result.at("groups")[0];
+  EXPECT_EQ(group.at("name"), path("data"));
+  EXPECT_EQ(group.at("kind"), "vertex-face");
+  EXPECT_EQ(group.at("queries"), 3);
+  EXPECT_EQ(group.at("judged"), 3);
+  EXPECT_EQ(group.at("collisions"), 2);
+  EXPECT_GT(group.at("memory_pass").at("ns_per_query"), 0.0);
+  ASSERT_EQ(group.at("methods").size(), 1U);
+  const nlohmann::json& method = group.at("methods")[0];
+  EXPECT_EQ(method.at("name"), "tight_inclusion");
+  EXPECT_EQ(method.at("queries"), 3);
+  EXPECT_GT(method.at("time").at("ns_per_query"), 0.0);
+  EXPECT_GT(method.at("passes"), 0.0);
+  EXPECT_EQ(method.at("single").at("queries"), 3);
+  EXPECT_EQ(method.at("judged"), 3);
+  EXPECT_EQ(method.at("false_negatives"), 0);
+  EXPECT_EQ(method.at("toi_error").at("count"), 2);
+}
+
+TEST_F(Bench, WithoutAMethodOurOwnAreTimed) {
+  const std::string file = write("a_vf.csv", falling_vertex("-3"));
+  ASSERT_EQ(run(file + quick + "--json " + quoted("json")), 0) << read("err");
+  const nlohmann::json methods = json().at("groups")[0].at("methods");
+  const auto has = [&](const std::string& name) {
+    return std::any_of(methods.begin(), methods.end(),
+                       [&](const nlohmann::json& method) { return method.at("name") == name; });
+  };
+  EXPECT_TRUE(has("certified"));
+  EXPECT_TRUE(has("tight_inclusion"));
+}
+
+TEST_F(Bench, AFileHasItsOwnGroup) {
+  const std::string first = write("a_vf.csv", falling_vertex("-3"));
+  const std::string second = write("b_ee.csv", falling_vertex("-3"));
+  ASSERT_EQ(run(first + " " + second + quick + "--method certified --kernel scalar --json " +
+                quoted("json")),
+            0)
+      << read("err");
+  const nlohmann::json groups = json().at("groups");
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups[0].at("name"), path("a_vf.csv"));
+  EXPECT_EQ(groups[1].at("kind"), "edge-edge");
+  EXPECT_EQ(groups[0].at("methods")[0].at("stages").size(), 5U);
+}
+
+TEST_F(Bench, ABrokenPromiseExitsWithOne) {
+  const std::string file = write("a_vf.csv", falling_vertex("-3"));
+  EXPECT_EQ(run(file + quick + "--plugin '" TOUCHSTONE_BOX_OVERLAP "' --json " + quoted("json")), 0)
+      << read("err");
+  EXPECT_EQ(run(file + quick + "--plugin '" TOUCHSTONE_MISBEHAVING "' --json " + quoted("json")), 1)
+      << read("out") << read("err");
+  EXPECT_TRUE(json().at("groups")[0].at("methods")[0].at("broke_promise").get<bool>());
+  EXPECT_TRUE(contains(read("out"), path("a_vf.csv") + ": vertex-face query 0: answer"))
+      << read("out");
+}
+
+TEST_F(Bench, TheBuiltInWorkloadIsPatchesAndTheHardSet) {
+  ASSERT_EQ(run("--count 2 --judge 100 --kind edge-edge --repetitions 1 --seconds 0.001 --method "
+                "tight_inclusion --json " +
+                quoted("json")),
+            0)
+      << read("err") << read("out");
+  const nlohmann::json groups = json().at("groups");
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups[0].at("name"), "patches");
+  EXPECT_GE(groups[0].at("queries"), 100'000);
+  EXPECT_GE(groups[0].at("judged"), 100);
+  ASSERT_EQ(groups[0].at("methods").size(), 3U);
+  EXPECT_LT(groups[0].at("methods")[0].at("queries"), groups[0].at("queries"));
+  EXPECT_EQ(groups[0].at("methods")[1].at("name"), "certified_queries");
+  EXPECT_EQ(groups[0].at("methods")[2].at("name"), "certified_pairs");
+  EXPECT_EQ(groups[0].at("methods")[2].at("queries"), groups[0].at("queries"));
+  EXPECT_EQ(groups[1].at("name"), "hard set");
+  EXPECT_TRUE(json().at("step").is_null());
+}
+
+TEST_F(Bench, AStepIsTimedFromEndToEnd) {
+  const std::string faces = "f 1 2 3\nf 4 5 6\n";
+  const std::string resting = "v 0 0 0\nv 4 0 0\nv 0 4 0\n";
+  const std::string before = write("before.obj", resting + "v 1 1 1\nv 2 1 1\nv 1 2 1\n" + faces);
+  const std::string after = write("after.obj", resting + "v 1 1 -1\nv 2 1 -1\nv 1 2 -1\n" + faces);
+  ASSERT_EQ(run("--step " + before + " " + after + quick + "--threads 2 --json " + quoted("json")),
+            0)
+      << read("err") << read("out");
+  const nlohmann::json result = json();
+  ASSERT_EQ(result.at("groups").size(), 2U);
+  EXPECT_EQ(result.at("groups")[0].at("queries"), 3);
+  EXPECT_EQ(result.at("groups")[0].at("collisions"), 3);
+  const nlohmann::json& step = result.at("step");
+  EXPECT_EQ(step.at("name"), "before-after");
+  EXPECT_EQ(step.at("vertices"), 6);
+  EXPECT_EQ(step.at("edges"), 6);
+  EXPECT_EQ(step.at("faces"), 2);
+  EXPECT_EQ(step.at("vertex_face"), (nlohmann::json{{"candidates", 3}, {"collisions", 3}}));
+  EXPECT_LE(step.at("earliest").at("toi_lower"), 0.5);
+  EXPECT_GE(step.at("earliest").at("toi_upper"), 0.5);
+  EXPECT_EQ(step.at("earliest_agrees"), true);
+  ASSERT_EQ(step.at("times").size(), 2U);
+  EXPECT_EQ(step.at("times")[1].at("threads"), 2);
+  EXPECT_TRUE(contains(read("out"), "before-after: 6 vertices, 6 edges, 2 faces; ")) << read("out");
+}
+
+TEST_F(Bench, BadUsageExitsWithTwo) {
+  const std::string file = write("a_vf.csv", falling_vertex("-3"));
+  std::string json_to_input = " --json ";
+  json_to_input += file;
+  for (const std::string& arguments :
+       {std::string("--nonsense"), file + " --method nonsense", file + " --repetitions 0",
+        file + " --seconds 0", file + " --judge -1", file + " --kernel nonsense",
+        file + " --query-limit 1", file + " --step x y", std::string("--step x"),
+        file + " --plugin " + quoted("missing.so"), file + json_to_input, quoted("missing"),
+        "--step " + quoted("missing0.ply") + " " + quoted("missing1.ply")}) {
+    EXPECT_EQ(run(arguments), 2) << arguments << read("err");
+    EXPECT_NE(read("err"), "") << arguments;
+  }
+  EXPECT_EQ(read_file(path("a_vf.csv")), falling_vertex("-3"));
+}
+
+TEST_F(Bench, BadInputExitsWithTwoAndIsNamedOnce) {
+  const std::string bad = "1,0,1,1,1,1\n";
+  static_cast<void>(write("data/a_vf.csv", falling_vertex("-3") + bad));
+  static_cast<void>(write("data/b.csv", falling_vertex("-3")));
+  static_cast<void>(write("data/c_vf.csv", falling_vertex("1")));
+  EXPECT_EQ(run(quoted("data") + quick + "--method tight_inclusion --json " + quoted("json")), 2);
+  EXPECT_TRUE(contains(read("err"), path("data/a_vf.csv") + ":9:2: ")) << read("err");
+  EXPECT_TRUE(json().at("groups").empty()) << "half of the data is no group";
+
+  EXPECT_EQ(run(quoted("data") + quick + "--keep-going --method tight_inclusion --json " +
+                quoted("json")),
+            2);
+  EXPECT_EQ(json().at("groups")[0].at("queries"), 2);
+  const std::string errors = read("err");
+  const std::size_t first = errors.find(path("data/b.csv"));
+  ASSERT_NE(first, std::string::npos) << errors;
+  EXPECT_EQ(errors.find(path("data/b.csv"), first + 1), std::string::npos) << errors;
+}
+
+TEST_F(Bench, AnInterruptKeepsWhatIsDone) {
+  const std::string file = write("a_vf.csv", falling_vertex("-3"));
+  ASSERT_EQ(run(file + " --method tight_inclusion --repetitions 1000000 --json " + quoted("json"),
+                "timeout --preserve-status --signal=INT 3"),
+            130)
+      << read("err");
+  const nlohmann::json group = json().at("groups")[0];
+  EXPECT_EQ(group.at("interrupted"), true);
+  EXPECT_FALSE(group.at("memory_pass").at("repetitions").empty());
+  EXPECT_EQ(group.at("judged"), 0);
+  EXPECT_TRUE(contains(read("out"), "(interrupted)")) << read("out");
+}
+
+}  // namespace
+}  // namespace touchstone::verify::cli

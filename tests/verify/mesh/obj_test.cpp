@@ -1,0 +1,87 @@
+#include "verify/mesh/obj.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/mesh_files.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Edge;
+using fast::Face;
+using tests::coordinates;
+using tests::MeshFolder;
+
+const std::string four_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+
+TEST(ReadObj, ReadsVerticesFacesAndLines) {
+  const MeshFolder folder;
+  const Mesh mesh = folder.mesh("a.obj",
+                                "# a comment\nmtllib x.mtl\no thing\n"
+                                "v 0.1 -2e-3 +3\r\n\tv 4 5 6 1.0 # weight\nv 7 8 9 0.5 0.5 0.5\n\n"
+                                "vn 0 0 1\nvt 0 0\nv 1 1 1\ns off\n"
+                                "f 1 2 3\nf 4/1 3/1 2/1\nf 1//1 2//1 4//1\nf 1/1/1 3/1/1 4/1/1\n"
+                                "l 1 2 4\n");
+  EXPECT_EQ(coordinates(mesh), (std::vector<double>{0.1, -2e-3, 3, 4, 5, 6, 7, 8, 9, 1, 1, 1}));
+  EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {3, 2, 1}, {0, 1, 3}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.edges, (std::vector<Edge>{{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}}));
+}
+
+TEST(ReadObj, ReadsLinesWithoutFaces) {
+  const MeshFolder folder;
+  const Mesh mesh = folder.mesh("a.obj", four_vertices + "l 4 1/2 3\nl 1 -1\n");
+  EXPECT_EQ(mesh.edges, (std::vector<Edge>{{0, 2}, {0, 3}}));
+}
+
+TEST(ReadObj, CountsNegativeCornersBackwardsFromTheVerticesBefore) {
+  const MeshFolder folder;
+  const Mesh mesh = folder.mesh("a.obj", four_vertices + "f -1 -2 -4\nv 9 9 9\nf -1/-1 1 2");
+  EXPECT_EQ(mesh.faces, (std::vector<Face>{{3, 2, 0}, {4, 0, 1}}));
+}
+
+TEST(ReadObj, CornersMayNameLaterVertices) {
+  const MeshFolder folder;
+  EXPECT_EQ(folder.mesh("a.obj", "f 1 2 4\n" + four_vertices).faces,
+            (std::vector<Face>{{0, 1, 3}}));
+}
+
+TEST(ReadObj, OfAnEmptyFileIsEmpty) {
+  const MeshFolder folder;
+  EXPECT_EQ(folder.mesh("a.obj", "").vertices.rows(), 0);
+}
+
+TEST(ReadObj, NamesTheLineAndTheReason) {
+  const MeshFolder folder;
+  const auto error = [&folder](const std::string& line) {
+    return folder.error("a.obj", four_vertices + line + "\nv 1 1 1\n");
+  };
+  EXPECT_EQ(error("v 1 2"), "a.obj:5: a vertex must have three coordinates");
+  EXPECT_EQ(error("v 1 2 z"), "a.obj:5: \"z\" is no number, or none that a double holds");
+  EXPECT_EQ(error("v 1 2 1e999"), "a.obj:5: \"1e999\" is no number, or none that a double holds");
+  EXPECT_EQ(error("v 1 nan 3"), "a.obj:5: a coordinate must be finite");
+  EXPECT_EQ(error("v 1 -inf 3"), "a.obj:5: a coordinate must be finite");
+  EXPECT_EQ(error("f 1 2 3 4"), "a.obj:5: a face with 4 corners; only triangles are read");
+  EXPECT_EQ(error("f 1 2"), "a.obj:5: a face with 2 corners; only triangles are read");
+  EXPECT_EQ(error("f"), "a.obj:5: a face with 0 corners; only triangles are read");
+  EXPECT_EQ(error("f 1 2 6"), "a.obj:5: corner 6, but there are 5 vertices");
+  EXPECT_EQ(error("f 1 2 2147483647"), "a.obj:5: corner 2147483647, but there are 5 vertices");
+  EXPECT_EQ(error("f 1 2 2147483648"), "a.obj:5: \"2147483648\" is no corner");
+  EXPECT_EQ(error("f 1 2 x/1"), "a.obj:5: \"x/1\" is no corner");
+  EXPECT_EQ(error("f 1 2 /1"), "a.obj:5: \"/1\" is no corner");
+  EXPECT_EQ(error("f 1 2 1.5"), "a.obj:5: \"1.5\" is no corner");
+  EXPECT_EQ(error("f 0 1 2"),
+            "a.obj:5: corner \"0\", but there are 4 vertices before it, counted from 1");
+  EXPECT_EQ(error("f 1 2 -5"),
+            "a.obj:5: corner \"-5\", but there are 4 vertices before it, counted from 1");
+  EXPECT_EQ(error("f 1 2 -2147483648"),
+            "a.obj:5: corner \"-2147483648\", but there are 4 vertices before it, counted from 1");
+  EXPECT_EQ(error("l 1"), "a.obj:5: a line must have two corners or more");
+  EXPECT_EQ(error("l 1 2 9"), "a.obj:5: corner 9, but there are 5 vertices");
+  EXPECT_EQ(error("# " + std::string(2'000'000, 'x')), "a.obj:5: line too long");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,348 @@
+#include "verify/mesh/ply.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/support/mesh_files.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Edge;
+using fast::Face;
+using tests::coordinates;
+using tests::MeshFolder;
+
+/// Bytes of numbers, one after the other.
+class Bytes {
+ public:
+  explicit Bytes(bool big_endian) : big_endian_(big_endian) {}
+
+  template <class Number>
+  Bytes& add(Number number) {
+    auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+    if (big_endian_) std::ranges::reverse(bytes);
+    text_.append(bytes.data(), bytes.size());
+    return *this;
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  bool big_endian_;
+  std::string text_;
+};
+
+std::string format(bool big_endian) {
+  return big_endian ? "ply\nformat binary_big_endian 1.0\n"
+                    : "ply\nformat binary_little_endian 1.0\n";
+}
+
+const std::string ascii = "ply\nformat ascii 1.0\n";
+const std::string xyz = "property double x\nproperty double y\nproperty double z\n";
+const std::string triangle = "property list uchar int vertex_indices\n";
+
+/// A header in text with four vertices in lines 10 to 13, and so many faces.
+std::string four_vertices(int faces) {
+  return ascii + "element vertex 4\n" + xyz + "element face " + std::to_string(faces) + "\n" +
+         triangle + "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+}
+
+TEST(ReadPly, ReadsText) {
+  const MeshFolder folder;
+  const Mesh mesh = folder.mesh(
+      "a.ply", "ply\r\ncomment before\nformat ascii 1.0\nobj_info any\nelement vertex 4\n" + xyz +
+                   "element face 2\n" + triangle +
+                   "end_header\n0.1 -2e-3 +3\n4 5 6\r\n\n 7 8\t9 \n1 1 1\n3 0 1 2\n3 3 2 1\n\n");
+  EXPECT_EQ(coordinates(mesh), (std::vector<double>{0.1, -2e-3, 3, 4, 5, 6, 7, 8, 9, 1, 1, 1}));
+  EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {3, 2, 1}}));
+  EXPECT_EQ(mesh.edges, (std::vector<Edge>{{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}}));
+}
+
+TEST(ReadPly, ReadsFloatsInTextAsFloats) {
+  const MeshFolder folder;
+  const Mesh mesh = folder.mesh("a.ply", ascii +
+                                             "element vertex 1\nproperty float32 x\n"
+                                             "property float64 y\nproperty float z\nend_header\n"
+                                             "0.1 0.1 1e-45\n");
+  EXPECT_EQ(coordinates(mesh),
+            (std::vector<double>{0.1F, 0.1, std::numeric_limits<float>::denorm_min()}));
+}
+
+TEST(ReadPly, ReadsBothByteOrders) {
+  const MeshFolder folder;
+  for (const bool big_endian : {false, true}) {
+    Bytes bytes(big_endian);
+    for (const double x : {0.1, -2e-300, 3.0, 4.0, 5e-324, 6.0, 7.0, 8.0, 1.7e308}) bytes.add(x);
+    bytes.add(std::uint8_t{3}).add(2).add(0).add(1);
+    const Mesh mesh =
+        folder.mesh("a.ply", format(big_endian) + "element vertex 3\n" + xyz + "element face 1\n" +
+                                 triangle + "end_header\n" + bytes.text());
+    EXPECT_EQ(coordinates(mesh),
+              (std::vector<double>{0.1, -2e-300, 3, 4, 5e-324, 6, 7, 8, 1.7e308}));
+    EXPECT_EQ(mesh.faces, (std::vector<Face>{{2, 0, 1}}));
+  }
+}
+
+TEST(ReadPly, ReadsCoordinatesOfEveryTypeUnderBothNames) {
+  const MeshFolder folder;
+  const std::array<std::array<std::string, 2>, 8> names{{{"char", "int8"},
+                                                         {"uchar", "uint8"},
+                                                         {"short", "int16"},
+                                                         {"ushort", "uint16"},
+                                                         {"int", "int32"},
+                                                         {"uint", "uint32"},
+                                                         {"float", "float32"},
+                                                         {"double", "float64"}}};
+  for (const bool big_endian : {false, true}) {
+    for (const std::size_t name : {0U, 1U}) {
+      std::string header = format(big_endian) + "element vertex 3\n";
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < 8; ++i) {
+          // x, y and z are of another type for each of three files' worth of properties.
+          header += "property " + names[i][name] + " " + std::string(1, "abc"[axis]) +
+                    std::to_string(i) + "\n";
+        }
+      }
+      for (std::size_t type = 0; type < 8; ++type) {
+        std::string text = header;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const std::string old_name =
+              " " + std::string(1, "abc"[axis]) + std::to_string(type) + "\n";
+          text.replace(text.find(old_name), old_name.size(),
+                       " " + std::string(1, "xyz"[axis]) + "\n");
+        }
+        Bytes bytes(big_endian);
+        for (int row = 0; row < 9; ++row) {
+          bytes.add(std::int8_t{-128}).add(std::uint8_t{255}).add(std::int16_t{-32768});
+          bytes.add(std::uint16_t{65535}).add(std::numeric_limits<std::int32_t>::min());
+          bytes.add(std::numeric_limits<std::uint32_t>::max()).add(0.1F).add(0.1);
+        }
+        static constexpr std::array<double, 8> values{-128,          255,          -32768, 65535,
+                                                      -2147483648.0, 4294967295.0, 0.1F,   0.1};
+        const Mesh mesh = folder.mesh("a.ply", text + "end_header\n" + bytes.text());
+        EXPECT_EQ(coordinates(mesh), std::vector<double>(9, values[type])) << type;
+      }
+    }
+  }
+}
+
+TEST(ReadPly, PassesOverOtherPropertiesAndElements) {
+  const MeshFolder folder;
+  const std::string header =
+      "element camera 1\nproperty float view\nproperty list ushort double plan\n"
+      "element nothing 5\n"
+      "element vertex 3\nproperty uchar red\nproperty float z\nproperty list int uchar data\n"
+      "property float x\nproperty float y\nproperty list uchar int x\n"
+      "element face 1\nproperty float area\nproperty list uchar float texcoord\n"
+      "property list int uint vertex_index\nproperty uchar flags\n"
+      "element material 1\nproperty int id\nend_header\n";
+  const auto expect = [](const Mesh& mesh) {
+    EXPECT_EQ(coordinates(mesh), (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+    EXPECT_EQ(mesh.faces, (std::vector<Face>{{2, 1, 0}}));
+  };
+  expect(folder.mesh("a.ply", ascii + header +
+                                  "0.5 2 1 2\n9 3 0 1 2 0\n9 6 2 7 7 4 5 1 8\n9 9 1 7 7 8 0\n"
+                                  "0.5 2 0.5 0.5 3 2 1 0 9\n77\n"));
+  for (const bool big_endian : {false, true}) {
+    Bytes bytes(big_endian);
+    bytes.add(0.5F).add(std::uint16_t{2}).add(1.0).add(2.0);
+    const auto vertex = [&bytes](float z, int data, float x, float y, std::uint8_t list) {
+      bytes.add(std::uint8_t{9}).add(z).add(data);
+      for (int i = 0; i < data; ++i) bytes.add(std::uint8_t{7});
+      bytes.add(x).add(y).add(list);
+      for (int i = 0; i < list; ++i) bytes.add(8);
+    };
+    vertex(3, 0, 1, 2, 0);
+    vertex(6, 2, 4, 5, 1);
+    vertex(9, 1, 7, 8, 0);
+    bytes.add(0.5F).add(std::uint8_t{2}).add(0.5F).add(0.5F);
+    bytes.add(3).add(2U).add(1U).add(0U).add(std::uint8_t{9}).add(77);
+    expect(folder.mesh("a.ply", format(big_endian) + header + bytes.text()));
+  }
+}
+
+TEST(ReadPly, JoinsTheFilesOwnEdges) {
+  const MeshFolder folder;
+  const Mesh mesh = folder.mesh(
+      "a.ply", ascii +
+                   "element edge 3\nproperty int vertex1\nproperty int vertex2\nproperty uchar "
+                   "red\nelement vertex 4\n" +
+                   xyz + "element face 1\n" + triangle +
+                   "end_header\n3 1 9\n0 1 9\n3 3 9\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n");
+  EXPECT_EQ(mesh.edges, (std::vector<Edge>{{0, 1}, {0, 2}, {1, 2}, {1, 3}}));
+}
+
+TEST(ReadPly, ReadsMoreThanItsBufferHolds) {
+  const MeshFolder folder;
+  Bytes bytes(false);
+  for (int i = 0; i < 30'000; ++i) bytes.add(static_cast<double>(i));
+  const Mesh mesh = folder.mesh(
+      "a.ply", format(false) + "element vertex 10000\n" + xyz + "end_header\n" + bytes.text());
+  ASSERT_EQ(mesh.vertices.size(), 30'000);
+  for (Eigen::Index i = 0; i < 30'000; ++i) EXPECT_EQ(mesh.vertices.data()[i], i);
+}
+
+TEST(ReadPly, EveryTruncationIsAnError) {
+  const MeshFolder folder;
+  Bytes bytes(false);
+  for (int i = 0; i < 9; ++i) bytes.add(1.0);
+  bytes.add(std::uint8_t{3}).add(0).add(1).add(2);
+  const std::string binary = format(false) + "element vertex 3\n" + xyz + "element face 1\n" +
+                             triangle + "end_header\n" + bytes.text();
+  for (const std::string& whole : {binary, four_vertices(1) + "3 0 1 2"}) {
+    EXPECT_EQ(folder.error("a.ply", whole), "");
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+      EXPECT_NE(folder.error("a.ply", whole.substr(0, length)), "") << length;
+    }
+  }
+  EXPECT_EQ(
+      folder.error("a.ply", binary.substr(0, binary.size() - 1)),
+      "a.ply: face 0 at byte " + std::to_string(binary.size() - 13) + ": the file ends early");
+  EXPECT_EQ(folder.error("a.ply", four_vertices(2) + "3 0 1 2\n"),
+            "a.ply:14: face 1: the file ends early");
+}
+
+TEST(ReadPly, HugeCountsTakeNoMoreThanTheFileHas) {
+  const MeshFolder folder;
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  for (const std::string kind : {"ascii 1.0", "binary_little_endian 1.0"}) {
+    const std::string start = "ply\nformat " + kind + "\n";
+    EXPECT_TRUE(folder.error("a.ply", start + "element vertex 2147483647\n" + xyz + "end_header\n")
+                    .ends_with("the file ends early"));
+    EXPECT_TRUE(folder
+                    .error("a.ply", start + "element other 18446744073709551615\n" + triangle +
+                                        "element vertex 0\n" + xyz + "end_header\n")
+                    .ends_with("the file ends early"));
+    EXPECT_TRUE(folder
+                    .error("a.ply", start + "element vertex 0\n" + xyz +
+                                        "element face 2147483647\n" + triangle + "end_header\n")
+                    .ends_with("the file ends early"));
+  }
+  Bytes list(false);
+  list.add(std::numeric_limits<std::uint32_t>::max());
+  const std::string header = format(false) + "element other 1\nproperty list uint double d\n" +
+                             "element vertex 0\n" + xyz + "end_header\n";
+  EXPECT_EQ(folder.error("a.ply", header + list.text()),
+            "a.ply: other 0 at byte " + std::to_string(header.size()) + ": the file ends early");
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100'000) << "KiB";
+}
+
+TEST(ReadPly, NamesWhatIsWrongWithAHeader) {
+  const MeshFolder folder;
+  const auto error = [&folder](const std::string& text) { return folder.error("a.ply", text); };
+  const std::string vertices = "element vertex 0\n" + xyz;
+  EXPECT_EQ(error(""), "a.ply: not a PLY file");
+  EXPECT_EQ(error("plyx\n"), "a.ply:1: not a PLY file");
+  EXPECT_EQ(error("ply\nformat ascii 1.0\n"), "a.ply:2: the header has no end");
+  EXPECT_EQ(error("ply\nend_header\n"), "a.ply:2: the header has no format");
+  EXPECT_EQ(error("ply\nformat text 1.0\n"), "a.ply:2: malformed header at \"text\"");
+  EXPECT_EQ(error("ply\nformat ascii 2.0\n"), "a.ply:2: malformed header at \"2.0\"");
+  EXPECT_EQ(error(ascii + "format ascii 1.0\n"), "a.ply:3: malformed header at \"ascii\"");
+  EXPECT_EQ(error(ascii + "vertices 3\n"), "a.ply:3: malformed header at \"vertices\"");
+  EXPECT_EQ(error(ascii + "\n"), "a.ply:3: malformed header at \"\"");
+  EXPECT_EQ(error(ascii + "element vertex\n"), "a.ply:3: malformed header at \"\"");
+  EXPECT_EQ(error(ascii + "element vertex -1\n"), "a.ply:3: malformed header at \"-1\"");
+  EXPECT_EQ(error(ascii + "element vertex 18446744073709551616\n"),
+            "a.ply:3: malformed header at \"18446744073709551616\"");
+  EXPECT_EQ(error(ascii + "element vertex 1 2\n"),
+            "a.ply:3: malformed header at \"element vertex 1 2\"");
+  EXPECT_EQ(error(ascii + "property int x\n"), "a.ply:3: malformed header at \"property\"");
+  EXPECT_EQ(error(ascii + "element vertex 1\nproperty long x\n"),
+            "a.ply:4: malformed header at \"long\"");
+  EXPECT_EQ(error(ascii + "element vertex 1\nproperty int\n"),
+            "a.ply:4: a property must have a name");
+  EXPECT_EQ(error(ascii + "element vertex 1\nproperty list float int x\n"),
+            "a.ply:4: malformed header at \"float\"");
+  EXPECT_EQ(error(ascii + "end_header\n"), "a.ply:3: the header has no element vertex");
+  EXPECT_EQ(error(ascii + "element vertex 1\nproperty int x\nproperty int z\nend_header\n"),
+            "a.ply:6: vertex has no property y");
+  EXPECT_EQ(error(ascii + "element vertex 1\n" + xyz + "property int y\nend_header\n"),
+            "a.ply:8: vertex has two properties y");
+  EXPECT_EQ(error(ascii + vertices + vertices + "end_header\n"),
+            "a.ply:11: the header has two elements vertex");
+  EXPECT_EQ(error(ascii + "element vertex 2147483648\n" + xyz + "end_header\n"),
+            "a.ply:7: more than 2^31-1 elements vertex");
+  EXPECT_EQ(error(ascii + vertices + "element face 1\nproperty int vertex_indices\nend_header\n"),
+            "a.ply:9: face must have one list vertex_indices or vertex_index");
+  EXPECT_EQ(error(ascii + vertices + "element face 1\n" + triangle +
+                  "property list uchar int vertex_index\nend_header\n"),
+            "a.ply:10: face must have one list vertex_indices or vertex_index");
+  EXPECT_EQ(error(ascii + vertices +
+                  "element face 1\nproperty list uchar float vertex_index\n"
+                  "end_header\n"),
+            "a.ply:9: face: vertex_index must be of a whole type");
+  EXPECT_EQ(error(ascii + vertices + "element edge 1\nproperty int vertex1\nend_header\n"),
+            "a.ply:9: edge has no property vertex2");
+  EXPECT_EQ(error("ply\ncomment " + std::string(2'000'000, 'x')), "a.ply:2: line too long");
+}
+
+TEST(ReadPly, NamesWhatIsWrongInText) {
+  const MeshFolder folder;
+  const auto face = [&folder](const std::string& line) {
+    return folder.error("a.ply", four_vertices(1) + line + "\n");
+  };
+  EXPECT_EQ(face("3 0 1 3"), "");
+  EXPECT_EQ(face("4 0 1 2 3"), "a.ply:14: face 0: 4 vertices; only triangles are read");
+  EXPECT_EQ(face("2 0 1"), "a.ply:14: face 0: 2 vertices; only triangles are read");
+  EXPECT_EQ(face("3 0 1"), "a.ply:14: face 0: too few values");
+  EXPECT_EQ(face("3 0 1 2 3"), "a.ply:14: face 0: too many values");
+  EXPECT_EQ(face("3 0 1 4"), "a.ply:14: face 0: vertex 4, but there are 4, counted from 0");
+  EXPECT_EQ(face("3 0 -1 2"), "a.ply:14: face 0: vertex -1, but there are 4, counted from 0");
+  EXPECT_EQ(face("3 0 1 1.5"), "a.ply:14: face 0: \"1.5\" is no number of the property's type");
+  EXPECT_EQ(face("256 0 1 2"), "a.ply:14: face 0: \"256\" is no number of the property's type");
+  EXPECT_EQ(face("3 0 1 2\n\n3 0 1 2"), "a.ply:16: data after the last element");
+  const auto vertex = [&folder](const std::string& line) {
+    return folder.error("a.ply", ascii + "element vertex 1\n" + xyz + "end_header\n" + line);
+  };
+  EXPECT_EQ(vertex("0 nan 0"), "a.ply:8: vertex 0: a coordinate must be finite");
+  EXPECT_EQ(vertex("0 0 -inf"), "a.ply:8: vertex 0: a coordinate must be finite");
+  EXPECT_EQ(vertex("0 1e400 0"),
+            "a.ply:8: vertex 0: \"1e400\" is no number of the property's type");
+  EXPECT_EQ(vertex("0 x 0"), "a.ply:8: vertex 0: \"x\" is no number of the property's type");
+  EXPECT_EQ(folder.error("a.ply", ascii + "element vertex 1\n" + xyz +
+                                      "element edge 1\nproperty int vertex1\nproperty int vertex2\n"
+                                      "end_header\n0 0 0\n0 1\n"),
+            "a.ply:12: edge 0: vertex 1, but there are 1, counted from 0");
+}
+
+TEST(ReadPly, NamesWhatIsWrongInBinary) {
+  const MeshFolder folder;
+  const std::string header = format(true) + "element vertex 1\n" + xyz +
+                             "element face 1\nproperty list char short vertex_index\nend_header\n";
+  const auto error = [&](const Bytes& bytes) {
+    return folder.error("a.ply", header + bytes.text());
+  };
+  const auto at = [&header](std::size_t offset) {
+    return "at byte " + std::to_string(header.size() + offset);
+  };
+  const auto after_vertex = [](double z) { return Bytes(true).add(0.0).add(0.0).add(z); };
+  const auto face = [&](std::int8_t count, std::int16_t corner) {
+    return error(after_vertex(0).add(count).add(corner).add(corner).add(corner));
+  };
+  EXPECT_EQ(face(3, 0), "");
+  EXPECT_EQ(face(3, 1), "a.ply: face 0 " + at(24) + ": vertex 1, but there are 1, counted from 0");
+  EXPECT_EQ(face(3, -1),
+            "a.ply: face 0 " + at(24) + ": vertex -1, but there are 1, counted from 0");
+  EXPECT_EQ(face(4, 0), "a.ply: face 0 " + at(24) + ": 4 vertices; only triangles are read");
+  EXPECT_EQ(face(-3, 0), "a.ply: face 0 " + at(24) + ": a list of negative length");
+  EXPECT_EQ(error(after_vertex(std::nan(""))),
+            "a.ply: vertex 0 " + at(0) + ": a coordinate must be finite");
+  const std::int16_t zero = 0;
+  EXPECT_EQ(error(after_vertex(0).add(std::int8_t{3}).add(zero).add(zero).add(zero).add(zero)),
+            "a.ply: byte " + std::to_string(header.size() + 31) + ": data after the last element");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

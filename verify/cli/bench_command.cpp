@@ -1,0 +1,277 @@
+// touchstone bench: speed and error of every solver in one run.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "fast/certified.hpp"
+#include "fast/certified/kernel.hpp"
+#include "verify/bench.hpp"
+#include "verify/bench_report.hpp"
+#include "verify/cli/commands.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/cli/respondents.hpp"
+#include "verify/cli/sources.hpp"
+#include "verify/contender.hpp"
+#include "verify/methods/plugin.hpp"
+#include "verify/methods/registry.hpp"
+#include "verify/moving_mesh.hpp"
+#include "verify/query_group.hpp"
+#include "verify/step_bench.hpp"
+#include "verify/terminal.hpp"
+#include "verify/workload.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Contenders = std::vector<std::unique_ptr<Contender>>;
+using Progress = std::function<void(double)>;
+
+constexpr std::string_view certified_name = "certified";
+constexpr std::string_view best_kernel = "best";
+constexpr unsigned most_threads = 1024;
+
+struct Arguments {
+  SourceArguments sources;
+  RespondentArguments solvers;
+  /// The two frames of a step, or nothing.
+  std::vector<fs::path> step;
+  std::string kernel = std::string(best_kernel);
+  BenchOptions bench;
+  std::string json_file;
+
+  [[nodiscard]] bool built_in_workload() const { return step.empty() && sources.built_in_set(); }
+};
+
+/// \throws std::invalid_argument if this processor cannot run it.
+const fast::CertifiedKernel* kernel_of(const std::string& name) {
+  using fast::InstructionSet;
+  if (name == best_kernel) return nullptr;
+  const InstructionSet instructions = name == "avx512" ? InstructionSet::avx512
+                                      : name == "avx2" ? InstructionSet::avx2
+                                                       : InstructionSet::scalar;
+  const fast::CertifiedKernel* const kernel = fast::find_certified_kernel(instructions);
+  if (kernel == nullptr) throw std::invalid_argument("this processor cannot run kernel " + name);
+  return kernel;
+}
+
+/// One run: its groups one after the other, then its reports.
+class BenchRun {
+ public:
+  explicit BenchRun(const Arguments& arguments)
+      : arguments_(arguments), json_(arguments.json_file) {
+    certified_.kernel = kernel_of(arguments.kernel);
+    for (const std::vector<fs::path>& inputs : {arguments.solvers.files(), arguments.step}) {
+      for (const fs::path& file : inputs) {
+        if (json_.is(file))
+          throw std::runtime_error(file.string() + ": named for input and output");
+      }
+    }
+    for (const fs::path& path : arguments.solvers.plugins) plugins_.push_back(load_plugin(path));
+    contenders_ = make_contenders();
+    report_.options = arguments.bench;
+    report_.options.threads = arguments.sources.threads;
+    report_.options.stop = &interrupted();
+  }
+
+  Status run() {
+    if (!arguments_.step.empty()) {
+      bench_given_step();
+    } else if (arguments_.built_in_workload()) {
+      bench_built_in();
+    } else {
+      for (const fs::path& path : arguments_.sources.paths) bench_path(path);
+    }
+    if (json_) {
+      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
+      json_.write(to_json(report_).dump(2, ' ', false, replace_bad_utf8) + "\n");
+    }
+    json_.close();
+    fmt::print(json_.is_standard_output() ? stderr : stdout, "{}", to_text(report_));
+    return status();
+  }
+
+ private:
+  [[nodiscard]] Contenders make_contenders() const {
+    const fast::MethodOptions& options = arguments_.solvers.options;
+    Contenders contenders;
+    for (const std::string& name : arguments_.solvers.methods) {
+      contenders.push_back(name == certified_name ? contend_certified(options, certified_)
+                                                  : contend(find_method(name), options));
+    }
+    for (const auto& plugin : plugins_) contenders.push_back(contend(*plugin, options));
+    return contenders;
+  }
+
+  void bench_group(const QueryGroup& group, const Contenders& contenders) {
+    if (group.queries().empty() || stopped()) return;
+    ProgressBar bar(fmt::format("bench {} {}", group.name(), to_string(group.kind())));
+    BenchOptions options = report_.options;
+    options.on_progress = [&bar](double fraction) { bar.update(fraction); };
+    report_.groups.push_back(bench(group, contenders, options));
+  }
+
+  /// The candidates of a mesh, from index pairs too.
+  void bench_candidates(const MovingMesh& mesh, Kind kind) {
+    const auto pairs = find_candidates(mesh, kind);
+    const fast::Candidates candidates = candidates_of(mesh, kind, pairs);
+    Contenders contenders = make_contenders();
+    contenders.push_back(contend_with_queries(certified_));
+    contenders.push_back(contend_with_pairs(mesh.vertices, candidates, certified_));
+    bench_group(QueryGroup(mesh.name, kind, queries_of(mesh, candidates)), contenders);
+  }
+
+  void bench_built_in() {
+    const SourceArguments& sources = arguments_.sources;
+    const MovingMesh patches = moving_patches({.seed = sources.seed});
+    for (const Kind kind : chosen_kinds()) bench_candidates(patches, kind);
+    for (const Kind kind : chosen_kinds()) {
+      if (!stopped()) bench_group(hard_set(kind, sources.seed, sources.count), contenders_);
+    }
+  }
+
+  void bench_given_step() {
+    const MovingMesh mesh = read_step(arguments_.step.at(0), arguments_.step.at(1));
+    for (const Kind kind : chosen_kinds()) bench_candidates(mesh, kind);
+    if (stopped()) return;
+    ProgressBar bar("bench " + mesh.name);
+    report_.step = bench_step(
+        mesh, {.repetitions = report_.options.repetitions,
+               .threads = static_cast<int>(std::min(arguments_.sources.threads, most_threads)),
+               .certified = certified_,
+               .on_progress = [&bar](double fraction) { bar.update(fraction); },
+               .stop = &interrupted()});
+  }
+
+  /// The queries below a path, of one kind at a time: both may not fit into memory.
+  void bench_path(const fs::path& path) {
+    SourceArguments sources = arguments_.sources;
+    sources.paths = {path};
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      QueryGroup group(path.string(), kind);
+      for_each_source(
+          sources,
+          {.title = "reading " + path.string(),
+           .use =
+               [&](QuerySource& source, const Progress& progress) {
+                 if (source.kind() != kind) return;
+                 group.read(source, progress, [this] { return stopped(); });
+                 skipped_ += source.skipped();
+               },
+           .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
+           .stopped = [this] { return stopped(); },
+           .is_output = [this](const fs::path& file) { return json_.is(file); }});
+      bench_group(group, contenders_);
+    }
+  }
+
+  [[nodiscard]] std::vector<Kind> chosen_kinds() const {
+    if (arguments_.sources.kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
+    return {kind_from_string(arguments_.sources.kind)};
+  }
+
+  /// Files are opened once for each kind, so an error may come twice.
+  void fail(const std::string& message) {
+    if (errors_.insert(message).second) report_error(message);
+  }
+
+  [[nodiscard]] bool stopped() const {
+    return interrupted() || (!errors_.empty() && !arguments_.sources.keep_going);
+  }
+
+  [[nodiscard]] Status status() const {
+    if (has_wrong_answers(report_)) return Status::wrong_answers;
+    if (json_.failed() || !errors_.empty() || skipped_ != 0) return Status::bad_input;
+    return interrupted() ? Status::interrupted : Status::all_well;
+  }
+
+  const Arguments& arguments_;
+  ReportedOutput json_;
+  fast::CertifiedOptions certified_;
+  std::vector<std::unique_ptr<fast::Method>> plugins_;
+  Contenders contenders_;
+  BenchReport report_;
+  std::set<std::string> errors_;
+  std::uint64_t skipped_ = 0;
+};
+
+void add_bench_options(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option("--step", arguments.step,
+                  "Instead of queries: two meshes, before and after a step of a simulation")
+      ->type_name("FRAME0 FRAME1")
+      ->expected(2)
+      ->excludes(command.get_option("PATH"));
+  command.add_option("--kernel", arguments.kernel, "Instructions that the certified solver uses")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"scalar", "avx2", "avx512", "best"}));
+  command.add_option("--repetitions", arguments.bench.repetitions, "Times are medians of so many")
+      ->capture_default_str()
+      ->check(whole_number(1, 1'000'000));
+  command
+      .add_option("--seconds", arguments.bench.seconds,
+                  "Seconds a method and repetition; slower methods are timed on a sample")
+      ->capture_default_str()
+      ->check(real_number(1e-6, 1e6));
+  command
+      .add_option("--judge", arguments.bench.judge,
+                  "Of larger groups judge a sample of so many queries, and what any method calls a "
+                  "collision")
+      ->capture_default_str()
+      ->check(whole_number(0, INT64_MAX));
+  command.add_option("--json", arguments.json_file, "Write the result as JSON")->type_name("FILE");
+}
+
+/// Whom to time: without a word on it our own methods.
+void settle(const CLI::App& command, Arguments& arguments) {
+  if (arguments.solvers.empty()) {
+    const auto names = default_methods();
+    arguments.solvers.methods.assign(names.begin(), names.end());
+  }
+  settle_solver_options(command, arguments.built_in_workload(), arguments.solvers);
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "bench", "Time solvers beside a pass that only reads the queries, and judge their answers");
+  add_source_options(*command, arguments->sources);
+  add_solver_options(*command, arguments->solvers);
+  // One query at a time could be limited only in a process of its own.
+  command->remove_option(command->get_option("--query-limit"));
+  add_bench_options(*command, *arguments);
+  command->footer(
+      "Without PATH the built-in workload: two patches of triangle mesh that move through each\n"
+      "other, and the generated hard set. The queries of a PATH are one group a kind. Solvers run "
+      "in\n"
+      "this process, one thread, plugins too: one that crashes ends the run (certify names the "
+      "query).\n"
+      "With --step the candidates of our broad phase are the queries, and the whole step is timed "
+      "from\n"
+      "broad phase to the times of impact, with one thread and with --threads.\n"
+      "Exit status: 0 all is well, 1 a solver gave an answer that its promise excludes, 2 bad "
+      "input or\n"
+      "usage, 130 interrupted (what is done by then is reported and written).\n"
+      "Example: touchstone bench data/handcrafted --method tight_inclusion --json result.json");
+  command->callback([arguments, command, &status] {
+    settle(*command, *arguments);
+    status = BenchRun(*arguments).run();
+  });
+}
+
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,192 @@
+// touchstone candidates: what may touch in a step of a simulation, as a dataset.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <chrono>
+#include <climits>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fast/broad_phase.hpp"
+#include "fast/mesh.hpp"
+#include "verify/cli/commands.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/dataset/npy.hpp"
+#include "verify/mesh/index_file.hpp"
+#include "verify/moving_mesh.hpp"
+#include "verify/terminal.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string before;
+  std::string after;
+  std::string prefix;
+  fast::BroadPhaseOptions broad_phase;
+  std::string json_file;
+};
+
+/// The files that a run writes beside the summary.
+struct Files {
+  explicit Files(const std::string& prefix)
+      : vertex_face(prefix + "_vf.npy"),
+        edge_edge(prefix + "_ee.npy"),
+        vertex_face_pairs(prefix + "_vf_pairs.npy"),
+        edge_edge_pairs(prefix + "_ee_pairs.npy"),
+        edges(prefix + "_edges.npy") {}
+
+  [[nodiscard]] std::vector<fs::path> all() const {
+    return {vertex_face, edge_edge, vertex_face_pairs, edge_edge_pairs, edges};
+  }
+
+  fs::path vertex_face, edge_edge, vertex_face_pairs, edge_edge_pairs, edges;
+};
+
+/// Candidates of a kind and how long it took to find them.
+struct Found {
+  Kind kind;
+  std::vector<fast::IndexPair> pairs;
+  double seconds;
+};
+
+/// \throws std::runtime_error if an input would be overwritten, or an output by another.
+void require_separate_files(const Arguments& arguments, const Files& files,
+                            const OptionalOutput& json) {
+  for (const fs::path& output : files.all()) {
+    if (json.is(output)) throw std::runtime_error(output.string() + ": named for two outputs");
+  }
+  for (const fs::path input : {arguments.before, arguments.after}) {
+    const auto is_input = [&input](const fs::path& output) {
+      return fs::exists(output) && fs::exists(input) && fs::equivalent(input, output);
+    };
+    if (json.is(input) || std::ranges::any_of(files.all(), is_input)) {
+      throw std::runtime_error(input.string() + ": named for input and output");
+    }
+  }
+}
+
+Found find(const MovingMesh& mesh, Kind kind, const fast::BroadPhaseOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<fast::IndexPair> pairs =
+      kind == Kind::vertex_face ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
+                                : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);
+  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+  return {.kind = kind, .pairs = std::move(pairs), .seconds = time.count()};
+}
+
+/// Writes the candidates as queries, one after the other: they would take much more memory than the
+/// pairs. Nothing remains if the user interrupts it.
+void write_queries(const fs::path& path, const MovingMesh& mesh, const Found& found) {
+  static constexpr std::size_t pairs_of_update = 1U << 14U;
+  const fast::Candidates candidates = candidates_of(mesh, found.kind, found.pairs);
+  ProgressBar progress("write " + path.filename().string());
+  NpyWriter writer(path);
+  for (std::size_t i = 0; i < found.pairs.size() && !interrupted(); ++i) {
+    writer.write(fast::query_of(mesh.vertices, candidates, found.pairs[i]));
+    if (i % pairs_of_update == 0) {
+      progress.update(static_cast<double>(i) / static_cast<double>(found.pairs.size()));
+    }
+  }
+  if (!interrupted()) writer.close();
+}
+
+nlohmann::json summary(const MovingMesh& mesh, const std::vector<Found>& all) {
+  nlohmann::json result{{"vertices", mesh.vertices.size()},
+                        {"edges", mesh.edges.size()},
+                        {"faces", mesh.faces.size()},
+                        {"candidates", nlohmann::json::object()},
+                        {"interrupted", interrupted().load()}};
+  for (const Found& found : all) {
+    result["candidates"][std::string(to_string(found.kind))] = {{"count", found.pairs.size()},
+                                                                {"seconds", found.seconds}};
+  }
+  return result;
+}
+
+void print_table(std::FILE* stream, const MovingMesh& mesh, const std::vector<Found>& all) {
+  fmt::print(stream, "{:<12}  {:>10}\n", "mesh", "count");
+  fmt::print(stream, "{:<12}  {:>10}\n", "vertices", mesh.vertices.size());
+  fmt::print(stream, "{:<12}  {:>10}\n", "edges", mesh.edges.size());
+  fmt::print(stream, "{:<12}  {:>10}\n\n", "faces", mesh.faces.size());
+  fmt::print(stream, "{:<12}  {:>10}  {:>8}\n", "candidates", "count", "seconds");
+  for (const Found& found : all) {
+    fmt::print(stream, "{:<12}  {:>10}  {:>8.3f}\n", to_string(found.kind), found.pairs.size(),
+               found.seconds);
+  }
+}
+
+Status candidates(const Arguments& arguments) {
+  if (arguments.prefix.empty()) throw std::invalid_argument("--out has no file name");
+  OptionalOutput json(arguments.json_file);
+  const Files files(arguments.prefix);
+  require_separate_files(arguments, files, json);
+  const MovingMesh mesh = read_step(arguments.before, arguments.after);
+  const std::vector<Found> all{find(mesh, Kind::vertex_face, arguments.broad_phase),
+                               find(mesh, Kind::edge_edge, arguments.broad_phase)};
+  const fs::path folder = files.edges.parent_path();
+  if (!folder.empty()) fs::create_directories(folder);
+  write_index_pairs(files.edges, mesh.edges);
+  write_index_pairs(files.vertex_face_pairs, all[0].pairs);
+  write_index_pairs(files.edge_edge_pairs, all[1].pairs);
+  write_queries(files.vertex_face, mesh, all[0]);
+  write_queries(files.edge_edge, mesh, all[1]);
+  if (json) json.write(summary(mesh, all).dump(2) + "\n");
+  json.close();
+  print_table(json.is_standard_output() ? stderr : stdout, mesh, all);
+  return interrupted() ? Status::interrupted : Status::all_well;
+}
+
+void add_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("before", arguments.before, "Mesh before the step: .ply or .obj")
+      ->type_name("FRAME0")
+      ->required();
+  command.add_option("after", arguments.after, "The same mesh after it: the vertices have moved")
+      ->type_name("FRAME1")
+      ->required();
+  command
+      .add_option(
+          "--out", arguments.prefix,
+          "Write PREFIX_vf.npy and PREFIX_ee.npy (queries), PREFIX_vf_pairs.npy (vertex and\n"
+          "face) and PREFIX_ee_pairs.npy (two edges) of each query, and PREFIX_edges.npy")
+      ->type_name("PREFIX")
+      ->required();
+  command
+      .add_option("--min-separation", arguments.broad_phase.min_separation,
+                  "Also what comes this near, on every axis")
+      ->capture_default_str()
+      ->check(real_number(0.0, DBL_MAX));
+  command.add_option("--max-threads", arguments.broad_phase.max_threads, "Cores to use; 0: all")
+      ->capture_default_str()
+      ->check(whole_number(0, INT_MAX));
+  command.add_option("--json", arguments.json_file, "Write the summary as JSON")->type_name("FILE");
+}
+
+}  // namespace
+
+void add_candidates_command(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "candidates", "Find what may touch in a step of a simulation: swept boxes that overlap");
+  add_options(*command, *arguments);
+  command->footer(
+      "Pairs that share a vertex are left out. Edges are numbered by their larger vertex, then by\n"
+      "the smaller.\n"
+      "Exit status: 0 all is written, 2 bad input or usage, 130 interrupted.\n"
+      "Example: touchstone candidates frames/92.ply frames/93.ply --out cloth && \\\n"
+      "         touchstone certify cloth_vf.npy cloth_ee.npy");
+  command->callback([arguments, &status] { status = candidates(*arguments); });
+}
+
+}  // namespace touchstone::verify::cli

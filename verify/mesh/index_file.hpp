@@ -1,0 +1,19 @@
+#pragma once
+
+/// \file
+/// Pairs of indices as NumPy's .npy files: little-endian int32 of shape (N, 2), in C order. They say
+/// which primitives of a mesh a query is about.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace touchstone::verify {
+
+/// Writes such a file; it appears whole or not at all.
+/// \throws DatasetError if it cannot be written.
+void write_index_pairs(const std::filesystem::path& path,
+                       std::span<const std::array<std::int32_t, 2>> pairs);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,52 @@
+#include "verify/mesh/mesh.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "fast/broad_phase.hpp"
+#include "verify/dataset/dataset_error.hpp"
+#include "verify/mesh/obj.hpp"
+#include "verify/mesh/ply.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+std::string lower_case(std::string text) {
+  std::ranges::transform(text, text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return text;
+}
+
+/// The edges of the faces and those named, in the order of fast::edges_of.
+std::vector<fast::Edge> all_edges(std::vector<fast::Face> faces,
+                                  std::span<const fast::Edge> named) {
+  // A face without area has that one edge.
+  for (const fast::Edge& edge : named) faces.push_back({edge[0], edge[1], edge[1]});
+  return fast::edges_of(faces);
+}
+
+}  // namespace
+
+Mesh make_mesh(std::span<const std::array<double, 3>> coordinates, std::vector<fast::Face> faces,
+               std::span<const fast::Edge> named_edges) {
+  Mesh mesh;
+  mesh.vertices.resize(static_cast<Eigen::Index>(coordinates.size()), 3);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    mesh.vertices.row(static_cast<Eigen::Index>(i)) =
+        Eigen::Map<const Eigen::RowVector3d>(coordinates[i].data());
+  }
+  mesh.edges = all_edges(faces, named_edges);
+  mesh.faces = std::move(faces);
+  return mesh;
+}
+
+Mesh read_mesh(const std::filesystem::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  if (extension == ".ply") return read_ply(path);
+  if (extension == ".obj") return read_obj(path);
+  throw DatasetError(path, {}, "unknown format: only .ply and .obj are meshes");
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,38 @@
+#pragma once
+
+/// \file
+/// Triangle meshes in files.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "fast/mesh.hpp"
+
+namespace touchstone::verify {
+
+/// A mesh at rest. Indices are in range and coordinates finite wherever a reader made it.
+struct Mesh {
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> vertices;
+  std::vector<fast::Face> faces;
+  /// Those of the faces and those that the file names by themselves, each once: ordered and
+  /// numbered as fast::edges_of does.
+  std::vector<fast::Edge> edges;
+};
+
+/// A mesh from what a file holds: the edges of the faces join those that the file names, in
+/// whatever order and direction. An edge from a vertex to itself is left out.
+/// \param coordinates x, y, z of each vertex in turn
+/// \pre the coordinates are finite, the indices in range.
+[[nodiscard]] Mesh make_mesh(std::span<const std::array<double, 3>> coordinates,
+                             std::vector<fast::Face> faces,
+                             std::span<const fast::Edge> named_edges);
+
+/// Reads a mesh in the format that the file's extension names, in either case: .ply or .obj.
+/// \throws DatasetError if the extension is another, the file cannot be read or is in error.
+[[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,132 @@
+#include "verify/mesh/obj.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "verify/dataset/dataset_error.hpp"
+#include "verify/dataset/input_file.hpp"
+#include "verify/mesh/words.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+constexpr std::size_t most_vertices = std::numeric_limits<std::int32_t>::max();
+
+/// Reads line by line. A corner may name a vertex that comes later, so these are checked at the end.
+class ObjReader {
+ public:
+  explicit ObjReader(const std::filesystem::path& path) : path_(path), lines_(path) {}
+
+  [[nodiscard]] Mesh read() {
+    while (const auto line = lines_.next()) {
+      line_ = line->number;
+      if (line->too_long) fail("line too long");
+      read_line(line->text.substr(0, line->text.find('#')));
+    }
+    require_vertices(faces_, face_lines_);
+    require_vertices(edges_, edge_lines_);
+    return make_mesh(vertices_, std::move(faces_), edges_);
+  }
+
+ private:
+  void read_line(std::string_view line) {
+    const std::string_view keyword = take_word(line);
+    if (keyword == "v") read_vertex(line);
+    if (keyword == "f") read_face(line);
+    if (keyword == "l") read_polyline(line);
+  }
+
+  void read_vertex(std::string_view line) {
+    if (vertices_.size() == most_vertices) fail("more than 2^31-1 vertices");
+    std::array<double, 3> vertex{};
+    for (double& coordinate : vertex) {
+      const std::string_view word = take_word(line);
+      if (word.empty()) fail("a vertex must have three coordinates");
+      const auto value = parse_number<double>(word);
+      if (!value) fail(quote(word) + " is no number, or none that a double holds");
+      if (!std::isfinite(*value)) fail("a coordinate must be finite");
+      coordinate = *value;
+    }
+    vertices_.push_back(vertex);
+  }
+
+  void read_face(std::string_view line) {
+    fast::Face face{};
+    std::size_t corners = 0;
+    for (auto word = take_word(line); !word.empty(); word = take_word(line)) {
+      const std::int32_t corner = read_corner(word);
+      if (corners < face.size()) face[corners] = corner;
+      ++corners;
+    }
+    if (corners != face.size()) {
+      fail("a face with " + std::to_string(corners) + " corners; only triangles are read");
+    }
+    faces_.push_back(face);
+    face_lines_.push_back(line_);
+  }
+
+  void read_polyline(std::string_view line) {
+    std::optional<std::int32_t> last;
+    std::size_t corners = 0;
+    for (auto word = take_word(line); !word.empty(); word = take_word(line)) {
+      const std::int32_t corner = read_corner(word);
+      if (last) {
+        edges_.push_back({*last, corner});
+        edge_lines_.push_back(line_);
+      }
+      last = corner;
+      ++corners;
+    }
+    if (corners < 2) fail("a line must have two corners or more");
+  }
+
+  /// The vertex's index, counted from 0; not below 0.
+  [[nodiscard]] std::int32_t read_corner(std::string_view word) const {
+    const auto number = parse_number<std::int32_t>(word.substr(0, word.find('/')));
+    if (!number) fail(quote(word) + " is no corner");
+    if (*number > 0) return *number - 1;
+    const auto index = static_cast<std::int64_t>(vertices_.size()) + *number;
+    if (*number == 0 || index < 0) {
+      fail("corner " + quote(word) + ", but there are " + std::to_string(vertices_.size()) +
+           " vertices before it, counted from 1");
+    }
+    return static_cast<std::int32_t>(index);
+  }
+
+  template <class Element>
+  void require_vertices(const std::vector<Element>& elements,
+                        const std::vector<std::uint64_t>& lines) {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const std::int32_t greatest = *std::ranges::max_element(elements[i]);
+      if (static_cast<std::size_t>(greatest) < vertices_.size()) continue;
+      line_ = lines[i];
+      fail("corner " + std::to_string(std::int64_t{greatest} + 1) + ", but there are " +
+           std::to_string(vertices_.size()) + " vertices");
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw DatasetError(path_, {.line = line_}, reason);
+  }
+
+  std::filesystem::path path_;
+  LineReader lines_;
+  std::uint64_t line_ = 0;
+  std::vector<std::array<double, 3>> vertices_;
+  std::vector<fast::Face> faces_;
+  std::vector<std::uint64_t> face_lines_;
+  std::vector<fast::Edge> edges_;
+  std::vector<std::uint64_t> edge_lines_;
+};
+
+}  // namespace
+
+Mesh read_obj(const std::filesystem::path& path) { return ObjReader(path).read(); }
+
+}  // namespace touchstone::verify

@@ -1,0 +1,21 @@
+#pragma once
+
+/// \file
+/// Wavefront OBJ: a text of lines, each a keyword and its words.
+///
+/// Read are `v x y z` (what follows, a weight or a colour, is not), `f a b c` and `l a b …`. A
+/// corner is the number of a vertex, counted from 1, or from the last vertex before it backwards
+/// (−1); numbers of a texture and of a normal may follow after '/'. All else is passed over.
+
+#include <filesystem>
+
+#include "verify/mesh/mesh.hpp"
+
+namespace touchstone::verify {
+
+/// Reads a mesh.
+/// \throws DatasetError with the line, if the file cannot be read, a coordinate is no finite number,
+/// a face has not three corners, or a corner is no vertex.
+[[nodiscard]] Mesh read_obj(const std::filesystem::path& path);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,488 @@
+#include "verify/mesh/ply.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "verify/dataset/dataset_error.hpp"
+#include "verify/dataset/input_file.hpp"
+#include "verify/mesh/words.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+enum class Format : std::uint8_t { ascii, little_endian, big_endian };
+
+enum class Scalar : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+/// A value of a property, or of a list of them.
+struct Property {
+  std::string name;
+  Scalar type;
+  std::optional<Scalar> length_type;  ///< of a list
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count;
+  std::vector<Property> properties;
+};
+
+struct Header {
+  std::optional<Format> format;
+  std::vector<Element> elements;
+};
+
+std::optional<Scalar> scalar_from_name(std::string_view name) {
+  struct Names {
+    std::string_view name, sized_name;
+  };
+  static constexpr std::array<Names, 8> names{{{"char", "int8"},
+                                               {"uchar", "uint8"},
+                                               {"short", "int16"},
+                                               {"ushort", "uint16"},
+                                               {"int", "int32"},
+                                               {"uint", "uint32"},
+                                               {"float", "float32"},
+                                               {"double", "float64"}}};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (name == names[i].name || name == names[i].sized_name) return static_cast<Scalar>(i);
+  }
+  return std::nullopt;
+}
+
+bool is_whole(Scalar type) { return type != Scalar::float32 && type != Scalar::float64; }
+
+/// Calls use(Number{}) with a number of that type.
+template <class Use>
+auto with_type(Scalar type, const Use& use) {
+  switch (type) {
+    case Scalar::int8:
+      return use(std::int8_t{});
+    case Scalar::uint8:
+      return use(std::uint8_t{});
+    case Scalar::int16:
+      return use(std::int16_t{});
+    case Scalar::uint16:
+      return use(std::uint16_t{});
+    case Scalar::int32:
+      return use(std::int32_t{});
+    case Scalar::uint32:
+      return use(std::uint32_t{});
+    case Scalar::float32:
+      return use(float{});
+    default:
+      return use(double{});
+  }
+}
+
+/// The file as lines and as bytes, and where in it an error is.
+class Input {
+ public:
+  explicit Input(const std::filesystem::path& path) : file_(path), buffer_(buffer_size) {}
+
+  /// The next line without its end, valid until the next call; nothing at the end of the file.
+  [[nodiscard]] std::optional<std::string_view> line() {
+    if (at_end()) return std::nullopt;
+    line_.clear();
+    ++line_number_;
+    for (bool complete = false; !complete && !at_end();) {
+      const auto rest = std::span(buffer_).subspan(begin_, end_ - begin_);
+      const auto newline = std::ranges::find(rest, '\n');
+      complete = newline != rest.end();
+      line_.append(rest.begin(), newline);
+      begin_ += static_cast<std::size_t>(newline - rest.begin()) + (complete ? 1 : 0);
+      if (line_.size() > LineReader::longest_line) fail("line too long");
+    }
+    if (line_.ends_with('\r')) line_.pop_back();
+    return line_;
+  }
+
+  /// Fills the bytes, or fails if there are not as many left.
+  void read(std::span<char> bytes) {
+    while (!bytes.empty()) {
+      if (at_end()) fail_at_end();
+      const std::size_t count = std::min(bytes.size(), end_ - begin_);
+      std::memcpy(bytes.data(), buffer_.data() + begin_, count);
+      begin_ += count;
+      bytes = bytes.subspan(count);
+    }
+  }
+
+  [[nodiscard]] bool at_end() {
+    if (begin_ < end_) return false;
+    offset_ += end_;
+    begin_ = 0;
+    end_ = file_.read(buffer_);
+    return end_ == 0;
+  }
+
+  /// From here on the file has no lines.
+  void begin_binary() { binary_ = true; }
+
+  /// What is read from here on belongs to this element; the name has to outlive it.
+  void begin_element(std::string_view name, std::uint64_t number) {
+    element_ = name;
+    number_ = number;
+    element_offset_ = offset_ + begin_;
+  }
+  void end_elements() { begin_element({}, 0); }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    std::string place;
+    if (!element_.empty()) place = std::string(element_) + " " + std::to_string(number_);
+    if (binary_)
+      place += (place.empty() ? "" : " at ") + ("byte " + std::to_string(element_offset_));
+    throw DatasetError(file_.path(), {.line = binary_ ? 0 : line_number_},
+                       place.empty() ? reason : place + ": " + reason);
+  }
+  [[noreturn]] void fail_at_end() const { fail("the file ends early"); }
+
+ private:
+  static constexpr std::size_t buffer_size = std::size_t{1} << 16U;
+
+  InputFile file_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  std::uint64_t offset_ = 0;  // of the buffer in the file
+  std::string line_;
+  std::uint64_t line_number_ = 0;
+  bool binary_ = false;
+  std::string_view element_;
+  std::uint64_t number_ = 0;
+  std::uint64_t element_offset_ = 0;
+};
+
+/// Reads the header's lines.
+class HeaderReader {
+ public:
+  explicit HeaderReader(Input& input) : input_(input) {}
+
+  [[nodiscard]] Header read() {
+    if (input_.line().value_or("") != "ply") input_.fail("not a PLY file");
+    for (;;) {
+      const auto line = input_.line();
+      if (!line) input_.fail("the header has no end");
+      std::string_view rest = *line;
+      const std::string_view keyword = take_word(rest);
+      if (keyword == "end_header") break;
+      if (keyword == "comment" || keyword == "obj_info") continue;
+      read_statement(keyword, rest);
+      if (!take_word(rest).empty()) fail_at(*line);
+    }
+    if (!header_.format) input_.fail("the header has no format");
+    return std::move(header_);
+  }
+
+ private:
+  /// What is not understood stays in `rest`, or is an error at once.
+  void read_statement(std::string_view keyword, std::string_view& rest) {
+    if (keyword == "format") {
+      read_format(rest);
+    } else if (keyword == "element") {
+      read_element(rest);
+    } else if (keyword == "property" && !header_.elements.empty()) {
+      header_.elements.back().properties.push_back(read_property(rest));
+    } else {
+      fail_at(keyword);
+    }
+  }
+
+  void read_format(std::string_view& rest) {
+    static constexpr std::array<std::string_view, 3> names{"ascii", "binary_little_endian",
+                                                           "binary_big_endian"};
+    const std::string_view name = take_word(rest), version = take_word(rest);
+    const auto* const found = std::ranges::find(names, name);
+    if (found == names.end() || header_.format) fail_at(name);
+    if (version != "1.0") fail_at(version);
+    header_.format = static_cast<Format>(found - names.begin());
+  }
+
+  void read_element(std::string_view& rest) {
+    const std::string_view name = take_word(rest), count = take_word(rest);
+    const auto number = parse_number<std::uint64_t>(count);
+    if (name.empty() || !number) fail_at(count);
+    header_.elements.push_back({.name = std::string(name), .count = *number, .properties = {}});
+  }
+
+  Property read_property(std::string_view& rest) {
+    std::string_view type = take_word(rest);
+    Property property{};
+    if (type == "list") {
+      const std::string_view length_type = take_word(rest);
+      property.length_type = read_type(length_type);
+      if (!is_whole(*property.length_type)) fail_at(length_type);
+      type = take_word(rest);
+    }
+    property.type = read_type(type);
+    property.name = take_word(rest);
+    if (property.name.empty()) input_.fail("a property must have a name");
+    return property;
+  }
+
+  [[nodiscard]] Scalar read_type(std::string_view name) const {
+    const auto type = scalar_from_name(name);
+    if (!type) fail_at(name);
+    return *type;
+  }
+
+  [[noreturn]] void fail_at(std::string_view text) const {
+    input_.fail("malformed header at " + quote(text));
+  }
+
+  Input& input_;
+  Header header_;
+};
+
+/// Elements as lines of text.
+class TextValues {
+ public:
+  explicit TextValues(Input& input) : input_(input) {}
+
+  void begin() {
+    do {
+      const auto line = input_.line();
+      if (!line) input_.fail_at_end();
+      rest_ = *line;
+      word_ = take_word(rest_);
+    } while (word_.empty());
+  }
+
+  /// The element's next value; every type fits into a double.
+  double next(Scalar type) {
+    if (word_.empty()) input_.fail("too few values");
+    const auto value = with_type(type, [this](auto number) -> std::optional<double> {
+      const auto parsed = parse_number<decltype(number)>(word_);
+      if (!parsed) return std::nullopt;
+      return static_cast<double>(*parsed);
+    });
+    if (!value) input_.fail(quote(word_) + " is no number of the property's type");
+    word_ = take_word(rest_);
+    return *value;
+  }
+
+  void end() {
+    if (!word_.empty()) input_.fail("too many values");
+  }
+
+  /// Is there anything but blank lines left?
+  [[nodiscard]] bool at_end() {
+    while (auto line = input_.line()) {
+      if (!take_word(*line).empty()) return false;
+    }
+    return true;
+  }
+
+ private:
+  Input& input_;
+  std::string_view rest_;
+  std::string_view word_;
+};
+
+/// Elements as bytes.
+class BinaryValues {
+ public:
+  BinaryValues(Input& input, Format format)
+      : input_(input),
+        swap_((format == Format::little_endian) != (std::endian::native == std::endian::little)) {}
+
+  void begin() { input_.begin_binary(); }
+
+  double next(Scalar type) {
+    return with_type(type, [this](auto number) {
+      std::array<char, sizeof(number)> bytes{};
+      input_.read(bytes);
+      if (swap_) std::ranges::reverse(bytes);
+      return static_cast<double>(std::bit_cast<decltype(number)>(bytes));
+    });
+  }
+
+  void end() {}
+
+  [[nodiscard]] bool at_end() { return input_.at_end(); }
+
+ private:
+  Input& input_;
+  bool swap_;
+};
+
+/// Reads what the header announces.
+template <class Values>
+class BodyReader {
+ public:
+  BodyReader(Input& input, const Header& header, Values values)
+      : input_(input), header_(header), values_(std::move(values)) {}
+
+  [[nodiscard]] Mesh read() {
+    const Element* const vertices = find_element("vertex");
+    if (vertices == nullptr) input_.fail("the header has no element vertex");
+    vertex_count_ = vertices->count;
+    const Element* const faces = find_element("face");
+    const Element* const edges = find_element("edge");
+    for (const Element& element : header_.elements) {
+      if (&element == vertices) {
+        read_vertices(element);
+      } else if (&element == faces) {
+        read_faces(element);
+      } else if (&element == edges) {
+        read_edges(element);
+      } else {
+        for_each(element, nothing, [] {});
+      }
+    }
+    input_.end_elements();
+    if (!values_.at_end()) input_.fail("data after the last element");
+    return make_mesh(vertices_, std::move(faces_), edges_);
+  }
+
+ private:
+  static constexpr std::size_t nothing = std::numeric_limits<std::size_t>::max();
+
+  [[nodiscard]] const Element* find_element(std::string_view name) const {
+    const Element* found = nullptr;
+    for (const Element& element : header_.elements) {
+      if (element.name != name) continue;
+      if (found != nullptr) input_.fail("the header has two elements " + std::string(name));
+      if (element.count > std::numeric_limits<std::int32_t>::max()) {
+        input_.fail("more than 2^31-1 elements " + std::string(name));
+      }
+      found = &element;
+    }
+    return found;
+  }
+
+  /// The one property of that name that is a list or not, or `nothing`.
+  [[nodiscard]] std::size_t find_property(const Element& element, std::string_view name,
+                                          bool list) const {
+    std::size_t found = nothing;
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const Property& property = element.properties[i];
+      if (property.name != name || property.length_type.has_value() != list) continue;
+      if (found != nothing) {
+        input_.fail(element.name + " has two properties " + std::string(name));
+      }
+      found = i;
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::size_t need_property(const Element& element, std::string_view name) const {
+    const std::size_t found = find_property(element, name, false);
+    if (found == nothing) input_.fail(element.name + " has no property " + std::string(name));
+    return found;
+  }
+
+  void need_whole(const Element& element, std::size_t property) const {
+    const auto& [name, type, length_type] = element.properties[property];
+    if (!is_whole(type)) input_.fail(element.name + ": " + name + " must be of a whole type");
+  }
+
+  /// Calls use() for each element, with its values in row_ and those of the wanted list in corners_.
+  template <class Use>
+  void for_each(const Element& element, std::size_t wanted, const Use& use) {
+    if (element.properties.empty()) return;
+    row_.assign(element.properties.size(), 0.0);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      input_.begin_element(element.name, i);
+      values_.begin();
+      for (std::size_t k = 0; k < row_.size(); ++k) {
+        const Property& property = element.properties[k];
+        if (property.length_type) {
+          read_list(property, k == wanted);
+        } else {
+          row_[k] = values_.next(property.type);
+        }
+      }
+      values_.end();
+      use();
+    }
+  }
+
+  void read_list(const Property& property, bool wanted) {
+    const double length = values_.next(*property.length_type);
+    if (length < 0.0) input_.fail("a list of negative length");
+    if (wanted && length != 3.0) {
+      input_.fail(std::to_string(static_cast<std::int64_t>(length)) +
+                  " vertices; only triangles are read");
+    }
+    for (std::uint64_t i = 0; i < static_cast<std::uint64_t>(length); ++i) {
+      const double value = values_.next(property.type);
+      if (wanted) corners_[i] = value;
+    }
+  }
+
+  void read_vertices(const Element& element) {
+    const std::array<std::size_t, 3> axes{need_property(element, "x"), need_property(element, "y"),
+                                          need_property(element, "z")};
+    for_each(element, nothing, [&] {
+      const std::array<double, 3> vertex{row_[axes[0]], row_[axes[1]], row_[axes[2]]};
+      if (!std::ranges::all_of(vertex, [](double x) { return std::isfinite(x); })) {
+        input_.fail("a coordinate must be finite");
+      }
+      vertices_.push_back(vertex);
+    });
+  }
+
+  void read_faces(const Element& element) {
+    const std::size_t indices = find_property(element, "vertex_indices", true);
+    const std::size_t index = find_property(element, "vertex_index", true);
+    if ((indices == nothing) == (index == nothing)) {
+      input_.fail("face must have one list vertex_indices or vertex_index");
+    }
+    const std::size_t list = indices == nothing ? index : indices;
+    need_whole(element, list);
+    for_each(element, list, [&] {
+      faces_.push_back({vertex(corners_[0]), vertex(corners_[1]), vertex(corners_[2])});
+    });
+  }
+
+  void read_edges(const Element& element) {
+    const std::size_t first = need_property(element, "vertex1");
+    const std::size_t second = need_property(element, "vertex2");
+    need_whole(element, first);
+    need_whole(element, second);
+    for_each(element, nothing, [&] {
+      edges_.push_back({vertex(row_[first]), vertex(row_[second])});
+    });
+  }
+
+  /// An index that is a vertex's.
+  [[nodiscard]] std::int32_t vertex(double index) const {
+    if (index < 0.0 || index >= static_cast<double>(vertex_count_)) {
+      input_.fail("vertex " + std::to_string(static_cast<std::int64_t>(index)) +
+                  ", but there are " + std::to_string(vertex_count_) + ", counted from 0");
+    }
+    return static_cast<std::int32_t>(index);
+  }
+
+  Input& input_;
+  const Header& header_;
+  Values values_;
+  std::uint64_t vertex_count_ = 0;
+  std::vector<double> row_;
+  std::array<double, 3> corners_{};
+  std::vector<std::array<double, 3>> vertices_;
+  std::vector<fast::Face> faces_;
+  std::vector<fast::Edge> edges_;
+};
+
+}  // namespace
+
+Mesh read_ply(const std::filesystem::path& path) {
+  Input input(path);
+  const Header header = HeaderReader(input).read();
+  if (*header.format == Format::ascii) return BodyReader(input, header, TextValues(input)).read();
+  return BodyReader(input, header, BinaryValues(input, *header.format)).read();
+}
+
+}  // namespace touchstone::verify

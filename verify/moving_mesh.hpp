@@ -1,0 +1,44 @@
+#pragma once
+
+/// \file
+/// A step of a simulation as the benchmark takes it: the mesh before and after, and what may touch
+/// in between.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/mesh.hpp"
+
+namespace touchstone::verify {
+
+/// A mesh whose vertices move in a step.
+struct MovingMesh {
+  std::string name;
+  fast::MovingVertices vertices;
+  std::vector<fast::Face> faces;
+  std::vector<fast::Edge> edges;
+};
+
+/// The step from one mesh file to another.
+/// \throws DatasetError if one cannot be read, or they are not the same mesh but for the places of
+/// its vertices.
+[[nodiscard]] MovingMesh read_step(const std::filesystem::path& before,
+                                   const std::filesystem::path& after);
+
+/// What the broad phase leaves of all pairs.
+/// \param max_threads 0: all cores
+[[nodiscard]] std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind,
+                                                           int max_threads = 0);
+
+/// Pairs of a kind with what their indices mean; refers to the mesh and to the pairs.
+[[nodiscard]] fast::Candidates candidates_of(const MovingMesh& mesh, Kind kind,
+                                             std::span<const fast::IndexPair> pairs);
+
+/// The candidates as queries, in their order.
+[[nodiscard]] std::vector<Query> queries_of(const MovingMesh& mesh,
+                                            const fast::Candidates& candidates);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,35 @@
+#pragma once
+
+/// \file
+/// The built-in workload of the benchmark: two patches of triangle mesh that move through each
+/// other in one step, as cloth does when its step is too long, and the generated hard set.
+///
+/// The patches are square grids of cells, each cut into two triangles, bent like shallow bowls with
+/// their bottoms towards each other, one turned against the other so that no edges are parallel.
+/// Vertices are displaced at random from the grid, and each moves a little differently from its
+/// neighbours. As in a simulation, the candidates are whatever the broad phase leaves, pairs inside
+/// one patch included.
+
+#include <cstdint>
+
+#include "verify/moving_mesh.hpp"
+#include "verify/query_group.hpp"
+
+namespace touchstone::verify {
+
+struct PatchOptions {
+  std::uint64_t seed = 2021;
+  /// Cells along a side of a patch, at least 1. The default gives well over 100,000 candidates of
+  /// each kind, some per cent of which collide, with any seed.
+  int cells = 60;
+};
+
+/// The two patches: a function of the options, the same on every machine.
+/// \throws std::invalid_argument if there is no cell.
+[[nodiscard]] MovingMesh moving_patches(const PatchOptions& options = {});
+
+/// All queries of one kind of the generated hard set (verify/families/families.hpp), `count` a
+/// family.
+[[nodiscard]] QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count);
+
+}  // namespace touchstone::verify
