@@ -175,13 +175,8 @@ class CertifiedStages {
     }
     static constexpr bool may_read_behind = true;
 
-    /// Fetches the vertices of a pair that is read soon.
-    static void prefetch(const KernelInput& input, std::size_t i) {
-      constexpr std::size_t ahead = 12;
-      if (i + ahead >= input.count) return;
-      const Points next = points(input, i + ahead);
-      for (std::size_t k = 0; k < moving_points; ++k) __builtin_prefetch(next[k]);
-    }
+    /// Pairs that follow each other mostly share vertices, which are in the cache.
+    static void prefetch(const KernelInput& /*input*/, std::size_t /*i*/) {}
   };
 
   // ---- 1. Axis ----------------------------------------------------------------------------------
