@@ -141,15 +141,6 @@ class CertifiedStages {
     }
     /// What is behind a query's last point may be another's memory.
     static constexpr bool may_read_behind = false;
-
-    /// Fetches what will be read soon.
-    static void prefetch(const KernelInput& input, std::size_t i) {
-      constexpr std::size_t ahead = 40;
-      const double* const next = input.queries[i].coordinates.data() + ahead * 3 * query_points;
-      __builtin_prefetch(next);
-      __builtin_prefetch(next + 8);
-      __builtin_prefetch(next + 16);
-    }
   };
 
   template <Kind kind>
@@ -174,9 +165,6 @@ class CertifiedStages {
       return result;
     }
     static constexpr bool may_read_behind = true;
-
-    /// Pairs that follow each other mostly share vertices, which are in the cache.
-    static void prefetch(const KernelInput& /*input*/, std::size_t /*i*/) {}
   };
 
   // ---- 1. Axis ----------------------------------------------------------------------------------
@@ -185,7 +173,6 @@ class CertifiedStages {
   static void axis_stage(const KernelInput& input, Open& open) {
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < input.count; ++i) {
-      Source::prefetch(input, i);
       open.items[count] = i;
       count += separated_on_axis<kind, Source>(Source::points(input, i)) ? 0U : 1U;
     }
@@ -201,7 +188,9 @@ class CertifiedStages {
     const Sides end = sides<kind>(rows[4], rows[5], rows[6], rows[7]);
     const Row sum =
         ((rows[0] + rows[1]) + (rows[2] + rows[3])) + ((rows[4] + rows[5]) + (rows[6] + rows[7]));
-    return ((start.above & end.above) | (start.below & end.below)).any() && sum.is_finite();
+    // Not &&: which queries end here nobody can predict, a processor neither.
+    const bool is_separated = ((start.above & end.above) | (start.below & end.below)).any();
+    return is_separated & sum.is_finite();
   }
 
   /// On which axes the first primitive is above the second, and below.
