@@ -348,7 +348,7 @@ class CertifiedStages {
 
     /// x, y, z of each vector at t=0, then at t=1; the bound of det; for each orientation the product
     /// of its vectors' magnitudes.
-    alignas(64) std::array<std::array<double, width>, rows> row;
+    alignas(width * sizeof(double)) std::array<std::array<double, width>, rows> row;
 
     [[nodiscard]] Value load(std::size_t i) const { return Value::load(row[i].data()); }
     [[nodiscard]] Vector vector(std::size_t place, std::size_t end) const {
@@ -644,9 +644,9 @@ class CertifiedStages {
     }
 
     MovingLanes<kind> lanes_{};
-    alignas(64) Row begin_{};
-    alignas(64) Row length_{};
-    alignas(64) Row steps_{};
+    alignas(width * sizeof(double)) Row begin_{};
+    alignas(width * sizeof(double)) Row length_{};
+    alignas(width * sizeof(double)) Row steps_{};
     Crossings crossings_;
     std::array<std::uint32_t, width> index_{};
     unsigned active_ = 0;   ///< the lanes that hold a query

@@ -251,28 +251,30 @@ std::optional<int> sign_at_root(const Fixed<f_limbs, 3>& f, const Fixed<q_limbs,
   return sign_by_remainder(remainder(g, q), 1, course(bernstein(f), lower, upper), q, lower, upper);
 }
 
-/// A linear form with the multiple root of a cubic form, if it has one.
+/// What is special about the roots of a cubic form.
 template <std::size_t limbs>
-struct MultipleRoot {
-  int multiplicity = 1;
-  Fixed<limbs, 1> root{};
+struct CubicRoots {
+  bool is_one = false;         ///< only one is real, and it is simple
+  int multiplicity = 1;        ///< of a multiple root, if it has one
+  Fixed<limbs, 1> multiple{};  ///< a linear form with that
 };
 
 /// A multiple root is one that both derivatives, by x and by y, share: they are proportional, or
-/// both are 0 at the root of their remainder.
+/// their resultant m_02² − m_01 m_12 is 0 and the root is that of their remainder. The resultant is
+/// a negative multiple of the discriminant.
 template <std::size_t limbs>
-MultipleRoot<2 * limbs> multiple_root(const Fixed<limbs, 3>& f) {
+CubicRoots<2 * limbs> cubic_roots(const Fixed<limbs, 3>& f) {
   const auto twice = [](const FixedInteger<limbs>& c) { return c + c; };
   const auto thrice = [](const FixedInteger<limbs>& c) { return c + c + c; };
   const Fixed<limbs, 2> by_x{thrice(f[0]), twice(f[1]), f[2]};
   const Fixed<limbs, 2> by_y{f[1], twice(f[2]), thrice(f[3])};
   const auto line = remainder(by_x, by_y);
-  if (is_zero(line)) {
-    const FixedInteger<limbs> one(std::int64_t{1});
-    return {3, {by_x[0] * one, f[1] * one}};
-  }
-  const bool shared = sign_at_root(line, by_x) == 0 && sign_at_root(line, by_y) == 0;
-  return shared ? MultipleRoot<2 * limbs>{2, line} : MultipleRoot<2 * limbs>{};
+  const auto m01 = by_x[0] * by_y[1] - by_x[1] * by_y[0];
+  const int resultant = (line[0] * line[0] - m01 * line[1]).sign();
+  if (resultant != 0) return {resultant > 0, 1, {}};
+  if (!is_zero(line)) return {false, 2, line};
+  const FixedInteger<limbs> one(std::int64_t{1});
+  return {false, 3, {by_x[0] * one, f[1] * one}};
 }
 
 // ---- Guesses -----------------------------------------------------------------------------------
@@ -413,12 +415,14 @@ struct Event {
 };
 
 /// A form with the same roots inside (0,1), each simple: a double root of c_0 x² + c_1 x y + c_2 y²
-/// is the one of its derivative c_1 x + 2 c_2 y.
+/// is the one of its derivative c_1 x + 2 c_2 y. Nothing if no root is real.
 template <std::size_t limbs>
-Fixed<limbs, 2> simple(const Fixed<limbs, 2>& c) {
+std::optional<Fixed<limbs, 2>> simple(const Fixed<limbs, 2>& c) {
   const auto twice = c[2] + c[2];
-  if (c[1] * c[1] != (c[0] + c[0]) * twice) return c;
-  return {c[1], twice, {}};
+  const int discriminant = (c[1] * c[1] - (c[0] + c[0]) * twice).sign();
+  if (discriminant < 0) return std::nullopt;
+  if (discriminant > 0) return c;
+  return Fixed<limbs, 2>{c[1], twice, FixedInteger<limbs>(std::int64_t{0})};
 }
 
 bool is_inside(const Time& t, const Time& lower, const Time& upper) {
@@ -475,7 +479,7 @@ class Decision {
   using SpaceEvent = Event<3 * limbs, 3>;
 
   static constexpr int deepest = 12;
-  /// Multiple and shared roots are looked for where splitting has not separated roots.
+  /// Clusters are looked at where splitting has not separated the roots.
   static constexpr int deep = 2;
   /// Wider enclosures would save little, and (u,v) are evaluated in them.
   static constexpr std::uint64_t widest_step = 16;
@@ -496,7 +500,7 @@ class Decision {
   Outcome search_plane() {
     std::vector<PlaneEvent> events;
     for (const Quadratic& form : events_in_plane(motion_, normal_)) {
-      events.emplace_back(simple(form));
+      if (const auto event = simple(form)) events.emplace_back(*event);
     }
     return search(std::span<const PlaneEvent>(events), start_time, end_time, 0);
   }
@@ -515,7 +519,7 @@ class Decision {
     if (changes == 0 || is_separated(lower, upper)) return Outcome::none;
     if (changes == 1) return at_root(*active, lower, upper);
     if (depth >= deep) {
-      const auto outcome = at_joint_root(events, changes, lower, upper);
+      const auto outcome = in_cluster(events, changes, lower, upper);
       if (outcome) return *outcome;
     }
     const auto middle = split(events, lower, upper);
@@ -526,30 +530,35 @@ class Decision {
     return outcome;
   }
 
-  /// If the determinant's only root in the open interval is a multiple one.
-  std::optional<Outcome> at_joint_root(std::span<const SpaceEvent> events, int changes,
-                                       const Time& lower, const Time& upper) {
-    const auto root = multiple_root(events[0].form);
-    if (changes != root.multiplicity || !changes_sign(root.root, lower, upper)) return std::nullopt;
-    return at_root(Event<6 * limbs, 1>(root.root), lower, upper);
+  /// Where the determinant has only a multiple root in the open interval, or no root.
+  std::optional<Outcome> in_cluster(std::span<const SpaceEvent> events, int changes,
+                                    const Time& lower, const Time& upper) {
+    const auto roots = cubic_roots(events[0].form);
+    if (roots.is_one && changes % 2 == 0) return Outcome::none;
+    if (changes != roots.multiplicity || !changes_sign(roots.multiple, lower, upper)) {
+      return std::nullopt;
+    }
+    return at_root(Event<6 * limbs, 1>(roots.multiple), lower, upper);
   }
 
-  /// If all events with a root in the open interval share their only one.
-  std::optional<Outcome> at_joint_root(std::span<const PlaneEvent> events, int /*changes*/,
-                                       const Time& lower, const Time& upper) {
-    const PlaneEvent* first = nullptr;
+  /// Where every event has one root in the open interval or none: the roots in ascending order.
+  std::optional<Outcome> in_cluster(std::span<const PlaneEvent> events, int /*changes*/,
+                                    const Time& lower, const Time& upper) {
+    std::vector<const PlaneEvent*> active;
     for (const PlaneEvent& event : events) {
       const int changes = sign_changes(signs_on(event.b, lower, upper));
-      if (changes == 0) continue;
       if (changes > 1) return std::nullopt;
-      if (first == nullptr) {
-        first = &event;
-      } else if (sign_at_root(first->form, event.form, lower, upper) != 0) {
-        return std::nullopt;
-      }
+      if (changes == 1) active.push_back(&event);
     }
-    if (first == nullptr) return std::nullopt;
-    return at_root(*first, lower, upper);
+    // The root of f is before that of g iff g has there the sign that it begins with.
+    std::ranges::sort(active, [&](const PlaneEvent* f, const PlaneEvent* g) {
+      return sign_at_root(f->form, g->form, lower, upper) == course(g->b, lower, upper).first;
+    });
+    for (const PlaneEvent* event : active) {
+      const Outcome outcome = at_root(*event, lower, upper);
+      if (outcome != Outcome::none) return outcome;
+    }
+    return Outcome::none;
   }
 
   /// Do N_k and a bound keep opposite signs in the open interval?
@@ -648,33 +657,36 @@ class Decision {
     return Outcome::decided;
   }
 
-  /// The same between two times that are nearer to the root, as it is guessed by a secant.
-  template <class AnyEvent>
-  Outcome in_narrow_cell(const AnyEvent& event, const BitInterval& cell, const Time& low,
-                         const Time& high) {
-    constexpr unsigned bits = 44;
-    constexpr std::int64_t whole = std::int64_t{1} << bits, slack = 4;
-    const auto scaled_value = [&](const Time& t) {
+  /// The same between two times that are nearer to the root, as it is guessed by a secant; if need
+  /// be, once more.
+  template <class AnyTime, class AnyEvent>
+  Outcome in_narrow_cell(const AnyEvent& event, const BitInterval& cell, const AnyTime& low,
+                         const AnyTime& high) {
+    constexpr bool again = std::is_same_v<AnyTime, Time>;
+    constexpr std::int64_t whole = std::int64_t{1} << (again ? 44U : 18U), slack = 4;
+    const auto scaled_value = [&](const AnyTime& t) {
       double value = value_at(event.b, t).guess();
-      for (std::size_t i = 1; i < event.b.size(); ++i) value /= static_cast<double>(t.sum());
+      for (std::size_t i = 2; i < event.b.size(); ++i) value /= static_cast<double>(t.sum());
       return value;
     };
     const double at_low = scaled_value(low), at_high = scaled_value(high);
-    const double low_sum = static_cast<double>(low.sum()) * at_low;
-    const double high_sum = -static_cast<double>(high.sum()) * at_high;
-    const double part = low_sum / (low_sum + high_sum) * static_cast<double>(whole);
+    const double part = at_low / (at_low - at_high) * static_cast<double>(whole);
     if (!(part >= 0.0 && part <= static_cast<double>(whole))) return Outcome::unknown;
     const auto weight = static_cast<std::int64_t>(part);
     const auto mixed = [&](std::int64_t of_high) {
-      const auto mix = [&](std::int64_t a, std::int64_t b) {
-        return SignedWideLimb{a} * (whole - of_high) + SignedWideLimb{b} * of_high;
+      const auto mix = [&](SignedWideLimb a, SignedWideLimb b) {
+        return a * (whole - of_high) + b * of_high;
       };
       return FineTime{mix(low.x, high.x), mix(low.y, high.y)};
     };
     const FineTime first = mixed(std::max(weight - slack, std::int64_t{0}));
     const FineTime last = mixed(std::min(weight + slack, whole));
     if (!changes_sign(event.b, first, last)) return Outcome::unknown;
-    return in_cell(event, cell, first, last);
+    const Outcome outcome = in_cell(event, cell, first, last);
+    if constexpr (again) {
+      if (outcome == Outcome::unknown) return in_narrow_cell(event, cell, first, last);
+    }
+    return outcome;
   }
 
   /// The axes, that first on which the normal's component is furthest from 0 beside its

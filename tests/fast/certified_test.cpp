@@ -371,8 +371,8 @@ struct Sheets {
     Random random(31);
     for (int sheet = 0; sheet < 2; ++sheet) {
       for (int i = 0; i < n * n; ++i) {
-        const Eigen::RowVector3d at(i % n + random.uniform(-0.2, 0.2),
-                                    i / n + random.uniform(-0.2, 0.2),
+        const int x = i % n, y = i / n;
+        const Eigen::RowVector3d at(x + random.uniform(-0.2, 0.2), y + random.uniform(-0.2, 0.2),
                                     0.5 * sheet + random.uniform(-0.2, 0.2));
         start.row(sheet * n * n + i) = at;
         const double fall = sheet == 0 ? 0.0 : -1.0;

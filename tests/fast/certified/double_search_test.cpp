@@ -74,7 +74,7 @@ TEST(DoubleSearch, TakesAnyGuessIntoTheInterval) {
 TEST(DoubleSearch, TakesDoublesApart) {
   Random random(2);
   for (int i = 0; i < 10000; ++i) {
-    const double x = std::bit_cast<double>(random.bits() % (bits_of_one + 1));
+    const auto x = std::bit_cast<double>(random.bits() % (bits_of_one + 1));
     const DyadicDouble value = dyadic(bits_of(x));
     EXPECT_EQ(std::ldexp(static_cast<double>(value.numerator), -value.exponent), x);
     EXPECT_EQ(value.numerator % 2, 1);

@@ -33,7 +33,7 @@ TEST(GeneralDecision, FindsATangentialContact) {
 
 TEST(GeneralDecision, TakesTheLatestTimeExactly) {
   const PosedQuery posed = tests::over_triangle(1, 1, 1, -3);  // at t = 1/4
-  const std::uint64_t quarter = std::bit_cast<std::uint64_t>(0.25);
+  const auto quarter = std::bit_cast<std::uint64_t>(0.25);
   EXPECT_TRUE(decide(posed, quarter).has_value());
   EXPECT_FALSE(decide(posed, quarter - 1).has_value());
   const PosedQuery third = tests::over_triangle(1, 1, 1, -2);
