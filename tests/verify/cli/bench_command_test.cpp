@@ -234,10 +234,11 @@ TEST_F(Bench, BadInputExitsWithTwoAndIsNamedOnce) {
   EXPECT_EQ(errors.find(path("data/b.csv"), first + 1), std::string::npos) << errors;
 }
 
+// Eight seconds: a sanitized tool on a busy machine may need three to begin.
 TEST_F(Bench, AnInterruptKeepsWhatIsDone) {
   const std::string file = write("a_vf.csv", falling_vertex("-3"));
   ASSERT_EQ(run(file + " --method tight_inclusion --repetitions 1000000 --json " + quoted("json"),
-                "timeout --preserve-status --signal=INT 3"),
+                "timeout --preserve-status --signal=INT 8"),
             130)
       << read("err");
   const nlohmann::json group = json().at("groups")[0];
