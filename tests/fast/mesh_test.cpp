@@ -100,6 +100,35 @@ TEST(RequireInRange, NamesTheFirstPairAndWhatIsWrongThere) {
             "pair 0: edge -2147483648, but there are 2");
 }
 
+TEST(RequireInRange, FindsTheOneAmongMany) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const std::size_t place : {std::size_t{0}, std::size_t{50}, std::size_t{99}}) {
+      for (const IndexPair& bad :
+           {IndexPair{-1, 0}, IndexPair{5, 0}, IndexPair{0, -1}, IndexPair{0, 2},
+            IndexPair{0, std::numeric_limits<int>::max()}}) {
+        std::vector<IndexPair> pairs(100, IndexPair{0, 1});
+        EXPECT_EQ(range_error(candidates(kind, pairs)), "");
+        pairs[place] = bad;
+        EXPECT_TRUE(range_error(candidates(kind, pairs))
+                        .starts_with("pair " + std::to_string(place) + ": "));
+      }
+    }
+  }
+}
+
+TEST(RequireInRange, MindsNoEdgeOrFaceThatNoPairHas) {
+  const std::vector<Edge> edges{{0, 1}, {1, 2}, {0, 5}};
+  const std::vector<Face> faces{{0, 1, 2}, {0, 1, 3}, {0, 1, -2}};
+  std::vector<IndexPair> pairs(100, IndexPair{0, 1});
+  EXPECT_EQ(range_error({Kind::vertex_face, pairs, edges, faces}), "");
+  EXPECT_EQ(range_error({Kind::edge_edge, pairs, edges, faces}), "");
+  pairs[70] = {0, 2};
+  EXPECT_EQ(range_error({Kind::vertex_face, pairs, edges, faces}),
+            "pair 70: face 2, vertex -2, but there are 5");
+  EXPECT_EQ(range_error({Kind::edge_edge, pairs, edges, faces}),
+            "pair 70: edge 2, vertex 5, but there are 5");
+}
+
 TEST(RequireInRange, LooksIntoTheEdgesAndFacesOfPairs) {
   const std::vector<Edge> edges{{0, 1}, {0, 5}};
   const std::vector<Face> faces{{0, 1, -2}, {0, 1, 2}};
