@@ -10,8 +10,8 @@
 #include <span>
 
 #include "exact/query.hpp"
+#include "fast/instruction_set.hpp"
 #include "fast/mesh.hpp"
-#include "fast/tight_inclusion/box_kernel.hpp"
 
 namespace touchstone::fast {
 

@@ -10,17 +10,13 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <span>
-#include <string_view>
 
 #include "exact/query.hpp"
+#include "fast/instruction_set.hpp"
 
 namespace touchstone::fast {
-
-/// The instruction sets that kernels are written for.
-enum class InstructionSet : std::uint8_t { scalar, avx2, avx512 };
 
 /// A query as the kernel reads it.
 struct BoxProblem {
@@ -74,8 +70,5 @@ struct BoxKernel {
 
 /// The kernel of an instruction set; nullptr if this processor cannot run it.
 [[nodiscard]] const BoxKernel* find_box_kernel(InstructionSet instructions);
-
-/// "scalar", "avx2" or "avx512".
-[[nodiscard]] std::string_view to_string(InstructionSet instructions);
 
 }  // namespace touchstone::fast

@@ -95,12 +95,6 @@ TEST(BoxKernel, ScalarIsAlwaysThereAndFirst) {
   }
 }
 
-TEST(BoxKernel, NamesItsInstructionSet) {
-  EXPECT_EQ(to_string(InstructionSet::scalar), "scalar");
-  EXPECT_EQ(to_string(InstructionSet::avx2), "avx2");
-  EXPECT_EQ(to_string(InstructionSet::avx512), "avx512");
-}
-
 class EachKernel : public testing::TestWithParam<const BoxKernel*> {};
 
 INSTANTIATE_TEST_SUITE_P(BoxKernel, EachKernel, testing::ValuesIn(box_kernels()),

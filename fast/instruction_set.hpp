@@ -1,0 +1,61 @@
+#pragma once
+
+/// \file
+/// The instruction sets that kernels are written for, and the choice among a kernel's
+/// implementations at run time.
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace touchstone::fast {
+
+enum class InstructionSet : std::uint8_t {
+  scalar,
+  avx2,   ///< AVX2 and FMA
+  avx512  ///< AVX-512 Foundation and FMA
+};
+
+/// "scalar", "avx2" or "avx512".
+[[nodiscard]] std::string_view to_string(InstructionSet instructions);
+
+/// Can this processor run it?
+[[nodiscard]] bool is_supported(InstructionSet instructions);
+
+/// Those implementations that this processor can run, in their order. A Kernel has the member
+/// `instructions`; `name` is what to call it in an error, `rounds_products(kernel)` tells whether it
+/// rounds products before it adds them: each is compiled for its own instruction set, so each could
+/// be contracted by itself.
+/// \throws std::runtime_error if one was compiled so that products are contracted.
+template <class Kernel, class Check>
+[[nodiscard]] std::vector<const Kernel*> runnable_kernels(
+    std::initializer_list<const Kernel*> implementations, std::string_view name,
+    const Check& rounds_products) {
+  std::vector<const Kernel*> kernels;
+  for (const Kernel* const kernel : implementations) {
+    if (!is_supported(kernel->instructions)) continue;
+    if (!rounds_products(*kernel)) {
+      throw std::runtime_error(
+          "touchstone: arithmetic is not strict: products are contracted in the " +
+          std::string(to_string(kernel->instructions)) + " " + std::string(name) +
+          " (compile with -ffp-contract=off)");
+    }
+    kernels.push_back(kernel);
+  }
+  return kernels;
+}
+
+/// The one of an instruction set; nullptr if there is none.
+template <class Kernel>
+[[nodiscard]] const Kernel* find_kernel(std::span<const Kernel* const> kernels,
+                                        InstructionSet instructions) {
+  const auto found = std::ranges::find(kernels, instructions, &Kernel::instructions);
+  return found == kernels.end() ? nullptr : *found;
+}
+
+}  // namespace touchstone::fast
