@@ -186,6 +186,36 @@ void solve(const Batch& batch, std::span<CertifiedResult> results,
   });
 }
 
+// ---- Collisions ---------------------------------------------------------------------------------
+
+/// Appends the block's collisions, in order.
+void collect(const Batch& batch, std::size_t first, const CertifiedOptions& options,
+             std::vector<Collision>& found) {
+  const auto before = static_cast<std::ptrdiff_t>(found.size());
+  decide_block(batch, first, options.t_max, options,
+               [&](std::size_t number, const CertifiedResult& result) {
+                 if (result.verdict != Verdict::no) found.push_back({number, result});
+               });
+  std::ranges::sort(found.begin() + before, found.end(), {}, &Collision::candidate);
+}
+
+std::vector<Collision> collisions(const Batch& batch, const CertifiedOptions& options) {
+  check(options);
+  std::vector<Collision> all;
+  if (options.max_threads == 1) {
+    for_each_block(batch.size, 1, [&](std::size_t first) { collect(batch, first, options, all); });
+    return all;
+  }
+  tbb::enumerable_thread_specific<std::vector<Collision>> of_threads;
+  for_each_block(batch.size, options.max_threads,
+                 [&](std::size_t first) { collect(batch, first, options, of_threads.local()); });
+  for (const std::vector<Collision>& some : of_threads) {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  std::ranges::sort(all, {}, &Collision::candidate);
+  return all;
+}
+
 // ---- Earliest -----------------------------------------------------------------------------------
 
 /// Lowers the number to x if that is less.
@@ -240,22 +270,14 @@ void solve(const MovingVertices& vertices, const Candidates& candidates,
   solve(batch_of(vertices, candidates), results, options);
 }
 
+std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
+                                  const CertifiedOptions& options) {
+  return collisions(batch_of(kind, queries), options);
+}
+
 std::vector<Collision> collisions(const MovingVertices& vertices, const Candidates& candidates,
                                   const CertifiedOptions& options) {
-  check(options);
-  const Batch batch = batch_of(vertices, candidates);
-  tbb::enumerable_thread_specific<std::vector<Collision>> found;
-  for_each_block(batch.size, options.max_threads, [&](std::size_t first) {
-    std::vector<Collision>& of_thread = found.local();
-    decide_block(batch, first, options.t_max, options,
-                 [&](std::size_t number, const CertifiedResult& result) {
-                   if (result.verdict != Verdict::no) of_thread.push_back({number, result});
-                 });
-  });
-  std::vector<Collision> all;
-  for (const std::vector<Collision>& some : found) all.insert(all.end(), some.begin(), some.end());
-  std::ranges::sort(all, {}, &Collision::candidate);
-  return all;
+  return collisions(batch_of(vertices, candidates), options);
 }
 
 std::optional<EarliestImpact> earliest(const MovingVertices& vertices, const Candidates& candidates,

@@ -1,5 +1,6 @@
 #include "verify/contender.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <stdexcept>
@@ -50,14 +51,16 @@ class CertifiedContender final : public MethodContender {
   fast::CertifiedOptions certified_;
 };
 
-/// The certified solver's own results.
-class ResultContender : public Contender {
+/// The collisions that the certified solver finds, in order.
+class CollisionContender : public Contender {
  public:
-  ResultContender(std::string name, const fast::CertifiedOptions& options)
+  CollisionContender(std::string name, const fast::CertifiedOptions& options)
       : Contender(std::move(name), fast::Promise::exact), options_(in_one_thread(options)) {}
 
   [[nodiscard]] fast::Answer answer(std::size_t i) const final {
-    const fast::CertifiedResult& result = results_[i];
+    const auto found = std::ranges::lower_bound(collisions_, i, {}, &fast::Collision::candidate);
+    if (found == collisions_.end() || found->candidate != i) return {.verdict = fast::Verdict::no};
+    const fast::CertifiedResult& result = found->result;
     return {.verdict = result.verdict,
             .toi_lower = result.toi_lower,
             .toi_upper = result.toi_upper,
@@ -65,33 +68,31 @@ class ResultContender : public Contender {
   }
 
  protected:
-  /// Room for the results.
-  [[nodiscard]] std::span<fast::CertifiedResult> room(std::size_t queries) {
-    if (results_.size() < queries) results_.resize(queries);
-    return std::span(results_).first(queries);
-  }
+  void keep(std::vector<fast::Collision> collisions) { collisions_ = std::move(collisions); }
   [[nodiscard]] const fast::CertifiedOptions& options() const { return options_; }
 
  private:
   fast::CertifiedOptions options_;
-  std::vector<fast::CertifiedResult> results_;
+  std::vector<fast::Collision> collisions_;
 };
 
-class QueryContender final : public ResultContender {
+class QueryContender final : public CollisionContender {
  public:
   explicit QueryContender(const fast::CertifiedOptions& options)
-      : ResultContender("certified_queries", options) {}
+      : CollisionContender("certified_queries", options) {}
 
   void solve(Kind kind, std::span<const Query> queries) override {
-    fast::solve(kind, queries, room(queries.size()), options());
+    keep(fast::collisions(kind, queries, options()));
   }
 };
 
-class PairContender final : public ResultContender {
+class PairContender final : public CollisionContender {
  public:
   PairContender(const fast::MovingVertices& vertices, const fast::Candidates& candidates,
                 const fast::CertifiedOptions& options)
-      : ResultContender("certified_pairs", options), vertices_(vertices), candidates_(candidates) {}
+      : CollisionContender("certified_pairs", options),
+        vertices_(vertices),
+        candidates_(candidates) {}
 
   [[nodiscard]] bool only_as_a_whole() const override { return true; }
 
@@ -99,7 +100,7 @@ class PairContender final : public ResultContender {
     if (kind != candidates_.kind || queries.size() != candidates_.pairs.size()) {
       throw std::invalid_argument("certified_pairs: these are not the queries of its candidates");
     }
-    fast::solve(vertices_, candidates_, room(queries.size()), options());
+    keep(fast::collisions(vertices_, candidates_, options()));
   }
 
  private:

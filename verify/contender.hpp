@@ -68,8 +68,8 @@ class Contender {
 [[nodiscard]] std::unique_ptr<Contender> contend_certified(
     const fast::MethodOptions& options, const fast::CertifiedOptions& certified = {});
 
-/// The certified solver by its own interface, fast::solve, as `certified_queries`: on the array of
-/// queries, in one thread.
+/// The certified solver by its own interface, fast::collisions, as `certified_queries`: on the array
+/// of queries, in one thread.
 [[nodiscard]] std::unique_ptr<Contender> contend_with_queries(
     const fast::CertifiedOptions& certified);
 

@@ -16,7 +16,7 @@
 namespace touchstone::fast {
 
 /// Queries that a kernel takes at a time: few enough that they stay in the cache between stages.
-inline constexpr std::size_t kernel_block = 512;
+inline constexpr std::size_t kernel_block = 1024;
 
 /// A block of queries: from an array, or from pairs of indices.
 struct KernelInput {

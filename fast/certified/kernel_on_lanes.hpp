@@ -95,15 +95,13 @@ class CertifiedStages {
   using Row = typename Lanes::Row;
   using RowMask = typename Lanes::RowMask;
   using Vector = std::array<Value, 3>;
-  using Indices = std::array<std::uint32_t, kernel_block>;
-
   static constexpr std::size_t width = Lanes::width;
 
-  /// Indices of the block that are still open.
-  struct Open {
-    std::size_t count = 0;
-    Indices items;
-  };
+  /// Items of the block.
+  template <class Item>
+  using List = KernelOutput::List<Item>;
+  /// Queries of the block, by their indices.
+  using Indices = List<std::uint32_t>;
 
   /// The points of a query: at t=0, then at t=1.
   using Points = std::array<const double*, query_points>;
@@ -121,13 +119,57 @@ class CertifiedStages {
   static void run_stages(const KernelInput& input, KernelOutput& output) {
     output.separated_in_direction.count = output.one_sided.count = 0;
     output.rejected.count = output.hits.count = output.undecided.count = 0;
-    Open open;
+    Indices open, mixed, undecided;
     axis_stage<kind, Source>(input, open);
+    unit_interval_stages<kind, Source>(input, open, mixed, output);
+    Crossings contacts, zeros;
+    orientation_stage<kind, Source>(input, mixed, contacts, zeros, undecided, output);
+    zero_stage<kind, Source>(input, zeros, contacts, undecided, output);
     Moving<kind> moving;
-    unit_interval_stages<kind, Source>(input, open, moving, output);
-    Bisection<kind> bisection(input, moving, output);
-    bisection.run();
-    refine<kind, Source>(input, bisection.crossings(), output);
+    load_moving<kind, Source>(input, undecided, moving);
+    Bisection<kind>(input, moving, contacts, output).run();
+    refine<kind, Source>(input, contacts, output);
+  }
+
+  // ---- Lists of queries -------------------------------------------------------------------------
+
+  /// Which places of a list are meant. Lists are written from these marks when a stage is through: a
+  /// store whose address depends on a comparison delays the loads of all queries behind it.
+  class Marks {
+   public:
+    static constexpr std::size_t word_size = 64;
+
+    void set_word(std::size_t first, std::uint64_t word) { words_[first / word_size] = word; }
+    /// Adds places from `first` on, no more than are left in its word.
+    void add(std::size_t first, unsigned bits) {
+      words_[first / word_size] |= std::uint64_t{bits} << (first % word_size);
+    }
+
+    template <class Function>
+    void for_each(const Function& function) const {
+      for (std::size_t i = 0; i < words_.size(); ++i) {
+        for (std::uint64_t rest = words_[i]; rest != 0; rest &= rest - 1) {
+          function(word_size * i + static_cast<std::size_t>(__builtin_ctzll(rest)));
+        }
+      }
+    }
+
+   private:
+    std::array<std::uint64_t, kernel_block / word_size> words_{};
+  };
+
+  template <class Item>
+  static void append(List<Item>& list, const Item& item) {
+    list.items[list.count++] = item;
+  }
+
+  static void append_marked(Indices& list, const Indices& from, const Marks& marks) {
+    marks.for_each([&](std::size_t place) { append(list, from.items[place]); });
+  }
+
+  /// What of the first `count` lanes is in the mask.
+  static unsigned valid_bits(const Mask& mask, std::size_t count) {
+    return mask.bits() & ((1U << count) - 1U);
   }
 
   // ---- Where queries come from ------------------------------------------------------------------
@@ -169,14 +211,39 @@ class CertifiedStages {
 
   // ---- 1. Axis ----------------------------------------------------------------------------------
 
+  /// Words of marks that are made at a time: memory is faster when read at several places at once.
+  static constexpr std::size_t streams = 4;
+
   template <Kind kind, class Source>
-  static void axis_stage(const KernelInput& input, Open& open) {
-    std::size_t count = 0;
-    for (std::uint32_t i = 0; i < input.count; ++i) {
-      open.items[count] = i;
-      count += separated_on_axis<kind, Source>(Source::points(input, i)) ? 0U : 1U;
+  static void axis_stage(const KernelInput& input, Indices& open) {
+    Marks marks;
+    std::size_t first = 0;
+    for (; first + streams * Marks::word_size <= input.count; first += streams * Marks::word_size) {
+      mark_open<kind, Source, streams>(input, first, Marks::word_size, marks);
     }
-    open.count = count;
+    for (; first < input.count; first += Marks::word_size) {
+      const std::size_t rest = input.count - first;
+      mark_open<kind, Source, 1>(input, first, rest < Marks::word_size ? rest : Marks::word_size,
+                                 marks);
+    }
+    open.count = 0;
+    marks.for_each([&](std::size_t i) { append(open, static_cast<std::uint32_t>(i)); });
+  }
+
+  /// Marks the queries that no axis separates: `count` in each of some words.
+  template <Kind kind, class Source, std::size_t word_count>
+  static void mark_open(const KernelInput& input, std::size_t first, std::size_t count,
+                        Marks& marks) {
+    std::array<std::uint64_t, word_count> words{};
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < word_count; ++k) {
+        const Points points = Source::points(input, first + k * Marks::word_size + i);
+        words[k] |= std::uint64_t{!separated_on_axis<kind, Source>(points)} << i;
+      }
+    }
+    for (std::size_t k = 0; k < word_count; ++k) {
+      marks.set_word(first + k * Marks::word_size, words[k]);
+    }
   }
 
   template <Kind kind, class Source>
@@ -233,11 +300,6 @@ class CertifiedStages {
     for (std::size_t k = 0; k + 1 < query_points; ++k) result[k] = Lanes::load(rows[k]);
     result[7] = Source::may_read_behind ? Lanes::load(rows[7]) : Lanes::load_backwards(rows[7]);
     return result;
-  }
-
-  /// What of the first `count` lanes is in the mask.
-  static unsigned valid_bits(const Mask& mask, std::size_t count) {
-    return mask.bits() & ((1U << count) - 1U);
   }
 
   // ---- 2 and 3. Direction and determinant, on [0,1] ------------------------------------------
@@ -340,79 +402,68 @@ class CertifiedStages {
     }
   }
 
-  /// The moving vectors of `width` queries as they lie in memory, and what their bounds need.
+  /// The moving vectors at both ends of an interval.
+  using Ends = std::array<std::array<Vector, 2>, vector_count>;
+
+  /// What the bounds of `width` queries need: that of det, and for each orientation the product of its
+  /// vectors' magnitudes.
   template <Kind kind>
-  struct MovingLanes {
-    static constexpr std::size_t orientation_count = orientations<kind>().size();
-    static constexpr std::size_t rows = 6 * vector_count + 1 + orientation_count;
-
-    /// x, y, z of each vector at t=0, then at t=1; the bound of det; for each orientation the product
-    /// of its vectors' magnitudes.
-    alignas(width * sizeof(double)) std::array<std::array<double, width>, rows> row;
-
-    [[nodiscard]] Value load(std::size_t i) const { return Value::load(row[i].data()); }
-    [[nodiscard]] Vector vector(std::size_t place, std::size_t end) const {
-      const std::size_t first = 6 * place + 3 * end;
-      return {load(first), load(first + 1), load(first + 2)};
-    }
-    [[nodiscard]] Value determinant_bound() const { return load(6 * vector_count); }
-    [[nodiscard]] Value orientation_scale(std::size_t i) const {
-      return load(6 * vector_count + 1 + i);
-    }
+  struct Bounds {
+    Value determinant;
+    std::array<Value, orientations<kind>().size()> orientation_scale;
   };
 
-  /// The same in registers, from points.
+  /// The moving vectors of `width` queries at t=0 and t=1, from their points.
   template <Kind kind>
-  struct Vectors {
-    std::array<std::array<Vector, 2>, vector_count> at;  ///< at t=0 and t=1
-
-    explicit Vectors(const std::array<Vector, query_points>& x) {
-      constexpr auto ends = ends_of_vectors<kind>();
-      for (std::size_t i = 0; i < vector_count; ++i) {
-        for (std::size_t end = 0; end < 2; ++end) {
-          at[i][end] = minus(x[4 * end + ends[i][0]], x[4 * end + ends[i][1]]);
-        }
+  static Ends vectors_of(const std::array<Vector, query_points>& x) {
+    constexpr auto ends = ends_of_vectors<kind>();
+    Ends at;
+    for (std::size_t i = 0; i < vector_count; ++i) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        at[i][end] = minus(x[4 * end + ends[i][0]], x[4 * end + ends[i][1]]);
       }
     }
+    return at;
+  }
 
-    [[nodiscard]] std::array<Value, 4> determinant() const {
-      const Vector n_a = filters::cross(at[p][0], at[q][0]);
-      const Vector n_b = filters::cross(at[p][1], at[q][1]);
-      const Vector n_ab = filters::normal_middle(at[p][0], at[p][1], at[q][0], at[q][1]);
-      return determinant_coefficients(at[r], n_a, n_ab, n_b);
-    }
+  static Value determinant_bound(const Ends& unit) {
+    return magnitude(unit[r]) * magnitude(unit[p]) * magnitude(unit[q]) *
+               Value(filters::measured_determinant_middle_double.rounding()) +
+           Value(determinant_underflow);
+  }
 
-    [[nodiscard]] Value determinant_bound() const {
-      return magnitude(at[r]) * magnitude(at[p]) * magnitude(at[q]) *
-                 Value(filters::measured_determinant_middle_double.rounding()) +
-             Value(determinant_underflow);
+  template <Kind kind>
+  static Bounds<kind> bounds_of(const Ends& unit) {
+    constexpr auto all_orientations = orientations<kind>();
+    Bounds<kind> bounds{determinant_bound(unit), {}};
+    for (std::size_t i = 0; i < all_orientations.size(); ++i) {
+      bounds.orientation_scale[i] =
+          magnitude(unit[all_orientations[i].x]) * magnitude(unit[all_orientations[i].y]);
     }
+    return bounds;
+  }
 
-    void store(MovingLanes<kind>& lanes, const Value& determinant_bound) const {
-      std::array<Value, vector_count> magnitudes;
-      for (std::size_t i = 0; i < vector_count; ++i) {
-        magnitudes[i] = magnitude(at[i]);
-        for (std::size_t k = 0; k < 3; ++k) {
-          at[i][0][k].store(lanes.row[6 * i + k].data());
-          at[i][1][k].store(lanes.row[6 * i + 3 + k].data());
-        }
-      }
-      determinant_bound.store(lanes.row[6 * vector_count].data());
-      constexpr auto all_orientations = orientations<kind>();
-      for (std::size_t i = 0; i < all_orientations.size(); ++i) {
-        const Value scale = magnitudes[all_orientations[i].x] * magnitudes[all_orientations[i].y];
-        scale.store(lanes.row[6 * vector_count + 1 + i].data());
-      }
-    }
+  /// N at both ends, and twice its middle Bernstein coefficient.
+  struct Normals {
+    Vector a;
+    Vector b;
+    Vector twice_ab;
+
+    explicit Normals(const Ends& at)
+        : a(filters::cross(at[p][0], at[q][0])),
+          b(filters::cross(at[p][1], at[q][1])),
+          twice_ab(filters::normal_middle(at[p][0], at[p][1], at[q][0], at[q][1])) {}
+
+    /// The normal in the middle of the interval, up to a factor.
+    [[nodiscard]] Vector middle() const { return filters::add(filters::add(a, b), twice_ab); }
   };
 
-  /// d0, 3 d1, 3 d2, d3 of the Bernstein coefficients of det, from r at both ends and N's.
-  static std::array<Value, 4> determinant_coefficients(const std::array<Vector, 2>& of_r,
-                                                       const Vector& n_a, const Vector& twice_n_ab,
-                                                       const Vector& n_b) {
-    return {
-        filters::dot(of_r[0], n_a), filters::determinant_middle(of_r[0], of_r[1], n_a, twice_n_ab),
-        filters::determinant_middle(of_r[1], of_r[0], n_b, twice_n_ab), filters::dot(of_r[1], n_b)};
+  /// d0, 3 d1, 3 d2, d3 of the Bernstein coefficients of det.
+  static std::array<Value, 4> determinant_coefficients(const Ends& at, const Normals& n) {
+    return {filters::dot(at[r][0], n.a),
+            filters::determinant_middle(at[r][0], at[r][1], n.a, n.twice_ab),
+            filters::determinant_middle(at[r][1], at[r][0], n.b, n.twice_ab),
+            filters::dot(at[r][1], n.b)};
   }
 
   /// What is proved of det on an interval.
@@ -432,52 +483,33 @@ class CertifiedStages {
     return {one_sided, rises | falls};
   }
 
-  /// Queries that [0,1] as a whole does not end, by groups of lanes as they were loaded.
-  template <Kind kind>
-  struct Moving {
-    struct Place {
-      std::uint32_t index;  ///< in the block
-      std::uint16_t group;
-      std::uint16_t lane;
-    };
-    std::size_t count = 0;
-    std::size_t group_count = 0;
-    std::array<Place, kernel_block> items;
-    std::array<MovingLanes<kind>, (kernel_block + width - 1) / width> groups;
-  };
-
   template <Kind kind, class Source>
-  static void unit_interval_stages(const KernelInput& input, const Open& open, Moving<kind>& moving,
+  static void unit_interval_stages(const KernelInput& input, const Indices& open, Indices& mixed,
                                    KernelOutput& output) {
+    Marks unbounded, of_direction, of_determinant, of_neither;
     for (std::size_t first = 0; first < open.count; first += width) {
-      const std::uint32_t* const indices = open.items.data() + first;
       const std::size_t count = open.count - first < width ? open.count - first : width;
-      const auto points = load<Source>(input, indices, count);
+      const auto points = load<Source>(input, open.items.data() + first, count);
       const Differences<kind> differences(points);
       const Value magnitude = differences.magnitude();
       const Vector d = differences.sum_of_corners();
       const Mask bounded = (magnitude <= Value(greatest_distance)) & is_number(d);
       const Mask separated = separates(d, differences.gap(d), magnitude);
-      const Vectors<kind> vectors(points);
-      const Value bound = vectors.determinant_bound();
-      const Mask one_sided = test_determinant(vectors.determinant(), bound).one_sided;
+      const Ends at = vectors_of<kind>(points);
+      const Mask one_sided =
+          test_determinant(determinant_coefficients(at, Normals(at)), determinant_bound(at))
+              .one_sided;
       const unsigned bits = valid_bits(bounded, count);
-      const unsigned of_direction = bits & separated.bits();
-      const unsigned of_determinant = bits & ~of_direction & one_sided.bits();
-      const unsigned rest = bits & ~of_direction & ~of_determinant;
-      if (rest != 0) vectors.store(moving.groups[moving.group_count], bound);
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        append(output.undecided, indices[lane], (~bits >> lane & 1U) != 0);
-        append(output.separated_in_direction, indices[lane], (of_direction >> lane & 1U) != 0);
-        append(output.one_sided, indices[lane], (of_determinant >> lane & 1U) != 0);
-        append(moving,
-               typename Moving<kind>::Place{indices[lane],
-                                            static_cast<std::uint16_t>(moving.group_count),
-                                            static_cast<std::uint16_t>(lane)},
-               (rest >> lane & 1U) != 0);
-      }
-      moving.group_count += rest != 0 ? 1U : 0U;
+      unbounded.add(first, valid_bits(Mask::all(), count) & ~bits);
+      of_direction.add(first, bits & separated.bits());
+      of_determinant.add(first, bits & ~separated.bits() & one_sided.bits());
+      of_neither.add(first, bits & ~separated.bits() & ~one_sided.bits());
     }
+    append_marked(output.undecided, open, unbounded);
+    append_marked(output.separated_in_direction, open, of_direction);
+    append_marked(output.one_sided, open, of_determinant);
+    mixed.count = 0;
+    append_marked(mixed, open, of_neither);
   }
 
   /// The sum of the corners has every coordinate in it: NaN and infinities show.
@@ -487,15 +519,71 @@ class CertifiedStages {
     return difference <= zero;
   }
 
-  template <class List, class Item>
-  static void append(List& list, const Item& item, bool condition) {
-    list.items[list.count] = item;
-    list.count += condition ? 1U : 0U;
+  // ---- 4. An interval ---------------------------------------------------------------------------
+
+  /// What is proved of the orientations on an interval.
+  struct OrientationTest {
+    Mask opposed;  ///< two keep opposite signs
+    Mask agree;    ///< all keep one sign
+  };
+
+  template <Kind kind>
+  static OrientationTest test_orientations(const Vector& d, const Ends& at,
+                                           const Bounds<kind>& bounds) {
+    constexpr auto all_orientations = orientations<kind>();
+    const Value scale = greatest(d) * Value(filters::measured_orientation_middle_double.rounding());
+    Mask any_positive = Mask::none(), any_negative = Mask::none();
+    Mask all_positive = Mask::all(), all_negative = Mask::all();
+    for (std::size_t i = 0; i < all_orientations.size(); ++i) {
+      const auto [x, y, is_negative] = all_orientations[i];
+      const Vector d_y_a = filters::cross(d, at[y][0]), d_y_b = filters::cross(d, at[y][1]);
+      const Value o_a = filters::dot(at[x][0], d_y_a), o_b = filters::dot(at[x][1], d_y_b);
+      const Value o_ab = filters::orientation_middle(at[x][0], at[x][1], d_y_a, d_y_b);
+      const Value bound = scale * bounds.orientation_scale[i] + Value(orientation_underflow);
+      const Mask above = min(min(o_a, o_b), o_ab) > bound;
+      const Mask below = max(max(o_a, o_b), o_ab) < Value(0.0) - bound;
+      const Mask positive = is_negative ? below : above;
+      const Mask negative = is_negative ? above : below;
+      any_positive = any_positive | positive;
+      any_negative = any_negative | negative;
+      all_positive = all_positive & positive;
+      all_negative = all_negative & negative;
+    }
+    return {any_positive & any_negative, all_positive | all_negative};
   }
 
-  // ---- 4. Bisection -----------------------------------------------------------------------------
+  /// An interval, by what it has of the theorem.
+  struct Examination {
+    std::array<Value, 4> coefficients;  ///< of det
+    DeterminantTest determinant;
+    OrientationTest orientation;
 
-  /// A zero of det that is a contact: the only one in [begin, begin + length], none before.
+    [[nodiscard]] Mask has_no_contact() const {
+      return determinant.one_sided | orientation.opposed;
+    }
+    [[nodiscard]] Mask has_contact() const { return determinant.crosses_once & orientation.agree; }
+  };
+
+  template <Kind kind>
+  static Examination examine(const Ends& at, const Bounds<kind>& bounds) {
+    const Normals normals(at);
+    const std::array<Value, 4> coefficients = determinant_coefficients(at, normals);
+    return {coefficients, test_determinant(coefficients, bounds.determinant),
+            test_orientations<kind>(normals.middle(), at, bounds)};
+  }
+
+  /// Vectors that move from `unit` at 0 to it at 1, at the ends of [begin, end].
+  static Ends between(const Ends& unit, const Value& begin, const Value& end) {
+    const Value one(1.0), before_begin = one - begin, before_end = one - end;
+    Ends at;
+    for (std::size_t i = 0; i < vector_count; ++i) {
+      at[i] = {filters::at_time(unit[i][0], unit[i][1], before_begin, begin),
+               filters::at_time(unit[i][0], unit[i][1], before_end, end)};
+    }
+    return at;
+  }
+
+  /// A zero of det, the only one in [begin, begin + length], and no contact before.
   struct Crossing {
     std::uint32_t index;
     double begin;
@@ -503,34 +591,186 @@ class CertifiedStages {
     /// d0, 3 d1, 3 d2, d3 of the Bernstein coefficients there.
     std::array<double, 4> determinant;
   };
+  using Crossings = List<Crossing>;
 
-  struct Crossings {
-    std::size_t count = 0;
-    std::array<Crossing, kernel_block> items;
+  /// Intervals of a list of queries, with det's coefficients, as they lie in memory.
+  class Intervals {
+   public:
+    /// Those of the places from `first` on, a multiple of the width.
+    void store(std::size_t first, const Value& begin, const Value& length,
+               const std::array<Value, 4>& coefficients) {
+      Rows& rows = groups_[first / width];
+      begin.store(rows[0].data());
+      length.store(rows[1].data());
+      for (std::size_t i = 0; i < 4; ++i) coefficients[i].store(rows[2 + i].data());
+    }
+
+    [[nodiscard]] Crossing crossing(std::size_t place, std::uint32_t index) const {
+      const Rows& rows = groups_[place / width];
+      const std::size_t lane = place % width;
+      return {index,
+              rows[0][lane],
+              rows[1][lane],
+              {rows[2][lane], rows[3][lane], rows[4][lane], rows[5][lane]}};
+    }
+
+   private:
+    using Rows = std::array<std::array<double, width>, 6>;
+    alignas(width * sizeof(double)) std::array<Rows, (kernel_block + width - 1) / width> groups_;
   };
+
+  // ---- 4a. Orientations on [0,1] ----------------------------------------------------------------
+
+  template <Kind kind, class Source>
+  static void orientation_stage(const KernelInput& input, const Indices& mixed, Crossings& contacts,
+                                Crossings& zeros, Indices& undecided, KernelOutput& output) {
+    Marks of_contacts, of_rejected, of_zeros, of_rest;
+    Intervals intervals;
+    for (std::size_t first = 0; first < mixed.count; first += width) {
+      const std::size_t count = mixed.count - first < width ? mixed.count - first : width;
+      const Ends unit = vectors_of<kind>(load<Source>(input, mixed.items.data() + first, count));
+      const Examination found = examine<kind>(unit, bounds_of<kind>(unit));
+      intervals.store(first, Value(0.0), Value(1.0), found.coefficients);
+      const unsigned contact = valid_bits(found.has_contact(), count);
+      const unsigned rejected = valid_bits(found.has_no_contact(), count) & ~contact;
+      const unsigned zero =
+          valid_bits(found.determinant.crosses_once, count) & ~contact & ~rejected;
+      of_contacts.add(first, contact);
+      of_rejected.add(first, rejected);
+      of_zeros.add(first, zero);
+      of_rest.add(first, valid_bits(Mask::all(), count) & ~contact & ~rejected & ~zero);
+    }
+    const auto crossing = [&](std::size_t place) {
+      return intervals.crossing(place, mixed.items[place]);
+    };
+    of_contacts.for_each([&](std::size_t place) { append(contacts, crossing(place)); });
+    of_zeros.for_each([&](std::size_t place) { append(zeros, crossing(place)); });
+    append_marked(output.rejected, mixed, of_rejected);
+    append_marked(undecided, mixed, of_rest);
+  }
+
+  // ---- 4b. Around the only zero of det ----------------------------------------------------------
+
+  /// Half the length of the interval that is looked at.
+  static constexpr double half_around_zero = 0x1p-16;
+
+  /// Rounded to a multiple of 2^-20, so that it and 1 minus it are exact.
+  static Value to_short(const Value& time) {
+    const Value shift(0x1p32);
+    return (time + shift) - shift;
+  }
+
+  template <Kind kind, class Source>
+  static void zero_stage(const KernelInput& input, const Crossings& zeros, Crossings& contacts,
+                         Indices& undecided, KernelOutput& output) {
+    Marks of_contacts, of_rejected, of_rest;
+    Intervals intervals;
+    Indices all;
+    all.count = zeros.count;
+    for (std::size_t i = 0; i < zeros.count; ++i) all.items[i] = zeros.items[i].index;
+    for (std::size_t first = 0; first < zeros.count; first += width) {
+      const std::size_t count = zeros.count - first < width ? zeros.count - first : width;
+      const Value zero = CrossingLanes(zeros.items.data() + first, count).cubic.zero(half_around_zero);
+      const Value begin = to_short(max(zero - Value(half_around_zero), Value(0.0)));
+      const Value end = to_short(min(zero + Value(half_around_zero), Value(1.0)));
+      const Ends unit = vectors_of<kind>(load<Source>(input, all.items.data() + first, count));
+      const Examination found = examine<kind>(between(unit, begin, end), bounds_of<kind>(unit));
+      intervals.store(first, begin, end - begin, found.coefficients);
+      const Mask is_late = begin >= Value(input.t_limit);
+      const unsigned here = valid_bits(found.determinant.crosses_once, count);
+      const unsigned rejected = here & (found.orientation.opposed | is_late).bits();
+      const unsigned contact = here & ~rejected & found.orientation.agree.bits();
+      of_contacts.add(first, contact);
+      of_rejected.add(first, rejected);
+      of_rest.add(first, valid_bits(Mask::all(), count) & ~contact & ~rejected);
+    }
+    of_contacts.for_each(
+        [&](std::size_t place) { append(contacts, intervals.crossing(place, all.items[place])); });
+    append_marked(output.rejected, all, of_rejected);
+    append_marked(undecided, all, of_rest);
+  }
+
+  // ---- 4c. Bisection ----------------------------------------------------------------------------
+
+  /// The moving vectors of `width` queries as they lie in memory, and what their bounds need.
+  template <Kind kind>
+  struct MovingLanes {
+    static constexpr std::size_t orientation_count = orientations<kind>().size();
+    static constexpr std::size_t rows = 6 * vector_count + 1 + orientation_count;
+
+    /// x, y, z of each vector at t=0, then at t=1; the bound of det; the orientations' scales.
+    alignas(width * sizeof(double)) std::array<std::array<double, width>, rows> row;
+
+    void store(const Ends& unit, const Bounds<kind>& bounds) {
+      for (std::size_t i = 0; i < vector_count; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          unit[i][0][k].store(row[6 * i + k].data());
+          unit[i][1][k].store(row[6 * i + 3 + k].data());
+        }
+      }
+      bounds.determinant.store(row[6 * vector_count].data());
+      for (std::size_t i = 0; i < orientation_count; ++i) {
+        bounds.orientation_scale[i].store(row[6 * vector_count + 1 + i].data());
+      }
+    }
+
+    [[nodiscard]] Value load(std::size_t i) const { return Value::load(row[i].data()); }
+
+    [[nodiscard]] Ends unit() const {
+      Ends result;
+      for (std::size_t i = 0; i < vector_count; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          result[i][0][k] = load(6 * i + k);
+          result[i][1][k] = load(6 * i + 3 + k);
+        }
+      }
+      return result;
+    }
+
+    [[nodiscard]] Bounds<kind> bounds() const {
+      Bounds<kind> result{load(6 * vector_count), {}};
+      for (std::size_t i = 0; i < orientation_count; ++i) {
+        result.orientation_scale[i] = load(6 * vector_count + 1 + i);
+      }
+      return result;
+    }
+  };
+
+  /// Queries to bisect, lane by lane.
+  template <Kind kind>
+  struct Moving {
+    const Indices* indices;
+    std::array<MovingLanes<kind>, (kernel_block + width - 1) / width> groups;
+  };
+
+  template <Kind kind, class Source>
+  static void load_moving(const KernelInput& input, const Indices& indices, Moving<kind>& moving) {
+    moving.indices = &indices;
+    for (std::size_t first = 0; first < indices.count; first += width) {
+      const std::size_t count = indices.count - first < width ? indices.count - first : width;
+      const Ends unit = vectors_of<kind>(load<Source>(input, indices.items.data() + first, count));
+      moving.groups[first / width].store(unit, bounds_of<kind>(unit));
+    }
+  }
 
   /// Runs `width` queries at a time, each with an interval of its own; a lane that is done takes the
   /// next query.
   template <Kind kind>
   class Bisection {
    public:
-    Bisection(const KernelInput& input, const Moving<kind>& moving, KernelOutput& output)
-        : input_(input), moving_(moving), output_(output) {}
+    Bisection(const KernelInput& input, const Moving<kind>& moving, Crossings& contacts,
+              KernelOutput& output)
+        : input_(input), moving_(moving), contacts_(contacts), output_(output) {}
 
     void run() {
       for (std::size_t lane = 0; lane < width; ++lane) take(lane);
       while (active_ != 0) step();
     }
 
-    [[nodiscard]] const Crossings& crossings() const { return crossings_; }
-
    private:
     /// Intervals are not halved below this length, nor more of them examined than this.
     static constexpr double least_length = 0x1p-40;
     static constexpr double most_steps = 150;
-
-    static constexpr auto all_orientations = orientations<kind>();
-    static constexpr std::size_t orientation_count = all_orientations.size();
 
     using Row = std::array<double, width>;
 
@@ -539,71 +779,26 @@ class CertifiedStages {
     /// The next query, if there is one, to the lane.
     void take(std::size_t lane) {
       active_ &= ~(1U << lane);
-      if (next_ == moving_.count) return;
-      const auto [index, group, from] = moving_.items[next_++];
-      const MovingLanes<kind>& lanes = moving_.groups[group];
+      if (next_ == moving_.indices->count) return;
+      const MovingLanes<kind>& lanes = moving_.groups[next_ / width];
+      const std::size_t from = next_ % width;
       for (std::size_t i = 0; i < lanes.row.size(); ++i) lanes_.row[i][lane] = lanes.row[i][from];
-      index_[lane] = index;
+      index_[lane] = moving_.indices->items[next_++];
       begin_[lane] = 0.0;
-      length_[lane] = 1.0;
+      length_[lane] = 0.5;
       steps_[lane] = 0.0;
       active_ |= 1U << lane;
     }
 
     static Value load(const Row& row) { return Value::load(row.data()); }
 
-    [[nodiscard]] Vector vector(std::size_t place, const Value& time) const {
-      return filters::at_time<Value>(lanes_.vector(place, 0), lanes_.vector(place, 1),
-                                     Value(1.0) - time, time);
-    }
-
-    // ---- An interval ----
-
-    /// What is proved of the orientations on an interval.
-    struct OrientationTest {
-      Mask opposed;  ///< two keep opposite signs
-      Mask agree;    ///< all keep one sign
-    };
-
-    [[nodiscard]] OrientationTest test_orientations(
-        const Vector& d, const std::array<std::array<Vector, 2>, vector_count>& at) const {
-      const Value scale =
-          greatest(d) * Value(filters::measured_orientation_middle_double.rounding());
-      Mask any_positive = Mask::none(), any_negative = Mask::none();
-      Mask all_positive = Mask::all(), all_negative = Mask::all();
-      for (std::size_t i = 0; i < orientation_count; ++i) {
-        const auto [x, y, is_negative] = all_orientations[i];
-        const Vector d_y_a = filters::cross(d, at[y][0]), d_y_b = filters::cross(d, at[y][1]);
-        const Value o_a = filters::dot(at[x][0], d_y_a), o_b = filters::dot(at[x][1], d_y_b);
-        const Value o_ab = filters::orientation_middle(at[x][0], at[x][1], d_y_a, d_y_b);
-        const Value bound = scale * lanes_.orientation_scale(i) + Value(orientation_underflow);
-        const Mask above = min(min(o_a, o_b), o_ab) > bound;
-        const Mask below = max(max(o_a, o_b), o_ab) < Value(0.0) - bound;
-        const Mask positive = is_negative ? below : above;
-        const Mask negative = is_negative ? above : below;
-        any_positive = any_positive | positive;
-        any_negative = any_negative | negative;
-        all_positive = all_positive & positive;
-        all_negative = all_negative & negative;
-      }
-      return {any_positive & any_negative, all_positive | all_negative};
-    }
-
     void step() {
-      const Value begin = load(begin_), length = load(length_), end = begin + length;
-      std::array<std::array<Vector, 2>, vector_count> at;
-      for (std::size_t i = 0; i < vector_count; ++i) at[i] = {vector(i, begin), vector(i, end)};
-      const Vector n_a = filters::cross(at[p][0], at[q][0]);
-      const Vector n_b = filters::cross(at[p][1], at[q][1]);
-      const Vector n_ab = filters::normal_middle(at[p][0], at[p][1], at[q][0], at[q][1]);
-      const std::array<Value, 4> coefficients = determinant_coefficients(at[r], n_a, n_ab, n_b);
-      const DeterminantTest determinant =
-          test_determinant(coefficients, lanes_.determinant_bound());
-      const Vector d = filters::add(filters::add(n_a, n_b), n_ab);
-      const OrientationTest orientation = test_orientations(d, at);
-      const unsigned contact = (determinant.crosses_once & orientation.agree).bits() & active_;
-      if (contact != 0) keep_crossings(contact, coefficients);
-      advance(determinant.one_sided | orientation.opposed, contact);
+      const Value begin = load(begin_), length = load(length_);
+      const Examination found =
+          examine<kind>(between(lanes_.unit(), begin, begin + length), lanes_.bounds());
+      const unsigned contact = found.has_contact().bits() & active_;
+      if (contact != 0) keep_contacts(contact, begin, length, found.coefficients);
+      advance(found.has_no_contact(), contact);
     }
 
     // ---- What follows ----
@@ -626,20 +821,19 @@ class CertifiedStages {
       steps.store(steps_.data());
       for (unsigned rest = over | contact | hopeless; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
-        append(output_.rejected, index_[lane], (over >> lane & 1U) != 0);
-        append(output_.undecided, index_[lane], (hopeless >> lane & 1U) != 0);
+        if ((over >> lane & 1U) != 0) append(output_.rejected, index_[lane]);
+        if ((hopeless >> lane & 1U) != 0) append(output_.undecided, index_[lane]);
         take(lane);
       }
     }
 
-    void keep_crossings(unsigned lanes, const std::array<Value, 4>& coefficients) {
-      alignas(64) std::array<Row, 4> stored;
-      for (std::size_t i = 0; i < 4; ++i) coefficients[i].store(stored[i].data());
+    void keep_contacts(unsigned lanes, const Value& begin, const Value& length,
+                       const std::array<Value, 4>& coefficients) {
+      Intervals intervals;
+      intervals.store(0, begin, length, coefficients);
       for (unsigned rest = lanes; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
-        Crossing& crossing = crossings_.items[crossings_.count++];
-        crossing = {index_[lane], begin_[lane], length_[lane], {}};
-        for (std::size_t i = 0; i < 4; ++i) crossing.determinant[i] = stored[i][lane];
+        append(contacts_, intervals.crossing(lane, index_[lane]));
       }
     }
 
@@ -647,12 +841,12 @@ class CertifiedStages {
     alignas(width * sizeof(double)) Row begin_{};
     alignas(width * sizeof(double)) Row length_{};
     alignas(width * sizeof(double)) Row steps_{};
-    Crossings crossings_;
     std::array<std::uint32_t, width> index_{};
     unsigned active_ = 0;   ///< the lanes that hold a query
     std::size_t next_ = 0;  ///< of the queries
     const KernelInput& input_;
     const Moving<kind>& moving_;
+    Crossings& contacts_;
     KernelOutput& output_;
   };
 
@@ -713,16 +907,22 @@ class CertifiedStages {
       return m * m * first + (m * s + m * s) * second + s * s * third;
     }
 
-    /// Its zero, by Newton's method, bisection where that leads away.
-    [[nodiscard]] Value zero() const {
+    /// Its zero, by Newton's method, bisection where that leads away, until no lane moves by more than
+    /// `enough`.
+    [[nodiscard]] Value zero(double enough) const {
+      constexpr int most_steps = 8;
       Value low(0.0), high(1.0), s = c[0] / (c[0] - c[3]);
-      for (int i = 0; i < 6; ++i) {
+      for (int i = 0; i < most_steps; ++i) {
         const Value value = at(s);
         const Mask before = value < Value(0.0);
         low = select(before, s, low);
         high = select(before, high, s);
-        const Value next = s - value / slope(s);
-        s = select((next >= low) & (next <= high), next, (low + high) * Value(0.5));
+        const Value newton = s - value / slope(s);
+        const Value next =
+            select((newton >= low) & (newton <= high), newton, (low + high) * Value(0.5));
+        const Mask moves = abs(next - s) > Value(enough);
+        s = next;
+        if (moves.bits() == 0) break;
       }
       return s;
     }
@@ -770,7 +970,7 @@ class CertifiedStages {
     const PreciseDeterminant determinant = PreciseDeterminant::template of<kind>(points);
     const Value end = lanes.begin + lanes.length;
 
-    const Value s = lanes.cubic.zero();
+    const Value s = lanes.cubic.zero(0x1p-26);
     const Value newton = lanes.begin + lanes.length * s;
     const Value slope = lanes.cubic.slope(s) / lanes.length;
     const Value corrected = newton - lanes.sign * determinant.at(newton) / slope;
@@ -828,10 +1028,12 @@ class CertifiedStages {
     for (std::size_t lane = 0; lane < count; ++lane) {
       const bool is_proved = (proved >> lane & 1U) != 0;
       const std::uint32_t index = lanes.indices[lane];
-      append(output.hits,
-             KernelHit{index, rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]},
-             is_proved);
-      append(output.undecided, index, !is_proved);
+      if (is_proved) {
+        append(output.hits,
+               KernelHit{index, rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]});
+      } else {
+        append(output.undecided, index);
+      }
     }
   }
 };

@@ -295,7 +295,7 @@ TEST(Certified, IsRightOnPublicData) {
 
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-void expect_same(const std::vector<CertifiedResult>& a, const std::vector<CertifiedResult>& b) {
+void expect_same(std::span<const CertifiedResult> a, std::span<const CertifiedResult> b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].verdict, b[i].verdict) << i;
@@ -445,6 +445,13 @@ TEST(Certified, IndexPairsGiveWhatTheirQueriesGive) {
         for (const Collision& collision : all) rebuilt.at(collision.candidate) = collision.result;
         expect_same(of_pairs, rebuilt);
         EXPECT_TRUE(std::ranges::is_sorted(all, {}, &Collision::candidate));
+
+        const std::vector<Collision> from_array = collisions(kind, queries, options);
+        ASSERT_EQ(from_array.size(), all.size());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          EXPECT_EQ(from_array[i].candidate, all[i].candidate);
+          expect_same(std::span(&from_array[i].result, 1), std::span(&all[i].result, 1));
+        }
       }
     }
   }

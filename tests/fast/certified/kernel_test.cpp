@@ -33,6 +33,7 @@ extern const CertifiedKernel fault_in_determinant;
 extern const CertifiedKernel fault_in_bound;
 extern const CertifiedKernel fault_in_rejection;
 extern const CertifiedKernel fault_in_agreement;
+extern const CertifiedKernel fault_in_zero;
 extern const CertifiedKernel fault_in_refinement;
 
 namespace {
@@ -195,6 +196,7 @@ TEST(CertifiedKernels, FamiliesFindAFaultInEachStage) {
                                                              {"bound", &fault_in_bound},
                                                              {"rejection", &fault_in_rejection},
                                                              {"agreement", &fault_in_agreement},
+                                                             {"zero", &fault_in_zero},
                                                              {"refinement", &fault_in_refinement}};
   for (const auto& [fault, kernel] : faults) {
     const std::vector<std::string> found = families_that_find(*kernel);
