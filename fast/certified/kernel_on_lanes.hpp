@@ -23,11 +23,13 @@
 ///      two opposite ones. Hence N ≠ 0, and each zero of det in [a,b] is a contact, in the inside of
 ///      the primitives. If the coefficients of det change sign once, certainly, it has exactly one
 ///      zero there (Descartes' rule for Bernstein coefficients).
-///    Intervals are taken in order of time, halved if nothing is proved, so that what is before the
+///    If det changes sign once on [0,1], certainly, only its zero matters: where that is, Newton's
+///    method tells well enough for a short interval, on which det must change sign too. Elsewhere
+///    intervals are taken in order of time, halved if nothing is proved, so that what is before the
 ///    current one has no contact, and the zero found is the time of impact.
-/// 5. **Refinement.** Newton's method finds the zero, once corrected by det in double-double; an
-///    enclosure around it, clipped to [a,b], is right if det has at its ends the signs that it has at
-///    a and b, beyond the bound of its value in double-double.
+/// 5. **Refinement.** Newton's method finds the zero; an enclosure around it, clipped to [a,b], is
+///    right if det, in double-double, has at its ends the signs that it has at a and b, beyond the
+///    bound of its value. If not, these two values tell where it is better.
 ///
 /// Queries that no stage ends, or whose coordinates are so large, or not numbers, that the bounds do
 /// not hold, are undecided here.
@@ -652,7 +654,7 @@ class CertifiedStages {
   // ---- 4b. Around the only zero of det ----------------------------------------------------------
 
   /// Half the length of the interval that is looked at.
-  static constexpr double half_around_zero = 0x1p-16;
+  static constexpr double half_around_zero = 0x1p-10;
 
   /// Rounded to a multiple of 2^-20, so that it and 1 minus it are exact.
   static Value to_short(const Value& time) {
@@ -670,7 +672,8 @@ class CertifiedStages {
     for (std::size_t i = 0; i < zeros.count; ++i) all.items[i] = zeros.items[i].index;
     for (std::size_t first = 0; first < zeros.count; first += width) {
       const std::size_t count = zeros.count - first < width ? zeros.count - first : width;
-      const Value zero = CrossingLanes(zeros.items.data() + first, count).cubic.zero(half_around_zero);
+      const Value zero =
+          CrossingLanes(zeros.items.data() + first, count).cubic.zero(half_around_zero);
       const Value begin = to_short(max(zero - Value(half_around_zero), Value(0.0)));
       const Value end = to_short(min(zero + Value(half_around_zero), Value(1.0)));
       const Ends unit = vectors_of<kind>(load<Source>(input, all.items.data() + first, count));
@@ -907,12 +910,13 @@ class CertifiedStages {
       return m * m * first + (m * s + m * s) * second + s * s * third;
     }
 
-    /// Its zero, by Newton's method, bisection where that leads away, until no lane moves by more than
-    /// `enough`.
+    /// Its zero, by Newton's method, bisection where that leads away. A lane stops when it has moved
+    /// by no more than `enough`, whatever the others do: its result is its own.
     [[nodiscard]] Value zero(double enough) const {
       constexpr int most_steps = 8;
       Value low(0.0), high(1.0), s = c[0] / (c[0] - c[3]);
-      for (int i = 0; i < most_steps; ++i) {
+      Mask moves = Mask::all();
+      for (int i = 0; i < most_steps && moves.bits() != 0; ++i) {
         const Value value = at(s);
         const Mask before = value < Value(0.0);
         low = select(before, s, low);
@@ -920,9 +924,9 @@ class CertifiedStages {
         const Value newton = s - value / slope(s);
         const Value next =
             select((newton >= low) & (newton <= high), newton, (low + high) * Value(0.5));
-        const Mask moves = abs(next - s) > Value(enough);
-        s = next;
-        if (moves.bits() == 0) break;
+        const Value step = abs(next - s);
+        s = select(moves, next, s);
+        moves = moves & (step > Value(enough));
       }
       return s;
     }
@@ -968,23 +972,50 @@ class CertifiedStages {
     const CrossingLanes lanes(crossings, count);
     const auto points = load<Source>(input, lanes.indices.data(), width);
     const PreciseDeterminant determinant = PreciseDeterminant::template of<kind>(points);
-    const Value end = lanes.begin + lanes.length;
-
-    const Value s = lanes.cubic.zero(0x1p-26);
-    const Value newton = lanes.begin + lanes.length * s;
-    const Value slope = lanes.cubic.slope(s) / lanes.length;
-    const Value corrected = newton - lanes.sign * determinant.at(newton) / slope;
-    const Mask is_inside = (corrected >= lanes.begin) & (corrected <= end);
-    const Value toi = select(is_inside, corrected, newton);
-    const Value half_width = toi * Value(0.4 * input.toi_tolerance);
-    const Value lower = max(toi - half_width, lanes.begin), upper = min(toi + half_width, end);
-    const Value at_lower = lanes.sign * determinant.at(lower);
-    const Value at_upper = lanes.sign * determinant.at(upper);
-    const Mask proved =
-        (at_lower < Value(0.0) - determinant.bound()) & (at_upper > determinant.bound());
-    store_hits<kind>(output, lanes, count, proved.bits(), {lower, upper},
-                     contact<kind>(points, toi));
+    const Value half_width(0.4 * input.toi_tolerance);
+    const Value newton = lanes.begin + lanes.length * lanes.cubic.zero(0x1p-26);
+    Enclosure found(determinant, lanes, newton, half_width);
+    if (valid_bits(found.proved, count) != valid_bits(Mask::all(), count)) {
+      found = found.or_else(Enclosure(determinant, lanes, found.corrected(), half_width));
+    }
+    store_hits<kind>(output, lanes, count, found.proved.bits(), {found.lower, found.upper},
+                     contact<kind>(points, found.toi));
   }
+
+  /// Around what should be the zero, with the signs of det at its ends.
+  struct Enclosure {
+    Value toi;
+    Value lower;
+    Value upper;
+    Value at_lower;  ///< det there, made rising
+    Value at_upper;
+    Mask proved;  ///< it has the zero
+
+    Enclosure(const PreciseDeterminant& determinant, const CrossingLanes& lanes,
+              const Value& around, const Value& half_width)
+        : toi(around),
+          lower(max(around - around * half_width, lanes.begin)),
+          upper(min(around + around * half_width, lanes.begin + lanes.length)),
+          at_lower(lanes.sign * determinant.at(lower)),
+          at_upper(lanes.sign * determinant.at(upper)),
+          proved((at_lower < Value(0.0) - determinant.bound()) & (at_upper > determinant.bound())) {
+    }
+
+    /// Where the line through det's values at the ends is zero.
+    [[nodiscard]] Value corrected() const {
+      return lower - at_lower * (upper - lower) / (at_upper - at_lower);
+    }
+
+    /// This where it is proved, the other elsewhere.
+    [[nodiscard]] Enclosure or_else(const Enclosure& other) const {
+      Enclosure result = other;
+      result.toi = select(proved, toi, other.toi);
+      result.lower = select(proved, lower, other.lower);
+      result.upper = select(proved, upper, other.upper);
+      result.proved = proved | other.proved;
+      return result;
+    }
+  };
 
   /// u and v of the contact at a time, from the orientations, which are proportional to the
   /// barycentric coordinates.
