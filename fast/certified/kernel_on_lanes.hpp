@@ -185,6 +185,8 @@ class CertifiedStages {
     }
     /// What is behind a query's last point may be another's memory.
     static constexpr bool may_read_behind = false;
+    /// Memory is faster when read at several places at once.
+    static constexpr std::size_t places_at_once = 4;
   };
 
   template <Kind kind>
@@ -209,19 +211,19 @@ class CertifiedStages {
       return result;
     }
     static constexpr bool may_read_behind = true;
+    /// Neighbours share vertices, and these come from the cache.
+    static constexpr std::size_t places_at_once = 1;
   };
 
   // ---- 1. Axis ----------------------------------------------------------------------------------
 
-  /// Words of marks that are made at a time: memory is faster when read at several places at once.
-  static constexpr std::size_t streams = 4;
-
   template <Kind kind, class Source>
   static void axis_stage(const KernelInput& input, Indices& open) {
     Marks marks;
+    constexpr std::size_t words = Source::places_at_once;
     std::size_t first = 0;
-    for (; first + streams * Marks::word_size <= input.count; first += streams * Marks::word_size) {
-      mark_open<kind, Source, streams>(input, first, Marks::word_size, marks);
+    for (; first + words * Marks::word_size <= input.count; first += words * Marks::word_size) {
+      mark_open<kind, Source, words>(input, first, Marks::word_size, marks);
     }
     for (; first < input.count; first += Marks::word_size) {
       const std::size_t rest = input.count - first;
