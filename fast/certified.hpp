@@ -89,8 +89,8 @@ struct Collision {
   CertifiedResult result;     ///< yes or error
 };
 
-/// The queries that collide, in order: what `solve` says, without a result for each that does not,
-/// which on real steps takes a fifth of the time.
+/// The queries that collide, in order: what `solve` says, without the cost of a result for each that
+/// does not.
 /// \throws as solve.
 [[nodiscard]] std::vector<Collision> collisions(Kind kind, std::span<const Query> queries,
                                                 const CertifiedOptions& options = {});
