@@ -8,7 +8,9 @@
 #include <cfenv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -17,6 +19,13 @@
 #include "verify/families/families.hpp"
 
 namespace touchstone::fast {
+
+// decide_exactly with a fault each (CMakeLists.txt says which).
+std::optional<ExactImpact> fault_on_boundary(Kind, const Query&, double, double);
+std::optional<ExactImpact> fault_on_line(Kind, const Query&, double, double);
+std::optional<ExactImpact> fault_in_enclosure(Kind, const Query&, double, double);
+std::optional<ExactImpact> fault_in_general(Kind, const Query&, double, double);
+
 namespace {
 
 using exact::Rational;
@@ -264,6 +273,46 @@ TEST(ExactStage, DoesNotDependOnFlushedSubnormals) {
   }
 }
 #endif
+
+// ---- Planted faults -----------------------------------------------------------------------------
+
+using Decide = std::optional<ExactImpact>(Kind, const Query&, double, double);
+
+/// How many families have an answer that is wrong.
+std::size_t families_that_find(Decide* decide) {
+  const auto is_wrong = [decide](Kind kind, const Query& query) {
+    const auto impact = decide(kind, query, 1e-12, 1.0);
+    const exact::Verdict truth = exact::decide(kind, query);
+    if (impact.has_value() != truth.collides()) return true;
+    if (!impact) return false;
+    const exact::AlgebraicNumber& toi = truth.impact->toi;
+    return toi > Rational(impact->toi_upper) ||
+           (impact->toi_upper != 0 && toi <= Rational(impact->toi_lower));
+  };
+  return static_cast<std::size_t>(
+      std::ranges::count_if(verify::families(), [&](const verify::Family& family) {
+        for (const Kind kind : kinds) {
+          if (!verify::supports(family, kind)) continue;
+          for (std::uint64_t i = 0; i < 50; ++i) {
+            if (is_wrong(kind, verify::make_query(family, kind, 5, i).query)) return true;
+          }
+        }
+        return false;
+      }));
+}
+
+TEST(ExactStage, FamiliesFindPlantedFaultsAndNoOthers) {
+  EXPECT_EQ(families_that_find(&decide_exactly), 0U);
+  const std::map<std::string, Decide*> faults{{"on boundary", &fault_on_boundary},
+                                              {"on line", &fault_on_line},
+                                              {"in enclosure", &fault_in_enclosure},
+                                              {"in general", &fault_in_general}};
+  for (const auto& [fault, decide] : faults) {
+    const std::size_t found = families_that_find(decide);
+    std::printf("fault %s: found by %zu families\n", fault.c_str(), found);
+    EXPECT_GT(found, 0U) << fault;
+  }
+}
 
 }  // namespace
 }  // namespace touchstone::fast
