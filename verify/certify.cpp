@@ -52,6 +52,8 @@ void compare(std::uint64_t index, const Block::Claim& claim, const exact::Verdic
 struct DecidedPart {
   std::vector<Mismatch> mismatches;
   double nanoseconds = 0.0;
+  std::string certificates;
+  ProofCounts proofs;
 };
 
 /// What a respondent says to a part of a block.
@@ -94,6 +96,8 @@ class BlockJudgement {
         result.mismatches.push_back(mismatch);
       }
       result.microseconds += 1e-3 * decided_[part].nanoseconds;
+      if (options_.on_certificates) options_.on_certificates(decided_[part].certificates);
+      result.proofs += decided_[part].proofs;
     }
     for (std::size_t i = 0; i < judgements_.size(); ++i) {
       result.methods[i].judgement += judgements_[i];
@@ -135,6 +139,18 @@ class BlockJudgement {
       truth = {.index = index, .collides = verdict.collides(), .toi = std::nullopt};
       if (wants_toi && truth.collides) truth.toi = verdict.impact->toi.enclosure();
     }
+    if (options_.on_certificates) prove_part(first, verdicts, part);
+  }
+
+  void prove_part(std::size_t first, const std::vector<exact::Verdict>& verdicts,
+                  DecidedPart& part) const {
+    const double start = thread_nanoseconds();
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+      append_certificate(block_.kind, block_.queries[first + i], verdicts[i],
+                         certificate_label(*block_.source, block_.indices[first + i]), {},
+                         part.certificates, part.proofs);
+    }
+    part.proofs.nanoseconds = thread_nanoseconds() - start;
   }
 
   void ask(const Respondent& respondent) {
@@ -231,6 +247,7 @@ CertifyResult& CertifyResult::operator+=(const CertifyResult& other) {
   rounded += other.rounded;
   errors += other.errors;
   microseconds += other.microseconds;
+  proofs += other.proofs;
   interrupted = interrupted || other.interrupted;
   add_methods(methods, other.methods);
   return *this;

@@ -13,12 +13,14 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "exact/number.hpp"
 #include "exact/query.hpp"
 #include "verify/methods/judge.hpp"
 #include "verify/methods/respondent.hpp"
+#include "verify/prove.hpp"
 #include "verify/query_source.hpp"
 
 namespace touchstone::verify {
@@ -40,6 +42,9 @@ struct CertifyOptions {
   exact::Rational toi_tolerance = default_toi_tolerance();
   /// Called for every query, in order, never from two threads at once.
   std::function<void(const Truth&)> on_truth = nullptr;
+  /// Called with the certificates of queries (exact/certificate.hpp), whole ones and in order, never
+  /// from two threads at once. Without it none are made.
+  std::function<void(std::string_view)> on_certificates = nullptr;
   /// Called now and then with the fraction of the source that is read; never from two threads at
   /// once.
   std::function<void(double)> on_progress = nullptr;
@@ -75,6 +80,7 @@ struct CertifyResult {
   std::uint64_t errors = 0;   ///< errors that ended the reading
   double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
   std::vector<Mismatch> mismatches;
+  ProofCounts proofs;  ///< what was proved, where certificates are asked for
   /// In the order of CertifyOptions::respondents.
   std::vector<MethodResult> methods;
   /// The error that ended the reading before the source's end; all of the above holds up to there.

@@ -188,6 +188,7 @@ nlohmann::json to_json(const std::vector<CertifyResult>& results) {
   const CertifyResult sum = total(results);
   nlohmann::json json = counts(sum);
   json["methods"] = methods_of(sum);
+  if (sum.proofs.certificates() != 0) json["proofs"] = to_json(sum.proofs);
   for (nlohmann::json& method : json["methods"]) method["wrong_answers"] = nlohmann::json::array();
   json["mismatches"] = nlohmann::json::array();
   json["files"] = nlohmann::json::array();

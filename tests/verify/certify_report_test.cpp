@@ -92,8 +92,16 @@ TEST(CertifyReport, JsonHasTotalFilesAndMismatches) {
                                                       {"truth", "5E-1"}}));
 }
 
+TEST(CertifyReport, JsonHasTheProofsWhereThereAreAny) {
+  std::vector<CertifyResult> proved = results();
+  EXPECT_FALSE(to_json(proved).contains("proofs"));
+  for (CertifyResult& result : proved) result.proofs = {.no_collision = 3, .bytes = 70};
+  EXPECT_EQ(to_json(proved).at("proofs").at("no_collision"), 6);
+  EXPECT_EQ(to_json(proved).at("proofs").at("bytes"), 140);
+}
+
 TEST(CertifyReport, NothingGivesAnEmptyReport) {
-  const nlohmann::json json = to_json({});
+  const nlohmann::json json = to_json(std::vector<CertifyResult>());
   EXPECT_EQ(json.at("queries"), 0);
   EXPECT_EQ(json.at("us_per_query"), 0.0);
   EXPECT_TRUE(json.at("mismatches").is_array());

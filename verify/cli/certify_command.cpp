@@ -10,11 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "verify/certify.hpp"
 #include "verify/certify_report.hpp"
+#include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/respondents.hpp"
@@ -33,6 +35,7 @@ struct Arguments {
   RespondentArguments judged;
   std::string json_file;
   std::string truth_file;
+  std::string proof_file;
 };
 
 /// Whom to judge: without a word on it our own methods, on the built-in set only.
@@ -52,10 +55,11 @@ class CertifyRun {
       : arguments_(arguments),
         respondents_(judged_by(arguments)),
         json_(arguments.json_file),
-        truth_(arguments.truth_file) {
-    if (json_.is(arguments.truth_file)) {
-      throw std::runtime_error(arguments.json_file + ": named for two outputs");
-    }
+        truth_(arguments.truth_file),
+        proof_(arguments.proof_file) {
+    require_one_name(arguments.json_file, json_.is(arguments.truth_file));
+    require_one_name(arguments.proof_file,
+                     proof_.is(arguments.json_file) || proof_.is(arguments.truth_file));
     for (const fs::path& file : arguments.judged.files()) {
       if (is_output(file)) throw std::runtime_error(file.string() + ": named for input and output");
     }
@@ -74,19 +78,32 @@ class CertifyRun {
     report_answers();
     // Files first: a closed standard output must not cost them.
     truth_.close();
+    proof_.close();
     if (json_) {
       static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
       json_.write(to_json(results_).dump(2, ' ', false, replace_bad_utf8) + "\n");
     }
     json_.close();
-    fmt::print(json_.is_standard_output() || truth_.is_standard_output() ? stderr : stdout, "{}",
-               to_text(results_));
+    print_summary();
     return status();
   }
 
  private:
+  static void require_one_name(const std::string& file, bool is_another) {
+    if (is_another) throw std::runtime_error(file + ": named for two outputs");
+  }
+
   [[nodiscard]] bool is_output(const fs::path& path) const {
-    return json_.is(path) || truth_.is(path);
+    return json_.is(path) || truth_.is(path) || proof_.is(path);
+  }
+
+  void print_summary() const {
+    const bool is_standard_output =
+        json_.is_standard_output() || truth_.is_standard_output() || proof_.is_standard_output();
+    std::FILE* const stream = is_standard_output ? stderr : stdout;
+    fmt::print(stream, "{}", to_text(results_));
+    if (proof_) fmt::print(stream, "\n{}", to_text(sum_.proofs));
+    report_beyond_limits(sum_.proofs);
   }
 
   void certify_source(QuerySource& source, const Progress& progress) {
@@ -101,6 +118,9 @@ class CertifyRun {
       options.on_truth = [&](const Truth& truth) {
         truth_.write(truth_row(source.name(), source.kind(), truth));
       };
+    }
+    if (proof_) {
+      options.on_certificates = [this](std::string_view text) { proof_.write(text); };
     }
     add(certify(source, options));
     if (results_.back().error) report_error(*results_.back().error);
@@ -158,8 +178,8 @@ class CertifyRun {
         std::ranges::any_of(sum_.methods, is_wrong)) {
       return Status::wrong_answers;
     }
-    if (json_.failed() || truth_.failed() || sum_.errors + sum_.skipped != 0 ||
-        std::ranges::any_of(sum_.methods, is_incomplete)) {
+    if (json_.failed() || truth_.failed() || proof_.failed() || sum_.errors + sum_.skipped != 0 ||
+        !sum_.proofs.beyond_limits.empty() || std::ranges::any_of(sum_.methods, is_incomplete)) {
       return Status::bad_input;
     }
     return interrupted() ? Status::interrupted : Status::all_well;
@@ -169,6 +189,7 @@ class CertifyRun {
   Respondents respondents_;
   ReportedOutput json_;
   ReportedOutput truth_;
+  CertificatesFile proof_;
   std::vector<CertifyResult> results_;
   CertifyResult sum_;
 };
@@ -200,6 +221,10 @@ void add_certify_command(CLI::App& app, Status& status) {
   command
       ->add_option("--truth", arguments->truth_file,
                    "Write the truth as CSV: file,index,kind,collides,toi_lower,toi_upper")
+      ->type_name("FILE");
+  command
+      ->add_option("--prove", arguments->proof_file,
+                   "Write a proof of every verdict, as touchstone prove does")
       ->type_name("FILE");
   command->footer(
       "Solvers: --method, --plugin and --results may each be given several times. Without any of\n"

@@ -22,6 +22,9 @@ void add_certify_command(CLI::App& app, Status& status);
 /// `touchstone solve`
 void add_solve_command(CLI::App& app, Status& status);
 
+/// `touchstone prove`
+void add_prove_command(CLI::App& app, Status& status);
+
 /// `touchstone generate`
 void add_generate_command(CLI::App& app, Status& status);
 

@@ -22,6 +22,7 @@ int run(int argc, char** argv) {
   Status status = Status::all_well;
   touchstone::verify::cli::add_certify_command(app, status);
   touchstone::verify::cli::add_solve_command(app, status);
+  touchstone::verify::cli::add_prove_command(app, status);
   touchstone::verify::cli::add_generate_command(app, status);
   touchstone::verify::cli::add_candidates_command(app, status);
   touchstone::verify::cli::add_bench_command(app, status);

@@ -1,0 +1,274 @@
+#include "exact/certificate.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "exact/algebraic_number.hpp"
+#include "exact/motion.hpp"
+#include "exact/positivity.hpp"
+
+namespace touchstone::exact {
+namespace {
+
+// ---- Times --------------------------------------------------------------------------------------
+
+/// The same number, known as rational if it is: it is then a multiple of 1/l, l the leading
+/// coefficient of a polynomial of which it is a root.
+AlgebraicNumber recognised(const AlgebraicNumber& number) {
+  if (number.rational()) return number;
+  AlgebraicNumber near = number;
+  const Integer& leading = near.polynomial().leading();
+  near.refine_to_level(mpz_sizeinbase(leading.get_mpz_t(), 2) + 1);
+  // At most one multiple is in an interval shorter than their distance.
+  const auto [lower, upper] = near.interval();
+  if (near.rational()) return near;
+  const Rational scaled = upper * abs(leading);
+  Integer multiple;
+  mpz_fdiv_q(multiple.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+  Rational value(multiple, abs(leading));
+  value.canonicalize();
+  const bool is_the_root = lower < value && value < upper && sign_at(near.polynomial(), value) == 0;
+  return is_the_root ? AlgebraicNumber(value) : near;
+}
+
+constexpr long significand_bits = 53;
+constexpr long least_unit = -1074;
+
+/// The exponent of the last bit of doubles of the size of x > 0.
+long double_unit(const Rational& x) {
+  const auto bits = [](const Integer& n) {
+    return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2));
+  };
+  long exponent = bits(x.get_num()) - bits(x.get_den());  // 2^(exponent−1) < x < 2^(exponent+1)
+  if (x >= power_of_two(exponent)) ++exponent;
+  return std::max(exponent - significand_bits, least_unit);
+}
+
+/// A double as a whole number of units 2^unit.
+struct Double {
+  Integer units;
+  long unit;
+
+  [[nodiscard]] Rational value() const { return Rational(units) * power_of_two(unit); }
+  [[nodiscard]] Rational next() const { return Rational(units + 1) * power_of_two(unit); }
+  /// \pre not zero.
+  [[nodiscard]] Rational previous() const {
+    const Integer least = Integer(1) << static_cast<unsigned long>(significand_bits - 1);
+    if (units > least || unit == least_unit) return Rational(units - 1) * power_of_two(unit);
+    return Rational(2 * units - 1) * power_of_two(unit - 1);
+  }
+};
+
+/// The greatest double that is not above x ≥ 0. In integers, because a floating-point environment
+/// may flush what is small to zero.
+Double double_below(const Rational& x) {
+  const long unit = sgn(x) == 0 ? least_unit : double_unit(x);
+  const Rational scaled = x * power_of_two(-unit);
+  Integer units;
+  mpz_fdiv_q(units.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+  return {std::move(units), unit};
+}
+
+/// Neighbouring doubles with lower < number ≤ upper. \pre number > 0
+RationalInterval neighbouring_doubles(AlgebraicNumber number) {
+  for (unsigned long level = 64;; level *= 2) {
+    const auto [lower, upper] = number.interval();
+    const Double below = double_below(upper);
+    if (sgn(below.units) == 0) return {Rational(0), below.next()};
+    const auto order = number <=> below.value();
+    if (order > 0) return {below.value(), below.next()};
+    const Rational previous = below.previous();
+    if (order == 0 || previous <= lower) return {previous, below.value()};
+    number.refine_to_level(level);
+  }
+}
+
+/// An interval for a time of impact > 0.
+RationalInterval toi_interval(AlgebraicNumber& toi, const std::optional<Rational>& width) {
+  if (!width) return neighbouring_doubles(toi);
+  if (toi.rational()) {
+    const Rational lower = *toi.rational() - *width;
+    return {std::max(Rational(0), lower), *toi.rational()};
+  }
+  toi.refine(*width);
+  if (toi.rational()) return toi_interval(toi, width);
+  return toi.interval();
+}
+
+// ---- Contacts -----------------------------------------------------------------------------------
+
+/// What must hold at the time of contact, and does: the place's conditions.
+struct Conditions {
+  std::variant<TriangleContact, SegmentContact> place;
+  std::vector<Polynomial> zero;
+  std::vector<Polynomial> nonzero;
+
+  /// Adds a condition on a form; the sign is the form's at the time.
+  template <std::size_t degree>
+  void add(const Form<degree>& form, int sign) {
+    // What is zero throughout is divided by everything.
+    if (form.is_zero()) return;
+    (sign == 0 ? zero : nonzero).push_back(to_polynomial(form));
+  }
+};
+
+/// Looks for the part of the polygon that holds the origin at a time of contact.
+class ContactFinder {
+ public:
+  ContactFinder(const Motion& motion, AlgebraicNumber& time) : motion_(motion), time_(time) {}
+
+  std::optional<Conditions> find() {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Form<2> normal = normal_component(motion_, axis);
+      const int orientation = sign_at(normal, time_);
+      if (orientation == 0) continue;
+      for (std::size_t second = 1; second + 1 < motion_.corner_count; ++second) {
+        auto found = in_triangle({0, second, second + 1}, axis, normal, orientation);
+        if (found) return found;
+      }
+      return std::nullopt;
+    }
+    for (std::size_t i = 0; i < motion_.corner_count; ++i) {
+      auto found = on_segment({i, (i + 1) % motion_.corner_count});
+      if (found) return found;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// All triangles of the polygon have its normal (of half a parallelogram's length or the whole) and
+  /// its determinant.
+  std::optional<Conditions> in_triangle(const std::array<std::size_t, 3>& corners, std::size_t axis,
+                                        const Form<2>& normal, int orientation) {
+    Conditions conditions{.place = TriangleContact{corners, axis}, .zero = {}, .nonzero = {}};
+    const Form<3> det = determinant(motion_);
+    const int det_sign = sign_at(det, time_);
+    if (det_sign != 0) return std::nullopt;
+    conditions.add(det, det_sign);
+    conditions.add(normal, orientation);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Form<2> side = cross_component(motion_, corners.at(k), corners.at((k + 1) % 3), axis);
+      const int sign = sign_at(side, time_);
+      if (sign * orientation < 0) return std::nullopt;
+      conditions.add(side, sign);
+    }
+    return conditions;
+  }
+
+  std::optional<Conditions> on_segment(const std::array<std::size_t, 2>& corners) {
+    Conditions conditions{.place = SegmentContact{corners}, .zero = {}, .nonzero = {}};
+    const auto [i, j] = corners;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Form<2> cross = cross_component(motion_, i, j, axis);
+      if (sign_at(cross, time_) != 0) return std::nullopt;
+      conditions.add(cross, 0);
+    }
+    const Form<2> product = dot(motion_, i, j);
+    const int sign = sign_at(product, time_);
+    if (sign > 0) return std::nullopt;
+    conditions.add(product, sign);
+    return conditions;
+  }
+
+  const Motion& motion_;
+  AlgebraicNumber& time_;
+};
+
+/// Does the polynomial change sign across the interval, and has every other one a sign on it?
+bool proves(const Polynomial& g, const std::vector<Polynomial>& nonzero,
+            const RationalInterval& interval) {
+  if (sign_at(g, interval.lower) * sign_at(g, interval.upper) >= 0) return false;
+  return std::ranges::all_of(nonzero, [&](const Polynomial& p) {
+    return common_sign(bernstein_coefficients(p, interval)) != 0;
+  });
+}
+
+/// \param within An interval that holds the time.
+std::variant<Rational, RootTime> proved_time(AlgebraicNumber time, const Conditions& conditions,
+                                             const RationalInterval& within) {
+  if (time.rational()) return *time.rational();
+  Polynomial g = time.polynomial();
+  for (const Polynomial& p : conditions.zero) g = greatest_common_divisor(g, p);
+  if (proves(g, conditions.nonzero, within)) return RootTime{within, std::move(g)};
+  const unsigned long greatest_level = 2 * number_limit;
+  for (unsigned long level = 8; level <= greatest_level; level += level / 2) {
+    time.refine_to_level(level);
+    if (time.rational()) return *time.rational();
+    const RationalInterval interval = time.interval();
+    const bool inside = within.lower <= interval.lower && interval.upper <= within.upper;
+    if (inside && proves(g, conditions.nonzero, interval)) {
+      return RootTime{interval, std::move(g)};
+    }
+  }
+  throw CertificateLimitError("the interval of a contact needs too many bits");
+}
+
+// ---- Certificates -------------------------------------------------------------------------------
+
+bool is_within_limits(const RationalInterval& interval) {
+  return is_within_limit(interval.lower) && is_within_limit(interval.upper);
+}
+
+bool is_within_limits(const ContactProof& contact) {
+  if (const auto* rational = std::get_if<Rational>(&contact.time)) {
+    return is_within_limit(*rational);
+  }
+  const auto& root = std::get<RootTime>(contact.time);
+  return is_within_limits(root.interval) &&
+         std::ranges::all_of(root.polynomial.coefficients(),
+                             [](const Integer& x) { return is_within_limit(Rational(x)); });
+}
+
+void require_limits(const Certificate& certificate) {
+  if (certificate.pieces.size() > piece_limit) {
+    throw CertificateLimitError("a separation needs too many pieces");
+  }
+  if (!is_within_limits(certificate.toi) ||
+      (certificate.contact && !is_within_limits(*certificate.contact))) {
+    throw CertificateLimitError("the time of a contact needs too many bits");
+  }
+}
+
+void prove_collision(const Motion& motion, const Impact& impact, const ProveOptions& options,
+                     Certificate& certificate) {
+  AlgebraicNumber toi = recognised(impact.toi);
+  const auto conditions = ContactFinder(motion, toi).find();
+  if (!conditions) throw std::logic_error("touchstone: no contact at the verdict's time of impact");
+  RationalInterval within{Rational(0), Rational(1)};
+  certificate.claim = options.collision_claim;
+  if (certificate.claim == Claim::time_of_impact) {
+    certificate.toi = RationalInterval{Rational(0), Rational(0)};
+    if (toi != Rational(0)) {
+      certificate.toi = toi_interval(toi, options.width);
+      certificate.pieces = separate(motion, certificate.toi.lower);
+    }
+    within = certificate.toi;
+  }
+  certificate.contact = {proved_time(std::move(toi), *conditions, within), conditions->place};
+}
+
+}  // namespace
+
+Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
+                  const ProveOptions& options) {
+  if (options.width && sgn(*options.width) <= 0) {
+    throw std::invalid_argument("the interval of a time of impact must have a positive width");
+  }
+  if (options.collision_claim == Claim::no_collision) {
+    throw std::invalid_argument("no collision cannot be claimed of a query that collides");
+  }
+  Certificate certificate;
+  certificate.kind = kind;
+  certificate.query = query;
+  const Motion motion = scale_uniformly(kind, query);
+  if (verdict.impact) {
+    prove_collision(motion, *verdict.impact, options, certificate);
+  } else {
+    certificate.pieces = separate(motion, Rational(1));
+  }
+  require_limits(certificate);
+  return certificate;
+}
+
+}  // namespace touchstone::exact

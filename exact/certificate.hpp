@@ -1,0 +1,105 @@
+#pragma once
+
+/// \file
+/// Verdicts that carry their proof, for a checker that trusts nothing of the oracle.
+///
+/// A certificate is a claim about a query and what proves it:
+///   - no collision: pieces of [0,1] with a separating feature each (exact/separation.hpp);
+///   - collision: a contact;
+///   - time of impact in (lower, upper]: a contact there, and pieces of [0,lower].
+///
+/// **A contact** is a time t* and a part of the polygon conv{w_i(t*)} that holds the origin:
+///   - the triangle i, j, k, with normal N' = (w_j − w_i) × (w_k − w_i): N'_axis ≠ 0,
+///     det(w_i, w_j, w_k) = 0, and (w_i × w_j)_axis, (w_j × w_k)_axis, (w_k × w_i)_axis each zero or
+///     of the sign of N'_axis;
+///   - or the segment i, j: w_i × w_j = 0 and w_i · w_j ≤ 0.
+/// The time is a rational number, or a root of an integer polynomial g in an interval at whose ends g
+/// has opposite signs. Then g divides every polynomial above that is zero at t*, and every other one
+/// has one sign on the whole interval: whichever root of g there it is, the conditions hold at it.
+/// Hence g is the greatest common divisor of the polynomials that vanish, and the interval is so
+/// small that the others do not.
+///
+/// exact/certificate_text.hpp writes certificates down, exact/CERTIFICATES.md is the format.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "exact/number.hpp"
+#include "exact/oracle.hpp"
+#include "exact/polynomial.hpp"
+#include "exact/query.hpp"
+#include "exact/separation.hpp"
+
+namespace touchstone::exact {
+
+/// What a certificate says of its query.
+enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
+
+/// A root of the polynomial strictly inside the interval, where its ends' signs are opposite.
+struct RootTime {
+  RationalInterval interval;
+  Polynomial polynomial;
+};
+
+/// The origin is in the triangle of three corners; their normal's component `axis` is not zero.
+struct TriangleContact {
+  std::array<std::size_t, 3> corners;
+  std::size_t axis;
+
+  friend bool operator==(const TriangleContact&, const TriangleContact&) = default;
+};
+
+/// The origin is on the segment between two corners.
+struct SegmentContact {
+  std::array<std::size_t, 2> corners;
+
+  friend bool operator==(const SegmentContact&, const SegmentContact&) = default;
+};
+
+/// When and where the primitives touch.
+struct ContactProof {
+  std::variant<Rational, RootTime> time;
+  std::variant<TriangleContact, SegmentContact> place;
+};
+
+/// A claim about a query with its proof.
+struct Certificate {
+  Kind kind = Kind::vertex_face;
+  Query query{};
+  Claim claim = Claim::no_collision;
+  /// For a time of impact: lower < toi ≤ upper, or both are 0 and so is the toi.
+  RationalInterval toi;
+  /// Of [0,1] or, for a time of impact, of [0, toi.lower]; none for a collision, nor for a toi of 0.
+  std::vector<Piece> pieces;
+  /// For a collision and a time of impact.
+  std::optional<ContactProof> contact;
+};
+
+struct ProveOptions {
+  /// What to claim of a query that collides: `collision` or `time_of_impact`.
+  Claim collision_claim = Claim::time_of_impact;
+  /// The interval of a time of impact is at most so wide, > 0; without a width its ends are
+  /// neighbouring doubles, the upper one the toi itself where that is a double.
+  std::optional<Rational> width = std::nullopt;
+};
+
+/// The proof of the oracle's verdict on a query: always one, and the same on every machine and in
+/// every floating-point environment. Thread-safe.
+/// \param verdict decide(kind, query)
+/// \throws std::invalid_argument if a coordinate is NaN or infinite, the width is not positive, or
+/// the claim asked for is `no_collision`.
+/// \throws std::logic_error if the verdict is not the query's.
+/// \throws CertificateLimitError if the certificate would exceed the format's limits: at most
+/// number_limit bits above and below in a number and piece_limit pieces. separate() says when; the
+/// interval of a contact needs no more bits than the break points there.
+[[nodiscard]] Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
+                                const ProveOptions& options = {});
+
+/// A certificate has at most so many pieces.
+inline constexpr std::size_t piece_limit = 4096;
+
+}  // namespace touchstone::exact

@@ -1,0 +1,124 @@
+#pragma once
+
+/// \file
+/// A certificate as text and as what it says: syntax and limits, no mathematics.
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace touchstone::checker {
+
+/// The limits of the format (exact/CERTIFICATES.md).
+inline constexpr std::size_t max_line_bytes = 65'536;
+inline constexpr std::size_t max_label_bytes = 1'024;
+inline constexpr std::size_t max_number_bits = 16'384;
+inline constexpr std::size_t max_pieces = 4'096;
+inline constexpr std::size_t max_root_degree = 8;
+
+/// Thrown where a certificate proves nothing.
+struct Rejected {
+  std::string reason;
+};
+[[noreturn]] inline void reject(std::string reason) { throw Rejected{std::move(reason)}; }
+
+/// The text with every byte that is not printable ASCII as \xHH.
+[[nodiscard]] std::string printable(std::string_view text);
+
+enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
+
+/// Whose direction separates.
+enum class Feature : std::uint8_t { vertex, edge, face_plus, face_minus };
+
+/// What stands on a line of its own and speaks of [from, to].
+struct Part {
+  std::size_t line = 0;
+  mpq_class from, to;
+};
+
+/// `separate`: no contact in the interval.
+struct Piece : Part {
+  Feature feature = Feature::vertex;
+  /// The vertex, or the ends of the edge.
+  std::size_t i = 0, j = 0;
+};
+
+/// `contact` and `at`: the interval is that of the root; a given time is both its ends.
+struct Contact : Part {
+  bool is_root = false;
+  /// The coefficients G0 … Gn of a root, n ≥ 1, Gn ≠ 0; none for a given time.
+  std::vector<mpz_class> g;
+  bool is_triangle = false;
+  /// Two corners of a segment, three of a triangle.
+  std::array<std::size_t, 3> corners{};
+  /// The triangle's axis.
+  std::size_t axis = 0;
+};
+
+struct Certificate {
+  /// That of the claim.
+  std::size_t line = 0;
+  bool is_edge_edge = false;
+  std::string label;
+  /// The eight points of the query, x y z each, as listed.
+  std::array<mpq_class, 24> coordinates;
+  Claim claim = Claim::no_collision;
+  /// The bounds of a time of impact; for the other claims all of time.
+  mpq_class lower = 0, upper = 1;
+  std::vector<Piece> pieces;
+  Contact contact;
+};
+
+/// The lines of a stream without those that are empty or comments, and the words of the line at hand.
+class Reader {
+ public:
+  /// Reads nothing yet.
+  explicit Reader(std::istream& stream) : stream_(&stream), buffer_(max_line_bytes + 1) {}
+
+  /// Goes to the first line, or to the next that is neither empty nor a comment.
+  /// \throws std::runtime_error if the stream cannot be read.
+  void advance();
+
+  [[nodiscard]] bool at_end() const { return at_end_; }
+  /// The number of the line, from 1; at the end that of the last line.
+  [[nodiscard]] std::size_t number() const { return number_; }
+  /// The line as far as it was read, until the next advance.
+  [[nodiscard]] std::string_view text() const { return text_; }
+  [[nodiscard]] bool is_line() const { return fault_ == nullptr; }
+  [[nodiscard]] std::string_view first_word() const { return text_.substr(0, text_.find(' ')); }
+
+  /// Takes the line's first word. \throws Rejected if there is no line or the word is another.
+  void begin(std::string_view keyword);
+  [[nodiscard]] bool has_word() const { return !rest_.empty(); }
+  /// Takes the next word; words are separated by single spaces. \throws Rejected if there is none.
+  std::string_view word();
+  /// Takes one of these words, and tells which. \throws Rejected if it is another.
+  std::size_t one_of(std::initializer_list<std::string_view> words);
+  /// Leaves the line. \throws Rejected if it has more words.
+  void end();
+
+ private:
+  std::istream* stream_;
+  std::vector<char> buffer_;
+  std::size_t number_ = 0;
+  bool at_end_ = false;
+  const char* fault_ = nullptr;
+  std::string_view text_;
+  /// What was not taken yet: nothing, or a space and what follows it.
+  std::string_view rest_;
+};
+
+/// Reads the certificate that begins at the present line and goes behind its `end`. Where it throws,
+/// the reader stands at the line at fault, and the certificate has its label if that came before.
+/// \throws Rejected where the text is no certificate, std::runtime_error as Reader::advance.
+void read_certificate(Reader& reader, Certificate& certificate);
+
+}  // namespace touchstone::checker

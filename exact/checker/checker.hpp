@@ -1,0 +1,79 @@
+#pragma once
+
+/// \file
+/// The checker: believes a certificate only if it proves its claim.
+///
+/// It shares nothing with the rest of the project: the standard library and GMP are all it needs.
+/// Three files, to be read in this order: certificate.hpp/.cpp turn text into what it says
+/// (exact/CERTIFICATES.md is the format), proof.hpp/.cpp are the mathematics, checker.cpp counts.
+///
+/// Four points move on straight lines. The *corners* are
+///
+///     vertex_face:  w = v−f0, v−f1, v−f2
+///     edge_edge:    w = ea0−eb0, ea1−eb0, ea1−eb1, ea0−eb1     (a parallelogram, in cyclic order)
+///
+/// and the primitives touch at time t iff 0 ∈ conv{w_i(t)}. The *time of impact* (toi) is the least
+/// such t in [0,1].
+///
+/// **Theorem.** Each of these proves what it says.
+///   - *Separation* on [a,b]: a direction d(t) with d(t)·w_i(t) > 0 for all i and all t ∈ [a,b].
+///     Then no t ∈ [a,b] is a contact: if Σ α_i w_i = 0 with α_i ≥ 0, Σ α_i = 1, then
+///     0 = d·Σ α_i w_i = Σ α_i (d·w_i) > 0.
+///   - *Triangle* i, j, k at t, for one axis: det(w_i,w_j,w_k) = 0, and the three weights
+///     (w_j×w_k)_axis, (w_k×w_i)_axis, (w_i×w_j)_axis are all ≥ 0 or all ≤ 0, and their sum is not
+///     0. Then t is a contact, since
+///     (w_j×w_k)_axis w_i + (w_k×w_i)_axis w_j + (w_i×w_j)_axis w_k = det(w_i,w_j,w_k) e_axis = 0
+///     (Cramer's rule): 0 is a convex combination of the three corners.
+///   - *Segment* i, j at t: w_i×w_j = 0 and w_i·w_j ≤ 0. Then t is a contact: either one of the two
+///     is 0, or they point in opposite directions and |w_j| w_i + |w_i| w_j = 0.
+///   - *Root*: if a polynomial g has strictly opposite signs at LO < HI, it has a root t ∈ (LO,HI).
+///     A polynomial that g divides is 0 at t; one that has a strict sign on [LO,HI] has it at t.
+/// So: separations of pieces that cover [0,1] prove `no_collision`; a contact in [0,1] proves
+/// `collision`; separations that cover [0,LO] and a contact in [LO,HI] prove LO < toi ≤ HI; a
+/// contact at 0 proves toi = 0.
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <string>
+#include <vector>
+
+namespace touchstone::checker {
+
+struct Options {
+  /// How many rejections are kept with their reason; all are counted.
+  std::size_t max_rejections = 100;
+};
+
+/// Why a certificate was not accepted. The texts are printable ASCII whatever the bytes read: any
+/// other byte is written as \xHH.
+struct Rejection {
+  /// The line that is at fault, counted from 1; at the end of the stream its last line.
+  std::size_t line = 0;
+  /// The certificate's label; empty if it has none.
+  std::string label;
+  std::string reason;
+};
+
+/// What became of the certificates of a stream.
+struct Report {
+  /// Accepted certificates by their claim.
+  std::uint64_t no_collision = 0;
+  std::uint64_t collision = 0;
+  std::uint64_t time_of_impact = 0;
+  /// Certificates that prove nothing, be it by their form or by their content.
+  std::uint64_t rejected = 0;
+  /// The first of them, in the order of the stream.
+  std::vector<Rejection> rejections;
+
+  [[nodiscard]] std::uint64_t accepted() const { return no_collision + collision + time_of_impact; }
+  [[nodiscard]] bool all_accepted() const { return rejected == 0; }
+};
+
+/// Reads a stream of certificates to its end and checks each. After a rejected one it goes on at the
+/// next `query` line; a stream whose first line is wrong is rejected as a whole, as one. Bounded
+/// memory and time a certificate, whatever the bytes. Thread-safe for different streams.
+/// \throws std::runtime_error if the stream cannot be read.
+[[nodiscard]] Report check(std::istream& certificates, const Options& options = {});
+
+}  // namespace touchstone::checker

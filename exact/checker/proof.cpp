@@ -1,0 +1,283 @@
+#include "exact/checker/proof.hpp"
+
+#include <algorithm>
+
+namespace touchstone::checker {
+namespace {
+
+std::size_t bits(const mpz_class& x) { return mpz_sizeinbase(x.get_mpz_t(), 2); }
+
+/// The product with a multiple of the number's denominator.
+mpz_class scaled(const mpq_class& x, const mpz_class& factor) {
+  mpz_class result = factor / x.get_den();
+  result *= x.get_num();
+  return result;
+}
+
+// ---- Forms --------------------------------------------------------------------------------------
+
+/// c_0 r^n + c_1 r^(n−1) s + … + c_n s^n, where r and s are
+///   - 1 and t: a polynomial in the time t; or
+///   - 1−u and u, for the point u of an interval's way from its start (0) to its end (1): then c_k is
+///     a positive multiple of the k-th Bernstein coefficient.
+using Form = std::vector<mpz_class>;
+
+/// sum + a·b, or sum − a·b with mpz_submul: in place, for most of the checker's time is spent here.
+Form add_product(Form sum, const Form& a, const Form& b, decltype(mpz_addmul) add = mpz_addmul) {
+  sum.resize(a.size() + b.size() - 1);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      add(sum[i + j].get_mpz_t(), a[i].get_mpz_t(), b[j].get_mpz_t());
+    }
+  }
+  return sum;
+}
+
+Form operator*(const Form& a, const Form& b) { return add_product({}, a, b); }
+Form operator*(Form form, int factor) {
+  for (mpz_class& x : form) x *= factor;
+  return form;
+}
+
+/// The form with r and s exchanged.
+Form mirrored(Form form) {
+  std::ranges::reverse(form);
+  return form;
+}
+
+/// The form with x s + y r in the place of s.
+Form substitute(Form form, const mpz_class& x, const mpz_class& y) {
+  for (std::size_t step = 1; step < form.size(); ++step) {
+    for (std::size_t k = form.size() - 1; k >= step; --k) {
+      mpz_addmul(form[k - 1].get_mpz_t(), form[k].get_mpz_t(), y.get_mpz_t());
+    }
+  }
+  mpz_class power = 1;
+  for (mpz_class& c : form) {
+    c *= power;
+    power *= x;
+  }
+  return form;
+}
+
+/// Does the polynomial g (of degree ≥ 1, its leading coefficient not 0) divide p over the rationals?
+/// Long division, each step multiplied by g's leading coefficient. Everything divides 0.
+bool divides(const Form& g, Form p) {
+  for (; p.size() >= g.size(); p.pop_back()) {
+    const mpz_class leading = p.back();
+    const std::size_t shift = p.size() - g.size();
+    for (mpz_class& x : p) x *= g.back();
+    for (std::size_t k = 0; k < g.size(); ++k) p[shift + k] -= leading * g[k];
+  }
+  return std::ranges::all_of(p, [](const mpz_class& x) { return x == 0; });
+}
+
+// ---- Corners ------------------------------------------------------------------------------------
+
+using Vector = std::array<Form, 3>;
+
+Vector operator-(Vector a, const Vector& b) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t k = 0; k < a[axis].size(); ++k) a[axis][k] -= b[axis][k];
+  }
+  return a;
+}
+
+Form dot(const Vector& a, const Form& x, const Form& y, const Form& z) {
+  return add_product(add_product(a[0] * x, a[1], y), a[2], z);
+}
+Form dot(const Vector& a, const Vector& b) { return dot(a, b[0], b[1], b[2]); }
+
+Form cross(const Vector& a, const Vector& b, std::size_t axis) {
+  const std::size_t next = (axis + 1) % 3, last = (axis + 2) % 3;
+  return add_product(a[next] * b[last], a[last], b[next], mpz_submul);
+}
+
+/// The corners, polynomials of degree 1 in t, as integers: all of space is enlarged by one factor,
+/// which changes no sign below.
+std::vector<Vector> corners_of(const Certificate& certificate) {
+  mpz_class factor = 1;
+  for (const mpq_class& x : certificate.coordinates) {
+    factor = lcm(factor, x.get_den());
+    if (bits(factor) > max_scaled_bits) reject("a common denominator that is too large");
+  }
+  std::array<mpz_class, 24> x;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    x[n] = scaled(certificate.coordinates[n], factor);
+    if (bits(x[n]) > max_scaled_bits) reject("numbers too far apart in size");
+  }
+  using Pairs = std::vector<std::array<std::size_t, 2>>;
+  static const Pairs vertex_face{{0, 1}, {0, 2}, {0, 3}};
+  static const Pairs edge_edge{{0, 2}, {1, 2}, {1, 3}, {0, 3}};
+  std::vector<Vector> corners;
+  for (const auto& [plus, minus] : certificate.is_edge_edge ? edge_edge : vertex_face) {
+    Vector& w = corners.emplace_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t a = 3 * plus + axis, b = 3 * minus + axis;
+      w[axis].resize(2);
+      w[axis][0] = x[a] - x[b];
+      w[axis][1] = x[12 + a] - x[12 + b] - w[axis][0];
+    }
+  }
+  return corners;
+}
+
+// ---- Proofs -------------------------------------------------------------------------------------
+
+/// The proof of one certificate.
+class Proof {
+ public:
+  Proof(const Certificate& certificate, std::size_t& line)
+      : certificate_(certificate), line_(line), corners_(corners_of(certificate)) {}
+
+  void verify() {
+    const mpq_class &lower = certificate_.lower, &upper = certificate_.upper;
+    const Claim claim = certificate_.claim;
+    const bool is_at_zero = lower == 0 && upper == 0;
+    if (!is_at_zero && (lower < 0 || lower >= upper || upper > 1)) {
+      reject("a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1");
+    }
+    if (is_at_zero && !certificate_.pieces.empty()) reject("a time of impact 0 has no pieces");
+    if (claim == Claim::no_collision) prove_no_contact(upper);
+    if (claim == Claim::time_of_impact && !is_at_zero) prove_no_contact(lower);
+    if (claim != Claim::no_collision) prove_contact(certificate_.contact);
+  }
+
+ private:
+  /// Goes to a part of the certificate.
+  void enter(const Part& part) {
+    line_ = part.line;
+    denominator_ = lcm(part.from.get_den(), part.to.get_den());
+    from_ = scaled(part.from, denominator_);
+    length_ = scaled(part.to, denominator_) - from_;
+  }
+
+  /// A polynomial in t as a form in u and 1−u, for the part's interval: t = (from + length·u) /
+  /// denominator, so r = denominator·(u + (1−u)) and s = from·(u + (1−u)) + length·u.
+  [[nodiscard]] Form on_interval(Form p) const {
+    p = substitute(mirrored(std::move(p)), denominator_, 0);
+    p = substitute(mirrored(std::move(p)), length_, from_);
+    return substitute(mirrored(std::move(p)), 1, 1);
+  }
+
+  /// Proves that a form in 1−u and u is positive for all u ∈ [0,1]. It is if the first and the last
+  /// coefficient, its values at 0 and 1, are positive and no other is negative; or else if it is so
+  /// on both halves: u = (1+v)/2, where twice 1−u and u are 1−v and (1−v) + 2v, and u = (1−v)/2.
+  void prove_positive(const Form& form, std::size_t bisections = 0) {
+    for (const mpz_class& x : form) work_bits_ += bits(x);
+    if (work_bits_ > max_work_bits) reject("the proof takes too much work");
+    if (form.front() <= 0 || form.back() <= 0) reject("a polynomial is not positive at a point");
+    if (std::ranges::all_of(form, [](const mpz_class& x) { return x >= 0; })) return;
+    if (bisections == max_bisections) {
+      reject("a polynomial is not seen to be positive within " + std::to_string(max_bisections) +
+             " bisections");
+    }
+    prove_positive(substitute(form, 2, 1), bisections + 1);
+    prove_positive(substitute(mirrored(form), 2, 1), bisections + 1);
+  }
+
+  /// Proves that there is no contact in [0, end]: the pieces follow one another without a gap.
+  void prove_no_contact(const mpq_class& end) {
+    if (certificate_.pieces.empty()) reject("there is no piece");
+    mpq_class reached = 0;
+    for (const Piece& piece : certificate_.pieces) {
+      enter(piece);
+      if (piece.from != reached) reject("the piece does not begin where it should");
+      if (piece.from > piece.to) reject("the piece ends before it begins");
+      prove_separation(piece);
+      reached = piece.to;
+    }
+    if (reached != end) reject("the last piece does not end where it should");
+  }
+
+  /// Proves d·w > 0 for all corners w, d the direction of the piece's feature.
+  void prove_separation(const Piece& piece) {
+    Vector d = corners_[piece.i];
+    std::size_t count = corners_.size();
+    if (piece.feature == Feature::edge) {
+      // |e|² w_i − (w_i·e) e
+      const Vector e = corners_[piece.j] - corners_[piece.i];
+      const Form e_e = dot(e, e), d_e = dot(d, e);
+      for (std::size_t n = 0; n < 3; ++n) d[n] = add_product(e_e * d[n], d_e, e[n], mpz_submul);
+    } else if (piece.feature != Feature::vertex) {
+      // ±N, N = a×b. N·w is the same for all corners: N is orthogonal to a and b, hence also to
+      // w_3 − w_0 = b − a.
+      const Vector a = corners_[1] - corners_[0], b = corners_[2] - corners_[0];
+      const int sign = piece.feature == Feature::face_plus ? 1 : -1;
+      for (std::size_t n = 0; n < 3; ++n) d[n] = cross(a, b, n) * sign;
+      count = 1;
+    }
+    for (std::size_t n = 0; n < count; ++n) prove_positive(on_interval(dot(d, corners_[n])));
+  }
+
+  /// Proves that there is a contact in the interval of the claim: at any root of g in its own.
+  void prove_contact(const Contact& contact) {
+    enter(contact);
+    if (contact.from < certificate_.lower || contact.to > certificate_.upper) {
+      reject("the contact is not in the interval of the claim");
+    }
+    g_ = contact.g;
+    if (!contact.is_root) {
+      g_ = {-contact.from.get_num(), contact.from.get_den()};
+    } else {
+      if (contact.from >= contact.to) reject("the root's interval is empty");
+      const Form g = on_interval(g_);
+      if (sgn(g.front()) * sgn(g.back()) >= 0) {
+        reject("the polynomial does not change its sign in the interval");
+      }
+    }
+    contact.is_triangle ? prove_triangle(contact) : prove_segment(contact);
+  }
+
+  /// The sign of a polynomial at the time of the contact.
+  int sign(Form p) {
+    if (divides(g_, p)) return 0;
+    const Form form = on_interval(std::move(p));
+    const int sign = sgn(form.front());
+    prove_positive(form * sign);
+    return sign;
+  }
+
+  void prove_triangle(const Contact& contact) {
+    const auto& [i, j, k] = contact.corners;
+    const std::size_t axis = contact.axis;
+    const Vector &a = corners_[i], &b = corners_[j], &c = corners_[k];
+    const Vector weights{cross(b, c, axis), cross(c, a, axis), cross(a, b, axis)};
+    const Form one{1};
+    const int sum = sign(dot(weights, one, one, one));
+    if (sum == 0) reject("the triangle's normal is 0 on this axis");
+    // det(a,b,c), by its minors of this axis
+    if (sign(dot(weights, a[axis], b[axis], c[axis])) != 0) {
+      reject("the origin is not in the triangle's plane");
+    }
+    for (const Form& weight : weights) {
+      if (sign(weight) * sum < 0) reject("the origin is not in the triangle");
+    }
+  }
+
+  void prove_segment(const Contact& contact) {
+    const Vector &a = corners_[contact.corners[0]], &b = corners_[contact.corners[1]];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (sign(cross(a, b, axis)) != 0) reject("the origin is not on the segment's line");
+    }
+    if (sign(dot(a, b)) > 0) reject("the origin is not on the segment");
+  }
+
+  const Certificate& certificate_;
+  std::size_t& line_;
+  std::vector<Vector> corners_;
+  std::uint64_t work_bits_ = 0;
+  /// The interval of the part at hand: numerators of its start and its length, and their denominator.
+  mpz_class from_, length_, denominator_;
+  /// The polynomial whose root the time of the contact is.
+  Form g_;
+};
+
+}  // namespace
+
+void verify(const Certificate& certificate, std::size_t& line) {
+  line = certificate.line;
+  Proof(certificate, line).verify();
+}
+
+}  // namespace touchstone::checker

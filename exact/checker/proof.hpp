@@ -1,0 +1,24 @@
+#pragma once
+
+/// \file
+/// Whether what a certificate says is a proof of its claim: the mathematics, in integers.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "exact/checker/certificate.hpp"
+
+namespace touchstone::checker {
+
+/// How often an interval is halved, at most, to see that a polynomial is positive on it.
+inline constexpr std::size_t max_bisections = 128;
+/// The size of coordinates and times once they are integers.
+inline constexpr std::size_t max_scaled_bits = 65'536;
+/// The sizes of all polynomials that the proof of one certificate looks at, halves included, summed.
+inline constexpr std::uint64_t max_work_bits = std::uint64_t{1} << 28U;
+
+/// Verifies the proof. `line` is set to the line of the part that is looked at.
+/// \throws Rejected if it does not prove the claim, or not within the limits.
+void verify(const Certificate& certificate, std::size_t& line);
+
+}  // namespace touchstone::checker

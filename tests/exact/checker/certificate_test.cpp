@@ -1,0 +1,374 @@
+/// \file
+/// The checker's reading: what is a certificate, and of what is not one the line and the reason.
+
+#include "exact/checker/certificate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "exact/checker/proof.hpp"
+#include "tests/support/checker_outcome.hpp"
+
+namespace touchstone::checker {
+namespace {
+
+using namespace std::string_literals;
+using tests::outcome;
+using Lines = std::vector<std::string>;
+
+/// A certificate with every kind of line; line n is element n−1.
+const Lines& sample() {
+  static const Lines lines{"touchstone-certificates 1",
+                           "query vertex_face",
+                           "label simulation/cloth.csv:17",
+                           "point 1 1 1",
+                           "point 0 0 0",
+                           "point 4 0 0",
+                           "point 0 4 0",
+                           "point 1 1 -1",
+                           "point 0 0 0",
+                           "point 4 0 0",
+                           "point 0 4 0",
+                           "claim time_of_impact 1/4 3/4",
+                           "separate 0 1/8 face +",
+                           "separate 1/8 1/4 face +",
+                           "contact root 1/4 3/4 -1 2",
+                           "at triangle 0 1 2 z",
+                           "end"};
+  return lines;
+}
+
+std::string joined(const Lines& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + "\n";
+  return text;
+}
+
+/// The sample with another line in the place of line `number`.
+std::string with(std::size_t number, std::string_view line) {
+  Lines lines = sample();
+  lines.at(number - 1) = line;
+  return joined(lines);
+}
+
+/// The sample with one of the vertex's first coordinates, 1, written otherwise.
+std::string one_as(const std::string& number) { return with(4, "point 1 " + number + " 1"); }
+
+TEST(Form, TheSampleIsAccepted) { EXPECT_EQ(outcome(joined(sample())), "time_of_impact"); }
+
+TEST(Form, EveryLineIsNeededOnceAndInOrder) {
+  for (std::size_t n = 2; n <= sample().size(); ++n) {
+    const auto at = static_cast<std::ptrdiff_t>(n) - 1;
+    Lines without = sample(), twice = sample();
+    without.erase(without.begin() + at);
+    twice.insert(twice.begin() + at, sample().at(n - 1));
+    if (n == 3) {
+      EXPECT_EQ(outcome(joined(without)), "time_of_impact") << "a label is optional";
+    } else {
+      EXPECT_NE(outcome(joined(without)), "time_of_impact") << "without line " << n;
+    }
+    EXPECT_NE(outcome(joined(twice)), "time_of_impact") << "line " << n << " twice";
+    if (n == sample().size()) continue;
+    Lines swapped = sample();
+    std::swap(swapped.at(n - 1), swapped.at(n));
+    // Equal lines may be swapped.
+    if (swapped != sample()) {
+      EXPECT_NE(outcome(joined(swapped)), "time_of_impact") << "line " << n << " after the next";
+    }
+  }
+}
+
+TEST(Form, EveryLineIsNeededToItsEnd) {
+  for (std::size_t n = 2; n <= sample().size(); ++n) {
+    if (n == 3) continue;
+    const std::string& line = sample().at(n - 1);
+    const std::string at = std::to_string(n) + ": ";
+    EXPECT_EQ(outcome(with(n, line.substr(0, line.rfind(' ')))).rfind(at, 0),
+              n == 17 ? std::string::npos : 0)
+        << line;
+    for (const std::string& longer : {line + " 1", line + " ", " " + line, line + "\r", line + "\t",
+                                      line + "\0"s, "  " + line}) {
+      EXPECT_EQ(outcome(with(n, longer)).rfind(at, 0), 0) << longer;
+    }
+    if (const auto space = line.find(' '); space != std::string::npos) {
+      EXPECT_EQ(outcome(with(n, line.substr(0, space) + " " + line.substr(space))).rfind(at, 0), 0)
+          << line;
+      EXPECT_EQ(
+          outcome(with(n, line.substr(0, space) + "\t" + line.substr(space + 1))).rfind(at, 0), 0)
+          << line;
+    }
+    Lines cut(sample().begin(), sample().begin() + static_cast<std::ptrdiff_t>(n) - 1);
+    EXPECT_EQ(outcome(joined(cut)),
+              n == 2 ? "not one certificate"
+                     : std::to_string(n - 1) + ": the stream ends within a certificate");
+  }
+}
+
+TEST(Form, WordsAreThoseOfTheFormat) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {with(2, "query vertex-face"), "2: unknown word: 'vertex-face'"},
+      {with(2, "query"), "2: the line has too few words"},
+      {with(2, "Query vertex_face"), "2: expected 'query', found 'Query'"},
+      {with(3, "labels x"), "3: expected 'point', found 'labels'"},
+      {with(4, "points 1 1 1"), "4: expected 'point', found 'points'"},
+      {with(4, "point 1 1"), "4: the line has too few words"},
+      {with(4, "point 1 1 1 1"), "4: the line has too many words"},
+      {with(12, "claim contact"), "12: unknown word: 'contact'"},
+      {with(12, "claim no_collision 1/4 3/4"), "12: the line has too many words"},
+      {with(12, "claim time_of_impact 1/4"), "12: the line has too few words"},
+      {with(12, "claim no_collision"), "15: expected 'end', found 'contact'"},
+      {with(12, "claim collision"), "13: expected 'contact', found 'separate'"},
+      {with(13, "separate 0 1/8 plane +"), "13: unknown word: 'plane'"},
+      {with(13, "separate 0 1/8 face"), "13: the line has too few words"},
+      {with(13, "separate 0 1/8 face 0"), "13: unknown word: '0'"},
+      {with(13, "separate 0 1/8 vertex 3"), "13: a vertex_face has no corner 3"},
+      {with(13, "separate 0 1/8 vertex 4"), "13: unknown word: '4'"},
+      {with(13, "separate 0 1/8 vertex -1"), "13: unknown word: '-1'"},
+      {with(13, "separate 0 1/8 vertex 00"), "13: unknown word: '00'"},
+      {with(13, "separate 0 1/8 vertex 18446744073709551616"),
+       "13: unknown word: '18446744073709551616'"},
+      {with(13, "separate 0 1/8 edge 0 3"), "13: a vertex_face has no corner 3"},
+      {with(13, "separate 0 1/8 edge 3 0"), "13: a vertex_face has no corner 3"},
+      {with(13, "separate 0 1/8 edge 0"), "13: the line has too few words"},
+      {with(13, "separate 0 1/8 vertex 0 1"), "13: the line has too many words"},
+      {with(14, "end"), "14: expected 'contact', found 'end'"},
+      {with(15, "contact at 1/2"), "15: unknown word: 'at'"},
+      {with(15, "contact time 1/2 1/2"), "15: the line has too many words"},
+      {with(15, "contact root 1/4 3/4"), "15: a polynomial of a degree below 1"},
+      {with(15, "contact root 1/4 3/4 -1"), "15: a polynomial of a degree below 1"},
+      {with(15, "contact root 1/4 3/4 -1 2 0"), "15: a polynomial whose leading coefficient is 0"},
+      {with(15, "contact root 1/4 3/4 0 0"), "15: a polynomial whose leading coefficient is 0"},
+      {with(15, "contact root 1/4 3/4 -1/2 1"), "15: not an integer: '-1/2'"},
+      {with(15, "contact root 1/4 3/4 -1 0x1p+1"), "15: not an integer: '0x1p+1'"},
+      {with(15, "contact root 1/4 3/4 -1 2 "), "15: not a number: ''"},
+      {with(16, "at point 0"), "16: unknown word: 'point'"},
+      {with(16, "at triangle 0 1 2"), "16: the line has too few words"},
+      {with(16, "at triangle 0 1 3 z"), "16: a vertex_face has no corner 3"},
+      {with(16, "at triangle 0 1 2 w"), "16: unknown word: 'w'"},
+      {with(16, "at triangle 0 1 2 xy"), "16: unknown word: 'xy'"},
+      {with(16, "at segment 0 1 2"), "16: the line has too many words"},
+      {with(17, "End"), "17: expected 'end', found 'End'"},
+  };
+  for (const auto& [text, expected] : cases) EXPECT_EQ(outcome(text), expected);
+}
+
+TEST(Form, CommentsAndEmptyLinesAreSkippedAndCounted) {
+  EXPECT_EQ(outcome(with(9, "# 0 0 0\n\n#\npoint 0 0 0")), "time_of_impact");
+  EXPECT_EQ(outcome(with(9, "# 0 0 0\n\n#\npoint 0 0")), "12: the line has too few words");
+  EXPECT_EQ(outcome(with(9, " \npoint 0 0 0")), "9: expected 'point', found ''");
+  EXPECT_EQ(outcome(with(9, " # no comment\npoint 0 0 0")), "9: expected 'point', found ''");
+  EXPECT_EQ(outcome(with(9, "#\0\x1b\xff\r\npoint 0 0 0"s)), "time_of_impact");
+}
+
+// ---- Numbers ------------------------------------------------------------------------------------
+
+TEST(Number, MayBeWrittenInThreeWays) {
+  for (const std::string_view one :
+       {"1", "001", "5/5", "0005/005", "0x1p+0", "0x1p0", "0x1p-0", "0x1.0p+0", "0x0.8p+1",
+        "0x2p-1", "0x10p-4", "0x0.0001p16", "0x1.00000000000000000000000000000000p+0",
+        "0x1p+000000", "0x100000000000000000000p-80",
+        "123456789012345678901234567890/123456789012345678901234567890"}) {
+    // At height 1 the vertex meets the triangle's plane at t=1/2 exactly.
+    EXPECT_EQ(outcome(with(4, "point 1 1 " + std::string(one))), "time_of_impact") << one;
+  }
+  for (const std::string_view other :
+       {"0x1.0000000000001p+0", "0x1.fffffffffffffp-1", "2", "-1", "0x1p+1", "0x1p-1", "1/2",
+        "0x0p+0", "0x0.0000000000001p-1022"}) {
+    EXPECT_EQ(outcome(with(4, "point 1 1 " + std::string(other))).find('\''), std::string::npos)
+        << other;
+    EXPECT_NE(outcome(with(4, "point 1 1 " + std::string(other))), "time_of_impact") << other;
+  }
+  for (const std::string_view minus_one : {"-1", "-3/3", "-0x1p+0", "-0x8p-3"}) {
+    EXPECT_EQ(outcome(with(8, "point 1 1 " + std::string(minus_one))), "time_of_impact")
+        << minus_one;
+  }
+  for (const std::string_view zero : {"-0", "0/3", "-0x0p+0", "0x0.0p-1074", "0x0p+9999"}) {
+    EXPECT_EQ(outcome(with(13, "separate " + std::string(zero) + " 1/8 face +")), "time_of_impact")
+        << zero;
+  }
+}
+
+TEST(Number, IsNothingElse) {
+  for (const std::string_view word :
+       {"",       "nan",     "inf",      "-inf",     "infinity", "-nan",     "1.0",
+        "1e0",    "+1",      "--1",      "-",        "1/",       "/1",       "1/-1",
+        "1/+1",   "1/1/1",   "0x1p+0/1", "0x",       "0x1",      "0x1.p+0",  "0x.8p1",
+        "0x1p",   "0x1p+",   "0x1p+-1",  "0x1p+0x1", "0x1p1.0",  "0x1+0",    "0x1-0",
+        "0X1p+0", "0x1P+0",  "0x1Ap+0",  "-0x",      "0xp+0",    "1,0",      "1'000",
+        "0b1",    "0x1p+0f", "1u",       "0x-1p+0",  "+0x1p+0",  "0x1..0p0", "--0x1p+0"}) {
+    EXPECT_EQ(outcome(one_as(std::string(word))), "4: not a number: '"s.append(word).append("'"));
+  }
+  EXPECT_EQ(outcome(one_as("1\0"s)), "4: not a number: '1\\x00'");
+  EXPECT_EQ(outcome(one_as("1\r")), "4: not a number: '1\\x0d'");
+  EXPECT_EQ(outcome(one_as("\xc2\xbd")), "4: not a number: '\\xc2\\xbd'");
+  EXPECT_EQ(outcome(one_as("\x1b[2J")), "4: not a number: '\\x1b[2J'");
+  EXPECT_EQ(outcome(one_as("1/0")), "4: a denominator that is 0: '1/0'");
+  EXPECT_EQ(outcome(one_as("0/000")), "4: a denominator that is 0: '0/000'");
+  EXPECT_EQ(outcome(one_as(std::string(41, 'z'))),
+            "4: not a number: '" + std::string(40, 'z') + "...'");
+}
+
+/// 2^n in decimal.
+std::string power_of_two(unsigned n) { return mpz_class(mpz_class(1) << n).get_str(); }
+
+TEST(Limit, OfTheBitsOfANumber) {
+  const std::string largest = mpz_class((mpz_class(1) << 16384U) - 1).get_str();
+  const std::string fraction = largest + "/" + largest;
+  const auto is_too_large = [](const std::string& number) {
+    return outcome(one_as(number)).starts_with("4: a number with more than 16384 bits: '");
+  };
+  for (const std::string& number :
+       {largest, "-" + largest, "1/" + largest, fraction, std::string(4932, '0') + "1",
+        "0x1p+16383"s, "0x1.8p-16379"s, "0x1p-16383"s, "0x0p+16383"s,
+        "0x" + std::string(4096, 'f') + "p+0", "0x" + std::string(4096, 'f') + "p-16383",
+        "0x1." + std::string(4095, '0') + "p+0"}) {
+    EXPECT_FALSE(is_too_large(number)) << number.substr(0, 20);
+    EXPECT_EQ(outcome(one_as(number)).rfind("4:", 0), std::string::npos) << number.substr(0, 20);
+  }
+  for (const std::string& number :
+       {power_of_two(16384), "-" + power_of_two(16384), "1/" + power_of_two(16384),
+        std::string(4933, '0') + "1", "0x1p+16384"s, "0x2p+16383"s, "0x1p-16384"s, "0x1.8p-16380"s,
+        "0x0p+16384"s, "0x0p-16384"s, "0x" + std::string(4097, '0') + "p+0",
+        "0x1p+9999999999999999999999"s, "0x1p-9999999999999999999999"s, "0x1p+0000000"s,
+        std::string(60000, '9')}) {
+    EXPECT_TRUE(is_too_large(number)) << number.substr(0, 20);
+  }
+  EXPECT_TRUE(outcome(with(15, "contact root 1/4 3/4 -1 " + power_of_two(16384)))
+                  .starts_with("15: a number with more than 16384 bits: '"));
+}
+
+TEST(Limit, OfNumbersTogether) {
+  // A common denominator of 2^16383 − 1, 2^16383 + 1 and 17 has 32771 bits, 2^16383 for the last
+  // number adds as many, and 2^power as many as it says.
+  const auto coordinates = [](int power) {
+    const mpz_class large = mpz_class(1) << 16'383U;
+    Lines lines = sample();
+    lines.at(3) =
+        "point 1/" + mpz_class(large - 1).get_str() + " 1/" + mpz_class(large + 1).get_str() + " 1";
+    lines.at(6) = "point 1/17 4 0";
+    lines.at(5) = "point 0x1p+" + std::to_string(power) + " 0 0";
+    lines.at(9) = "point 4 0x1p-16383 0";
+    return outcome(joined(lines));
+  };
+  EXPECT_EQ(coordinates(16'382), "time_of_impact");
+  EXPECT_EQ(coordinates(16'383), "12: numbers too far apart in size");
+}
+
+TEST(Limit, OfACommonDenominator) {
+  const auto coordinates = [](std::size_t count) {
+    Lines lines = sample();
+    for (std::size_t n = 0; n < count; ++n) {
+      // Pairwise without a common factor, since none divides their differences of 6 to 24.
+      const mpz_class denominator =
+          (mpz_class(1) << 16'300U) + std::array{1U, 7U, 13U, 19U, 31U}.at(n);
+      lines.at(4 + n) = "point 0 0 1/" + denominator.get_str();
+    }
+    return outcome(joined(lines));
+  };
+  EXPECT_NE(coordinates(4), "12: a common denominator that is too large");
+  EXPECT_EQ(coordinates(5), "12: a common denominator that is too large");
+}
+
+TEST(Limit, OfALine) {
+  const auto comment = [](std::size_t bytes) {
+    return with(9, "#" + std::string(bytes - 1, 'x') + "\npoint 0 0 0");
+  };
+  EXPECT_EQ(outcome(comment(65'535)), "time_of_impact");
+  EXPECT_EQ(outcome(comment(65'536)), "time_of_impact");
+  EXPECT_EQ(outcome(comment(65'537)), "9: the line is too long");
+  EXPECT_EQ(outcome(comment(1'000'000)), "9: the line is too long");
+}
+
+TEST(Limit, OfALabel) {
+  EXPECT_EQ(outcome(with(3, "label " + std::string(1'024, ' '))), "time_of_impact");
+  EXPECT_EQ(outcome(with(3, "label " + std::string(1'025, ' '))),
+            "3: a label of more than 1024 bytes");
+  EXPECT_EQ(outcome(with(3, "label")), "time_of_impact");
+  EXPECT_EQ(outcome(with(3, "label ")), "time_of_impact");
+}
+
+TEST(Limit, OfPieces) {
+  const auto pieces = [](std::size_t count) {
+    std::string text = "separate 0 1/4 face +";
+    for (std::size_t n = 1; n < count; ++n) text += "\nseparate 1/4 1/4 face +";
+    Lines lines = sample();
+    lines.erase(lines.begin() + 13);
+    lines.at(12) = text;
+    return outcome(joined(lines));
+  };
+  EXPECT_EQ(pieces(4'096), "time_of_impact");
+  EXPECT_EQ(pieces(4'097), "4109: more than 4096 pieces");
+}
+
+TEST(Limit, OfADegree) {
+  // det is 0 for all time, so any g divides it: t^n − 1/2 in [1/4,1].
+  const auto degree = [](std::size_t n) {
+    Lines lines = sample();
+    lines.at(3) = lines.at(7) = "point 1 1 0";
+    lines.at(11) = "claim collision";
+    lines.erase(lines.begin() + 12, lines.begin() + 14);
+    lines.at(12) = "contact root 1/4 1 -1";
+    for (std::size_t k = 1; k < n; ++k) lines.at(12) += " 0";
+    lines.at(12) += " 2";
+    return outcome(joined(lines));
+  };
+  EXPECT_EQ(degree(1), "collision");
+  EXPECT_EQ(degree(8), "collision");
+  EXPECT_EQ(degree(9), "13: a polynomial of a degree above 8");
+}
+
+/// 96,000 bits a coefficient: some 200 such pieces are too much, though each is proved.
+TEST(Limit, OfWork) {
+  const std::string vertex = "point 0x1p-16000 0x1p-16000 0x1p+16000";
+  const auto pieces = [&](std::size_t count) {
+    Lines lines = sample();
+    lines.at(3) = lines.at(7) = vertex;
+    lines.at(11) = "claim no_collision";
+    lines.erase(lines.begin() + 13, lines.begin() + 16);
+    lines.at(12) = "separate 0 1 edge 0 1";
+    for (std::size_t n = 1; n < count; ++n) lines.at(12) += "\nseparate 1 1 edge 0 1";
+    return outcome(joined(lines));
+  };
+  EXPECT_EQ(pieces(100), "no_collision");
+  EXPECT_EQ(pieces(300), "199: the proof takes too much work");
+}
+
+TEST(Printable, ShowsEveryByteInAscii) {
+  EXPECT_EQ(printable(""), "");
+  EXPECT_EQ(printable(" az~"), " az~");
+  EXPECT_EQ(printable("\0\n\x1b\x7f\x80\xff"s), "\\x00\\x0a\\x1b\\x7f\\x80\\xff");
+}
+
+TEST(Reader, CountsLines) {
+  std::istringstream stream("a\n\n# b\nc d\ne");
+  Reader lines(stream);
+  EXPECT_EQ(lines.number(), 0U);
+  lines.advance();
+  EXPECT_EQ(lines.text(), "a");
+  EXPECT_EQ(lines.number(), 1U);
+  lines.advance();
+  EXPECT_EQ(lines.text(), "c d");
+  EXPECT_EQ(lines.number(), 4U);
+  EXPECT_EQ(lines.first_word(), "c");
+  EXPECT_FALSE(lines.at_end());
+  lines.advance();
+  EXPECT_EQ(lines.number(), 5U);
+  EXPECT_FALSE(lines.is_line());
+  EXPECT_THROW(lines.begin("e"), Rejected);
+  lines.advance();
+  EXPECT_TRUE(lines.at_end());
+  EXPECT_EQ(lines.number(), 5U);
+  EXPECT_FALSE(lines.is_line());
+  EXPECT_THROW(lines.begin("e"), Rejected);
+}
+
+}  // namespace
+}  // namespace touchstone::checker

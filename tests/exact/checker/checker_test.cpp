@@ -1,0 +1,311 @@
+/// \file
+/// The checker on streams: what it counts, how it goes on after a rejection, what it does with bytes
+/// that are no certificates; the corpus of the fuzzer, and the examples of the manual.
+
+#include "exact/checker/checker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <locale>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <streambuf>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tests/support/checker_outcome.hpp"
+
+namespace touchstone::checker {
+namespace {
+
+using namespace std::string_literals;
+using tests::check_text;
+using tests::outcome;
+
+const std::string header(tests::certificate_header);
+
+/// A query and the proofs of what it does, without the header: 11 to 13 lines each.
+const std::string points_of_miss =
+    "point 1 1 1\npoint 0 0 0\npoint 4 0 0\npoint 0 4 0\npoint 1 1 2\npoint 0 0 0\npoint 4 0 "
+    "0\npoint 0 4 0\n";
+const std::string points_of_hit =
+    "point 1 1 1\npoint 0 0 0\npoint 4 0 0\npoint 0 4 0\npoint 1 1 -1\npoint 0 0 0\npoint 4 0 "
+    "0\npoint 0 4 0\n";
+const std::string miss =
+    "query vertex_face\n" + points_of_miss + "claim no_collision\nseparate 0 1 face +\nend\n";
+const std::string hit = "query vertex_face\n" + points_of_hit +
+                        "claim collision\ncontact time 1/2\nat triangle 0 1 2 z\nend\n";
+const std::string impact = "query vertex_face\n" + points_of_hit +
+                           "claim time_of_impact 1/4 1/2\nseparate 0 1/4 face +\ncontact time 1/2\n"
+                           "at triangle 0 1 2 z\nend\n";
+const std::string lie =
+    "query vertex_face\n" + points_of_hit + "claim no_collision\nseparate 0 1 face +\nend\n";
+
+/// "LINE LABEL: REASON" of each rejection.
+std::vector<std::string> rejections(const Report& report) {
+  std::vector<std::string> result;
+  for (const auto& [line, label, reason] : report.rejections) {
+    std::ostringstream text;
+    text << line << ' ' << label << ": " << reason;
+    result.push_back(text.str());
+  }
+  return result;
+}
+
+using Texts = std::vector<std::string>;
+
+TEST(Check, CountsByClaim) {
+  const Report report = check_text(header + miss + hit + impact + hit + miss + miss + lie);
+  EXPECT_EQ(report.no_collision, 3U);
+  EXPECT_EQ(report.collision, 2U);
+  EXPECT_EQ(report.time_of_impact, 1U);
+  EXPECT_EQ(report.accepted(), 6U);
+  EXPECT_EQ(report.rejected, 1U);
+  EXPECT_FALSE(report.all_accepted());
+  EXPECT_TRUE(check_text(header + miss + hit).all_accepted());
+}
+
+TEST(Check, AcceptsAStreamWithoutCertificates) {
+  const Report report = check_text(header + "\n# nothing\n");
+  EXPECT_TRUE(report.all_accepted());
+  EXPECT_EQ(report.accepted(), 0U);
+}
+
+TEST(Check, RejectsAStreamOfAnotherKindAsAWhole) {
+  for (const std::string& first :
+       {""s, "\n"s, "touchstone-certificates 1"s, "touchstone-certificates 1\r\n"s,
+        "touchstone-certificates 2\n"s, "touchstone-certificates 1 \n"s,
+        " touchstone-certificates 1\n"s, "touchstone-certificates\n"s,
+        "Touchstone-certificates 1\n"s, "\xef\xbb\xbftouchstone-certificates 1\n"s,
+        "# comment\n" + header, "\n" + header, "touchstone-certificates 1\0\n"s,
+        std::string(70'000, 'x') + "\n"}) {
+    const Report report = check_text(std::string(first).append(miss).append(lie));
+    EXPECT_EQ(report.accepted(), 0U) << first;
+    EXPECT_EQ(rejections(report), Texts{"1 : the first line is not 'touchstone-certificates 1'"})
+        << first;
+  }
+}
+
+TEST(Check, GoesOnAfterARejection) {
+  const std::string broken = "query vertex_face\nlabel one\npoint 1 1 x\nclaim no_collision\nend\n";
+  const std::string endless = "query vertex_face\nlabel two\n" + points_of_miss +
+                              "claim no_collision\nseparate 0 1 face +\n";
+  const Report report = check_text(header + broken + miss + endless + hit + "stray 1\nstray 2\n" +
+                                   "query\n" + miss + "query x\nquery y\n" + impact);
+  EXPECT_EQ(report.accepted(), 4U);
+  EXPECT_EQ(rejections(report),
+            (Texts{"4 one: not a number: 'x'", "31 two: expected 'end', found 'query'",
+                   "44 : expected 'query', found 'stray'", "46 : the line has too few words",
+                   "59 : unknown word: 'x'", "60 : unknown word: 'y'"}));
+  EXPECT_EQ(report.rejected, 6U);
+}
+
+TEST(Check, FindsALieAmongTruths) {
+  std::string text = header;
+  for (int n = 0; n < 50; ++n) text += miss;
+  text += lie;
+  for (int n = 0; n < 50; ++n) text += impact;
+  const Report report = check_text(text);
+  EXPECT_EQ(report.accepted(), 100U);
+  EXPECT_EQ(rejections(report), Texts{"612 : a polynomial is not positive at a point"});
+}
+
+/// A proof of one query is none of the next.
+TEST(Check, ForgetsTheCertificateBefore) {
+  const std::string without_proof =
+      "query vertex_face\n" + points_of_miss + "claim no_collision\nend\n";
+  EXPECT_EQ(rejections(check_text(header + miss + without_proof)), Texts{"23 : there is no piece"});
+  const std::string labelled = "query vertex_face\nlabel first\n" + miss.substr(18);
+  EXPECT_EQ(rejections(check_text(header + labelled + lie)),
+            Texts{"25 : a polynomial is not positive at a point"});
+}
+
+TEST(Check, KeepsTheFirstRejections) {
+  std::string text = header;
+  for (int n = 0; n < 250; ++n) text += "query " + std::to_string(n) + "\n";
+  const Report usual = check_text(text);
+  EXPECT_EQ(usual.rejected, 250U);
+  EXPECT_EQ(usual.rejections.size(), 100U);
+  EXPECT_EQ(usual.rejections.back().reason, "unknown word: '99'");
+  const Report two = check_text(text, {.max_rejections = 2});
+  EXPECT_EQ(two.rejected, 250U);
+  EXPECT_EQ(rejections(two), (Texts{"2 : unknown word: '0'", "3 : unknown word: '1'"}));
+  EXPECT_EQ(check_text(text, {.max_rejections = 0}).rejected, 250U);
+}
+
+TEST(Check, ShowsLabelsSafely) {
+  const std::string named =
+      "query vertex_face\nlabel a \x1b[2Jb\t\xc3\xa9\0\r\n"s + "point x\nend\n";
+  EXPECT_EQ(rejections(check_text(header + named)),
+            Texts{"4 a \\x1b[2Jb\\x09\\xc3\\xa9\\x00\\x0d: not a number: 'x'"});
+}
+
+TEST(Check, RejectsTheEndingsOfOtherSystems) {
+  std::string text = header + miss, carriage = text;
+  for (std::size_t at = 0; (at = carriage.find('\n', at)) != std::string::npos; at += 2)
+    carriage.insert(at, "\r");
+  EXPECT_FALSE(check_text(carriage).all_accepted());
+  EXPECT_FALSE(check_text(header + carriage.substr(header.size() + 1)).all_accepted());
+  std::ranges::replace(text, '\n', '\r');
+  EXPECT_FALSE(check_text(text).all_accepted());
+}
+
+TEST(Check, WantsTheLastLineEnded) {
+  const std::string text = header + miss;
+  EXPECT_EQ(rejections(check_text(text.substr(0, text.size() - 1))),
+            Texts{"13 : the last line is not ended by a newline"});
+}
+
+/// Cut anywhere, a stream proves at most what was complete.
+TEST(Check, AcceptsNothingFromACutStream) {
+  const std::string text = header + miss + hit;
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    const Report report = check_text(text.substr(0, length));
+    const std::uint64_t complete = length >= header.size() + miss.size() ? 1 : 0;
+    EXPECT_EQ(report.accepted(), complete) << length;
+    const bool at_seam = length == header.size() || length == header.size() + miss.size();
+    EXPECT_EQ(report.rejected, at_seam ? 0U : 1U) << length;
+  }
+}
+
+/// Any byte in the place of any byte: where it is accepted, nothing but a label or the way of
+/// writing changed, or the claim is still true. The query: v moves from (1,1,1) to (1,1,2).
+TEST(Check, SurvivesEveryByte) {
+  const std::string text = header + miss;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    for (int byte = 0; byte < 256; ++byte) {
+      std::string altered = text;
+      altered[at] = static_cast<char>(byte);
+      const Report report = check_text(altered);
+      ASSERT_LE(report.accepted(), 1U);
+      // The piece, the claim and the frame admit no change that is still accepted.
+      const bool is_point = text.compare(text.rfind('\n', at) + 1, 5, "point") == 0;
+      if (altered != text && !is_point) {
+        ASSERT_EQ(report.accepted(), 0U) << altered;
+      }
+    }
+  }
+}
+
+TEST(Check, DoesNotDependOnTheLocale) {
+  struct Punctuation : std::numpunct<char> {
+    [[nodiscard]] char do_decimal_point() const override { return ','; }
+    [[nodiscard]] char do_thousands_sep() const override { return '0'; }
+    [[nodiscard]] std::string do_grouping() const override { return "\1"; }
+  };
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new Punctuation));
+  const Report report = check_text(header + miss + hit + impact + lie);
+  std::locale::global(before);
+  EXPECT_EQ(report.accepted(), 3U);
+  EXPECT_EQ(rejections(report), Texts{"51 : a polynomial is not positive at a point"});
+}
+
+/// Endless lines, and then nothing: memory must not follow the stream's length.
+class EndlessLine final : public std::streambuf {
+ public:
+  explicit EndlessLine(std::size_t bytes) : left_(bytes) { block_.fill('x'); }
+
+ protected:
+  int_type underflow() override {
+    if (left_ < block_.size()) return traits_type::eof();
+    left_ -= block_.size();
+    setg(block_.data(), block_.data(), block_.data() + block_.size());
+    return traits_type::to_int_type(block_.front());
+  }
+
+ private:
+  std::array<char, 4096> block_{};
+  std::size_t left_;
+};
+
+TEST(Check, ReadsAnEndlessLineInBoundedMemory) {
+  EndlessLine buffer(std::size_t{1} << 28U);
+  std::istream stream(&buffer);
+  EXPECT_EQ(check(stream).rejected, 1U);
+}
+
+/// An error after one certificate, once; then the end.
+class Failing final : public std::streambuf {
+ protected:
+  int_type underflow() override {
+    ++calls_;
+    if (calls_ == 2) throw std::runtime_error("the disk is on fire");
+    if (calls_ > 2) return traits_type::eof();
+    setg(text_.data(), text_.data(), text_.data() + text_.size());
+    return traits_type::to_int_type(text_.front());
+  }
+
+ private:
+  std::string text_ = header + miss;
+  int calls_ = 0;
+};
+
+TEST(Check, TellsAnErrorFromTheEnd) {
+  Failing buffer;
+  std::istream stream(&buffer);
+  EXPECT_THROW((void)check(stream), std::runtime_error);
+  std::ifstream directory("/");
+  EXPECT_THROW((void)check(directory), std::runtime_error);
+  std::ifstream missing("/does/not/exist");
+  EXPECT_THROW((void)check(missing), std::runtime_error);
+}
+
+// ---- Files --------------------------------------------------------------------------------------
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+const std::filesystem::path root = TOUCHSTONE_SOURCE_DIR;
+
+/// What becomes of each file of the fuzzer's corpus: accepted / rejected.
+TEST(Corpus, HasTheOutcomeThatItShould) {
+  const std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> expected{
+      {"contacts.cert", {7, 0}}, {"features.cert", {6, 0}}, {"numbers.cert", {2, 0}},
+      {"false.cert", {0, 7}},    {"broken.cert", {1, 6}},   {"wrong_header.cert", {0, 1}},
+      {"deep.cert", {1, 1}}};
+  std::size_t found = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(root / "tests/exact/checker/corpus")) {
+    const std::string name = entry.path().filename().string();
+    ASSERT_TRUE(expected.contains(name)) << name;
+    const Report report = check_text(read(entry.path()));
+    EXPECT_EQ(std::pair(report.accepted(), report.rejected), expected.at(name))
+        << name << testing::PrintToString(rejections(report));
+    ++found;
+  }
+  EXPECT_EQ(found, expected.size());
+}
+
+/// The blocks of the manual that hold certificates: all are accepted, and every claim is among them.
+TEST(Manual, HasExamplesThatAreAccepted) {
+  const std::string manual = read(root / "exact/CERTIFICATES.md"), fence = "```\n";
+  Report sum;
+  for (std::size_t at = 0; (at = manual.find(fence + header, at)) != std::string::npos;) {
+    const std::size_t begin = at + fence.size(), end = manual.find("\n```", begin) + 1;
+    const Report report = check_text(manual.substr(begin, end - begin));
+    EXPECT_EQ(rejections(report), Texts{});
+    sum.no_collision += report.no_collision;
+    sum.collision += report.collision;
+    sum.time_of_impact += report.time_of_impact;
+    at = end;
+  }
+  EXPECT_EQ(sum.no_collision, 1U);
+  EXPECT_EQ(sum.collision, 1U);
+  EXPECT_EQ(sum.time_of_impact, 1U);
+}
+
+}  // namespace
+}  // namespace touchstone::checker

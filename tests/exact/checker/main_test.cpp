@@ -1,0 +1,110 @@
+/// \file
+/// touchstone-check as a program: what it prints and its exit status.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+
+namespace touchstone::checker {
+namespace {
+
+struct Outcome {
+  int status = -1;
+  /// What it writes to both its streams.
+  std::string output;
+};
+
+/// Runs touchstone-check with these arguments, as a shell reads them.
+Outcome run(const std::string& arguments) {
+  const std::string command = std::string(TOUCHSTONE_CHECK) + " " + arguments + " 2>&1";
+  std::FILE* const pipe = popen(command.c_str(), "r");  // NOLINT(cert-env33-c)
+  Outcome outcome;
+  if (pipe == nullptr) return outcome;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
+    outcome.output += static_cast<char>(c);
+  }
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
+  return outcome;
+}
+
+const std::string corpus = TOUCHSTONE_SOURCE_DIR "/tests/exact/checker/corpus/";
+
+TEST(Command, AcceptsAFile) {
+  const auto [status, output] = run(corpus + "contacts.cert");
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(output,
+            "accepted         7\n  no_collision   0\n  collision      4\n  time_of_impact "
+            "3\nrejected         0\n");
+}
+
+TEST(Command, ReadsStandardInput) {
+  EXPECT_EQ(run("- < " + corpus + "features.cert").status, 0);
+  EXPECT_EQ(run("- < " + corpus + "features.cert").output, run(corpus + "features.cert").output);
+  EXPECT_EQ(run("- < " + corpus + "false.cert").status, 1);
+}
+
+TEST(Command, NamesLinesLabelsAndReasons) {
+  const auto [status, output] = run(corpus + "broken.cert");
+  EXPECT_EQ(status, 1);
+  EXPECT_EQ(output,
+            "accepted         1\n  no_collision   1\n  collision      0\n  time_of_impact "
+            "0\nrejected         6\n"
+            "  line 10: expected 'point', found 'claim'\n"
+            "  line 14: not a number: 'nan'\n"
+            "  line 37: expected 'end', found 'query'\n"
+            "  line 59: unknown word: '*'\n"
+            "  line 62: a number with more than 16384 bits: "
+            "'9999999999999999999999999999999999999999...'\n"
+            "  line 75 (\\x1b[2J): the last line is not ended by a newline\n");
+}
+
+TEST(Command, SaysHowManyRejectionsItDoesNotShow) {
+  const std::string path =
+      ::testing::TempDir() + "touchstone_check_" + std::to_string(getpid()) + ".cert";
+  {
+    std::ofstream file(path, std::ios::binary);
+    file << "touchstone-certificates 1\n";
+    for (int n = 0; n < 103; ++n) file << "query\n";
+  }
+  const auto [status, output] = run(path);
+  std::filesystem::remove(path);
+  EXPECT_EQ(status, 1);
+  EXPECT_NE(output.find("rejected         103\n"), std::string::npos);
+  EXPECT_NE(output.find("  line 101: the line has too few words\n  and 3 more\n"),
+            std::string::npos);
+}
+
+TEST(Command, TellsBadInputFromRejection) {
+  for (const auto& [arguments, reason] :
+       {std::pair("/does/not/exist",
+                  "touchstone-check: /does/not/exist: the file cannot be opened\n"),
+        std::pair("/", "touchstone-check: /: the stream cannot be read\n"),
+        std::pair("- < /", "touchstone-check: -: the stream cannot be read\n")}) {
+    const auto [status, output] = run(arguments);
+    EXPECT_EQ(status, 2) << arguments;
+    EXPECT_EQ(output, reason);
+  }
+  EXPECT_EQ(run("/dev/null").status, 1);
+  EXPECT_EQ(run(corpus + "contacts.cert > /dev/full").status, 2);
+}
+
+TEST(Command, KnowsItsUsage) {
+  const auto [status, help] = run("--help");
+  EXPECT_EQ(status, 0);
+  EXPECT_TRUE(help.starts_with("usage: touchstone-check FILE|-\n"));
+  EXPECT_NE(help.find("Example: "), std::string::npos);
+  for (const std::string arguments : {"", "--version", "-x", "a b", "- -", "''"}) {
+    EXPECT_EQ(run(arguments).status, 2) << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::checker

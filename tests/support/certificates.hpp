@@ -1,0 +1,125 @@
+#pragma once
+
+/// \file
+/// Certificates from the oracle to the checker, and what is true of the claims that it accepts.
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exact/certificate.hpp"
+#include "exact/certificate_text.hpp"
+#include "exact/checker/checker.hpp"
+#include "exact/number.hpp"
+#include "exact/oracle.hpp"
+#include "tests/support/queries.hpp"
+
+namespace touchstone::tests {
+
+/// The certificate of a query's own verdict.
+[[nodiscard]] inline exact::Certificate prove(const PosedQuery& posed,
+                                              const exact::ProveOptions& options = {}) {
+  return exact::prove(posed.kind, posed.query, exact::decide(posed.kind, posed.query), options);
+}
+
+/// A certificate as a stream of its own.
+[[nodiscard]] inline std::string as_stream(const exact::Certificate& certificate) {
+  std::string text(exact::certificates_header());
+  exact::write(text, certificate);
+  return text;
+}
+
+/// What the checker says of a stream.
+[[nodiscard]] inline checker::Report check(const std::string& stream) {
+  std::istringstream in(stream);
+  return checker::check(in);
+}
+
+/// Why the checker rejects the certificate; empty if it accepts it.
+[[nodiscard]] inline std::string rejection(const exact::Certificate& certificate) {
+  const checker::Report report = check(as_stream(certificate));
+  if (report.all_accepted() && report.accepted() == 1) return {};
+  return report.rejections.empty() ? "nothing accepted" : report.rejections.front().reason;
+}
+
+/// The claim of a certificate, read from its text.
+struct ReadClaim {
+  PosedQuery posed{Kind::vertex_face, {}};
+  exact::Claim claim = exact::Claim::no_collision;
+  exact::RationalInterval toi;
+};
+
+/// A number in one of the format's forms.
+[[nodiscard]] inline exact::Rational read_number(std::string_view word) {
+  const bool negative = word.starts_with('-');
+  if (negative || word.starts_with('+')) word.remove_prefix(1);
+  exact::Rational value;
+  if (!word.starts_with("0x")) {
+    value = exact::Rational(std::string(word));
+    value.canonicalize();
+  } else {
+    word.remove_prefix(2);
+    const std::size_t exponent = word.find('p');
+    std::string digits(word.substr(0, exponent));
+    const std::size_t point = digits.find('.');
+    long shift = std::stol(std::string(word.substr(exponent + 1)));
+    if (point != std::string::npos) {
+      shift -= 4 * static_cast<long>(digits.size() - point - 1);
+      digits.erase(point, 1);
+    }
+    value = exact::Rational(exact::Integer(digits, 16)) * exact::power_of_two(shift);
+  }
+  return negative ? exact::Rational(-value) : value;
+}
+
+/// The claim of the last certificate in a stream that the checker accepted; empty if a coordinate is
+/// no double, for then the oracle has nothing to say. \pre it has the lines of a certificate.
+[[nodiscard]] inline std::optional<ReadClaim> read_claim(const std::string& stream) {
+  ReadClaim result;
+  std::istringstream lines(stream);
+  std::size_t coordinate = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "query") {
+      words >> word;
+      result.posed.kind = word == "vertex_face" ? Kind::vertex_face : Kind::edge_edge;
+      coordinate = 0;
+    } else if (word == "point") {
+      while (words >> word && coordinate < result.posed.query.coordinates.size()) {
+        const exact::Rational value = read_number(word);
+        const double rounded = exact::round_to_nearest(value);
+        if (std::abs(rounded) > 1.7976931348623157e308 || exact::Rational(rounded) != value) {
+          return std::nullopt;
+        }
+        result.posed.query.coordinates.at(coordinate++) = rounded;
+      }
+    } else if (word == "claim") {
+      std::string lower, upper;
+      words >> word >> lower >> upper;
+      result.claim = word == "no_collision" ? exact::Claim::no_collision
+                     : word == "collision"  ? exact::Claim::collision
+                                            : exact::Claim::time_of_impact;
+      if (!upper.empty()) result.toi = {read_number(lower), read_number(upper)};
+    }
+  }
+  return result;
+}
+
+/// Is the claim true, by the oracle?
+[[nodiscard]] inline bool is_true(const ReadClaim& claim) {
+  const exact::Verdict verdict = exact::decide(claim.posed.kind, claim.posed.query);
+  if (claim.claim == exact::Claim::no_collision) return !verdict.collides();
+  if (claim.claim == exact::Claim::collision) return verdict.collides();
+  if (!verdict.collides()) return false;
+  const exact::AlgebraicNumber& toi = verdict.impact->toi;
+  if (claim.toi.lower == claim.toi.upper) return claim.toi.upper == 0 && toi == exact::Rational(0);
+  return toi > claim.toi.lower && toi <= claim.toi.upper;
+}
+
+}  // namespace touchstone::tests

@@ -1,0 +1,45 @@
+#pragma once
+
+/// \file
+/// Certificates as text, and what the checker says of them.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "exact/checker/checker.hpp"
+
+namespace touchstone::tests {
+
+inline constexpr std::string_view certificate_header = "touchstone-certificates 1\n";
+
+[[nodiscard]] inline checker::Report check_text(const std::string& text,
+                                                const checker::Options& options = {}) {
+  std::istringstream stream(text);
+  return checker::check(stream, options);
+}
+
+/// What became of a stream of one certificate: its claim if it is accepted, else "LINE: REASON".
+[[nodiscard]] inline std::string outcome(const std::string& text) {
+  const checker::Report report = check_text(text);
+  if (report.accepted() + report.rejected != 1) return "not one certificate";
+  EXPECT_EQ(report.rejections.size(), report.rejected);
+  if (report.rejected == 1) {
+    return std::to_string(report.rejections[0].line) + ": " + report.rejections[0].reason;
+  }
+  if (report.no_collision == 1) return "no_collision";
+  return report.collision == 1 ? "collision" : "time_of_impact";
+}
+
+/// The header and a query without a label: lines 1 to 10. The claim that follows is line 11.
+[[nodiscard]] inline std::string query_text(std::string_view kind,
+                                            const std::array<std::string, 8>& points) {
+  std::string text = std::string(certificate_header) + "query " + std::string(kind) + "\n";
+  for (const std::string& point : points) text += "point " + point + "\n";
+  return text;
+}
+
+}  // namespace touchstone::tests

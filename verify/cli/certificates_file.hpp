@@ -1,0 +1,51 @@
+#pragma once
+
+/// \file
+/// The file of certificates that a command writes, compressed where its name says so.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "verify/cli/options.hpp"
+#include "verify/compressor.hpp"
+#include "verify/prove.hpp"
+
+namespace touchstone::verify::cli {
+
+/// A stream of certificates in a file, if one is named; compressed if the name ends in ".zst". A
+/// failure is reported, once, as that of ReportedOutput.
+class CertificatesFile {
+ public:
+  /// \throws as OptionalOutput does.
+  explicit CertificatesFile(const std::string& name);
+
+  /// Was a file named?
+  [[nodiscard]] explicit operator bool() const { return static_cast<bool>(output_); }
+  [[nodiscard]] bool is(const std::filesystem::path& path) const { return output_.is(path); }
+  [[nodiscard]] bool is_standard_output() const { return output_.is_standard_output(); }
+  [[nodiscard]] bool failed() const { return output_.failed(); }
+
+  /// Bytes written to the file so far.
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+  /// Appends whole certificates.
+  void write(std::string_view certificates);
+
+  /// Completes the stream and the file.
+  void close();
+
+ private:
+  void put(std::string_view bytes);
+
+  ReportedOutput output_;
+  std::optional<Compressor> compressor_;
+  std::uint64_t bytes_ = 0;
+};
+
+/// Says on standard error which queries have no certificate, and why.
+void report_beyond_limits(const ProofCounts& counts);
+
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,184 @@
+// touchstone prove: certificates for a checker that trusts nothing of the oracle.
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "exact/number.hpp"
+#include "verify/cli/certificates_file.hpp"
+#include "verify/cli/commands.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/cli/sources.hpp"
+#include "verify/prove.hpp"
+#include "verify/terminal.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Progress = std::function<void(double)>;
+
+struct Arguments {
+  SourceArguments sources;
+  std::string out_file;
+  std::string json_file;
+  std::string claim = "time_of_impact";
+  std::string width;
+};
+
+exact::ProveOptions proof_options(const Arguments& arguments) {
+  exact::ProveOptions options;
+  if (arguments.claim == "collision") options.collision_claim = exact::Claim::collision;
+  if (!arguments.width.empty()) {
+    options.width = exact::rational_from_decimal(arguments.width);
+    if (sgn(*options.width) <= 0) throw std::invalid_argument("--width must be positive");
+  }
+  return options;
+}
+
+/// One run: its sources one after the other, then its summary.
+class ProveRun {
+ public:
+  explicit ProveRun(const Arguments& arguments)
+      : arguments_(arguments),
+        options_(proof_options(arguments)),
+        out_(named_file(arguments.out_file)),
+        json_(arguments.json_file) {
+    if (json_.is(arguments.out_file)) {
+      throw std::runtime_error(arguments.json_file + ": named for two outputs");
+    }
+  }
+
+  Status run() {
+    for_each_source(
+        arguments_.sources,
+        {.title = "prove",
+         .use = [this](QuerySource& source,
+                       const Progress& progress) { prove_source(source, progress); },
+         .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
+         .stopped = [this] { return stopped(); },
+         .is_output = [this](const fs::path& path) { return out_.is(path) || json_.is(path); }});
+    out_.close();
+    if (json_) json_.write(summary().dump(2) + "\n");
+    json_.close();
+    report_beyond_limits(sum_.counts);
+    print_summary();
+    return status();
+  }
+
+ private:
+  static const std::string& named_file(const std::string& name) {
+    if (name.empty()) throw std::invalid_argument("--out has no file name");
+    return name;
+  }
+
+  void prove_source(QuerySource& source, const Progress& progress) {
+    SourceProofOptions options;
+    options.threads = arguments_.sources.threads;
+    options.proof = options_;
+    options.stop = &interrupted();
+    options.on_progress = progress;
+    options.on_certificates = [this](std::string_view certificates) {
+      out_.write(certificates);
+      // An exception ends the proving at once; the failure itself is reported already.
+      if (out_.failed()) throw std::runtime_error("certificates cannot be written");
+    };
+    const SourceProof proof = prove(source, options);
+    sum_ += proof;
+    if (proof.reading_error && !out_.failed()) fail(*proof.reading_error);
+  }
+
+  void fail(const std::string& message) {
+    report_error(message);
+    ++reading_errors_;
+  }
+
+  [[nodiscard]] bool stopped() const {
+    return interrupted() || out_.failed() ||
+           (reading_errors_ != 0 && !arguments_.sources.keep_going);
+  }
+
+  [[nodiscard]] double oracle_microseconds() const {
+    const std::uint64_t queries = sum_.counts.certificates() + sum_.counts.beyond_limits.size();
+    return queries == 0 ? 0.0 : 1e-3 * sum_.oracle_nanoseconds / static_cast<double>(queries);
+  }
+
+  [[nodiscard]] nlohmann::json summary() const {
+    nlohmann::json result = to_json(sum_.counts);
+    result.update({{"file_bytes", out_.bytes()},
+                   {"oracle_us_per_query", oracle_microseconds()},
+                   {"skipped", sum_.skipped},
+                   {"rounded", sum_.rounded},
+                   {"reading_errors", reading_errors_},
+                   {"interrupted", sum_.interrupted}});
+    return result;
+  }
+
+  void print_summary() const {
+    std::FILE* const stream =
+        out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
+    fmt::print(stream, "{}", to_text(sum_.counts));
+    fmt::print(stream, "oracle {:.2f} µs/query, file {} bytes\n", oracle_microseconds(),
+               out_.bytes());
+    if (sum_.skipped != 0) fmt::print(stream, "{} queries in error skipped\n", sum_.skipped);
+    if (sum_.rounded != 0) fmt::print(stream, "{} coordinates rounded to double\n", sum_.rounded);
+  }
+
+  [[nodiscard]] Status status() const {
+    if (out_.failed() || json_.failed() || reading_errors_ + sum_.skipped != 0 ||
+        !sum_.counts.beyond_limits.empty()) {
+      return Status::bad_input;
+    }
+    return interrupted() ? Status::interrupted : Status::all_well;
+  }
+
+  const Arguments& arguments_;
+  exact::ProveOptions options_;
+  CertificatesFile out_;
+  ReportedOutput json_;
+  SourceProof sum_;
+  std::uint64_t reading_errors_ = 0;
+};
+
+}  // namespace
+
+void add_prove_command(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "prove",
+      "Decide every query exactly and write a proof of each verdict, for touchstone-check");
+  add_source_options(*command, arguments->sources);
+  command
+      ->add_option("--out", arguments->out_file,
+                   "Write the certificates; compressed if the name ends in .zst")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--claim", arguments->claim,
+                   "What to prove of a collision: its time of impact, or only that it is one")
+      ->check(CLI::IsMember({"time_of_impact", "collision"}))
+      ->capture_default_str();
+  command
+      ->add_option("--width", arguments->width,
+                   "Width of the interval that a time of impact is proved to lie in (a decimal\n"
+                   "number); without it the interval is that of two neighbouring doubles")
+      ->type_name("W");
+  command->add_option("--json", arguments->json_file, "Write the summary as JSON")
+      ->type_name("FILE");
+  command->footer(
+      "Exit status: 0 all is proved and written, 2 bad input or usage (or a proof beyond the "
+      "limits\n"
+      "of the format), 130 interrupted (what is done by then is written, whole certificates).\n"
+      "Example: touchstone prove data/handcrafted --out handcrafted.cert.zst &&\n"
+      "         zstdcat handcrafted.cert.zst | touchstone-check -");
+  command->callback([arguments, &status] { status = ProveRun(*arguments).run(); });
+}
+
+}  // namespace touchstone::verify::cli
