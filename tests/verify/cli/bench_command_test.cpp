@@ -1,14 +1,14 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "tests/support/folder_test.hpp"
 
 // `touchstone bench` as users meet it: by running the tool.
 
@@ -16,28 +16,10 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::read_file;
 
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class Bench : public ::testing::Test {
- public:
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
-  Bench(Bench&&) = delete;
-  Bench& operator=(Bench&&) = delete;
-
+class Bench : public tests::FolderTest {
  protected:
-  Bench() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) /
-              (std::string("touchstone_bench_") + test->name() + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~Bench() override { fs::remove_all(folder_); }
-
   /// Runs the tool, after shell words such as a limit of time; its exit status.
   [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
     const std::string command = before + " '" TOUCHSTONE_TOOL "' bench " + arguments + " >'" +
@@ -46,10 +28,6 @@ class Bench : public ::testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-  [[nodiscard]] std::string read(const std::string& name) const { return read_file(path(name)); }
   [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
 
   /// Writes a file and returns its path in quotes.
@@ -59,9 +37,6 @@ class Bench : public ::testing::Test {
     return quoted(name);
   }
   [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
-
- private:
-  fs::path folder_;
 };
 
 /// A vertex over a resting triangle that falls to a height, as rows without labels.

@@ -10,12 +10,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "exact/oracle.hpp"
+#include "tests/support/folder_test.hpp"
 #include "verify/dataset/npy.hpp"
 
 // `touchstone candidates` as users meet it: by running the tool.
@@ -24,13 +24,9 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::read_file;
 
 using Pairs = std::vector<std::array<std::int32_t, 2>>;
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -42,26 +38,8 @@ struct Outcome {
   std::string err;
 };
 
-class CandidatesCommand : public ::testing::Test {
- public:
-  CandidatesCommand(const CandidatesCommand&) = delete;
-  CandidatesCommand& operator=(const CandidatesCommand&) = delete;
-  CandidatesCommand(CandidatesCommand&&) = delete;
-  CandidatesCommand& operator=(CandidatesCommand&&) = delete;
-
+class CandidatesCommand : public tests::FolderTest {
  protected:
-  CandidatesCommand() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) / (std::string("touchstone_candidates_") +
-                                                test->name() + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~CandidatesCommand() override { fs::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-
   [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
@@ -106,13 +84,10 @@ class CandidatesCommand : public ::testing::Test {
   /// Files in the folder whose names begin so.
   [[nodiscard]] std::size_t files(const std::string& beginning) const {
     return static_cast<std::size_t>(
-        std::ranges::count_if(fs::directory_iterator(folder_), [&](const auto& entry) {
+        std::ranges::count_if(fs::directory_iterator(folder()), [&](const auto& entry) {
           return entry.path().filename().string().starts_with(beginning);
         }));
   }
-
- private:
-  fs::path folder_;
 };
 
 /// A resting triangle in the plane z=0, and another that falls through it from height 1 to `z`.

@@ -9,12 +9,12 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "tests/support/folder_test.hpp"
 #include "tests/verify/methods/plugins/misbehaviour.hpp"
 
 // The commands (verify/cli/commands.hpp) are tested as users meet them: by running the tool.
@@ -23,11 +23,7 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using tests::read_file;
 
 struct Outcome {
   int status;
@@ -35,22 +31,8 @@ struct Outcome {
   std::string err;
 };
 
-class Tool : public ::testing::Test {
- public:
-  Tool(const Tool&) = delete;
-  Tool& operator=(const Tool&) = delete;
-  Tool(Tool&&) = delete;
-  Tool& operator=(Tool&&) = delete;
-
+class Tool : public tests::FolderTest {
  protected:
-  Tool() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) /
-              (std::string("touchstone_cli_") + test->name() + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~Tool() override { fs::remove_all(folder_); }
-
   /// Starts the tool with its output in files of the test's folder.
   [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
     std::vector<std::string> words{TOUCHSTONE_TOOL};
@@ -84,10 +66,6 @@ class Tool : public ::testing::Test {
     return finish(start(arguments));
   }
 
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-
   [[nodiscard]] nlohmann::json json(const std::string& name) const {
     return nlohmann::json::parse(read_file(path(name)));
   }
@@ -96,7 +74,7 @@ class Tool : public ::testing::Test {
   void wait_for_growth(const std::string& name) const {
     const auto size = [&] {
       std::uintmax_t bytes = 0;
-      for (const auto& entry : fs::directory_iterator(folder_)) {
+      for (const auto& entry : fs::directory_iterator(folder())) {
         if (entry.path().filename().string().starts_with(name)) bytes = entry.file_size();
       }
       return bytes;
@@ -124,9 +102,6 @@ class Tool : public ::testing::Test {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
   }
-
- private:
-  fs::path folder_;
 };
 
 bool contains(const std::string& text, const std::string& part) {

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "tests/support/folder_test.hpp"
 
 // `touchstone derive` as users meet it: by running the tool.
 
@@ -15,28 +15,10 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::read_file;
 
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-class Derive : public ::testing::Test {
- public:
-  Derive(const Derive&) = delete;
-  Derive& operator=(const Derive&) = delete;
-  Derive(Derive&&) = delete;
-  Derive& operator=(Derive&&) = delete;
-
+class Derive : public tests::FolderTest {
  protected:
-  Derive() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) /
-              (std::string("touchstone_derive_") + test->name() + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~Derive() override { fs::remove_all(folder_); }
-
   /// Runs the tool, after shell words such as variables; its exit status.
   [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
     const std::string command = before + " '" TOUCHSTONE_TOOL "' derive " + arguments + " >'" +
@@ -45,14 +27,7 @@ class Derive : public ::testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-  [[nodiscard]] std::string read(const std::string& name) const { return read_file(path(name)); }
   [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
-
- private:
-  fs::path folder_;
 };
 
 TEST_F(Derive, EmitsTheHeaderThatIsInTheTree) {

@@ -9,13 +9,13 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "tests/support/certificates.hpp"
+#include "tests/support/folder_test.hpp"
 
 // The command touchstone prove (verify/cli/prove_command.cpp), and certify --prove, as users run
 // them.
@@ -24,11 +24,7 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using tests::read_file;
 
 std::string decompress(const std::string& bytes) {
   static constexpr std::size_t most = 100000000;
@@ -44,26 +40,8 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-class ProveCommand : public ::testing::Test {
- public:
-  ProveCommand(const ProveCommand&) = delete;
-  ProveCommand& operator=(const ProveCommand&) = delete;
-  ProveCommand(ProveCommand&&) = delete;
-  ProveCommand& operator=(ProveCommand&&) = delete;
-
+class ProveCommand : public tests::FolderTest {
  protected:
-  ProveCommand() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) /
-              (std::string("touchstone_prove_") + test->name() + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~ProveCommand() override { fs::remove_all(folder_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
@@ -92,16 +70,13 @@ class ProveCommand : public ::testing::Test {
 
   /// Is there a file whose name begins so?
   [[nodiscard]] bool contains_file(const std::string& name) const {
-    return std::ranges::any_of(fs::directory_iterator(folder_), [&](const auto& entry) {
+    return std::ranges::any_of(fs::directory_iterator(folder()), [&](const auto& entry) {
       return entry.path().filename().string().starts_with(name);
     });
   }
 
   [[nodiscard]] std::string out() const { return read_file(path("stdout")); }
   [[nodiscard]] std::string err() const { return read_file(path("stderr")); }
-
- private:
-  fs::path folder_;
 };
 
 /// A vertex that falls from height 1 to `end` on a resting triangle, and meets it in the middle of
