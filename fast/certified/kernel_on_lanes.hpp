@@ -169,9 +169,17 @@ class CertifiedStages {
     marks.for_each([&](std::size_t place) { append(list, from.items[place]); });
   }
 
+  /// How many of `count` items the lanes take from `first` on.
+  static std::size_t taken(std::size_t first, std::size_t count) {
+    return count - first < width ? count - first : width;
+  }
+
+  /// The first `count` lanes.
+  static unsigned first_lanes(std::size_t count) { return (1U << count) - 1U; }
+
   /// What of the first `count` lanes is in the mask.
   static unsigned valid_bits(const Mask& mask, std::size_t count) {
-    return mask.bits() & ((1U << count) - 1U);
+    return mask.bits() & first_lanes(count);
   }
 
   // ---- Where queries come from ------------------------------------------------------------------
@@ -492,7 +500,7 @@ class CertifiedStages {
                                    KernelOutput& output) {
     Marks unbounded, of_direction, of_determinant, of_neither;
     for (std::size_t first = 0; first < open.count; first += width) {
-      const std::size_t count = open.count - first < width ? open.count - first : width;
+      const std::size_t count = taken(first, open.count);
       const auto points = load<Source>(input, open.items.data() + first, count);
       const Differences<kind> differences(points);
       const Value magnitude = differences.magnitude();
@@ -504,7 +512,7 @@ class CertifiedStages {
           test_determinant(determinant_coefficients(at, Normals(at)), determinant_bound(at))
               .one_sided;
       const unsigned bits = valid_bits(bounded, count);
-      unbounded.add(first, valid_bits(Mask::all(), count) & ~bits);
+      unbounded.add(first, first_lanes(count) & ~bits);
       of_direction.add(first, bits & separated.bits());
       of_determinant.add(first, bits & ~separated.bits() & one_sided.bits());
       of_neither.add(first, bits & ~separated.bits() & ~one_sided.bits());
@@ -631,7 +639,7 @@ class CertifiedStages {
     Marks of_contacts, of_rejected, of_zeros, of_rest;
     Intervals intervals;
     for (std::size_t first = 0; first < mixed.count; first += width) {
-      const std::size_t count = mixed.count - first < width ? mixed.count - first : width;
+      const std::size_t count = taken(first, mixed.count);
       const Ends unit = vectors_of<kind>(load<Source>(input, mixed.items.data() + first, count));
       const Examination found = examine<kind>(unit, bounds_of<kind>(unit));
       intervals.store(first, Value(0.0), Value(1.0), found.coefficients);
@@ -642,7 +650,7 @@ class CertifiedStages {
       of_contacts.add(first, contact);
       of_rejected.add(first, rejected);
       of_zeros.add(first, zero);
-      of_rest.add(first, valid_bits(Mask::all(), count) & ~contact & ~rejected & ~zero);
+      of_rest.add(first, first_lanes(count) & ~contact & ~rejected & ~zero);
     }
     const auto crossing = [&](std::size_t place) {
       return intervals.crossing(place, mixed.items[place]);
@@ -673,7 +681,7 @@ class CertifiedStages {
     all.count = zeros.count;
     for (std::size_t i = 0; i < zeros.count; ++i) all.items[i] = zeros.items[i].index;
     for (std::size_t first = 0; first < zeros.count; first += width) {
-      const std::size_t count = zeros.count - first < width ? zeros.count - first : width;
+      const std::size_t count = taken(first, zeros.count);
       const Value zero =
           CrossingLanes(zeros.items.data() + first, count).cubic.zero(half_around_zero);
       const Value begin = to_short(max(zero - Value(half_around_zero), Value(0.0)));
@@ -687,7 +695,7 @@ class CertifiedStages {
       const unsigned contact = here & ~rejected & found.orientation.agree.bits();
       of_contacts.add(first, contact);
       of_rejected.add(first, rejected);
-      of_rest.add(first, valid_bits(Mask::all(), count) & ~contact & ~rejected);
+      of_rest.add(first, first_lanes(count) & ~contact & ~rejected);
     }
     of_contacts.for_each(
         [&](std::size_t place) { append(contacts, intervals.crossing(place, all.items[place])); });
@@ -752,7 +760,7 @@ class CertifiedStages {
   static void load_moving(const KernelInput& input, const Indices& indices, Moving<kind>& moving) {
     moving.indices = &indices;
     for (std::size_t first = 0; first < indices.count; first += width) {
-      const std::size_t count = indices.count - first < width ? indices.count - first : width;
+      const std::size_t count = taken(first, indices.count);
       const Ends unit = vectors_of<kind>(load<Source>(input, indices.items.data() + first, count));
       moving.groups[first / width].store(unit, bounds_of<kind>(unit));
     }
@@ -937,9 +945,8 @@ class CertifiedStages {
   template <Kind kind, class Source>
   static void refine(const KernelInput& input, const Crossings& crossings, KernelOutput& output) {
     for (std::size_t first = 0; first < crossings.count; first += width) {
-      const std::size_t rest = crossings.count - first;
-      refine_lanes<kind, Source>(input, crossings.items.data() + first, rest < width ? rest : width,
-                                 output);
+      refine_lanes<kind, Source>(input, crossings.items.data() + first,
+                                 taken(first, crossings.count), output);
     }
   }
 
@@ -977,7 +984,7 @@ class CertifiedStages {
     const Value half_width(0.4 * input.toi_tolerance);
     const Value newton = lanes.begin + lanes.length * lanes.cubic.zero(0x1p-26);
     Enclosure found(determinant, lanes, newton, half_width);
-    if (valid_bits(found.proved, count) != valid_bits(Mask::all(), count)) {
+    if (valid_bits(found.proved, count) != first_lanes(count)) {
       found = found.or_else(Enclosure(determinant, lanes, found.corrected(), half_width));
     }
     store_hits<kind>(output, lanes, count, found.proved.bits(), {found.lower, found.upper},
