@@ -1,7 +1,6 @@
 #include "verify/certify.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <span>
 #include <utility>
 
@@ -261,13 +260,9 @@ CertifyResult certify(QuerySource& source, const CertifyOptions& options) {
     result.methods.push_back(
         {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
   }
-  const auto work = [&](const Block& block) -> BlockResult {
-    const auto judged = std::make_shared<const BlockJudgement>(block, options);
-    return {.in_order = [judged, &result] { judged->add_to(result); },
-            .complete = judged->complete()};
-  };
   const StreamResult ended = stream(
-      source, work,
+      source, [&](const Block& block) { return BlockJudgement(block, options); },
+      [&](const BlockJudgement& judgement) { judgement.add_to(result); },
       {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
   result.skipped = ended.skipped;
   result.rounded = ended.rounded;

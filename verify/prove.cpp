@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <utility>
 
 #include "exact/certificate_text.hpp"
@@ -167,13 +166,9 @@ SourceProof& SourceProof::operator+=(const SourceProof& other) {
 
 SourceProof prove(QuerySource& source, const SourceProofOptions& options) {
   SourceProof result;
-  const auto work = [&](const Block& block) -> BlockResult {
-    const auto proved = std::make_shared<const BlockProofs>(block, options);
-    return {.in_order = [proved, &result] { proved->add_to(result); },
-            .complete = proved->complete()};
-  };
   const StreamResult ended = stream(
-      source, work,
+      source, [&](const Block& block) { return BlockProofs(block, options); },
+      [&](const BlockProofs& proofs) { proofs.add_to(result); },
       {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
   result.skipped = ended.skipped;
   result.rounded = ended.rounded;

@@ -1,6 +1,5 @@
 #include "verify/solve.hpp"
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -78,13 +77,9 @@ SolveResult& SolveResult::operator+=(const SolveResult& other) {
 
 SolveResult solve(QuerySource& source, const Respondent& respondent, const SolveOptions& options) {
   SolveResult result;
-  const auto work = [&](const Block& block) -> BlockResult {
-    const auto solved = std::make_shared<const BlockAnswers>(block, respondent, options.stop);
-    return {.in_order = [solved, &result, &options] { solved->add_to(result, options); },
-            .complete = solved->complete()};
-  };
   const StreamResult ended = stream(
-      source, work,
+      source, [&](const Block& block) { return BlockAnswers(block, respondent, options.stop); },
+      [&](const BlockAnswers& answers) { answers.add_to(result, options); },
       {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
   result.skipped = ended.skipped;
   result.rounded = ended.rounded;

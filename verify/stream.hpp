@@ -11,8 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "exact/number.hpp"
@@ -97,5 +99,17 @@ struct StreamResult {
 /// Sends all queries of the source through the work. Errors of the source, and exceptions of the
 /// work, end the stream and are in the result; what was done in order until then stands.
 StreamResult stream(QuerySource& source, const BlockWork& work, const StreamOptions& options);
+
+/// The same with work in two steps: what make(block) returns says by its complete() whether the
+/// stream goes on, and add takes it in the order of the queries.
+template <class Make, class Add>
+StreamResult stream(QuerySource& source, const Make& make, const Add& add,
+                    const StreamOptions& options) {
+  const auto work = [&](const Block& block) -> BlockResult {
+    const auto made = std::make_shared<const std::invoke_result_t<Make, const Block&>>(make(block));
+    return {.in_order = [made, &add] { add(*made); }, .complete = made->complete()};
+  };
+  return stream(source, BlockWork(work), options);
+}
 
 }  // namespace touchstone::verify
