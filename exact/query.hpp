@@ -24,6 +24,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -113,6 +114,37 @@ template <class Scalar>
                       : Scalar(((one - u) * a + u * b) - ((one - v) * c + v * d));
   }
   return value;
+}
+
+/// How the distance of two points is measured: the greatest of its components, or Euclid's.
+enum class Norm : std::uint8_t { linf, l2 };
+
+/// How near counts as contact. A query *collides at distance d* iff ‖F(t,u,v)‖ ≤ d for some t ∈ [0,1]
+/// and (u,v) in the closed domain; its time of impact is the smallest such t. With d = 0 this is the
+/// collision above, in either norm. (Wang et al. 2021, section 5: "minimum separation", in L∞.)
+struct Separation {
+  double distance = 0.0;  ///< d, finite and not negative, in units of the coordinates
+  Norm norm = Norm::linf;
+
+  friend bool operator==(const Separation&, const Separation&) = default;
+};
+
+/// Is the distance finite and not negative?
+[[nodiscard]] inline bool is_valid(const Separation& separation) {
+  return separation.distance >= 0.0 && separation.distance <= std::numeric_limits<double>::max();
+}
+
+/// "linf" or "l2".
+[[nodiscard]] inline std::string_view to_string(Norm norm) {
+  return norm == Norm::linf ? "linf" : "l2";
+}
+
+/// The inverse of to_string.
+/// \throws std::invalid_argument for any other text.
+[[nodiscard]] inline Norm norm_from_string(std::string_view text) {
+  if (text == to_string(Norm::linf)) return Norm::linf;
+  if (text == to_string(Norm::l2)) return Norm::l2;
+  throw std::invalid_argument("norm must be linf or l2");
 }
 
 /// "vertex-face" or "edge-edge", as datasets and the command line spell them.

@@ -248,5 +248,25 @@ TEST(Kind, AnyOtherTextIsAnError) {
   EXPECT_THROW(static_cast<void>(kind_from_string("edge-edge\0"sv)), std::invalid_argument);
 }
 
+TEST(Norm, TextsAndNormsAreEachOthersInverse) {
+  EXPECT_EQ(to_string(Norm::linf), "linf");
+  EXPECT_EQ(to_string(Norm::l2), "l2");
+  for (const Norm norm : {Norm::linf, Norm::l2}) EXPECT_EQ(norm_from_string(to_string(norm)), norm);
+  for (const std::string_view text : {"", "l", "L2", "linf ", "l1", "inf"}) {
+    EXPECT_THROW(static_cast<void>(norm_from_string(text)), std::invalid_argument) << text;
+  }
+}
+
+TEST(Separation, DistancesAreFiniteAndNotNegative) {
+  using Limits = std::numeric_limits<double>;
+  for (const double d : {0.0, -0.0, Limits::denorm_min(), 1e-100, 1.0, Limits::max()}) {
+    EXPECT_TRUE(is_valid(Separation{.distance = d, .norm = Norm::l2})) << d;
+  }
+  for (const double d : {-Limits::denorm_min(), -1.0, Limits::infinity(), -Limits::infinity(),
+                         Limits::quiet_NaN()}) {
+    EXPECT_FALSE(is_valid(Separation{.distance = d})) << d;
+  }
+}
+
 }  // namespace
 }  // namespace touchstone
