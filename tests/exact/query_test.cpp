@@ -4,6 +4,7 @@
 
 #include <array>
 #include <initializer_list>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <stdexcept>
