@@ -30,6 +30,9 @@ void check(const CertifiedOptions& options) {
   if (!(options.t_max >= 0.0 && options.t_max <= 1.0)) {
     throw std::invalid_argument("certified: t_max must be in [0,1]");
   }
+  if (!is_valid(options.separation)) {
+    throw std::invalid_argument("certified: the separation must be finite and not negative");
+  }
   if (options.max_threads < 0) {
     throw std::invalid_argument("certified: max_threads must not be negative");
   }
@@ -87,7 +90,7 @@ CertifiedResult decide_last(const Batch& batch, std::size_t i, const CertifiedOp
   CertifiedResult result{.verdict = Verdict::error, .stage = Stage::exact};
   if (!is_finite(query)) return result;
   const std::optional<ExactImpact> impact =
-      decide_exactly(batch.kind, query, options.toi_tolerance, options.t_max);
+      decide_exactly(batch.kind, query, options.separation, options.toi_tolerance, options.t_max);
   if (!impact) {
     result.verdict = Verdict::no;
     return result;
@@ -125,6 +128,7 @@ const KernelOutput& decide_block(const Batch& batch, std::size_t first, double t
   KernelInput input = batch.block(first);
   input.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
   input.t_limit = t_limit;
+  input.separation = options.separation;
   const CertifiedKernel& kernel =
       options.kernel != nullptr ? *options.kernel : best_certified_kernel();
   kernel.decide(input, output);
@@ -318,11 +322,12 @@ class CertifiedMethod : public Method {
     CertifiedOptions of_call = base_;
     of_call.t_max = options.t_max;
     of_call.max_threads = 1;
-    check(of_call);
-    if (options.min_separation != 0.0) {
+    of_call.separation = {.distance = options.min_separation, .norm = options.norm};
+    if (!is_valid(of_call.separation)) {
       std::ranges::fill(answers, Answer{.verdict = Verdict::error});
       return;
     }
+    check(of_call);
     const Batch batch = batch_of(kind, queries);
     for_each_block(batch.size, of_call.max_threads, [&](std::size_t first) {
       const std::size_t count = std::min(kernel_block, batch.size - first);

@@ -51,6 +51,8 @@ struct CertifiedOptions {
   double toi_tolerance = 1e-12;
   /// Only contacts up to this time count, in [0,1].
   double t_max = 1.0;
+  /// What counts as contact: to be this near.
+  Separation separation = {};
   /// Of a batch; 0: as many as oneTBB would use.
   int max_threads = 0;
   /// For tests: instead of the best kernel for this processor.

@@ -100,4 +100,40 @@ inline constexpr ErrorBound<double, 3> determinant_end_double_double{
     .greatest_x = 0x1p+328,
 };
 
+/// measured_advanced_gap in double: 56 u x^2 and underflow.
+inline constexpr ErrorBound<double, 2> measured_advanced_gap_double{
+    .coefficients = {{0x0.0000000000007p-1022, 0x0.000000000000ap-1022, 0x1.c00000000000ep-48}},
+    .greatest_x = 0x1p+510,
+};
+
+/// advanced_gap in double_double: 42 u x^2 and underflow.
+inline constexpr ErrorBound<double, 2> advanced_gap_double_double{
+    .coefficients = {{0x0.000000000004bp-1022, 0x0.0000000000002p-1022, 0x1.5000000000008p-98}},
+    .greatest_x = 0x1p+493,
+};
+
+/// component_sum in double: 5 u x and underflow.
+inline constexpr ErrorBound<double, 1> component_sum_double{
+    .coefficients = {{0x0.0000000000001p-1022, 0x1.4000000000005p-51}},
+    .greatest_x = 0x1p+1021,
+};
+
+/// squared_length in double: 8 u x^2 and underflow.
+inline constexpr ErrorBound<double, 2> squared_length_double{
+    .coefficients = {{0x0.0000000000004p-1022, 0x0.0000000000002p-1022, 0x1.0000000000007p-50}},
+    .greatest_x = 0x1p+510,
+};
+
+/// length_defect in double_double: 13 u x^2 and underflow.
+inline constexpr ErrorBound<double, 2> length_defect_double_double{
+    .coefficients = {{0x0.0000000000023p-1022, 0x0.0000000000002p-1022, 0x1.a00000000000ap-100}},
+    .greatest_x = 0x1p+493,
+};
+
+/// contact_component in double_double: 17 u x and underflow.
+inline constexpr ErrorBound<double, 1> contact_component_double_double{
+    .coefficients = {{0x0.0000000000042p-1022, 0x1.1000000000004p-99}},
+    .greatest_x = 0x1p+986,
+};
+
 }  // namespace touchstone::filters

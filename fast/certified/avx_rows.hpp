@@ -27,10 +27,13 @@ template <class Local>
 struct AvxRow {
   __m256d all;
 
-  static AvxRow load(const double* from) { return {_mm256_loadu_pd(from)}; }
+  AvxRow() = default;
+  explicit AvxRow(double value) : all(_mm256_set1_pd(value)) {}
+  explicit AvxRow(__m256d value) : all(value) {}
+  static AvxRow load(const double* from) { return AvxRow(_mm256_loadu_pd(from)); }
   /// Reads what is before instead of what is behind.
   static AvxRow load_backwards(const double* from) {
-    return {_mm256_permute4x64_pd(_mm256_loadu_pd(from - 1), 0b00'11'10'01)};
+    return AvxRow(_mm256_permute4x64_pd(_mm256_loadu_pd(from - 1), 0b00'11'10'01));
   }
   [[nodiscard]] bool is_finite() const {
     const __m256d difference = _mm256_sub_pd(all, all);
@@ -39,10 +42,17 @@ struct AvxRow {
   }
 
   friend AvxRow operator+(const AvxRow& a, const AvxRow& b) {
-    return {_mm256_add_pd(a.all, b.all)};
+    return AvxRow(_mm256_add_pd(a.all, b.all));
   }
-  friend AvxRow min(const AvxRow& a, const AvxRow& b) { return {_mm256_min_pd(a.all, b.all)}; }
-  friend AvxRow max(const AvxRow& a, const AvxRow& b) { return {_mm256_max_pd(a.all, b.all)}; }
+  friend AvxRow operator-(const AvxRow& a, const AvxRow& b) {
+    return AvxRow(_mm256_sub_pd(a.all, b.all));
+  }
+  friend AvxRow min(const AvxRow& a, const AvxRow& b) {
+    return AvxRow(_mm256_min_pd(a.all, b.all));
+  }
+  friend AvxRow max(const AvxRow& a, const AvxRow& b) {
+    return AvxRow(_mm256_max_pd(a.all, b.all));
+  }
   friend AvxRowMask<Local> operator<(const AvxRow& a, const AvxRow& b) {
     return {_mm256_cmp_pd(a.all, b.all, _CMP_LT_OQ)};
   }

@@ -29,6 +29,8 @@ struct KernelInput {
   const Edge* edges = nullptr;
   const Face* faces = nullptr;
   const IndexPair* pairs = nullptr;
+  /// Contact is to be this near.
+  Separation separation = {};
   /// As CertifiedOptions::toi_tolerance, at least least_kernel_tolerance.
   double toi_tolerance = 1e-12;
   /// Contacts after this time do not matter: found or not.

@@ -51,6 +51,7 @@ struct Value {
   friend Value min(const Value& a, const Value& b) { return Value(_mm256_min_pd(a.x, b.x)); }
   friend Value max(const Value& a, const Value& b) { return Value(_mm256_max_pd(a.x, b.x)); }
   friend Value abs(const Value& a) { return Value(_mm256_andnot_pd(_mm256_set1_pd(-0.0), a.x)); }
+  friend Value sqrt(const Value& a) { return Value(_mm256_sqrt_pd(a.x)); }
   friend Value select(const Mask& mask, const Value& a, const Value& b) {
     return Value(_mm256_blendv_pd(b.x, a.x, mask.set));
   }

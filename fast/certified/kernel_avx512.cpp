@@ -51,6 +51,7 @@ struct Value {
   friend Value min(const Value& a, const Value& b) { return Value(_mm512_min_pd(a.x, b.x)); }
   friend Value max(const Value& a, const Value& b) { return Value(_mm512_max_pd(a.x, b.x)); }
   friend Value abs(const Value& a) { return Value(_mm512_abs_pd(a.x)); }
+  friend Value sqrt(const Value& a) { return Value(_mm512_sqrt_pd(a.x)); }
   friend Value select(const Mask& mask, const Value& a, const Value& b) {
     return Value(_mm512_mask_blend_pd(mask.set, b.x, a.x));
   }

@@ -31,6 +31,16 @@
 ///    right if det, in double-double, has at its ends the signs that it has at a and b, beyond the
 ///    bound of its value. If not, these two values tell where it is better.
 ///
+/// **With a minimum separation** D, contact is a point of the polygon within D of the origin, and "no
+/// contact" has to be proved of the polygon shifted by any x with ‖x‖ ≤ D: r becomes r − x, and so does
+/// what is in its place in an orientation. That changes det by at most D ‖N‖₁ ≤ 6 D |p| |q| (components'
+/// greatest magnitudes), x·(d × y) by at most 6 D |d| |y|. The bounds are so much wider, and 3. to 5. hold
+/// as they are: a contact at a zero of det is one at distance 0, and as det keeps the bound's distance
+/// from 0 before the enclosure, there is none before. (det, det + b and det − b, b the bound, cross zero
+/// once each on an interval on which det's coefficients are seen to.) But the zero of det is later than
+/// the time of impact. Where D is beyond rounding, the enclosure would be too wide, and another stage
+/// follows 3: fast/certified/advance_on_lanes.hpp.
+///
 /// Queries that no stage ends, or whose coordinates are so large, or not numbers, that the bounds do
 /// not hold, are undecided here.
 ///
@@ -41,6 +51,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fast/certified/advance_on_lanes.hpp"
 #include "fast/certified/kernel.hpp"
 #include "filters/double_double.hpp"
 #include "filters/error_bounds.hpp"
@@ -55,10 +66,14 @@ inline constexpr double greatest_distance = 0x1p100;
 /// with room for rounding.
 inline constexpr double greatest_difference = 0x1p102;
 inline constexpr double greatest_direction = 0x1p210;
+/// Where the distance times this exceeds the sizes of a query, it is beyond rounding.
+inline constexpr double far_beyond_rounding = 0x1p50;
 
 // What underflow adds to an error, at most: so small that no scene needs it smaller.
 inline constexpr double gap_underflow =
     filters::measured_projected_gap_double.underflow(greatest_direction);
+inline constexpr double advanced_gap_underflow =
+    filters::measured_advanced_gap_double.underflow(greatest_direction);
 inline constexpr double determinant_underflow =
     filters::measured_determinant_middle_double.underflow(greatest_difference);
 inline constexpr double orientation_underflow =
@@ -66,6 +81,7 @@ inline constexpr double orientation_underflow =
 inline constexpr double double_double_underflow =
     filters::determinant_end_double_double.underflow(greatest_difference);
 static_assert(greatest_direction <= filters::measured_projected_gap_double.greatest_x);
+static_assert(greatest_direction <= filters::measured_advanced_gap_double.greatest_x);
 static_assert(greatest_difference <= filters::determinant_end_double_double.greatest_x);
 static_assert(greatest_direction <= filters::measured_orientation_middle_double.greatest_x);
 // One bound serves all Bernstein coefficients of a polynomial: that of the middle ones is greater.
@@ -74,7 +90,7 @@ static_assert(filters::measured_determinant_end_double.rounding() <=
 static_assert(filters::measured_orientation_end_double.rounding() <=
               filters::measured_orientation_middle_double.rounding());
 
-template <class Lanes>
+template <class Lanes, bool separated>
 class CertifiedStages {
  public:
   static void decide(const KernelInput& input, KernelOutput& output) {
@@ -121,9 +137,9 @@ class CertifiedStages {
   static void run_stages(const KernelInput& input, KernelOutput& output) {
     output.separated_in_direction.count = output.one_sided.count = 0;
     output.rejected.count = output.hits.count = output.undecided.count = 0;
-    Indices open, mixed, undecided;
+    Indices open, mixed, far, undecided;
     axis_stage<kind, Source>(input, open);
-    unit_interval_stages<kind, Source>(input, open, mixed, output);
+    unit_interval_stages<kind, Source>(input, open, mixed, far, output);
     Crossings contacts, zeros;
     orientation_stage<kind, Source>(input, mixed, contacts, zeros, undecided, output);
     zero_stage<kind, Source>(input, zeros, contacts, undecided, output);
@@ -131,6 +147,7 @@ class CertifiedStages {
     load_moving<kind, Source>(input, undecided, moving);
     Bisection<kind>(input, moving, contacts, output).run();
     refine<kind, Source>(input, contacts, output);
+    if constexpr (separated) advance_stage<kind, Source>(input, far, output);
   }
 
   // ---- Lists of queries -------------------------------------------------------------------------
@@ -247,10 +264,11 @@ class CertifiedStages {
   static void mark_open(const KernelInput& input, std::size_t first, std::size_t count,
                         Marks& marks) {
     std::array<std::uint64_t, word_count> words{};
+    const Row distance(input.separation.distance);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t k = 0; k < word_count; ++k) {
         const Points points = Source::points(input, first + k * Marks::word_size + i);
-        words[k] |= std::uint64_t{!separated_on_axis<kind, Source>(points)} << i;
+        words[k] |= std::uint64_t{!separated_on_axis<kind, Source>(points, distance)} << i;
       }
     }
     for (std::size_t k = 0; k < word_count; ++k) {
@@ -259,12 +277,12 @@ class CertifiedStages {
   }
 
   template <Kind kind, class Source>
-  static bool separated_on_axis(const Points& points) {
+  static bool separated_on_axis(const Points& points, const Row& distance) {
     std::array<Row, query_points> rows;
     for (std::size_t k = 0; k + 1 < query_points; ++k) rows[k] = Row::load(points[k]);
     rows[7] = Source::may_read_behind ? Row::load(points[7]) : Row::load_backwards(points[7]);
-    const Sides start = sides<kind>(rows[0], rows[1], rows[2], rows[3]);
-    const Sides end = sides<kind>(rows[4], rows[5], rows[6], rows[7]);
+    const Sides start = sides<kind>(rows[0], rows[1], rows[2], rows[3], distance);
+    const Sides end = sides<kind>(rows[4], rows[5], rows[6], rows[7], distance);
     const Row sum =
         ((rows[0] + rows[1]) + (rows[2] + rows[3])) + ((rows[4] + rows[5]) + (rows[6] + rows[7]));
     // Not &&: which queries end here nobody can predict, a processor neither.
@@ -278,12 +296,23 @@ class CertifiedStages {
     RowMask below;
   };
 
+  /// By more than the distance: a rounded difference that is greater is truly so, as rounding is
+  /// monotone and leaves the distance as it is.
   template <Kind kind>
-  static Sides sides(const Row& a, const Row& b, const Row& c, const Row& d) {
+  static Sides sides(const Row& a, const Row& b, const Row& c, const Row& d, const Row& distance) {
     if constexpr (kind == Kind::vertex_face) {
-      return {a > max(max(b, c), d), a < min(min(b, c), d)};
+      return sides(a, a, max(max(b, c), d), min(min(b, c), d), distance);
     } else {
-      return {min(a, b) > max(c, d), max(a, b) < min(c, d)};
+      return sides(min(a, b), max(a, b), max(c, d), min(c, d), distance);
+    }
+  }
+
+  static Sides sides(const Row& least_a, const Row& greatest_a, const Row& greatest_b,
+                     const Row& least_b, const Row& distance) {
+    if constexpr (separated) {
+      return {least_a - greatest_b > distance, least_b - greatest_a > distance};
+    } else {
+      return {least_a > greatest_b, greatest_a < least_b};
     }
   }
 
@@ -378,11 +407,25 @@ class CertifiedStages {
     }
   };
 
-  static Mask separates(const Vector& d, const Value& gap, const Value& magnitude) {
+  static Mask separates(const Vector& d, const Value& gap, const Value& magnitude,
+                        const Value& distance) {
+    if constexpr (separated) return separates_by(d, gap, magnitude, distance);
     const Value bound =
         greatest(d) * magnitude * Value(filters::measured_projected_gap_double.rounding()) +
         Value(gap_underflow);
     return gap > bound;
+  }
+
+  /// By more than the distance: d·w − D n as filters::AdvancedGap at t=0 and t=1, with an n that is not
+  /// below the norm of d, which is not above the sum of its components in any norm.
+  static Mask separates_by(const Vector& d, const Value& gap, const Value& magnitude,
+                           const Value& distance) {
+    constexpr double above_rounding = 1.0 + 0x1p-50;
+    const Value n = (abs(d[0]) + abs(d[1]) + abs(d[2])) * Value(above_rounding);
+    const Value bound = n * max(magnitude, distance) *
+                            Value(filters::measured_advanced_gap_double.rounding()) +
+                        Value(advanced_gap_underflow);
+    return gap - n * distance > bound;
   }
 
   /// The moving vectors of a query, by their places: r, p, q, and for the orientations
@@ -438,19 +481,29 @@ class CertifiedStages {
     return at;
   }
 
-  static Value determinant_bound(const Ends& unit) {
-    return magnitude(unit[r]) * magnitude(unit[p]) * magnitude(unit[q]) *
-               Value(filters::measured_determinant_middle_double.rounding()) +
+  /// The magnitude of r, or of what is in its place, that makes the bounds of polynomials cover a shift
+  /// of the polygon by the distance too. `rounding` is the factor of the magnitudes in the bound.
+  static Value widened(const Value& magnitude, double rounding, const Value& distance) {
+    if constexpr (separated) return magnitude + distance * Value(6.001 / rounding);
+    return magnitude;
+  }
+
+  static Value determinant_bound(const Ends& unit, const Value& distance) {
+    constexpr double rounding = filters::measured_determinant_middle_double.rounding();
+    return widened(magnitude(unit[r]), rounding, distance) * magnitude(unit[p]) *
+               magnitude(unit[q]) * Value(rounding) +
            Value(determinant_underflow);
   }
 
   template <Kind kind>
-  static Bounds<kind> bounds_of(const Ends& unit) {
+  static Bounds<kind> bounds_of(const Ends& unit, const Value& distance) {
     constexpr auto all_orientations = orientations<kind>();
-    Bounds<kind> bounds{determinant_bound(unit), {}};
+    constexpr double rounding = filters::measured_orientation_middle_double.rounding();
+    Bounds<kind> bounds{determinant_bound(unit, distance), {}};
     for (std::size_t i = 0; i < all_orientations.size(); ++i) {
+      const auto [x, y, is_negative] = all_orientations[i];
       bounds.orientation_scale[i] =
-          magnitude(unit[all_orientations[i].x]) * magnitude(unit[all_orientations[i].y]);
+          widened(magnitude(unit[x]), rounding, distance) * magnitude(unit[y]);
     }
     return bounds;
   }
@@ -497,31 +550,38 @@ class CertifiedStages {
 
   template <Kind kind, class Source>
   static void unit_interval_stages(const KernelInput& input, const Indices& open, Indices& mixed,
-                                   KernelOutput& output) {
-    Marks unbounded, of_direction, of_determinant, of_neither;
+                                   Indices& far, KernelOutput& output) {
+    Marks unbounded, of_direction, of_determinant, of_neither, of_far;
+    const Value distance(input.separation.distance);
     for (std::size_t first = 0; first < open.count; first += width) {
       const std::size_t count = taken(first, open.count);
       const auto points = load<Source>(input, open.items.data() + first, count);
       const Differences<kind> differences(points);
       const Value magnitude = differences.magnitude();
       const Vector d = differences.sum_of_corners();
-      const Mask bounded = (magnitude <= Value(greatest_distance)) & is_number(d);
-      const Mask separated = separates(d, differences.gap(d), magnitude);
+      const Mask bounded =
+          (max(magnitude, distance) <= Value(greatest_distance)) & is_number(d);
+      const Mask apart = separates(d, differences.gap(d), magnitude, distance);
       const Ends at = vectors_of<kind>(points);
       const Mask one_sided =
-          test_determinant(determinant_coefficients(at, Normals(at)), determinant_bound(at))
-              .one_sided;
+          test_determinant(determinant_coefficients(at, Normals(at)),
+                                              determinant_bound(at, distance))
+                                  .one_sided;
       const unsigned bits = valid_bits(bounded, count);
       unbounded.add(first, first_lanes(count) & ~bits);
-      of_direction.add(first, bits & separated.bits());
-      of_determinant.add(first, bits & ~separated.bits() & one_sided.bits());
-      of_neither.add(first, bits & ~separated.bits() & ~one_sided.bits());
+      of_direction.add(first, bits & apart.bits());
+      of_determinant.add(first, bits & ~apart.bits() & one_sided.bits());
+      const unsigned rest = bits & ~apart.bits() & ~one_sided.bits();
+      const unsigned is_far = (distance * Value(far_beyond_rounding) > magnitude).bits();
+      of_neither.add(first, separated ? rest & ~is_far : rest);
+      of_far.add(first, separated ? rest & is_far : 0U);
     }
     append_marked(output.undecided, open, unbounded);
     append_marked(output.separated_in_direction, open, of_direction);
     append_marked(output.one_sided, open, of_determinant);
-    mixed.count = 0;
+    mixed.count = far.count = 0;
     append_marked(mixed, open, of_neither);
+    append_marked(far, open, of_far);
   }
 
   /// The sum of the corners has every coordinate in it: NaN and infinities show.
@@ -641,7 +701,7 @@ class CertifiedStages {
     for (std::size_t first = 0; first < mixed.count; first += width) {
       const std::size_t count = taken(first, mixed.count);
       const Ends unit = vectors_of<kind>(load<Source>(input, mixed.items.data() + first, count));
-      const Examination found = examine<kind>(unit, bounds_of<kind>(unit));
+      const Examination found = examine<kind>(unit, bounds_of<kind>(unit, Value(input.separation.distance)));
       intervals.store(first, Value(0.0), Value(1.0), found.coefficients);
       const unsigned contact = valid_bits(found.has_contact(), count);
       const unsigned rejected = valid_bits(found.has_no_contact(), count) & ~contact;
@@ -687,7 +747,7 @@ class CertifiedStages {
       const Value begin = to_short(max(zero - Value(half_around_zero), Value(0.0)));
       const Value end = to_short(min(zero + Value(half_around_zero), Value(1.0)));
       const Ends unit = vectors_of<kind>(load<Source>(input, all.items.data() + first, count));
-      const Examination found = examine<kind>(between(unit, begin, end), bounds_of<kind>(unit));
+      const Examination found = examine<kind>(between(unit, begin, end), bounds_of<kind>(unit, Value(input.separation.distance)));
       intervals.store(first, begin, end - begin, found.coefficients);
       const Mask is_late = begin >= Value(input.t_limit);
       const unsigned here = valid_bits(found.determinant.crosses_once, count);
@@ -762,7 +822,7 @@ class CertifiedStages {
     for (std::size_t first = 0; first < indices.count; first += width) {
       const std::size_t count = taken(first, indices.count);
       const Ends unit = vectors_of<kind>(load<Source>(input, indices.items.data() + first, count));
-      moving.groups[first / width].store(unit, bounds_of<kind>(unit));
+      moving.groups[first / width].store(unit, bounds_of<kind>(unit, Value(input.separation.distance)));
     }
   }
 
@@ -871,7 +931,7 @@ class CertifiedStages {
   class PreciseDeterminant {
    public:
     template <Kind kind>
-    static PreciseDeterminant of(const std::array<Vector, query_points>& x) {
+    static PreciseDeterminant of(const std::array<Vector, query_points>& x, const Value& distance) {
       constexpr auto ends = ends_of_vectors<kind>();
       PreciseDeterminant result;
       std::array<Value, 3> magnitude{Value(0.0), Value(0.0), Value(0.0)};
@@ -885,8 +945,9 @@ class CertifiedStages {
           }
         }
       }
-      result.bound_ = magnitude[0] * magnitude[1] * magnitude[2] *
-                          Value(filters::determinant_end_double_double.rounding()) +
+      constexpr double rounding = filters::determinant_end_double_double.rounding();
+      result.bound_ = widened(magnitude[0], rounding, distance) * magnitude[1] * magnitude[2] *
+                          Value(rounding) +
                       Value(double_double_underflow);
       return result;
     }
@@ -980,14 +1041,15 @@ class CertifiedStages {
                            KernelOutput& output) {
     const CrossingLanes lanes(crossings, count);
     const auto points = load<Source>(input, lanes.indices.data(), width);
-    const PreciseDeterminant determinant = PreciseDeterminant::template of<kind>(points);
+    const PreciseDeterminant determinant =
+        PreciseDeterminant::template of<kind>(points, Value(input.separation.distance));
     const Value half_width(0.4 * input.toi_tolerance);
     const Value newton = lanes.begin + lanes.length * lanes.cubic.zero(0x1p-26);
     Enclosure found(determinant, lanes, newton, half_width);
     if (valid_bits(found.proved, count) != first_lanes(count)) {
       found = found.or_else(Enclosure(determinant, lanes, found.corrected(), half_width));
     }
-    store_hits<kind>(output, lanes, count, found.proved.bits(), {found.lower, found.upper},
+    store_hits(output, lanes.indices, count, found.proved.bits(), {found.lower, found.upper},
                      contact<kind>(points, found.toi));
   }
 
@@ -1026,6 +1088,335 @@ class CertifiedStages {
     }
   };
 
+  // ---- With a separation ------------------------------------------------------------------------
+
+  /// The vectors that MovingPolygon is made of, and their magnitude.
+  template <Kind kind>
+  struct PolygonVectors {
+    std::array<std::array<Vector, 2>, 3> vectors;
+    Value magnitude;
+
+    explicit PolygonVectors(const std::array<Vector, query_points>& points) {
+      const Differences<kind> of_points(points);
+      std::size_t place = 0;
+      for (const auto& a : of_points.a) vectors[place++] = a;
+      for (const auto& b : of_points.b) vectors[place++] = b;
+      magnitude = of_points.magnitude();
+    }
+  };
+
+  template <Kind kind, class Source>
+  static void advance_stage(const KernelInput& input, const Indices& far, KernelOutput& output) {
+    if (input.separation.norm == Norm::linf) {
+      advance_in<kind, Source, Norm::linf>(input, far, output);
+    } else {
+      advance_in<kind, Source, Norm::l2>(input, far, output);
+    }
+  }
+
+  /// No contact in [0, begin], and one near `time`, or before.
+  struct Approach {
+    std::uint32_t index;
+    double begin;
+    double time;
+  };
+  using Approaches = List<Approach>;
+
+  template <Kind kind, class Source, Norm norm>
+  static void advance_in(const KernelInput& input, const Indices& far, KernelOutput& output) {
+    PolygonLanes<kind> polygons;
+    for (std::size_t first = 0; first < far.count; first += width) {
+      const std::size_t count = taken(first, far.count);
+      polygons.groups[first / width].store(
+          PolygonVectors<kind>(load<Source>(input, far.items.data() + first, count)));
+    }
+    Approaches approaches;
+    approaches.count = 0;
+    Advance<kind, norm>(input, far, polygons, approaches, output).run();
+    for (std::size_t first = 0; first < approaches.count; first += width) {
+      arrive<kind, Source, norm>(input, approaches.items.data() + first,
+                                 taken(first, approaches.count), output);
+    }
+  }
+
+  /// The polygons of `width` queries as they lie in memory.
+  struct PolygonRows {
+    static constexpr std::size_t magnitude_row = 18;
+
+    alignas(width * sizeof(double)) std::array<std::array<double, width>, magnitude_row + 1> row;
+
+    template <Kind kind>
+    void store(const PolygonVectors<kind>& polygon) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t end = 0; end < 2; ++end) {
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            polygon.vectors[i][end][axis].store(row[6 * i + 3 * end + axis].data());
+          }
+        }
+      }
+      polygon.magnitude.store(row[magnitude_row].data());
+    }
+
+    template <Kind kind, Norm norm>
+    [[nodiscard]] MovingPolygon<Lanes, kind, norm> polygon(double distance) const {
+      std::array<std::array<Vector, 2>, 3> vectors;
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t end = 0; end < 2; ++end) {
+          for (std::size_t axis = 0; axis < 3; ++axis) {
+            vectors[i][end][axis] = Value::load(row[6 * i + 3 * end + axis].data());
+          }
+        }
+      }
+      return {vectors, Value::load(row[magnitude_row].data()), distance};
+    }
+  };
+
+  template <Kind kind>
+  struct PolygonLanes {
+    std::array<PolygonRows, (kernel_block + width - 1) / width> groups;
+  };
+
+  /// Rounded to a multiple of 2^-52, so that 1 minus it is exact.
+  static Value to_exact(const Value& time) { return (time + Value(1.0)) - Value(1.0); }
+
+  /// Follows `width` queries at a time, each up to where it has come; a lane that is done takes the
+  /// next query.
+  template <Kind kind, Norm norm>
+  class Advance {
+   public:
+    Advance(const KernelInput& input, const Indices& queries, const PolygonLanes<kind>& polygons,
+            Approaches& approaches, KernelOutput& output)
+        : input_(input),
+          queries_(queries),
+          polygons_(polygons),
+          approaches_(approaches),
+          output_(output) {}
+
+    void run() {
+      for (std::size_t lane = 0; lane < width; ++lane) take(lane);
+      while (active_ != 0) step();
+    }
+
+   private:
+    using Row = std::array<double, width>;
+    using Polygon = MovingPolygon<Lanes, kind, norm>;
+    using Nearest = typename Polygon::Nearest;
+
+    static constexpr double most_steps = 60;
+    /// A step goes so far on the way to where the contact is seen.
+    static constexpr double part_of_way = 1.0 - 0x1p-10;
+    /// The contact is near where the rest of the way is this part of the time, or the gap is so many
+    /// bounds.
+    static constexpr double near_in_time = 0x1p-20;
+    static constexpr double near_in_bounds = 0x1p12;
+
+    void take(std::size_t lane) {
+      active_ &= ~(1U << lane);
+      if (next_ == queries_.count) return;
+      const PolygonRows& from = polygons_.groups[next_ / width];
+      const std::size_t place = next_ % width;
+      for (std::size_t i = 0; i < lanes_.row.size(); ++i) lanes_.row[i][lane] = from.row[i][place];
+      index_[lane] = queries_.items[next_++];
+      for (Row& row : state_) row[lane] = 0.0;
+      active_ |= 1U << lane;
+    }
+
+    /// What a lane knows of its query, by rows of `state_`: no contact in [0, begin]; the direction that
+    /// is best there, and the nearest point's parameters; where it looks next.
+    enum State : std::size_t { begin, end, steps, parameter_u, parameter_v, direction };
+
+    [[nodiscard]] Value load(State row) const { return Value::load(state_[row].data()); }
+
+    /// Looks at [begin, end]; at first at the time 0.
+    void step() {
+      const Polygon polygon = lanes_.template polygon<kind, norm>(input_.separation.distance);
+      const Value a = load(begin), b = load(end);
+      const Mask is_first = load(steps) == Value(0.0);
+      const Nearest nearest(polygon.corners_at(b));
+      Vector c_a;
+      for (std::size_t k = 0; k < 3; ++k) {
+        c_a[k] = select(is_first, nearest.direction[k],
+                        Value::load(state_[direction + k].data()));
+      }
+      const auto of_a = polygon.project(c_a), of_b = polygon.project(nearest.direction);
+      const Mask apart = polygon.begins_apart(of_a, of_b, a, b, 1.0) & polygon.ends_apart(of_b, b);
+      const Value u = select(apart | is_first, nearest.u, load(parameter_u));
+      const Value v = select(apart | is_first, nearest.v, load(parameter_v));
+      const auto ahead = polygon.predict(of_b, nearest.u, nearest.v, b);
+      const auto behind = polygon.predict(of_a, u, v, a);
+      for (std::size_t k = 0; k < 3; ++k) {
+        select(apart, nearest.direction[k], c_a[k]).store(state_[direction + k].data());
+      }
+      u.store(state_[parameter_u].data());
+      v.store(state_[parameter_v].data());
+      const Mask is_near = select_mask(apart, ahead.is_near, behind.is_near);
+      go_on(apart, {select(apart, ahead.gap, behind.gap), select(apart, ahead.time, behind.time),
+                    is_near},
+            polygon.bound());
+    }
+
+    static Mask select_mask(const Mask& mask, const Mask& a, const Mask& b) {
+      return select(mask, select(a, Value(1.0), Value(0.0)), select(b, Value(1.0), Value(0.0))) >
+             Value(0.5);
+    }
+
+    /// \param seen The contact as seen from where no contact is proved up to now.
+    void go_on(const Mask& apart, const typename Polygon::Prediction& seen, const Value& bound) {
+      const Value one(1.0), a = load(begin), b = load(end), step = load(steps);
+      const Value from = select(apart, b, a);
+      const Mask is_ahead = seen.is_near & (seen.time > from);
+      const Value on_way = from + (seen.time - from) * Value(part_of_way);
+      const Value whole = select(is_ahead & (on_way < one), on_way, one);
+      const Value half = a + (b - a) * Value(0.5);
+      const Mask is_shorter = is_ahead & (on_way < a + (b - a) * Value(0.875));
+      const Value next = to_exact(select(apart, whole, select(is_shorter, on_way, half)));
+      const Mask is_first = step == Value(0.0), touches = seen.gap <= Value(0.0);
+      const Mask is_close = is_ahead & (seen.time <= one + Value(near_in_time)) &
+                            ((seen.time - from <= seen.time * Value(near_in_time)) |
+                             (seen.gap <= bound * Value(near_in_bounds)) | (next <= from));
+      const Value apart_value = select(apart, one, Value(0.0));
+      const Mask fails = apart_value < Value(0.5);
+      const Mask arrives = is_close & select_mask(is_first, apart, Mask::all());
+      const Mask touches_at_start = is_first & fails & touches;
+      const Mask is_over = apart & (b >= Value(input_.t_limit));
+      const Mask is_hopeless =
+          (is_first & fails) | (next <= from) | (step >= Value(most_steps));
+      from.store(state_[begin].data());
+      next.store(state_[end].data());
+      (step + one).store(state_[steps].data());
+      finish(is_over.bits() & active_, (arrives | touches_at_start).bits() & active_,
+             is_hopeless.bits() & active_, select(touches_at_start, Value(0.0), seen.time));
+    }
+
+    void finish(unsigned over, unsigned arrived, unsigned hopeless, const Value& time) {
+      alignas(width * sizeof(double)) Row times;
+      time.store(times.data());
+      for (unsigned rest = over | arrived | hopeless; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+        if ((over >> lane & 1U) != 0) {
+          append(output_.rejected, index_[lane]);
+        } else if ((arrived >> lane & 1U) != 0) {
+          append(approaches_, Approach{index_[lane], state_[begin][lane], times[lane]});
+        } else {
+          append(output_.undecided, index_[lane]);
+        }
+        take(lane);
+      }
+    }
+
+    PolygonRows lanes_{};
+    alignas(width * sizeof(double)) std::array<Row, 8> state_{};
+    std::array<std::uint32_t, width> index_{};
+    unsigned active_ = 0;
+    std::size_t next_ = 0;
+    const KernelInput& input_;
+    const Indices& queries_;
+    const PolygonLanes<kind>& polygons_;
+    Approaches& approaches_;
+    KernelOutput& output_;
+  };
+
+  /// Parameters in F's domain, exactly: multiples of 2^-52, so that 1 − u is exact.
+  template <Kind kind>
+  static std::array<Value, 2> in_domain(const Value& u, const Value& v) {
+    const Value zero(0.0), one(1.0);
+    const Value inside_u = to_exact(max(min(u, one), zero));
+    const Value inside_v = to_exact(max(min(v, one), zero));
+    return {inside_u, kind == Kind::vertex_face ? min(inside_v, one - inside_u) : inside_v};
+  }
+
+  /// Encloses the times of impact of `count` queries.
+  template <Kind kind, class Source, Norm norm>
+  static void arrive(const KernelInput& input, const Approach* approaches, std::size_t count,
+                     KernelOutput& output) {
+    std::array<std::uint32_t, width> indices;
+    alignas(width * sizeof(double)) std::array<std::array<double, width>, 2> rows;
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const Approach& approach = approaches[lane < count ? lane : count - 1];
+      indices[lane] = approach.index;
+      rows[0][lane] = approach.begin;
+      rows[1][lane] = approach.time;
+    }
+    const auto points = load<Source>(input, indices.data(), width);
+    const PolygonVectors<kind> vectors(points);
+    const double distance = input.separation.distance;
+    const Arrival<kind, norm> arrival(
+        MovingPolygon<Lanes, kind, norm>(vectors.vectors, vectors.magnitude, distance),
+        PreciseProof<Lanes, kind, norm>(points, vectors.magnitude * Value(2.0), distance),
+        Value::load(rows[0].data()), Value(0.4 * input.toi_tolerance));
+    auto found = arrival.around(arrival.corrected(Value::load(rows[1].data())));
+    if (valid_bits(found.proved, count) != first_lanes(count)) {
+      found = found.or_else(arrival.around(found.corrected));
+    }
+    store_hits(output, indices, count, found.proved.bits(), {found.lower, found.upper},
+               {found.u, found.v});
+  }
+
+  /// The enclosure of a time of impact, as it is searched for in the lanes.
+  template <Kind kind, Norm norm>
+  class Arrival {
+   public:
+    using Polygon = MovingPolygon<Lanes, kind, norm>;
+    using Nearest = typename Polygon::Nearest;
+
+    struct Found {
+      Value lower;
+      Value upper;
+      Value u;
+      Value v;
+      Value corrected;  ///< where the time of impact seems to be, by the proof's own values
+      Mask proved;
+
+      /// This where it is proved, the other elsewhere.
+      [[nodiscard]] Found or_else(const Found& other) const {
+        return {select(proved, lower, other.lower), select(proved, upper, other.upper),
+                select(proved, u, other.u),         select(proved, v, other.v),
+                other.corrected,                    proved | other.proved};
+      }
+    };
+
+    Arrival(const Polygon& polygon, const PreciseProof<Lanes, kind, norm>& precise,
+            const Value& begin, const Value& half_width)
+        : polygon_(polygon), precise_(precise), begin_(begin), half_width_(half_width) {}
+
+    /// By two steps of Newton's method; 0 stays 0.
+    [[nodiscard]] Value corrected(Value time) const {
+      const Mask is_start = time <= Value(0.0);
+      for (int i = 0; i < 2; ++i) {
+        const Nearest nearest(polygon_.corners_at(time));
+        const auto seen =
+            polygon_.predict(polygon_.project(nearest.direction), nearest.u, nearest.v, time);
+        const Mask is_better = seen.is_near & (seen.time > begin_) & (seen.time <= Value(1.0));
+        time = select(is_better, seen.time, time);
+      }
+      return select(is_start, Value(0.0), min(time, Value(1.0)));
+    }
+
+    [[nodiscard]] Found around(const Value& time) const {
+      const Value margin = time * half_width_;
+      const Value lower = max(time - margin, begin_), upper = min(time + margin, Value(1.0));
+      const Nearest at_begin(polygon_.corners_at(begin_)), at_lower(polygon_.corners_at(lower));
+      const auto of_begin = polygon_.project(at_begin.direction);
+      const auto of_lower = polygon_.project(at_lower.direction);
+      const Value gap = precise_.least_gap(at_lower.direction, lower);
+      const Mask is_start = upper <= Value(0.0);
+      const Mask is_free = is_start | (polygon_.begins_apart(of_begin, of_lower, begin_, lower, 2.0) &
+                                       (gap > Value(0.0)));
+      const Nearest at_upper(polygon_.corners_at(upper));
+      const auto [u, v] = in_domain<kind>(at_upper.u, at_upper.v);
+      const Value start = Polygon::Projections::at_point(of_lower.start, at_lower.u, at_lower.v);
+      const Value end = Polygon::Projections::at_point(of_lower.end, at_lower.u, at_lower.v);
+      return {lower, upper, u, v, lower + gap / (start - end),
+              is_free & precise_.is_within(upper, u, v)};
+    }
+
+   private:
+    Polygon polygon_;
+    PreciseProof<Lanes, kind, norm> precise_;
+    Value begin_;
+    Value half_width_;
+  };
+
   /// u and v of the contact at a time, from the orientations, which are proportional to the
   /// barycentric coordinates.
   template <Kind kind>
@@ -1056,9 +1447,8 @@ class CertifiedStages {
     }
   }
 
-  template <Kind kind>
-  static void store_hits(KernelOutput& output, const CrossingLanes& lanes, std::size_t count,
-                         unsigned proved, const std::array<Value, 2>& enclosure,
+  static void store_hits(KernelOutput& output, const std::array<std::uint32_t, width>& indices,
+                         std::size_t count, unsigned proved, const std::array<Value, 2>& enclosure,
                          const std::array<Value, 2>& uv) {
     alignas(64) std::array<std::array<double, width>, 4> rows;
     enclosure[0].store(rows[0].data());
@@ -1067,7 +1457,7 @@ class CertifiedStages {
     uv[1].store(rows[3].data());
     for (std::size_t lane = 0; lane < count; ++lane) {
       const bool is_proved = (proved >> lane & 1U) != 0;
-      const std::uint32_t index = lanes.indices[lane];
+      const std::uint32_t index = indices[lane];
       if (is_proved) {
         append(output.hits,
                KernelHit{index, rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]});
@@ -1079,10 +1469,19 @@ class CertifiedStages {
 };
 
 template <class Lanes>
+void decide_on(const KernelInput& input, KernelOutput& output) {
+  if (input.separation.distance > 0.0) {
+    CertifiedStages<Lanes, true>::decide(input, output);
+  } else {
+    CertifiedStages<Lanes, false>::decide(input, output);
+  }
+}
+
+template <class Lanes>
 constexpr CertifiedKernel certified_kernel_on(InstructionSet instructions) {
   return {.instructions = instructions,
-          .decide = CertifiedStages<Lanes>::decide,
-          .product_then_sum = CertifiedStages<Lanes>::product_then_sum};
+          .decide = decide_on<Lanes>,
+          .product_then_sum = CertifiedStages<Lanes, false>::product_then_sum};
 }
 
 }  // namespace touchstone::fast

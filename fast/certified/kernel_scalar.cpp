@@ -37,6 +37,7 @@ struct Value {
   friend Value min(Value a, Value b) { return a.x < b.x ? a : b; }
   friend Value max(Value a, Value b) { return a.x > b.x ? a : b; }
   friend Value abs(Value a) { return Value(__builtin_fabs(a.x)); }
+  friend Value sqrt(Value a) { return Value(__builtin_sqrt(a.x)); }
   friend Value select(Mask mask, Value a, Value b) { return mask.set ? a : b; }
 };
 
@@ -55,7 +56,10 @@ struct RowMask {
 struct Row {
   std::array<double, 3> x;
 
-  static Row load(const double* from) { return {{from[0], from[1], from[2]}}; }
+  Row() = default;
+  explicit Row(double value) : x{value, value, value} {}
+  explicit Row(const std::array<double, 3>& values) : x(values) {}
+  static Row load(const double* from) { return Row({from[0], from[1], from[2]}); }
   static Row load_backwards(const double* from) { return load(from); }
   [[nodiscard]] bool is_finite() const {
     return x[0] - x[0] == 0.0 && x[1] - x[1] == 0.0 && x[2] - x[2] == 0.0;
@@ -63,10 +67,13 @@ struct Row {
 
   template <class Function>
   static Row each(const Row& a, const Row& b, const Function& function) {
-    return {{function(a.x[0], b.x[0]), function(a.x[1], b.x[1]), function(a.x[2], b.x[2])}};
+    return Row({function(a.x[0], b.x[0]), function(a.x[1], b.x[1]), function(a.x[2], b.x[2])});
   }
   friend Row operator+(const Row& a, const Row& b) {
     return each(a, b, [](double p, double q) { return p + q; });
+  }
+  friend Row operator-(const Row& a, const Row& b) {
+    return each(a, b, [](double p, double q) { return p - q; });
   }
   friend Row min(const Row& a, const Row& b) {
     return each(a, b, [](double p, double q) { return p < q ? p : q; });

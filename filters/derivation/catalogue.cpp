@@ -6,6 +6,7 @@
 #include "filters/derivation/shipped_bound.hpp"
 #include "filters/expressions.hpp"
 #include "filters/polynomial_expressions.hpp"
+#include "filters/separation_expressions.hpp"
 
 namespace touchstone::filters {
 namespace {
@@ -52,6 +53,12 @@ std::vector<CatalogueEntry> make_catalogue() {
       entry<MeasuredOrientationEnd>(double_format),
       entry<MeasuredOrientationMiddle>(double_format),
       entry<DeterminantEnd>(double_double_format),
+      entry<MeasuredAdvancedGap>(double_format),
+      entry<AdvancedGap>(double_double_format),
+      entry<ComponentSum>(double_format),
+      entry<SquaredLength>(double_format),
+      entry<LengthDefect>(double_double_format),
+      entry<ContactComponent>(double_double_format),
       entry<PaperEdgeEdge>(Ships::no, edge_edge),
       entry<PaperVertexFace>(Ships::no, vertex_face),
       entry<PaperEdgeEdgeSeparated>(Ships::no, edge_edge_separated),
