@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fast/certified/double_search.hpp"
+#include "fast/certified/rough_form.hpp"
 
 namespace touchstone::fast::exact_stage {
 namespace {
@@ -104,6 +105,41 @@ int first_sign(const Polynomial& c) {
     if (x.sign() != 0) return x.sign();
   }
   return 0;
+}
+
+// ---- What fixed point says, or else the integers ------------------------------------------------
+
+/// In the units of RoughForm.
+std::int64_t rough(const Dyadic& t) {
+  return t.numerator.truncated(RoughForm::fraction_bits - t.exponent);
+}
+
+std::optional<RoughForm> rough_form(std::span<const BigInteger> c, const Dyadic& lower,
+                                    const Dyadic& upper) {
+  if (c.size() > RoughForm::largest_degree + 1) return std::nullopt;
+  return RoughForm(c, rough(lower), rough(upper));
+}
+
+/// The number of sign changes on an interval, and the sign near its lower end.
+struct LocalSigns {
+  int changes = 0;
+  int first = 0;
+};
+
+LocalSigns signs_between(std::span<const BigInteger> c, const Dyadic& lower, const Dyadic& upper) {
+  if (const auto form = rough_form(c, lower, upper)) {
+    if (const auto changes = form->sign_changes()) return {*changes, form->first_sign()};
+  }
+  const Polynomial local = restricted(c, lower, upper);
+  return {sign_changes(local), first_sign(local)};
+}
+
+/// The sign at a time.
+int sign_at(std::span<const BigInteger> c, const Dyadic& t) {
+  if (const auto form = rough_form(c, t, t)) {
+    if (form->first_sign() != 0) return form->first_sign();
+  }
+  return evaluate(c, time_of(t)).sign();
 }
 
 /// Takes out the power of two that divides all coefficients.
@@ -229,6 +265,24 @@ std::vector<double> approximate(const Polynomial& c) {
   return result;
 }
 
+/// The form on an interval as doubles of one scale.
+std::vector<double> local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
+  constexpr std::int64_t accurate = std::int64_t{1} << 54;
+  if (const auto form = rough_form(f, lower, upper)) {
+    const auto b = form->coefficients();
+    const bool is_accurate =
+        std::ranges::any_of(b, [](std::int64_t x) { return x > accurate || x < -accurate; });
+    std::vector<double> result;
+    double binomial = 0x1p-60;
+    for (std::size_t k = 0; is_accurate && k < b.size(); ++k) {
+      result.push_back(static_cast<double>(b[k]) * binomial);
+      binomial *= static_cast<double>(b.size() - 1 - k) / static_cast<double>(k + 1);
+    }
+    if (is_accurate) return result;
+  }
+  return approximate(restricted(f, lower, upper));
+}
+
 /// Where in (0,1) the form changes its sign, by bisection over the doubles.
 std::uint64_t guess_root(const std::vector<double>& c, int sign_below) {
   const auto is_below_root = [&](std::uint64_t bits) {
@@ -245,8 +299,7 @@ std::uint64_t guess_root(const std::vector<double>& c, int sign_below) {
 
 /// Where in (0,1) a form that is positive at 0 is least, if it has one extremum. With Bernstein's
 /// coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
-std::uint64_t guess_minimum(const Polynomial& local) {
-  const std::vector<double> c = approximate(local);
+std::uint64_t guess_minimum(const std::vector<double>& c) {
   const auto degree = static_cast<double>(c.size() - 1);
   std::vector<double> derivative;
   double here = 1.0, next = degree, lower = 1.0;  // binomials of n over k, k + 1; of n − 1 over k
@@ -269,9 +322,9 @@ struct Interval {
 };
 
 /// Between which numbers a guess says that the form's roots are close together, if it does.
-std::optional<Interval> cluster(const Polynomial& local, const Interval& in) {
+std::optional<Interval> cluster(const Polynomial& f, const Interval& in) {
   constexpr std::uint64_t slack = std::uint64_t{1} << 12U;  // in spacings of doubles
-  const std::uint64_t least = guess_minimum(local) & ~(slack - 1);
+  const std::uint64_t least = guess_minimum(local_guess(f, in.lower, in.upper)) & ~(slack - 1);
   if (least <= slack || least + 2 * slack >= bits_of_one) return std::nullopt;
   return Interval{between(in.lower, in.upper, dyadic_of(least - slack)),
                   between(in.lower, in.upper, dyadic_of(least + 2 * slack))};
@@ -289,20 +342,19 @@ class RootSearch {
       const Interval interval = std::move(open_.back());
       open_.pop_back();
       if (equal(interval.lower, interval.upper)) return Instant(interval.lower);
-      const Polynomial local = restricted(f_, interval.lower, interval.upper);
-      const int changes = sign_changes(local);
+      const int changes = signs_between(f_, interval.lower, interval.upper).changes;
       if (changes == 1) return Instant(f_, interval.lower, interval.upper);
-      if (changes > 1) divide(interval, local);
+      if (changes > 1) divide(interval);
     }
     return std::nullopt;
   }
 
  private:
   /// Searches the parts of an interval. Roots that are still together after some divisions may be one.
-  void divide(const Interval& interval, const Polynomial& local) {
+  void divide(const Interval& interval) {
     constexpr int patience = 3;
     if (++divisions_ == patience) f_ = squarefree(f_);
-    const auto close = interval.guess ? cluster(local, interval) : std::nullopt;
+    const auto close = interval.guess ? cluster(f_, interval) : std::nullopt;
     if (!close) {
       const Dyadic middle = split(interval.lower, interval.upper);
       open_.push_back({middle, interval.upper});
@@ -318,7 +370,7 @@ class RootSearch {
   }
 
   void push_point(const Dyadic& t) {
-    if (evaluate(f_, time_of(t)).sign() == 0) open_.push_back({t, t});
+    if (sign_at(f_, t) == 0) open_.push_back({t, t});
   }
 
   Polynomial f_;
@@ -397,10 +449,10 @@ Instant::Instant(Polynomial f, Dyadic lower, Dyadic upper)
     : f_(std::move(f)),
       lower_(std::move(lower)),
       upper_(std::move(upper)),
-      sign_below_(first_sign(restricted(f_, lower_, upper_))) {}
+      sign_below_(signs_between(f_, lower_, upper_).first) {}
 
 bool Instant::cut(const Dyadic& t) {
-  const int sign = evaluate(f_, time_of(t)).sign();
+  const int sign = sign_at(f_, t);
   if (sign == sign_below_) {
     lower_ = t;
     return true;
@@ -413,9 +465,10 @@ bool Instant::cut(const Dyadic& t) {
   return false;
 }
 
-bool Instant::narrow_by_guess(const Polynomial& local) {
+bool Instant::narrow_by_guess() {
   constexpr std::uint64_t slack = std::uint64_t{1} << 8U;  // in spacings of doubles
-  const std::uint64_t root = guess_root(approximate(local), sign_below_) & ~(slack - 1);
+  const std::uint64_t root =
+      guess_root(local_guess(f_, lower_, upper_), sign_below_) & ~(slack - 1);
   if (root <= slack || root + 2 * slack >= bits_of_one) return false;
   const Dyadic lower = between(lower_, upper_, dyadic_of(root - slack));
   const Dyadic upper = between(lower_, upper_, dyadic_of(root + 2 * slack));
@@ -424,7 +477,7 @@ bool Instant::narrow_by_guess(const Polynomial& local) {
 
 void Instant::narrow() {
   if (is_dyadic()) return;
-  if (narrow_by_guess(restricted(f_, lower_, upper_)) || is_dyadic()) return;
+  if (narrow_by_guess() || is_dyadic()) return;
   static_cast<void>(cut(split(lower_, upper_)));
 }
 
@@ -432,13 +485,13 @@ int Instant::sign_of(std::span<const BigInteger> q) {
   if (std::ranges::all_of(q, [](const BigInteger& c) { return c.sign() == 0; })) return 0;
   constexpr int patience = 1;  // narrowing is cheaper than a divisor
   for (int round = 0;; ++round) {
-    if (is_dyadic()) return evaluate(q, time_of(lower_)).sign();
-    const Polynomial local = restricted(q, lower_, upper_);
-    if (sign_changes(local) == 0) return first_sign(local);
+    if (is_dyadic()) return sign_at(q, lower_);
+    const LocalSigns local = signs_between(q, lower_, upper_);
+    if (local.changes == 0) return local.first;
     if (round == patience) {
       const Polynomial common =
           common_divisor(f_, inner_polynomial(Polynomial(q.begin(), q.end())));
-      if (sign_changes(restricted(common, lower_, upper_)) % 2 == 1) return 0;
+      if (signs_between(common, lower_, upper_).changes % 2 == 1) return 0;
     }
     narrow();
   }
@@ -459,7 +512,7 @@ bool Instant::shares_root(const Instant& other) const {
   };
   const Dyadic& from = std::max(lower_, other.lower_, before);
   const Dyadic& to = std::min(upper_, other.upper_, before);
-  return sign_changes(restricted(common, from, to)) % 2 == 1;
+  return signs_between(common, from, to).changes % 2 == 1;
 }
 
 int compare(Instant& a, Instant& b) {
@@ -520,7 +573,10 @@ bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit) {
 }
 
 bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from, const Dyadic& to) {
-  if (equal(from, to)) return evaluate(form, time_of(from)).sign() > 0;
+  if (equal(from, to)) return sign_at(form, from) > 0;
+  if (const auto rough = rough_form(form, from, to)) {
+    if (rough->sign_changes() == 0) return rough->first_sign() > 0;
+  }
   const Polynomial local = restricted(form, from, to);
   return sign_changes(local) == 0 && local.front().sign() > 0 && local.back().sign() > 0;
 }
@@ -529,7 +585,7 @@ std::optional<Instant> first_root_after(Instant& from, std::span<const BigIntege
   // With one sign on the whole interval of `from`, the first root is not inside.
   static_cast<void>(from.sign_of(form));
   const Dyadic& start = from.upper();
-  if (evaluate(form, time_of(start)).sign() == 0) return Instant(start);
+  if (sign_at(form, start) == 0) return Instant(start);
   const Dyadic end{1, 0};
   if (equal(start, end)) return std::nullopt;
   Polynomial f = inner_polynomial(Polynomial(form.begin(), form.end()));

@@ -21,6 +21,8 @@
 /// does not divide the first one's top coefficient, they have none. For a primitive factor's top
 /// coefficient divides that one, so it keeps its degree modulo the prime, where it divides both.
 ///
+/// Most signs are seen in fixed point already: rough_form.hpp.
+///
 /// Narrowing guesses the root in floating point and asks for two exact signs around it; a wrong
 /// guess costs a bisection instead and nothing else.
 
@@ -103,7 +105,7 @@ class Instant {
                                    const Form<BigInteger, 2>& denominator);
 
  private:
-  [[nodiscard]] bool narrow_by_guess(const Polynomial& local);
+  [[nodiscard]] bool narrow_by_guess();
   /// Is this time later than `t`, which lies inside the interval? Notes what it finds.
   [[nodiscard]] bool cut(const Dyadic& t);
   /// The sign of this time minus `t`.

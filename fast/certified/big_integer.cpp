@@ -77,6 +77,22 @@ Approximation BigInteger::approximation() const {
   return {negative_ ? -significand : significand, bit_length()};
 }
 
+std::int64_t BigInteger::truncated(long shift) const {
+  if (size_ == 0 || bit_length() + shift <= 0) return 0;
+  const std::uint64_t* const limb = limbs();
+  std::uint64_t magnitude = 0;
+  if (shift >= 0) {
+    magnitude = limb[0] << shift;
+  } else {
+    const auto whole = static_cast<std::size_t>(-shift / limb_bits);
+    const long part = -shift % limb_bits;
+    magnitude = limb[whole] >> part;
+    if (part > 0 && whole + 1 < size_) magnitude |= limb[whole + 1] << (limb_bits - part);
+  }
+  const auto value = static_cast<std::int64_t>(magnitude);
+  return negative_ ? -value : value;
+}
+
 std::uint64_t BigInteger::residue(std::uint64_t modulus) const {
   const std::uint64_t* const limb = limbs();
   DoubleLimb rest = 0;

@@ -42,6 +42,8 @@ class BigInteger {
   /// The index of the lowest bit that is set. \pre not 0.
   [[nodiscard]] long trailing_zeros() const;
   [[nodiscard]] Approximation approximation() const;
+  /// This number · 2^shift without its fraction. \pre the magnitude of that is below 2^63.
+  [[nodiscard]] std::int64_t truncated(long shift) const;
   /// The remainder in [0, modulus). \pre the modulus is not 0.
   [[nodiscard]] std::uint64_t residue(std::uint64_t modulus) const;
   /// This number / divisor. \pre the divisor is not 0 and divides this number.
