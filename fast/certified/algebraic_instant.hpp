@@ -6,19 +6,29 @@
 /// A polynomial is a form Σ c_k x^(n−k) y^k at t = y/(x+y) (contact_rule.hpp) whose first and last
 /// coefficients are not 0: this drops only roots at t=0 and t=1, which are asked for by themselves.
 /// On an interval from (x0,y0) to (x1,y1) it becomes the form f(X x0 + Y x1, X y0 + Y y1), whose sign
-/// changes bound the number of roots inside (Descartes), and equal it if they are none or one. Of a
-/// squarefree polynomial, intervals that are small enough have none or one (Vincent), so bisection
-/// finds all roots in ascending order.
+/// changes bound the number of roots inside (Descartes), and equal it if they are none or one,
+/// multiples counted. Of a squarefree polynomial, intervals that are small enough have none or one
+/// (Vincent), so bisection finds all roots in ascending order. Where roots are hardly apart, a guess
+/// of the extremum between them is where to look closer.
 ///
-/// An instant α is a dyadic number or the only root of a squarefree f in an open dyadic interval.
+/// An instant α is a dyadic number or the only root, a simple one, of f in an open dyadic interval.
 /// The sign of q(α): if q's form on the interval has no sign change, the sign of its coefficients.
 /// Otherwise it is 0 iff gcd(f,q) has a root in the interval, that is iff its form there has an odd
-/// number of sign changes; if it is not 0, halving the interval brings the first case about.
+/// number of sign changes; if it is not 0, halving the interval brings the first case about. Two
+/// instants are equal iff the divisor of their polynomials has a root in both intervals.
+///
+/// The divisor is seldom needed: if the polynomials have no common factor modulo some prime that
+/// does not divide the first one's top coefficient, they have none. For a primitive factor's top
+/// coefficient divides that one, so it keeps its degree modulo the prime, where it divides both.
+///
+/// Most signs are seen in fixed point already: rough_form.hpp.
 ///
 /// Narrowing guesses the root in floating point and asks for two exact signs around it; a wrong
 /// guess costs a bisection instead and nothing else.
 
 #include <functional>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "fast/certified/big_integer.hpp"
@@ -37,7 +47,12 @@ template <std::size_t size>
   return inner_polynomial(Polynomial(form.begin(), form.end()));
 }
 
-/// The greatest common divisor, up to a constant. \pre neither is zero.
+/// Do the polynomials certainly have no common factor? False if that is not known.
+/// \pre neither is zero.
+[[nodiscard]] bool surely_coprime(const Polynomial& a, const Polynomial& b);
+
+/// The greatest common divisor, up to a constant that keeps it as short as about the longer one of
+/// the two. \pre neither is zero.
 [[nodiscard]] Polynomial common_divisor(Polynomial a, Polynomial b);
 
 /// A polynomial with the same roots, each simple. \pre not zero.
@@ -54,16 +69,29 @@ struct Dyadic {
 /// more steps than the logarithm of its exponent. \pre lower < upper.
 [[nodiscard]] Dyadic split(const Dyadic& lower, const Dyadic& upper);
 
+/// The sign of a − b.
+[[nodiscard]] int compare(const Dyadic& a, const Dyadic& b);
+
 /// A time in [0,1].
 class Instant {
  public:
   /// A dyadic number.
   explicit Instant(Dyadic value);
-  /// The only root of f in the open interval. \pre f is squarefree, and has just one there.
+  /// The only root of f in the open interval. \pre f has just one there, and it is simple.
   Instant(Polynomial f, Dyadic lower, Dyadic upper);
 
   /// The sign of a form at this time. Narrows as far as that takes.
-  [[nodiscard]] int sign_of(const Form<BigInteger, 2>& q);
+  [[nodiscard]] int sign_of(std::span<const BigInteger> q);
+
+  /// The sign of a − b. Narrows both as far as that takes.
+  friend int compare(Instant& a, Instant& b);
+
+  /// This time is not before lower() and not after upper(); strictly between if they differ.
+  [[nodiscard]] const Dyadic& lower() const { return lower_; }
+  [[nodiscard]] const Dyadic& upper() const { return upper_; }
+
+  /// Makes the interval much shorter, as a rule by 2^-40 at least.
+  void narrow();
 
   /// Is this time later than the double of these bits (double_search.hpp)?
   [[nodiscard]] bool is_above(std::uint64_t bits);
@@ -77,10 +105,13 @@ class Instant {
                                    const Form<BigInteger, 2>& denominator);
 
  private:
-  void narrow();
-  [[nodiscard]] bool narrow_by_guess(const Polynomial& local);
+  [[nodiscard]] bool narrow_by_guess();
   /// Is this time later than `t`, which lies inside the interval? Notes what it finds.
   [[nodiscard]] bool cut(const Dyadic& t);
+  /// The sign of this time minus `t`.
+  [[nodiscard]] int compare_with(const Dyadic& t);
+  /// Do both polynomials have a root where the intervals overlap?
+  [[nodiscard]] bool shares_root(const Instant& other) const;
   [[nodiscard]] bool is_dyadic() const { return f_.empty(); }
 
   Polynomial f_;  // empty: the time is lower_
@@ -88,8 +119,17 @@ class Instant {
   int sign_below_ = 0;  // of f_, between lower_ and the root
 };
 
-/// Calls `visit` for every root of f in the open interval (0,1), ascending, until it returns true.
-/// Returns whether it did. \pre f is squarefree.
-bool visit_roots(const Polynomial& f, const std::function<bool(Instant&)>& visit);
+/// Calls `visit` for every root of f in the open interval (0,1), ascending and once each, until it
+/// returns true. Returns whether it did. \pre f is not zero.
+bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit);
+
+/// Is the form positive from `from` to `to`, where either may be an instant's bounds?
+[[nodiscard]] bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from,
+                                       const Dyadic& to);
+
+/// The form's smallest root later than `from` and not later than 1, if it has one.
+/// \pre the form is positive at `from`.
+[[nodiscard]] std::optional<Instant> first_root_after(Instant& from,
+                                                      std::span<const BigInteger> form);
 
 }  // namespace touchstone::fast::exact_stage

@@ -16,6 +16,14 @@ __extension__ typedef unsigned __int128 DoubleLimb;
 constexpr std::uint64_t low(DoubleLimb x) { return static_cast<std::uint64_t>(x); }
 constexpr std::uint64_t high(DoubleLimb x) { return static_cast<std::uint64_t>(x >> limb_bits); }
 
+/// 1/x modulo 2^64, by Newton's iteration: x is right in 3 bits, each step doubles them.
+/// \pre x is odd.
+constexpr std::uint64_t inverse(std::uint64_t x) {
+  std::uint64_t result = x;
+  for (int right = 3; right < limb_bits; right *= 2) result *= 2 - x * result;
+  return result;
+}
+
 }  // namespace
 
 double quotient(const Approximation& a, const Approximation& b) {
@@ -67,6 +75,56 @@ Approximation BigInteger::approximation() const {
   if (size_ > 1 && unused > 0) top |= limb[size_ - 2] >> (limb_bits - unused);
   const double significand = std::ldexp(static_cast<double>(top), -64);
   return {negative_ ? -significand : significand, bit_length()};
+}
+
+std::int64_t BigInteger::truncated(long shift) const {
+  if (size_ == 0 || bit_length() + shift <= 0) return 0;
+  const std::uint64_t* const limb = limbs();
+  std::uint64_t magnitude = 0;
+  if (shift >= 0) {
+    magnitude = limb[0] << shift;
+  } else {
+    const auto whole = static_cast<std::size_t>(-shift / limb_bits);
+    const long part = -shift % limb_bits;
+    magnitude = limb[whole] >> part;
+    if (part > 0 && whole + 1 < size_) magnitude |= limb[whole + 1] << (limb_bits - part);
+  }
+  const auto value = static_cast<std::int64_t>(magnitude);
+  return negative_ ? -value : value;
+}
+
+std::uint64_t BigInteger::residue(std::uint64_t modulus) const {
+  const std::uint64_t* const limb = limbs();
+  DoubleLimb rest = 0;
+  for (std::size_t i = size_; i-- > 0;) rest = ((rest << limb_bits) | limb[i]) % modulus;
+  const std::uint64_t magnitude = low(rest);
+  return negative_ && magnitude != 0 ? modulus - magnitude : magnitude;
+}
+
+// From the lowest limb up: the lowest limb of what is left, over the divisor's, modulo 2^64, is the
+// next limb of the quotient.
+BigInteger BigInteger::divided_exactly(const BigInteger& divisor) const {
+  if (size_ == 0) return {};
+  const long zeros = divisor.trailing_zeros();
+  BigInteger left = *this >> zeros;
+  const BigInteger odd = divisor >> zeros;
+  const std::uint64_t* const factor = odd.limbs();
+  const std::uint64_t inverse_factor = inverse(factor[0]);
+  BigInteger result;
+  result.resize(left.size_ - odd.size_ + 1);
+  std::uint64_t *const rest = left.limbs(), *const limb = result.limbs();
+  for (std::size_t i = 0; i < result.size_; ++i) {
+    limb[i] = rest[i] * inverse_factor;
+    std::uint64_t carry = 0;
+    for (std::size_t j = 0; i + j < left.size_ && (j < odd.size_ || carry != 0); ++j) {
+      const DoubleLimb product = DoubleLimb{limb[i]} * (j < odd.size_ ? factor[j] : 0) + carry;
+      carry = high(product) + (rest[i + j] < low(product) ? 1 : 0);
+      rest[i + j] -= low(product);
+    }
+  }
+  result.negative_ = negative_ != divisor.negative_;
+  result.trim();
+  return result;
 }
 
 int BigInteger::compare_magnitude(const BigInteger& other) const {

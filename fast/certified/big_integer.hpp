@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// Integers of any size, with the few operations that exact decisions need: no division.
+/// Integers of any size, with the few operations that exact decisions need: no division that leaves
+/// a remainder.
 ///
 /// Sign and magnitude; the magnitude is limbs of 64 bits, the least significant first. Up to
 /// `inline_limbs` of them lie in the object itself, so that usual numbers cost no allocation.
@@ -41,6 +42,12 @@ class BigInteger {
   /// The index of the lowest bit that is set. \pre not 0.
   [[nodiscard]] long trailing_zeros() const;
   [[nodiscard]] Approximation approximation() const;
+  /// This number · 2^shift without its fraction. \pre the magnitude of that is below 2^63.
+  [[nodiscard]] std::int64_t truncated(long shift) const;
+  /// The remainder in [0, modulus). \pre the modulus is not 0.
+  [[nodiscard]] std::uint64_t residue(std::uint64_t modulus) const;
+  /// This number / divisor. \pre the divisor is not 0 and divides this number.
+  [[nodiscard]] BigInteger divided_exactly(const BigInteger& divisor) const;
 
   BigInteger& operator+=(const BigInteger& other) { return add(other, other.negative_); }
   BigInteger& operator-=(const BigInteger& other) { return add(other, !other.negative_); }

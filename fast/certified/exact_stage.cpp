@@ -13,7 +13,9 @@
 #include "fast/certified/double_search.hpp"
 #include "fast/certified/fixed_integer.hpp"
 #include "fast/certified/general_decision.hpp"
+#include "fast/certified/nearest_parameters.hpp"
 #include "fast/certified/quick_decision.hpp"
+#include "fast/certified/separated_decision.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -97,6 +99,28 @@ Motion<Number> motion_of(Kind kind, const std::array<Axis, 3>& axes) {
   return motion;
 }
 
+/// The axes in one unit.
+std::array<Axis, 3> axes_of_one_unit(const Query& query) {
+  std::array<Axis, 3> axes{axis_of(query, 0), axis_of(query, 1), axis_of(query, 2)};
+  int lowest = std::numeric_limits<int>::max();
+  for (const Axis& axis : axes) {
+    const bool is_zero = axis.highest == axis.lowest;
+    if (!is_zero) lowest = std::min(lowest, axis.lowest);
+  }
+  if (lowest == std::numeric_limits<int>::max()) lowest = 0;
+  for (Axis& axis : axes) axis.lowest = lowest;
+  return axes;
+}
+
+/// In units of 2^unit.
+ScaledDistance scaled_distance(double distance, int unit) {
+  const Scaled d = scaled(distance);
+  if (d.numerator == 0) return {};
+  const int zeros = std::countr_zero(static_cast<std::uint64_t>(d.numerator));
+  const int exponent = d.exponent + zeros - unit;
+  return {BigInteger(d.numerator >> zeros) << std::max(exponent, 0), std::max(-exponent, 0)};
+}
+
 std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64_t latest,
                                       std::uint64_t step) {
   const std::array<Axis, 3> axes{axis_of(query, 0), axis_of(query, 1), axis_of(query, 2)};
@@ -141,6 +165,23 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query, double 
   if (!impact) return std::nullopt;
   ExactImpact result{std::bit_cast<double>(impact->time.lower),
                      std::bit_cast<double>(impact->time.upper), impact->u, impact->v};
+  move_into_domain(kind, result.u, result.v);
+  return result;
+}
+
+std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
+                                          const Separation& separation, double toi_tolerance,
+                                          double t_max) {
+  if (separation.distance == 0.0) return decide_exactly(kind, query, toi_tolerance, t_max);
+  const auto axes = axes_of_one_unit(query);
+  const auto time = first_approach(motion_of<BigInteger, BigInteger>(kind, axes),
+                                   scaled_distance(separation.distance, axes[0].lowest),
+                                   separation.norm, unit_bits(t_max), step_of(toi_tolerance));
+  if (!time) return std::nullopt;
+  ExactImpact result{std::bit_cast<double>(time->lower), std::bit_cast<double>(time->upper)};
+  const Parameters nearest = nearest_parameters(kind, query, result.toi_upper, separation.norm);
+  result.u = nearest.u;
+  result.v = nearest.v;
   move_into_domain(kind, result.u, result.v);
   return result;
 }

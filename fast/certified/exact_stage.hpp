@@ -4,7 +4,8 @@
 /// The last stage of the certified solver: any query of finite doubles, decided in integers.
 ///
 /// The coordinates of each axis are multiplied by a power of two that makes them integers, which
-/// changes no (t,u,v) of a contact. contact_rule.hpp then says which polynomials decide.
+/// changes no (t,u,v) of a contact. contact_rule.hpp then says which polynomials decide. With a
+/// minimum separation all axes have the same power of two, and separated_decision.hpp says it.
 
 #include <optional>
 
@@ -27,6 +28,14 @@ struct ExactImpact {
 /// mode, flushed subnormals).
 /// \pre all coordinates are finite; 0 ≤ toi_tolerance; 0 ≤ t_max ≤ 1.
 [[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
+                                                        double toi_tolerance, double t_max);
+
+/// The same for the collision at a distance: the first time at which the primitives are as near as
+/// the separation says, and (u,v) near the parameters of their nearest points then, in the domain.
+/// (u,v) is a guess without a bound. At distance 0 this is the function above.
+/// \pre as above, and the separation is valid.
+[[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
+                                                        const Separation& separation,
                                                         double toi_tolerance, double t_max);
 
 }  // namespace touchstone::fast

@@ -71,8 +71,7 @@ std::optional<Impact> first_impact(const BigMotion& motion, std::uint64_t latest
   }
   std::optional<Impact> best;
   for (const Polynomial& event : events(problem)) {
-    visit_roots(squarefree(event),
-                [&](Instant& instant) { return consider(problem, instant, latest, best); });
+    visit_roots(event, [&](Instant& instant) { return consider(problem, instant, latest, best); });
   }
   if (!best && problem.determinant.back().sign() == 0) {
     Instant end(Dyadic{1, 0});

@@ -1,0 +1,345 @@
+#include "fast/certified/separated_decision.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "fast/certified/algebraic_instant.hpp"
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+// ---- Forms of any degree ------------------------------------------------------------------------
+
+/// Σ c_k x^(n−k) y^k. Unlike a Polynomial it keeps its roots at t=0 and t=1.
+using AnyForm = std::vector<BigInteger>;
+using AnyVector = std::array<AnyForm, 3>;
+
+AnyForm operator-(AnyForm a, const AnyForm& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
+  return a;
+}
+
+AnyForm operator-(AnyForm a) {
+  for (BigInteger& c : a) c = -std::move(c);
+  return a;
+}
+
+AnyForm operator*(const AnyForm& a, const AnyForm& b) {
+  AnyForm product(a.size() + b.size() - 1);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 0; k < b.size(); ++k) product[i + k] += a[i] * b[k];
+  }
+  return product;
+}
+
+AnyForm operator*(AnyForm a, const BigInteger& factor) {
+  for (BigInteger& c : a) c = c * factor;
+  return a;
+}
+
+AnyForm operator<<(AnyForm a, long bits) {
+  for (BigInteger& c : a) c <<= bits;
+  return a;
+}
+
+AnyForm dot(const AnyVector& a, const AnyVector& b) {
+  AnyForm sum = a[0] * b[0];
+  for (std::size_t axis : {1U, 2U}) {
+    const AnyForm term = a[axis] * b[axis];
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += term[k];
+  }
+  return sum;
+}
+
+template <std::size_t degree>
+AnyVector any_vector(const std::array<std::array<BigInteger, degree>, 3>& v) {
+  return {AnyForm(v[0].begin(), v[0].end()), AnyForm(v[1].begin(), v[1].end()),
+          AnyForm(v[2].begin(), v[2].end())};
+}
+
+/// The form 1 of degree 1: x + y.
+AnyForm one() { return {1, 1}; }
+
+bool vanishes(const AnyForm& a) {
+  return std::ranges::all_of(a, [](const BigInteger& c) { return c.sign() == 0; });
+}
+
+// ---- Separators ---------------------------------------------------------------------------------
+
+/// A direction's forms: every value minus every sum of the spreads with signs. For l2 there are no
+/// spreads, and the values are the forms.
+struct Separator {
+  std::vector<AnyForm> values;
+  std::vector<AnyForm> spreads;
+
+  [[nodiscard]] std::size_t count() const { return values.size() << spreads.size(); }
+
+  [[nodiscard]] AnyForm form(std::size_t index) const {
+    AnyForm result = values[index >> spreads.size()];
+    for (std::size_t i = 0; i < spreads.size(); ++i) {
+      const bool negative = ((index >> i) & 1U) != 0;
+      for (std::size_t k = 0; k < result.size(); ++k) {
+        if (negative) {
+          result[k] += spreads[i][k];
+        } else {
+          result[k] -= spreads[i][k];
+        }
+      }
+    }
+    return result;
+  }
+};
+
+/// Both directions of an axis.
+void add_both(std::vector<Separator>& to, Separator separator) {
+  Separator opposite = separator;
+  for (AnyForm& value : opposite.values) value = -std::move(value);
+  to.push_back(std::move(separator));
+  to.push_back(std::move(opposite));
+}
+
+/// What the separators are made of.
+struct Setting {
+  Setting(const Motion<BigInteger>& motion, const ScaledDistance& d)
+      : kind(motion.kind), distance(d.numerator), exponent(d.exponent) {
+    for (const auto& corner : moving_corners(motion)) corners.push_back(any_vector(corner.w));
+    const auto n = exact_stage::normal(motion);
+    normal = any_vector(n);
+    const auto det = exact_stage::determinant(motion, n);
+    determinant = AnyForm(det.begin(), det.end());
+  }
+
+  [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % corners.size(); }
+
+  /// value − d² · square · (x + y)², times 2^(2 exponent).
+  [[nodiscard]] AnyForm beyond(const AnyForm& value, const AnyForm& square) const {
+    return (value << 2 * exponent) - square * one() * one() * (distance * distance);
+  }
+
+  Kind kind;
+  std::vector<AnyVector> corners;  // in cyclic order
+  AnyVector normal;
+  AnyForm determinant;  // normal · corner, for every corner
+  BigInteger distance;  // times 2^-exponent
+  long exponent;
+};
+
+/// The axis a for linf, with its products with the corners that differ.
+Separator cube_separator(const Setting& setting, const AnyVector& axis,
+                         const std::vector<AnyForm>& products) {
+  Separator result;
+  for (const AnyForm& product : products) result.values.push_back(product << setting.exponent);
+  for (const AnyForm& component : axis) {
+    if (!vanishes(component)) result.spreads.push_back(component * one() * setting.distance);
+  }
+  return result;
+}
+
+/// ±e_c, for both norms.
+void add_axes(const Setting& setting, std::vector<Separator>& to) {
+  const AnyForm spread = one() * setting.distance;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const bool negative : {false, true}) {
+      Separator separator;
+      for (const AnyVector& corner : setting.corners) {
+        const AnyForm product = corner[axis] << setting.exponent;
+        separator.values.push_back((negative ? -product : product) - spread);
+      }
+      to.push_back(std::move(separator));
+    }
+  }
+}
+
+AnyVector operator-(const AnyVector& a, const AnyVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// ±N and ±(e_c × e). Opposite sides of a parallelogram have one direction, and a·w is the same at
+/// both ends of a side and at both of the opposite one.
+std::vector<Separator> cube_separators(const Setting& setting) {
+  std::vector<Separator> result;
+  add_axes(setting, result);
+  const std::size_t sides = setting.kind == Kind::vertex_face ? 3 : 2;
+  for (std::size_t i = 0; i < sides; ++i) {
+    const std::size_t j = setting.next(i), k = setting.next(j);
+    const AnyVector e = setting.corners[j] - setting.corners[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      AnyVector axis;
+      axis[c] = {0, 0};
+      axis[(c + 1) % 3] = -e[(c + 2) % 3];
+      axis[(c + 2) % 3] = e[(c + 1) % 3];
+      add_both(result,
+               cube_separator(setting, axis,
+                              {dot(axis, setting.corners[i]), dot(axis, setting.corners[k])}));
+    }
+  }
+  add_both(result, cube_separator(setting, setting.normal, {setting.determinant}));
+  return result;
+}
+
+/// w_i·w_k, the numbers that the directions of vertices and sides are made of.
+class Gram {
+ public:
+  explicit Gram(const std::vector<AnyVector>& w) : size_(w.size()), products_(size_ * size_) {
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (std::size_t k = 0; k <= i; ++k) {
+        products_[i * size_ + k] = products_[k * size_ + i] = dot(w[i], w[k]);
+      }
+    }
+  }
+
+  [[nodiscard]] const AnyForm& operator()(std::size_t i, std::size_t k) const {
+    return products_[i * size_ + k];
+  }
+
+ private:
+  std::size_t size_;
+  std::vector<AnyForm> products_;
+};
+
+/// A side: |e|², C, and a·w_k for the other corners (the same for both of a parallelogram).
+struct Side {
+  AnyForm square, area, other;
+};
+
+Side side(const Setting& setting, const Gram& gram, std::size_t i) {
+  const std::size_t j = setting.next(i), k = setting.next(j);
+  const AnyForm from = gram(i, j) - gram(i, i), to = gram(j, j) - gram(i, j);  // w_i·e, w_j·e
+  const AnyForm square = to - from;
+  return {square, gram(i, i) * gram(j, j) - gram(i, j) * gram(i, j),
+          square * gram(i, k) - from * (gram(j, k) - gram(i, k))};
+}
+
+/// The coordinate axes, the vertices and sides with low forms, and the face.
+std::vector<Separator> low_ball_separators(const Setting& setting, const Gram& gram) {
+  std::vector<Separator> result;
+  add_axes(setting, result);
+  result.push_back({{setting.beyond(setting.determinant * setting.determinant,
+                                    dot(setting.normal, setting.normal))},
+                    {}});
+  for (std::size_t i = 0; i < setting.corners.size(); ++i) {
+    const Side s = side(setting, gram, i);
+    result.push_back({{setting.beyond(s.area, s.square), s.other - s.area}, {}});
+    Separator vertex{{setting.beyond(gram(i, i), {1})}, {}};
+    for (std::size_t k = 0; k < setting.corners.size(); ++k) {
+      if (k != i) vertex.values.push_back(gram(i, k) - gram(i, i));
+    }
+    result.push_back(std::move(vertex));
+  }
+  return result;
+}
+
+/// The vertices and sides as in theorem 1.
+std::vector<Separator> ball_separators(const Setting& setting, const Gram& gram) {
+  std::vector<Separator> result;
+  for (std::size_t i = 0; i < setting.corners.size(); ++i) {
+    const Side s = side(setting, gram, i);
+    result.push_back({{setting.beyond(s.area, s.square), s.other,
+                       setting.beyond(s.other * s.other, s.square * s.area)},
+                      {}});
+    Separator vertex{{setting.beyond(gram(i, i), {1})}, {}};
+    for (std::size_t k = 0; k < setting.corners.size(); ++k) {
+      if (k == i) continue;
+      vertex.values.push_back(gram(i, k));
+      vertex.values.push_back(setting.beyond(gram(i, k) * gram(i, k), gram(i, i)));
+    }
+    result.push_back(std::move(vertex));
+  }
+  return result;
+}
+
+// ---- The walk -----------------------------------------------------------------------------------
+
+/// Is every form positive? Every value is the mean of forms, so values are asked first.
+bool holds(const Separator& separator, Instant& at) {
+  const auto is_positive = [&](const AnyForm& form) { return at.sign_of(form) > 0; };
+  if (!std::ranges::all_of(separator.values, is_positive)) return false;
+  if (separator.spreads.empty()) return true;
+  for (std::size_t i = 0; i < separator.count(); ++i) {
+    if (!is_positive(separator.form(i))) return false;
+  }
+  return true;
+}
+
+/// Until when a separator holds; for ever if nothing.
+using End = std::optional<Instant>;
+
+/// The first root of the forms of a separator that holds at `from`.
+End end_of(const Separator& separator, Instant& from) {
+  End end;
+  for (std::size_t i = 0; i < separator.count(); ++i) {
+    const AnyForm form = separator.form(i);
+    if (end && is_positive_between(form, from.upper(), end->lower()) && end->sign_of(form) > 0) {
+      continue;
+    }
+    End root = first_root_after(from, form);
+    if (root) root->narrow();
+    if (root && (!end || compare(*root, *end) < 0)) end = std::move(root);
+  }
+  return end;
+}
+
+/// What the separators that hold at a time say.
+struct Reach {
+  bool separated = false;  ///< does one hold?
+  End end;                 ///< the end of one that reaches far
+};
+
+Reach reach(const std::vector<Separator>& separators, Instant& from) {
+  Reach result;
+  for (const Separator& separator : separators) {
+    if (!holds(separator, from)) continue;
+    End end = end_of(separator, from);
+    if (!end) return {true, {}};
+    // Which of two that are this near is farther does not matter.
+    if (!result.end || compare(end->lower(), result.end->lower()) > 0) result.end = std::move(end);
+    result.separated = true;
+  }
+  return result;
+}
+
+/// The first time not later than `latest` at which `reach_from(t)` finds no separator.
+template <class ReachFrom>
+End walk(ReachFrom&& reach_from, std::uint64_t latest) {
+  Instant now(Dyadic{0, 0});
+  for (;;) {
+    Reach found = reach_from(now);
+    if (!found.separated) return now;
+    if (!found.end || found.end->is_above(latest)) return std::nullopt;
+    now = std::move(*found.end);
+  }
+}
+
+End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
+  if (norm == Norm::linf) {
+    const auto separators = cube_separators(setting);
+    return walk([&](Instant& now) { return reach(separators, now); }, latest);
+  }
+  const Gram gram(setting.corners);
+  const auto low = low_ball_separators(setting, gram);
+  std::vector<Separator> all;
+  return walk(
+      [&](Instant& now) {
+        Reach found = reach(low, now);
+        if (found.separated) return found;
+        if (all.empty()) all = ball_separators(setting, gram);
+        return reach(all, now);
+      },
+      latest);
+}
+
+}  // namespace
+
+std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
+                                          const ScaledDistance& distance, Norm norm,
+                                          std::uint64_t latest, std::uint64_t step) {
+  End end = first_instant(Setting(motion, distance), norm, latest);
+  if (!end) return std::nullopt;
+  if (compare(end->upper(), {0, 0}) == 0) return BitInterval{bits_of_zero, bits_of_zero};
+  return enclose(end->guess(), step, [&](std::uint64_t bits) { return end->is_above(bits); });
+}
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,3 @@
+#include "fast/certified/nearest_parameters.hpp"
+
+#include <gtest/gtest.h>
