@@ -45,8 +45,8 @@ class MovingPolygon {
   /// \param differences The first primitive's points, then the second's, as differences from the
   /// second's first point, which is left out; each at t=0 and t=1.
   /// \param magnitude Of their coordinates.
-  MovingPolygon(const std::array<std::array<Vector, 2>, differences>& points, const Value& magnitude,
-                double distance)
+  MovingPolygon(const std::array<std::array<Vector, 2>, differences>& points,
+                const Value& magnitude, double distance)
       : points_(points),
         gap_(Value(unit_length) * Value(distance)),
         bound_(Value(unit_length) * max(magnitude, Value(distance)) *
@@ -75,8 +75,8 @@ class MovingPolygon {
     std::array<Value, corners> end;
 
     /// At the point with these parameters.
-    [[nodiscard]] static Value at_point(const std::array<Value, corners>& of_corners, const Value& u,
-                                        const Value& v) {
+    [[nodiscard]] static Value at_point(const std::array<Value, corners>& of_corners,
+                                        const Value& u, const Value& v) {
       const Value& origin = of_corners[0];
       return origin + (of_corners[1] - origin) * u + (of_corners[corners - 1] - origin) * v;
     }
@@ -92,7 +92,8 @@ class MovingPolygon {
     for (std::size_t k = 0; k < corners; ++k) {
       const auto [first, second] = points_of(k);
       const bool is_origin = second == differences;
-      result.start[k] = is_origin ? of_points[0][first] : of_points[0][first] - of_points[0][second];
+      result.start[k] =
+          is_origin ? of_points[0][first] : of_points[0][first] - of_points[0][second];
       result.end[k] = is_origin ? of_points[1][first] : of_points[1][first] - of_points[1][second];
     }
     return result;
@@ -257,8 +258,8 @@ class PreciseProof {
   /// x is wrong by at most `error` on each axis, y the truth. If D² − |x|² ≥ 4 D error + 4 error², then
   /// |x| ≤ D and |y| ≤ |x| + √3 error, so that |y|² ≤ |x|² + 2√3 D error + 3 error² ≤ D².
   [[nodiscard]] Mask is_short(const std::array<Precise, 3>& x, const Value& error) const {
-    const Value size = max(max(abs(x[0].high), abs(x[1].high)),
-                           max(abs(x[2].high), Value(distance_)));
+    const Value size =
+        max(max(abs(x[0].high), abs(x[1].high)), max(abs(x[2].high), Value(distance_)));
     const Value bound = size * size * Value(1.001 * defect_bound.rounding()) +
                         Value(defect_bound.underflow(greatest_size)) +
                         Value(4.01) * error * (Value(distance_) + error);

@@ -422,9 +422,9 @@ class CertifiedStages {
                            const Value& distance) {
     constexpr double above_rounding = 1.0 + 0x1p-50;
     const Value n = (abs(d[0]) + abs(d[1]) + abs(d[2])) * Value(above_rounding);
-    const Value bound = n * max(magnitude, distance) *
-                            Value(filters::measured_advanced_gap_double.rounding()) +
-                        Value(advanced_gap_underflow);
+    const Value bound =
+        n * max(magnitude, distance) * Value(filters::measured_advanced_gap_double.rounding()) +
+        Value(advanced_gap_underflow);
     return gap - n * distance > bound;
   }
 
@@ -559,14 +559,12 @@ class CertifiedStages {
       const Differences<kind> differences(points);
       const Value magnitude = differences.magnitude();
       const Vector d = differences.sum_of_corners();
-      const Mask bounded =
-          (max(magnitude, distance) <= Value(greatest_distance)) & is_number(d);
+      const Mask bounded = (max(magnitude, distance) <= Value(greatest_distance)) & is_number(d);
       const Mask apart = separates(d, differences.gap(d), magnitude, distance);
       const Ends at = vectors_of<kind>(points);
-      const Mask one_sided =
-          test_determinant(determinant_coefficients(at, Normals(at)),
+      const Mask one_sided = test_determinant(determinant_coefficients(at, Normals(at)),
                                               determinant_bound(at, distance))
-                                  .one_sided;
+                                 .one_sided;
       const unsigned bits = valid_bits(bounded, count);
       unbounded.add(first, first_lanes(count) & ~bits);
       of_direction.add(first, bits & apart.bits());
@@ -701,7 +699,8 @@ class CertifiedStages {
     for (std::size_t first = 0; first < mixed.count; first += width) {
       const std::size_t count = taken(first, mixed.count);
       const Ends unit = vectors_of<kind>(load<Source>(input, mixed.items.data() + first, count));
-      const Examination found = examine<kind>(unit, bounds_of<kind>(unit, Value(input.separation.distance)));
+      const Examination found =
+          examine<kind>(unit, bounds_of<kind>(unit, Value(input.separation.distance)));
       intervals.store(first, Value(0.0), Value(1.0), found.coefficients);
       const unsigned contact = valid_bits(found.has_contact(), count);
       const unsigned rejected = valid_bits(found.has_no_contact(), count) & ~contact;
@@ -747,7 +746,8 @@ class CertifiedStages {
       const Value begin = to_short(max(zero - Value(half_around_zero), Value(0.0)));
       const Value end = to_short(min(zero + Value(half_around_zero), Value(1.0)));
       const Ends unit = vectors_of<kind>(load<Source>(input, all.items.data() + first, count));
-      const Examination found = examine<kind>(between(unit, begin, end), bounds_of<kind>(unit, Value(input.separation.distance)));
+      const Examination found = examine<kind>(
+          between(unit, begin, end), bounds_of<kind>(unit, Value(input.separation.distance)));
       intervals.store(first, begin, end - begin, found.coefficients);
       const Mask is_late = begin >= Value(input.t_limit);
       const unsigned here = valid_bits(found.determinant.crosses_once, count);
@@ -822,7 +822,8 @@ class CertifiedStages {
     for (std::size_t first = 0; first < indices.count; first += width) {
       const std::size_t count = taken(first, indices.count);
       const Ends unit = vectors_of<kind>(load<Source>(input, indices.items.data() + first, count));
-      moving.groups[first / width].store(unit, bounds_of<kind>(unit, Value(input.separation.distance)));
+      moving.groups[first / width].store(unit,
+                                         bounds_of<kind>(unit, Value(input.separation.distance)));
     }
   }
 
@@ -1050,7 +1051,7 @@ class CertifiedStages {
       found = found.or_else(Enclosure(determinant, lanes, found.corrected(), half_width));
     }
     store_hits(output, lanes.indices, count, found.proved.bits(), {found.lower, found.upper},
-                     contact<kind>(points, found.toi));
+               contact<kind>(points, found.toi));
   }
 
   /// Around what should be the zero, with the signs of det at its ends.
@@ -1235,8 +1236,7 @@ class CertifiedStages {
       const Nearest nearest(polygon.corners_at(b));
       Vector c_a;
       for (std::size_t k = 0; k < 3; ++k) {
-        c_a[k] = select(is_first, nearest.direction[k],
-                        Value::load(state_[direction + k].data()));
+        c_a[k] = select(is_first, nearest.direction[k], Value::load(state_[direction + k].data()));
       }
       const auto of_a = polygon.project(c_a), of_b = polygon.project(nearest.direction);
       const Mask apart = polygon.begins_apart(of_a, of_b, a, b, 1.0) & polygon.ends_apart(of_b, b);
@@ -1250,8 +1250,8 @@ class CertifiedStages {
       u.store(state_[parameter_u].data());
       v.store(state_[parameter_v].data());
       const Mask is_near = select_mask(apart, ahead.is_near, behind.is_near);
-      go_on(apart, {select(apart, ahead.gap, behind.gap), select(apart, ahead.time, behind.time),
-                    is_near},
+      go_on(apart,
+            {select(apart, ahead.gap, behind.gap), select(apart, ahead.time, behind.time), is_near},
             polygon.bound());
     }
 
@@ -1279,8 +1279,7 @@ class CertifiedStages {
       const Mask arrives = is_close & select_mask(is_first, apart, Mask::all());
       const Mask touches_at_start = is_first & fails & touches;
       const Mask is_over = apart & (b >= Value(input_.t_limit));
-      const Mask is_hopeless =
-          (is_first & fails) | (next <= from) | (step >= Value(most_steps));
+      const Mask is_hopeless = (is_first & fails) | (next <= from) | (step >= Value(most_steps));
       from.store(state_[begin].data());
       next.store(state_[end].data());
       (step + one).store(state_[steps].data());
@@ -1344,9 +1343,10 @@ class CertifiedStages {
         MovingPolygon<Lanes, kind, norm>(vectors.vectors, vectors.magnitude, distance),
         PreciseProof<Lanes, kind, norm>(points, vectors.magnitude * Value(2.0), distance),
         Value::load(rows[0].data()), Value(0.4 * input.toi_tolerance));
-    auto found = arrival.around(arrival.corrected(Value::load(rows[1].data())));
+    auto found = arrival.template around<norm>(arrival.corrected(Value::load(rows[1].data())));
     if (valid_bits(found.proved, count) != first_lanes(count)) {
-      found = found.or_else(arrival.around(found.corrected));
+      // In L∞ other points may be as near as the nearest one, and easier to find.
+      found = found.or_else(arrival.template around<Norm::l2>(found.corrected));
     }
     store_hits(output, indices, count, found.proved.bits(), {found.lower, found.upper},
                {found.u, found.v});
@@ -1369,9 +1369,12 @@ class CertifiedStages {
 
       /// This where it is proved, the other elsewhere.
       [[nodiscard]] Found or_else(const Found& other) const {
-        return {select(proved, lower, other.lower), select(proved, upper, other.upper),
-                select(proved, u, other.u),         select(proved, v, other.v),
-                other.corrected,                    proved | other.proved};
+        return {select(proved, lower, other.lower),
+                select(proved, upper, other.upper),
+                select(proved, u, other.u),
+                select(proved, v, other.v),
+                other.corrected,
+                proved | other.proved};
       }
     };
 
@@ -1392,6 +1395,8 @@ class CertifiedStages {
       return select(is_start, Value(0.0), min(time, Value(1.0)));
     }
 
+    /// \pre time is in [0,1].
+    template <Norm norm_of_witness>
     [[nodiscard]] Found around(const Value& time) const {
       const Value margin = time * half_width_;
       const Value lower = max(time - margin, begin_), upper = min(time + margin, Value(1.0));
@@ -1399,14 +1404,20 @@ class CertifiedStages {
       const auto of_begin = polygon_.project(at_begin.direction);
       const auto of_lower = polygon_.project(at_lower.direction);
       const Value gap = precise_.least_gap(at_lower.direction, lower);
-      const Mask is_start = upper <= Value(0.0);
-      const Mask is_free = is_start | (polygon_.begins_apart(of_begin, of_lower, begin_, lower, 2.0) &
-                                       (gap > Value(0.0)));
-      const Nearest at_upper(polygon_.corners_at(upper));
+      const Mask is_start = upper == Value(0.0);
+      const Mask is_free =
+          is_start |
+          (polygon_.begins_apart(of_begin, of_lower, begin_, lower, 2.0) & (gap > Value(0.0)));
+      const NearestPoint<Lanes, kind, norm_of_witness> at_upper(polygon_.corners_at(upper));
       const auto [u, v] = in_domain<kind>(at_upper.u, at_upper.v);
       const Value start = Polygon::Projections::at_point(of_lower.start, at_lower.u, at_lower.v);
       const Value end = Polygon::Projections::at_point(of_lower.end, at_lower.u, at_lower.v);
-      return {lower, upper, u, v, lower + gap / (start - end),
+      const Value seen = min(max(lower + gap / (start - end), begin_), Value(1.0));
+      return {lower,
+              upper,
+              u,
+              v,
+              select(is_start, time, seen),
               is_free & precise_.is_within(upper, u, v)};
     }
 

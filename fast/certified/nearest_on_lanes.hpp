@@ -198,7 +198,9 @@ class NearestPoint {
     const std::size_t from = (j + 1) % corners;
     const std::size_t to = kind == Kind::vertex_face ? from : (i + 3) % corners;
     const Value e_y = w[j][y] - w[i][y], e_z = w[j][z] - w[i][z];
-    const auto project = [&](std::size_t corner) { return e_y * w[corner][z] - e_z * w[corner][y]; };
+    const auto project = [&](std::size_t corner) {
+      return e_y * w[corner][z] - e_z * w[corner][y];
+    };
     const Value here = project(i), there = project(from);
     const Value zero(0.0);
     const Mask is_above = min(here, there) > zero;
