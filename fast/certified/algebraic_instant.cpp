@@ -572,6 +572,11 @@ bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit) {
   return false;
 }
 
+int weak_sign_between(std::span<const BigInteger> form, const Dyadic& from, const Dyadic& to) {
+  const LocalSigns local = signs_between(form, from, to);
+  return local.changes == 0 ? local.first : 0;
+}
+
 bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from, const Dyadic& to) {
   if (equal(from, to)) return sign_at(form, from) > 0;
   if (const auto rough = rough_form(form, from, to)) {

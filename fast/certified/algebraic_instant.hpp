@@ -123,7 +123,12 @@ class Instant {
 /// returns true. Returns whether it did. \pre f is not zero.
 bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit);
 
-/// Is the form positive from `from` to `to`, where either may be an instant's bounds?
+/// 1 if the form is seen not to be negative anywhere between the times, −1 if it is seen not to be
+/// positive, else 0.
+[[nodiscard]] int weak_sign_between(std::span<const BigInteger> form, const Dyadic& from,
+                                    const Dyadic& to);
+
+/// Is the form positive from `from` to `to`? False if that is not seen.
 [[nodiscard]] bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from,
                                        const Dyadic& to);
 

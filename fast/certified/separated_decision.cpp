@@ -69,20 +69,21 @@ bool vanishes(const AnyForm& a) {
 
 // ---- Separators ---------------------------------------------------------------------------------
 
-/// A direction's forms: every value minus every sum of the spreads with signs. For l2 there are no
-/// spreads, and the values are the forms.
+/// Signs of the spreads of a separator; 0 if unknown.
+using Signs = std::array<int, 3>;
+
+/// A direction's forms: every value minus every sum of the spreads with signs. Where the signs of the
+/// spreads are known, the sum of their magnitudes is the greatest. For l2 there are no spreads, and
+/// the values are the forms.
 struct Separator {
   std::vector<AnyForm> values;
   std::vector<AnyForm> spreads;
 
-  [[nodiscard]] std::size_t count() const { return values.size() << spreads.size(); }
-
-  [[nodiscard]] AnyForm form(std::size_t index) const {
-    AnyForm result = values[index >> spreads.size()];
+  [[nodiscard]] AnyForm form(std::size_t value, const Signs& signs) const {
+    AnyForm result = values[value];
     for (std::size_t i = 0; i < spreads.size(); ++i) {
-      const bool negative = ((index >> i) & 1U) != 0;
       for (std::size_t k = 0; k < result.size(); ++k) {
-        if (negative) {
+        if (signs[i] < 0) {
           result[k] += spreads[i][k];
         } else {
           result[k] -= spreads[i][k];
@@ -90,6 +91,14 @@ struct Separator {
       }
     }
     return result;
+  }
+
+  [[nodiscard]] Signs signs_between(const Dyadic& from, const Dyadic& to) const {
+    Signs signs{};
+    for (std::size_t i = 0; i < spreads.size(); ++i) {
+      signs[i] = weak_sign_between(spreads[i], from, to);
+    }
+    return signs;
   }
 };
 
@@ -253,13 +262,27 @@ std::vector<Separator> ball_separators(const Setting& setting, const Gram& gram)
 
 // ---- The walk -----------------------------------------------------------------------------------
 
+/// Do all forms pass the test? Where signs are known, only the least form; where they are not, that
+/// with each.
+template <class Test>
+bool all_forms(const Separator& separator, std::size_t value, Signs signs, Test&& test) {
+  for (std::size_t i = 0; i < separator.spreads.size(); ++i) {
+    if (signs[i] != 0) continue;
+    signs[i] = -1;
+    if (!all_forms(separator, value, signs, test)) return false;
+    signs[i] = 1;
+  }
+  return test(separator.form(value, signs));
+}
+
 /// Is every form positive? Every value is the mean of forms, so values are asked first.
 bool holds(const Separator& separator, Instant& at) {
   const auto is_positive = [&](const AnyForm& form) { return at.sign_of(form) > 0; };
   if (!std::ranges::all_of(separator.values, is_positive)) return false;
   if (separator.spreads.empty()) return true;
-  for (std::size_t i = 0; i < separator.count(); ++i) {
-    if (!is_positive(separator.form(i))) return false;
+  const Signs signs = separator.signs_between(at.lower(), at.upper());
+  for (std::size_t value = 0; value < separator.values.size(); ++value) {
+    if (!all_forms(separator, value, signs, is_positive)) return false;
   }
   return true;
 }
@@ -267,17 +290,33 @@ bool holds(const Separator& separator, Instant& at) {
 /// Until when a separator holds; for ever if nothing.
 using End = std::optional<Instant>;
 
-/// The first root of the forms of a separator that holds at `from`.
+/// Makes `end` the first root of the form later than `from`, if that is earlier.
+void shorten(End& end, Instant& from, const AnyForm& form) {
+  if (end && is_positive_between(form, from.upper(), end->lower()) && end->sign_of(form) > 0)
+    return;
+  End root = first_root_after(from, form);
+  if (root) root->narrow();
+  if (root && (!end || compare(*root, *end) < 0)) end = std::move(root);
+}
+
+/// The first root of the forms of a separator that holds at `from`. The forms that are least at first
+/// are asked first; until the time that they give, most signs are known and no others are needed.
 End end_of(const Separator& separator, Instant& from) {
   End end;
-  for (std::size_t i = 0; i < separator.count(); ++i) {
-    const AnyForm form = separator.form(i);
-    if (end && is_positive_between(form, from.upper(), end->lower()) && end->sign_of(form) > 0) {
-      continue;
-    }
-    End root = first_root_after(from, form);
-    if (root) root->narrow();
-    if (root && (!end || compare(*root, *end) < 0)) end = std::move(root);
+  const Signs first = separator.signs_between(from.lower(), from.upper());
+  for (std::size_t value = 0; value < separator.values.size(); ++value) {
+    shorten(end, from, separator.form(value, first));
+  }
+  if (separator.spreads.empty()) return end;
+  const Signs signs = separator.signs_between(from.lower(), end ? end->upper() : Dyadic{1, 0});
+  const auto known =
+      static_cast<std::size_t>(std::ranges::count_if(signs, [](int sign) { return sign != 0; }));
+  if (signs == first && known == separator.spreads.size()) return end;
+  for (std::size_t value = 0; value < separator.values.size(); ++value) {
+    static_cast<void>(all_forms(separator, value, signs, [&](const AnyForm& form) {
+      shorten(end, from, form);
+      return true;
+    }));
   }
   return end;
 }
