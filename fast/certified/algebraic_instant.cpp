@@ -30,11 +30,6 @@ Dyadic reduced(const Dyadic& t) {
   return {t.numerator >> zeros, t.exponent - zeros};
 }
 
-Dyadic dyadic_of(std::uint64_t bits) {
-  const DyadicDouble value = dyadic(bits);
-  return {value.numerator, value.exponent};
-}
-
 Dyadic from_one(const Dyadic& t) {
   return {(BigInteger(1) << t.exponent) - t.numerator, t.exponent};
 }
@@ -380,6 +375,11 @@ class RootSearch {
 
 }  // namespace
 
+Dyadic dyadic_of(std::uint64_t bits) {
+  const DyadicDouble value = dyadic(bits);
+  return {value.numerator, value.exponent};
+}
+
 Polynomial inner_polynomial(Polynomial coefficients) {
   drop_top_zeros(coefficients);
   const auto first =
@@ -586,16 +586,16 @@ bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from, c
   return sign_changes(local) == 0 && local.front().sign() > 0 && local.back().sign() > 0;
 }
 
-std::optional<Instant> first_root_after(Instant& from, std::span<const BigInteger> form) {
+std::optional<Instant> first_root_after(Instant& from, const Dyadic& end,
+                                        std::span<const BigInteger> form) {
   // With one sign on the whole interval of `from`, the first root is not inside.
   static_cast<void>(from.sign_of(form));
   const Dyadic& start = from.upper();
   if (sign_at(form, start) == 0) return Instant(start);
-  const Dyadic end{1, 0};
   if (equal(start, end)) return std::nullopt;
   Polynomial f = inner_polynomial(Polynomial(form.begin(), form.end()));
   if (auto root = RootSearch(std::move(f), start, end).next()) return root;
-  if (form.back().sign() == 0) return Instant(end);
+  if (sign_at(form, end) == 0) return Instant(end);
   return std::nullopt;
 }
 

@@ -226,9 +226,6 @@ Side side(const Setting& setting, const Gram& gram, std::size_t i) {
 std::vector<Separator> low_ball_separators(const Setting& setting, const Gram& gram) {
   std::vector<Separator> result;
   add_axes(setting, result);
-  result.push_back({{setting.beyond(setting.determinant * setting.determinant,
-                                    dot(setting.normal, setting.normal))},
-                    {}});
   for (std::size_t i = 0; i < setting.corners.size(); ++i) {
     const Side s = side(setting, gram, i);
     result.push_back({{setting.beyond(s.area, s.square), s.other - s.area}, {}});
@@ -238,6 +235,10 @@ std::vector<Separator> low_ball_separators(const Setting& setting, const Gram& g
     }
     result.push_back(std::move(vertex));
   }
+  const AnyForm &det = setting.determinant, square = dot(setting.normal, setting.normal);
+  const AnyForm face = setting.beyond(det * det, square);
+  result.push_back({{det, face}, {}});
+  result.push_back({{-det, face}, {}});
   return result;
 }
 
@@ -287,34 +288,33 @@ bool holds(const Separator& separator, Instant& at) {
   return true;
 }
 
-/// Until when a separator holds; for ever if nothing.
+/// Until when a separator holds; beyond the horizon if nothing.
 using End = std::optional<Instant>;
 
-/// Makes `end` the first root of the form later than `from`, if that is earlier.
-void shorten(End& end, Instant& from, const AnyForm& form) {
+/// Makes `end` the first root of the form between `from` and the horizon, if that is earlier.
+void shorten(End& end, Instant& from, const Dyadic& horizon, const AnyForm& form) {
   if (end && is_positive_between(form, from.upper(), end->lower()) && end->sign_of(form) > 0)
     return;
-  End root = first_root_after(from, form);
+  End root = first_root_after(from, horizon, form);
   if (root) root->narrow();
   if (root && (!end || compare(*root, *end) < 0)) end = std::move(root);
 }
 
 /// The first root of the forms of a separator that holds at `from`. The forms that are least at first
 /// are asked first; until the time that they give, most signs are known and no others are needed.
-End end_of(const Separator& separator, Instant& from) {
+End end_of(const Separator& separator, Instant& from, const Dyadic& horizon) {
   End end;
   const Signs first = separator.signs_between(from.lower(), from.upper());
   for (std::size_t value = 0; value < separator.values.size(); ++value) {
-    shorten(end, from, separator.form(value, first));
+    shorten(end, from, horizon, separator.form(value, first));
   }
-  if (separator.spreads.empty()) return end;
-  const Signs signs = separator.signs_between(from.lower(), end ? end->upper() : Dyadic{1, 0});
+  const Signs signs = separator.signs_between(from.lower(), end ? end->upper() : horizon);
   const auto known =
       static_cast<std::size_t>(std::ranges::count_if(signs, [](int sign) { return sign != 0; }));
   if (signs == first && known == separator.spreads.size()) return end;
   for (std::size_t value = 0; value < separator.values.size(); ++value) {
     static_cast<void>(all_forms(separator, value, signs, [&](const AnyForm& form) {
-      shorten(end, from, form);
+      shorten(end, from, horizon, form);
       return true;
     }));
   }
@@ -327,11 +327,15 @@ struct Reach {
   End end;                 ///< the end of one that reaches far
 };
 
-Reach reach(const std::vector<Separator>& separators, Instant& from) {
+Reach reach(const std::vector<Separator>& separators, Instant& from, const Dyadic& horizon) {
   Reach result;
   for (const Separator& separator : separators) {
+    if (result.end) {
+      Instant sure(result.end->lower());
+      if (!holds(separator, sure)) continue;
+    }
     if (!holds(separator, from)) continue;
-    End end = end_of(separator, from);
+    End end = end_of(separator, from, horizon);
     if (!end) return {true, {}};
     // Which of two that are this near is farther does not matter.
     if (!result.end || compare(end->lower(), result.end->lower()) > 0) result.end = std::move(end);
@@ -340,14 +344,16 @@ Reach reach(const std::vector<Separator>& separators, Instant& from) {
   return result;
 }
 
-/// The first time not later than `latest` at which `reach_from(t)` finds no separator.
+/// The first time not later than `latest` at which `reach_from(t, latest)` finds no separator.
 template <class ReachFrom>
 End walk(ReachFrom&& reach_from, std::uint64_t latest) {
+  const Dyadic horizon = dyadic_of(latest);
   Instant now(Dyadic{0, 0});
   for (;;) {
-    Reach found = reach_from(now);
+    Reach found = reach_from(now, horizon);
     if (!found.separated) return now;
-    if (!found.end || found.end->is_above(latest)) return std::nullopt;
+    if (!found.end) return std::nullopt;
+    static_cast<void>(found.end->is_above(latest));  // so that its bounds are not
     now = std::move(*found.end);
   }
 }
@@ -355,17 +361,19 @@ End walk(ReachFrom&& reach_from, std::uint64_t latest) {
 End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
   if (norm == Norm::linf) {
     const auto separators = cube_separators(setting);
-    return walk([&](Instant& now) { return reach(separators, now); }, latest);
+    return walk(
+        [&](Instant& now, const Dyadic& horizon) { return reach(separators, now, horizon); },
+        latest);
   }
   const Gram gram(setting.corners);
   const auto low = low_ball_separators(setting, gram);
   std::vector<Separator> all;
   return walk(
-      [&](Instant& now) {
-        Reach found = reach(low, now);
+      [&](Instant& now, const Dyadic& horizon) {
+        Reach found = reach(low, now, horizon);
         if (found.separated) return found;
         if (all.empty()) all = ball_separators(setting, gram);
-        return reach(all, now);
+        return reach(all, now, horizon);
       },
       latest);
 }
