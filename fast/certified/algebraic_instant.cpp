@@ -484,13 +484,17 @@ void Instant::narrow() {
 int Instant::sign_of(std::span<const BigInteger> q) {
   if (std::ranges::all_of(q, [](const BigInteger& c) { return c.sign() == 0; })) return 0;
   constexpr int patience = 1;  // narrowing is cheaper than a divisor
+  Polynomial inner;
   for (int round = 0;; ++round) {
     if (is_dyadic()) return sign_at(q, lower_);
     const LocalSigns local = signs_between(q, lower_, upper_);
     if (local.changes == 0) return local.first;
+    if (round == 0) {
+      inner = inner_polynomial(Polynomial(q.begin(), q.end()));
+      if (inner == f_) return 0;
+    }
     if (round == patience) {
-      const Polynomial common =
-          common_divisor(f_, inner_polynomial(Polynomial(q.begin(), q.end())));
+      const Polynomial common = common_divisor(f_, inner);
       if (signs_between(common, lower_, upper_).changes % 2 == 1) return 0;
     }
     narrow();

@@ -242,15 +242,19 @@ std::vector<Separator> low_ball_separators(const Setting& setting, const Gram& g
   return result;
 }
 
-/// The vertices and sides as in theorem 1.
-std::vector<Separator> ball_separators(const Setting& setting, const Gram& gram) {
+/// Those vertices and sides as in theorem 1 whose first forms are positive at the time.
+std::vector<Separator> ball_separators_at(Instant& now, const Setting& setting, const Gram& gram) {
   std::vector<Separator> result;
   for (std::size_t i = 0; i < setting.corners.size(); ++i) {
     const Side s = side(setting, gram, i);
-    result.push_back({{setting.beyond(s.area, s.square), s.other,
-                       setting.beyond(s.other * s.other, s.square * s.area)},
-                      {}});
+    AnyForm beyond_side = setting.beyond(s.area, s.square);
+    if (now.sign_of(beyond_side) > 0) {
+      result.push_back(
+          {{std::move(beyond_side), s.other, setting.beyond(s.other * s.other, s.square * s.area)},
+           {}});
+    }
     Separator vertex{{setting.beyond(gram(i, i), {1})}, {}};
+    if (now.sign_of(vertex.values[0]) <= 0) continue;
     for (std::size_t k = 0; k < setting.corners.size(); ++k) {
       if (k == i) continue;
       vertex.values.push_back(gram(i, k));
@@ -367,13 +371,11 @@ End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
   }
   const Gram gram(setting.corners);
   const auto low = low_ball_separators(setting, gram);
-  std::vector<Separator> all;
   return walk(
       [&](Instant& now, const Dyadic& horizon) {
         Reach found = reach(low, now, horizon);
         if (found.separated) return found;
-        if (all.empty()) all = ball_separators(setting, gram);
-        return reach(all, now, horizon);
+        return reach(ball_separators_at(now, setting, gram), now, horizon);
       },
       latest);
 }
