@@ -60,8 +60,12 @@ AnyVector any_vector(const std::array<std::array<BigInteger, degree>, 3>& v) {
           AnyForm(v[2].begin(), v[2].end())};
 }
 
-/// The form 1 of degree 1: x + y.
-AnyForm one() { return {1, 1}; }
+/// a (x + y): the same function of time with a degree more.
+AnyForm raised(AnyForm a) {
+  a.push_back(a.back());
+  for (std::size_t k = a.size() - 2; k > 0; --k) a[k] += a[k - 1];
+  return a;
+}
 
 bool vanishes(const AnyForm& a) {
   return std::ranges::all_of(a, [](const BigInteger& c) { return c.sign() == 0; });
@@ -125,7 +129,7 @@ struct Setting {
 
   /// value − d² · square · (x + y)², times 2^(2 exponent).
   [[nodiscard]] AnyForm beyond(const AnyForm& value, const AnyForm& square) const {
-    return (value << 2 * exponent) - square * one() * one() * (distance * distance);
+    return (value << 2 * exponent) - raised(raised(square * (distance * distance)));
   }
 
   Kind kind;
@@ -142,14 +146,14 @@ Separator cube_separator(const Setting& setting, const AnyVector& axis,
   Separator result;
   for (const AnyForm& product : products) result.values.push_back(product << setting.exponent);
   for (const AnyForm& component : axis) {
-    if (!vanishes(component)) result.spreads.push_back(component * one() * setting.distance);
+    if (!vanishes(component)) result.spreads.push_back(raised(component * setting.distance));
   }
   return result;
 }
 
 /// ±e_c, for both norms.
 void add_axes(const Setting& setting, std::vector<Separator>& to) {
-  const AnyForm spread = one() * setting.distance;
+  const AnyForm spread{setting.distance, setting.distance};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const bool negative : {false, true}) {
       Separator separator;
@@ -209,29 +213,46 @@ class Gram {
   std::vector<AnyForm> products_;
 };
 
-/// A side: |e|², C, and a·w_k for the other corners (the same for both of a parallelogram).
+/// A side: |e|², C, a·w_k for the other corners (the same for both of a parallelogram), and
+/// C − d²|e|².
 struct Side {
-  AnyForm square, area, other;
+  AnyForm square, area, other, beyond;
 };
 
 Side side(const Setting& setting, const Gram& gram, std::size_t i) {
   const std::size_t j = setting.next(i), k = setting.next(j);
   const AnyForm from = gram(i, j) - gram(i, i), to = gram(j, j) - gram(i, j);  // w_i·e, w_j·e
-  const AnyForm square = to - from;
-  return {square, gram(i, i) * gram(j, j) - gram(i, j) * gram(i, j),
-          square * gram(i, k) - from * (gram(j, k) - gram(i, k))};
+  AnyForm square = to - from;
+  AnyForm area = gram(i, i) * gram(j, j) - gram(i, j) * gram(i, j);
+  AnyForm other = square * gram(i, k) - from * (gram(j, k) - gram(i, k));
+  AnyForm beyond = setting.beyond(area, square);
+  return {std::move(square), std::move(area), std::move(other), std::move(beyond)};
 }
 
+/// What the separators for l2 are made of.
+struct BallParts {
+  explicit BallParts(const Setting& setting) : gram(setting.corners) {
+    for (std::size_t i = 0; i < setting.corners.size(); ++i) {
+      sides.push_back(side(setting, gram, i));
+      vertices_beyond.push_back(setting.beyond(gram(i, i), {1}));
+    }
+  }
+
+  Gram gram;
+  std::vector<Side> sides;
+  std::vector<AnyForm> vertices_beyond;  // |w_i|² − d²
+};
+
 /// The coordinate axes, the vertices and sides with low forms, and the face.
-std::vector<Separator> low_ball_separators(const Setting& setting, const Gram& gram) {
+std::vector<Separator> low_ball_separators(const Setting& setting, const BallParts& parts) {
   std::vector<Separator> result;
   add_axes(setting, result);
   for (std::size_t i = 0; i < setting.corners.size(); ++i) {
-    const Side s = side(setting, gram, i);
-    result.push_back({{setting.beyond(s.area, s.square), s.other - s.area}, {}});
-    Separator vertex{{setting.beyond(gram(i, i), {1})}, {}};
+    const Side& s = parts.sides[i];
+    result.push_back({{s.beyond, s.other - s.area}, {}});
+    Separator vertex{{parts.vertices_beyond[i]}, {}};
     for (std::size_t k = 0; k < setting.corners.size(); ++k) {
-      if (k != i) vertex.values.push_back(gram(i, k) - gram(i, i));
+      if (k != i) vertex.values.push_back(parts.gram(i, k) - parts.gram(i, i));
     }
     result.push_back(std::move(vertex));
   }
@@ -243,22 +264,22 @@ std::vector<Separator> low_ball_separators(const Setting& setting, const Gram& g
 }
 
 /// Those vertices and sides as in theorem 1 whose first forms are positive at the time.
-std::vector<Separator> ball_separators_at(Instant& now, const Setting& setting, const Gram& gram) {
+std::vector<Separator> ball_separators_at(Instant& now, const Setting& setting,
+                                          const BallParts& parts) {
   std::vector<Separator> result;
   for (std::size_t i = 0; i < setting.corners.size(); ++i) {
-    const Side s = side(setting, gram, i);
-    AnyForm beyond_side = setting.beyond(s.area, s.square);
-    if (now.sign_of(beyond_side) > 0) {
+    const Side& s = parts.sides[i];
+    if (now.sign_of(s.beyond) > 0) {
       result.push_back(
-          {{std::move(beyond_side), s.other, setting.beyond(s.other * s.other, s.square * s.area)},
-           {}});
+          {{s.beyond, s.other, setting.beyond(s.other * s.other, s.square * s.area)}, {}});
     }
-    Separator vertex{{setting.beyond(gram(i, i), {1})}, {}};
-    if (now.sign_of(vertex.values[0]) <= 0) continue;
+    if (now.sign_of(parts.vertices_beyond[i]) <= 0) continue;
+    Separator vertex{{parts.vertices_beyond[i]}, {}};
     for (std::size_t k = 0; k < setting.corners.size(); ++k) {
       if (k == i) continue;
-      vertex.values.push_back(gram(i, k));
-      vertex.values.push_back(setting.beyond(gram(i, k) * gram(i, k), gram(i, i)));
+      const AnyForm& product = parts.gram(i, k);
+      vertex.values.push_back(product);
+      vertex.values.push_back(setting.beyond(product * product, parts.gram(i, i)));
     }
     result.push_back(std::move(vertex));
   }
@@ -369,13 +390,13 @@ End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
         [&](Instant& now, const Dyadic& horizon) { return reach(separators, now, horizon); },
         latest);
   }
-  const Gram gram(setting.corners);
-  const auto low = low_ball_separators(setting, gram);
+  const BallParts parts(setting);
+  const auto low = low_ball_separators(setting, parts);
   return walk(
       [&](Instant& now, const Dyadic& horizon) {
         Reach found = reach(low, now, horizon);
         if (found.separated) return found;
-        return reach(ball_separators_at(now, setting, gram), now, horizon);
+        return reach(ball_separators_at(now, setting, parts), now, horizon);
       },
       latest);
 }
