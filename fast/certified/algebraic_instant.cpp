@@ -30,11 +30,6 @@ Dyadic reduced(const Dyadic& t) {
   return {t.numerator >> zeros, t.exponent - zeros};
 }
 
-Dyadic dyadic_of(std::uint64_t bits) {
-  const DyadicDouble value = dyadic(bits);
-  return {value.numerator, value.exponent};
-}
-
 Dyadic from_one(const Dyadic& t) {
   return {(BigInteger(1) << t.exponent) - t.numerator, t.exponent};
 }
@@ -380,6 +375,11 @@ class RootSearch {
 
 }  // namespace
 
+Dyadic dyadic_of(std::uint64_t bits) {
+  const DyadicDouble value = dyadic(bits);
+  return {value.numerator, value.exponent};
+}
+
 Polynomial inner_polynomial(Polynomial coefficients) {
   drop_top_zeros(coefficients);
   const auto first =
@@ -484,13 +484,17 @@ void Instant::narrow() {
 int Instant::sign_of(std::span<const BigInteger> q) {
   if (std::ranges::all_of(q, [](const BigInteger& c) { return c.sign() == 0; })) return 0;
   constexpr int patience = 1;  // narrowing is cheaper than a divisor
+  Polynomial inner;
   for (int round = 0;; ++round) {
     if (is_dyadic()) return sign_at(q, lower_);
     const LocalSigns local = signs_between(q, lower_, upper_);
     if (local.changes == 0) return local.first;
+    if (round == 0) {
+      inner = inner_polynomial(Polynomial(q.begin(), q.end()));
+      if (inner == f_) return 0;
+    }
     if (round == patience) {
-      const Polynomial common =
-          common_divisor(f_, inner_polynomial(Polynomial(q.begin(), q.end())));
+      const Polynomial common = common_divisor(f_, inner);
       if (signs_between(common, lower_, upper_).changes % 2 == 1) return 0;
     }
     narrow();
@@ -572,6 +576,11 @@ bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit) {
   return false;
 }
 
+int weak_sign_between(std::span<const BigInteger> form, const Dyadic& from, const Dyadic& to) {
+  const LocalSigns local = signs_between(form, from, to);
+  return local.changes == 0 ? local.first : 0;
+}
+
 bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from, const Dyadic& to) {
   if (equal(from, to)) return sign_at(form, from) > 0;
   if (const auto rough = rough_form(form, from, to)) {
@@ -581,16 +590,16 @@ bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from, c
   return sign_changes(local) == 0 && local.front().sign() > 0 && local.back().sign() > 0;
 }
 
-std::optional<Instant> first_root_after(Instant& from, std::span<const BigInteger> form) {
+std::optional<Instant> first_root_after(Instant& from, const Dyadic& end,
+                                        std::span<const BigInteger> form) {
   // With one sign on the whole interval of `from`, the first root is not inside.
   static_cast<void>(from.sign_of(form));
   const Dyadic& start = from.upper();
   if (sign_at(form, start) == 0) return Instant(start);
-  const Dyadic end{1, 0};
   if (equal(start, end)) return std::nullopt;
   Polynomial f = inner_polynomial(Polynomial(form.begin(), form.end()));
   if (auto root = RootSearch(std::move(f), start, end).next()) return root;
-  if (form.back().sign() == 0) return Instant(end);
+  if (sign_at(form, end) == 0) return Instant(end);
   return std::nullopt;
 }
 

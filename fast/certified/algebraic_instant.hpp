@@ -26,6 +26,7 @@
 /// Narrowing guesses the root in floating point and asks for two exact signs around it; a wrong
 /// guess costs a bisection instead and nothing else.
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -123,13 +124,21 @@ class Instant {
 /// returns true. Returns whether it did. \pre f is not zero.
 bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit);
 
-/// Is the form positive from `from` to `to`, where either may be an instant's bounds?
+/// 1 if the form is seen not to be negative anywhere between the times, −1 if it is seen not to be
+/// positive, else 0.
+[[nodiscard]] int weak_sign_between(std::span<const BigInteger> form, const Dyadic& from,
+                                    const Dyadic& to);
+
+/// Is the form positive from `from` to `to`? False if that is not seen.
 [[nodiscard]] bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from,
                                        const Dyadic& to);
 
-/// The form's smallest root later than `from` and not later than 1, if it has one.
-/// \pre the form is positive at `from`.
-[[nodiscard]] std::optional<Instant> first_root_after(Instant& from,
+/// The form's smallest root later than `from` and not later than `end`, if it has one.
+/// \pre the form is positive at `from`; from.upper() ≤ end ≤ 1.
+[[nodiscard]] std::optional<Instant> first_root_after(Instant& from, const Dyadic& end,
                                                       std::span<const BigInteger> form);
+
+/// The double in [0,1] of these bits (double_search.hpp).
+[[nodiscard]] Dyadic dyadic_of(std::uint64_t bits);
 
 }  // namespace touchstone::fast::exact_stage

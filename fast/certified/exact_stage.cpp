@@ -137,6 +137,24 @@ std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64
   return first_impact(motion_of<BigInteger, BigInteger>(kind, axes), latest);
 }
 
+/// Contact is an approach: the first approach is not later. So where nothing is near until just before
+/// the first contact, that is where it is. For small distances this is so as a rule.
+std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
+                                             const Separation& separation, std::uint64_t latest,
+                                             std::uint64_t step) {
+  const auto contact = first_impact_of(kind, query, latest, step);
+  if (contact && contact->time.upper == bits_of_zero) return contact->time;
+  const auto axes = axes_of_one_unit(query);
+  const auto motion = motion_of<BigInteger, BigInteger>(kind, axes);
+  const ScaledDistance distance = scaled_distance(separation.distance, axes[0].lowest);
+  const auto approach_until = [&](std::uint64_t time) {
+    return first_approach(motion, distance, separation.norm, time, step);
+  };
+  if (!contact || contact->time.upper > latest) return approach_until(latest);
+  const auto before = approach_until(contact->time.lower);
+  return before ? before : contact->time;
+}
+
 /// How many spacings of doubles wide an enclosure may be that is `tolerance` wide, relative to its
 /// upper end: spacings are at most 2^-52 of a normal number.
 std::uint64_t step_of(double tolerance) {
@@ -173,10 +191,8 @@ std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
                                           const Separation& separation, double toi_tolerance,
                                           double t_max) {
   if (separation.distance == 0.0) return decide_exactly(kind, query, toi_tolerance, t_max);
-  const auto axes = axes_of_one_unit(query);
-  const auto time = first_approach(motion_of<BigInteger, BigInteger>(kind, axes),
-                                   scaled_distance(separation.distance, axes[0].lowest),
-                                   separation.norm, unit_bits(t_max), step_of(toi_tolerance));
+  const auto time =
+      first_approach_of(kind, query, separation, unit_bits(t_max), step_of(toi_tolerance));
   if (!time) return std::nullopt;
   ExactImpact result{std::bit_cast<double>(time->lower), std::bit_cast<double>(time->upper)};
   const Parameters nearest = nearest_parameters(kind, query, result.toi_upper, separation.norm);

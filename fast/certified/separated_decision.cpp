@@ -60,8 +60,12 @@ AnyVector any_vector(const std::array<std::array<BigInteger, degree>, 3>& v) {
           AnyForm(v[2].begin(), v[2].end())};
 }
 
-/// The form 1 of degree 1: x + y.
-AnyForm one() { return {1, 1}; }
+/// a (x + y): the same function of time with a degree more.
+AnyForm raised(AnyForm a) {
+  a.push_back(a.back());
+  for (std::size_t k = a.size() - 2; k > 0; --k) a[k] += a[k - 1];
+  return a;
+}
 
 bool vanishes(const AnyForm& a) {
   return std::ranges::all_of(a, [](const BigInteger& c) { return c.sign() == 0; });
@@ -69,20 +73,21 @@ bool vanishes(const AnyForm& a) {
 
 // ---- Separators ---------------------------------------------------------------------------------
 
-/// A direction's forms: every value minus every sum of the spreads with signs. For l2 there are no
-/// spreads, and the values are the forms.
+/// Signs of the spreads of a separator; 0 if unknown.
+using Signs = std::array<int, 3>;
+
+/// A direction's forms: every value minus every sum of the spreads with signs. Where the signs of the
+/// spreads are known, the sum of their magnitudes is the greatest. For l2 there are no spreads, and
+/// the values are the forms.
 struct Separator {
   std::vector<AnyForm> values;
   std::vector<AnyForm> spreads;
 
-  [[nodiscard]] std::size_t count() const { return values.size() << spreads.size(); }
-
-  [[nodiscard]] AnyForm form(std::size_t index) const {
-    AnyForm result = values[index >> spreads.size()];
+  [[nodiscard]] AnyForm form(std::size_t value, const Signs& signs) const {
+    AnyForm result = values[value];
     for (std::size_t i = 0; i < spreads.size(); ++i) {
-      const bool negative = ((index >> i) & 1U) != 0;
       for (std::size_t k = 0; k < result.size(); ++k) {
-        if (negative) {
+        if (signs[i] < 0) {
           result[k] += spreads[i][k];
         } else {
           result[k] -= spreads[i][k];
@@ -90,6 +95,14 @@ struct Separator {
       }
     }
     return result;
+  }
+
+  [[nodiscard]] Signs signs_between(const Dyadic& from, const Dyadic& to) const {
+    Signs signs{};
+    for (std::size_t i = 0; i < spreads.size(); ++i) {
+      signs[i] = weak_sign_between(spreads[i], from, to);
+    }
+    return signs;
   }
 };
 
@@ -116,7 +129,7 @@ struct Setting {
 
   /// value − d² · square · (x + y)², times 2^(2 exponent).
   [[nodiscard]] AnyForm beyond(const AnyForm& value, const AnyForm& square) const {
-    return (value << 2 * exponent) - square * one() * one() * (distance * distance);
+    return (value << 2 * exponent) - raised(raised(square * (distance * distance)));
   }
 
   Kind kind;
@@ -133,14 +146,14 @@ Separator cube_separator(const Setting& setting, const AnyVector& axis,
   Separator result;
   for (const AnyForm& product : products) result.values.push_back(product << setting.exponent);
   for (const AnyForm& component : axis) {
-    if (!vanishes(component)) result.spreads.push_back(component * one() * setting.distance);
+    if (!vanishes(component)) result.spreads.push_back(raised(component * setting.distance));
   }
   return result;
 }
 
 /// ±e_c, for both norms.
 void add_axes(const Setting& setting, std::vector<Separator>& to) {
-  const AnyForm spread = one() * setting.distance;
+  const AnyForm spread{setting.distance, setting.distance};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const bool negative : {false, true}) {
       Separator separator;
@@ -200,51 +213,73 @@ class Gram {
   std::vector<AnyForm> products_;
 };
 
-/// A side: |e|², C, and a·w_k for the other corners (the same for both of a parallelogram).
+/// A side: |e|², C, a·w_k for the other corners (the same for both of a parallelogram), and
+/// C − d²|e|².
 struct Side {
-  AnyForm square, area, other;
+  AnyForm square, area, other, beyond;
 };
 
 Side side(const Setting& setting, const Gram& gram, std::size_t i) {
   const std::size_t j = setting.next(i), k = setting.next(j);
   const AnyForm from = gram(i, j) - gram(i, i), to = gram(j, j) - gram(i, j);  // w_i·e, w_j·e
-  const AnyForm square = to - from;
-  return {square, gram(i, i) * gram(j, j) - gram(i, j) * gram(i, j),
-          square * gram(i, k) - from * (gram(j, k) - gram(i, k))};
+  AnyForm square = to - from;
+  AnyForm area = gram(i, i) * gram(j, j) - gram(i, j) * gram(i, j);
+  AnyForm other = square * gram(i, k) - from * (gram(j, k) - gram(i, k));
+  AnyForm beyond = setting.beyond(area, square);
+  return {std::move(square), std::move(area), std::move(other), std::move(beyond)};
 }
 
+/// What the separators for l2 are made of.
+struct BallParts {
+  explicit BallParts(const Setting& setting) : gram(setting.corners) {
+    for (std::size_t i = 0; i < setting.corners.size(); ++i) {
+      sides.push_back(side(setting, gram, i));
+      vertices_beyond.push_back(setting.beyond(gram(i, i), {1}));
+    }
+  }
+
+  Gram gram;
+  std::vector<Side> sides;
+  std::vector<AnyForm> vertices_beyond;  // |w_i|² − d²
+};
+
 /// The coordinate axes, the vertices and sides with low forms, and the face.
-std::vector<Separator> low_ball_separators(const Setting& setting, const Gram& gram) {
+std::vector<Separator> low_ball_separators(const Setting& setting, const BallParts& parts) {
   std::vector<Separator> result;
   add_axes(setting, result);
-  result.push_back({{setting.beyond(setting.determinant * setting.determinant,
-                                    dot(setting.normal, setting.normal))},
-                    {}});
   for (std::size_t i = 0; i < setting.corners.size(); ++i) {
-    const Side s = side(setting, gram, i);
-    result.push_back({{setting.beyond(s.area, s.square), s.other - s.area}, {}});
-    Separator vertex{{setting.beyond(gram(i, i), {1})}, {}};
+    const Side& s = parts.sides[i];
+    result.push_back({{s.beyond, s.other - s.area}, {}});
+    Separator vertex{{parts.vertices_beyond[i]}, {}};
     for (std::size_t k = 0; k < setting.corners.size(); ++k) {
-      if (k != i) vertex.values.push_back(gram(i, k) - gram(i, i));
+      if (k != i) vertex.values.push_back(parts.gram(i, k) - parts.gram(i, i));
     }
     result.push_back(std::move(vertex));
   }
+  const AnyForm &det = setting.determinant, square = dot(setting.normal, setting.normal);
+  const AnyForm face = setting.beyond(det * det, square);
+  result.push_back({{det, face}, {}});
+  result.push_back({{-det, face}, {}});
   return result;
 }
 
-/// The vertices and sides as in theorem 1.
-std::vector<Separator> ball_separators(const Setting& setting, const Gram& gram) {
+/// Those vertices and sides as in theorem 1 whose first forms are positive at the time.
+std::vector<Separator> ball_separators_at(Instant& now, const Setting& setting,
+                                          const BallParts& parts) {
   std::vector<Separator> result;
   for (std::size_t i = 0; i < setting.corners.size(); ++i) {
-    const Side s = side(setting, gram, i);
-    result.push_back({{setting.beyond(s.area, s.square), s.other,
-                       setting.beyond(s.other * s.other, s.square * s.area)},
-                      {}});
-    Separator vertex{{setting.beyond(gram(i, i), {1})}, {}};
+    const Side& s = parts.sides[i];
+    if (now.sign_of(s.beyond) > 0) {
+      result.push_back(
+          {{s.beyond, s.other, setting.beyond(s.other * s.other, s.square * s.area)}, {}});
+    }
+    if (now.sign_of(parts.vertices_beyond[i]) <= 0) continue;
+    Separator vertex{{parts.vertices_beyond[i]}, {}};
     for (std::size_t k = 0; k < setting.corners.size(); ++k) {
       if (k == i) continue;
-      vertex.values.push_back(gram(i, k));
-      vertex.values.push_back(setting.beyond(gram(i, k) * gram(i, k), gram(i, i)));
+      const AnyForm& product = parts.gram(i, k);
+      vertex.values.push_back(product);
+      vertex.values.push_back(setting.beyond(product * product, parts.gram(i, i)));
     }
     result.push_back(std::move(vertex));
   }
@@ -253,31 +288,60 @@ std::vector<Separator> ball_separators(const Setting& setting, const Gram& gram)
 
 // ---- The walk -----------------------------------------------------------------------------------
 
+/// Do all forms pass the test? Where signs are known, only the least form; where they are not, that
+/// with each.
+template <class Test>
+bool all_forms(const Separator& separator, std::size_t value, Signs signs, Test&& test) {
+  for (std::size_t i = 0; i < separator.spreads.size(); ++i) {
+    if (signs[i] != 0) continue;
+    signs[i] = -1;
+    if (!all_forms(separator, value, signs, test)) return false;
+    signs[i] = 1;
+  }
+  return test(separator.form(value, signs));
+}
+
 /// Is every form positive? Every value is the mean of forms, so values are asked first.
 bool holds(const Separator& separator, Instant& at) {
   const auto is_positive = [&](const AnyForm& form) { return at.sign_of(form) > 0; };
   if (!std::ranges::all_of(separator.values, is_positive)) return false;
   if (separator.spreads.empty()) return true;
-  for (std::size_t i = 0; i < separator.count(); ++i) {
-    if (!is_positive(separator.form(i))) return false;
+  const Signs signs = separator.signs_between(at.lower(), at.upper());
+  for (std::size_t value = 0; value < separator.values.size(); ++value) {
+    if (!all_forms(separator, value, signs, is_positive)) return false;
   }
   return true;
 }
 
-/// Until when a separator holds; for ever if nothing.
+/// Until when a separator holds; beyond the horizon if nothing.
 using End = std::optional<Instant>;
 
-/// The first root of the forms of a separator that holds at `from`.
-End end_of(const Separator& separator, Instant& from) {
+/// Makes `end` the first root of the form between `from` and the horizon, if that is earlier.
+void shorten(End& end, Instant& from, const Dyadic& horizon, const AnyForm& form) {
+  if (end && is_positive_between(form, from.upper(), end->lower()) && end->sign_of(form) > 0)
+    return;
+  End root = first_root_after(from, horizon, form);
+  if (root) root->narrow();
+  if (root && (!end || compare(*root, *end) < 0)) end = std::move(root);
+}
+
+/// The first root of the forms of a separator that holds at `from`. The forms that are least at first
+/// are asked first; until the time that they give, most signs are known and no others are needed.
+End end_of(const Separator& separator, Instant& from, const Dyadic& horizon) {
   End end;
-  for (std::size_t i = 0; i < separator.count(); ++i) {
-    const AnyForm form = separator.form(i);
-    if (end && is_positive_between(form, from.upper(), end->lower()) && end->sign_of(form) > 0) {
-      continue;
-    }
-    End root = first_root_after(from, form);
-    if (root) root->narrow();
-    if (root && (!end || compare(*root, *end) < 0)) end = std::move(root);
+  const Signs first = separator.signs_between(from.lower(), from.upper());
+  for (std::size_t value = 0; value < separator.values.size(); ++value) {
+    shorten(end, from, horizon, separator.form(value, first));
+  }
+  const Signs signs = separator.signs_between(from.lower(), end ? end->upper() : horizon);
+  const auto known =
+      static_cast<std::size_t>(std::ranges::count_if(signs, [](int sign) { return sign != 0; }));
+  if (signs == first && known == separator.spreads.size()) return end;
+  for (std::size_t value = 0; value < separator.values.size(); ++value) {
+    static_cast<void>(all_forms(separator, value, signs, [&](const AnyForm& form) {
+      shorten(end, from, horizon, form);
+      return true;
+    }));
   }
   return end;
 }
@@ -288,11 +352,15 @@ struct Reach {
   End end;                 ///< the end of one that reaches far
 };
 
-Reach reach(const std::vector<Separator>& separators, Instant& from) {
+Reach reach(const std::vector<Separator>& separators, Instant& from, const Dyadic& horizon) {
   Reach result;
   for (const Separator& separator : separators) {
+    if (result.end) {
+      Instant sure(result.end->lower());
+      if (!holds(separator, sure)) continue;
+    }
     if (!holds(separator, from)) continue;
-    End end = end_of(separator, from);
+    End end = end_of(separator, from, horizon);
     if (!end) return {true, {}};
     // Which of two that are this near is farther does not matter.
     if (!result.end || compare(end->lower(), result.end->lower()) > 0) result.end = std::move(end);
@@ -301,14 +369,16 @@ Reach reach(const std::vector<Separator>& separators, Instant& from) {
   return result;
 }
 
-/// The first time not later than `latest` at which `reach_from(t)` finds no separator.
+/// The first time not later than `latest` at which `reach_from(t, latest)` finds no separator.
 template <class ReachFrom>
 End walk(ReachFrom&& reach_from, std::uint64_t latest) {
+  const Dyadic horizon = dyadic_of(latest);
   Instant now(Dyadic{0, 0});
   for (;;) {
-    Reach found = reach_from(now);
+    Reach found = reach_from(now, horizon);
     if (!found.separated) return now;
-    if (!found.end || found.end->is_above(latest)) return std::nullopt;
+    if (!found.end) return std::nullopt;
+    static_cast<void>(found.end->is_above(latest));  // so that its bounds are not
     now = std::move(*found.end);
   }
 }
@@ -316,17 +386,17 @@ End walk(ReachFrom&& reach_from, std::uint64_t latest) {
 End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
   if (norm == Norm::linf) {
     const auto separators = cube_separators(setting);
-    return walk([&](Instant& now) { return reach(separators, now); }, latest);
+    return walk(
+        [&](Instant& now, const Dyadic& horizon) { return reach(separators, now, horizon); },
+        latest);
   }
-  const Gram gram(setting.corners);
-  const auto low = low_ball_separators(setting, gram);
-  std::vector<Separator> all;
+  const BallParts parts(setting);
+  const auto low = low_ball_separators(setting, parts);
   return walk(
-      [&](Instant& now) {
-        Reach found = reach(low, now);
+      [&](Instant& now, const Dyadic& horizon) {
+        Reach found = reach(low, now, horizon);
         if (found.separated) return found;
-        if (all.empty()) all = ball_separators(setting, gram);
-        return reach(all, now);
+        return reach(ball_separators_at(now, setting, parts), now, horizon);
       },
       latest);
 }

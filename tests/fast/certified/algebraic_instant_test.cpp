@@ -150,5 +150,89 @@ TEST(AlgebraicInstant, FindsCommonDivisors) {
   EXPECT_EQ(squarefree(both).size(), 3U);
 }
 
+TEST(AlgebraicInstant, SeesThatThereIsNoCommonFactor) {
+  const Polynomial both = inner_polynomial(in_time(2, -9, 9));  // (1−3t)(2−3t)
+  EXPECT_TRUE(surely_coprime(both, inner_polynomial(in_time(1, 0, -2))));
+  EXPECT_FALSE(surely_coprime(both, cubic(1, -8, 21, -18)));
+  EXPECT_TRUE(surely_coprime({1}, both));
+}
+
+/// The product of the factors.
+Polynomial with_roots(const std::vector<Quadratic>& factors) {
+  Polynomial product{1};
+  for (const Quadratic& factor : factors) {
+    Polynomial next(product.size() + 2);
+    for (std::size_t i = 0; i < product.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) next[i + k] += product[i] * factor[k];
+    }
+    product = next;
+  }
+  return product;
+}
+
+TEST(AlgebraicInstant, HandlesDegreeEight) {
+  const Quadratic a = in_time(1, 0, -2), b = in_time(2, -9, 9), c = in_time(1, 1, 1);
+  const Polynomial f = with_roots({a, a, b, c}), g = with_roots({a, b, b});
+  EXPECT_EQ(common_divisor(f, g).size(), 5U);  // a b
+  EXPECT_EQ(squarefree(f).size(), 7U);         // a b c
+  expect_roots(inner_polynomial(f), {1.0 / 3.0, 2.0 / 3.0, std::sqrt(0.5)});
+}
+
+TEST(AlgebraicInstant, TellsRootsThatAreHardlyApart) {
+  // (3t − 1)² = 2^-400, and a double root where they nearly are.
+  const BigInteger large = BigInteger(1) << 400;
+  const Quadratic square = in_time(1, -6, 9);
+  Polynomial pair(square.begin(), square.end());
+  for (BigInteger& c : pair) c = c * large;
+  const Quadratic one = in_time(1, 0, 0);
+  for (std::size_t k = 0; k < 3; ++k) pair[k] -= one[k];
+  expect_roots(pair, {1.0 / 3.0, 1.0 / 3.0});
+  Instant start(Dyadic{0, 0});
+  auto first = first_root_after(start, {1, 0}, pair);
+  ASSERT_TRUE(first.has_value());
+  Instant third(cubic(1, -3, 0, 0), {0, 0}, {1, 0});
+  EXPECT_EQ(compare(*first, third), -1);
+  auto second = first_root_after(third, {1, 0}, with_roots({in_time(2, -3, 0)}));
+  ASSERT_TRUE(second.has_value());
+  EXPECT_EQ(compare(*second, third), 1);
+  expect_roots(Polynomial(square.begin(), square.end()), {1.0 / 3.0});
+}
+
+TEST(AlgebraicInstant, ComparesInstants) {
+  Instant a(cubic(1, 0, -2, 0), {0, 0}, {1, 0});   // √½
+  Instant b(cubic(-3, 0, 6, 0), {1, 1}, {3, 2});   // the same
+  Instant c(cubic(-7, 10, 0, 0), {0, 0}, {1, 0});  // 7/10
+  Instant d(Dyadic{3, 2});
+  EXPECT_EQ(compare(a, b), 0);
+  EXPECT_EQ(compare(a, c), 1);
+  EXPECT_EQ(compare(c, a), -1);
+  EXPECT_EQ(compare(a, d), -1);
+  EXPECT_EQ(compare(d, c), 1);
+  EXPECT_EQ(compare(d, d), 0);
+}
+
+TEST(AlgebraicInstant, FindsTheFirstRootLaterThanATime) {
+  const Quadratic f = in_time(2, -9, 9);             // roots at 1/3 and 2/3
+  Instant half(cubic(1, 0, -2, 0), {0, 0}, {1, 0});  // √½, where f > 0
+  EXPECT_FALSE(first_root_after(half, {1, 0}, f).has_value());
+  Instant start(Dyadic{0, 0});
+  auto third = first_root_after(start, {1, 0}, f);
+  ASSERT_TRUE(third.has_value());
+  EXPECT_EQ(third->sign_of(root_at(1, 3)), 0);
+  EXPECT_FALSE(first_root_after(start, {1, 2}, f).has_value());
+  auto end = first_root_after(start, {1, 2}, in_time(1, -4, 0));  // at the limit itself
+  ASSERT_TRUE(end.has_value());
+  EXPECT_EQ(compare(end->lower(), {1, 2}), 0);
+}
+
+TEST(AlgebraicInstant, SeesSignsBetweenTimes) {
+  const Quadratic f = in_time(1, -2, 0);  // 1 − 2t
+  EXPECT_TRUE(is_positive_between(f, {0, 0}, {1, 2}));
+  EXPECT_FALSE(is_positive_between(f, {0, 0}, {1, 1}));
+  EXPECT_EQ(weak_sign_between(f, {0, 0}, {1, 1}), 1);
+  EXPECT_EQ(weak_sign_between(f, {1, 1}, {1, 0}), -1);
+  EXPECT_EQ(weak_sign_between(f, {0, 0}, {1, 0}), 0);
+}
+
 }  // namespace
 }  // namespace touchstone::fast::exact_stage

@@ -79,6 +79,30 @@ TEST(BigInteger, HoldsTheExtremesOfItsConstructor) {
   EXPECT_EQ((-BigInteger(0)).sign(), 0);
 }
 
+TEST(BigInteger, DividesMultiplesExactly) {
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const Integer a = draw(random), b = draw(random);
+    if (b == 0) continue;
+    EXPECT_TRUE(big(a * b).divided_exactly(big(b)) == big(a)) << a << ' ' << b;
+  }
+}
+
+TEST(BigInteger, TakesResiduesAndDropsFractions) {
+  Random random(6);
+  constexpr std::uint64_t modulus = (std::uint64_t{1} << 61U) - 1;
+  for (int i = 0; i < 2000; ++i) {
+    const Integer a = draw(random);
+    const Integer rest = ((a % Integer(modulus)) + Integer(modulus)) % Integer(modulus);
+    EXPECT_EQ(big(a).residue(modulus), rest.get_ui()) << a;
+    const long shift = random.between(-80, 62) - big(a).bit_length();
+    if (shift + big(a).bit_length() > 62) continue;
+    const Integer cut = shift >= 0 ? Integer(a << static_cast<unsigned>(shift))
+                                   : Integer(a / (Integer(1) << static_cast<unsigned>(-shift)));
+    EXPECT_EQ(big(a).truncated(shift), cut.get_si()) << a << ' ' << shift;
+  }
+}
+
 TEST(BigInteger, ApproximatesWithin52Bits) {
   Random random(4);
   for (int i = 0; i < 2000; ++i) {
