@@ -105,7 +105,8 @@ CertifiedResult decide_last(const Batch& batch, std::size_t i, const CertifiedOp
 
 /// The result of a hit, if it is as narrow as wanted and on one side of t_max.
 std::optional<CertifiedResult> result_of(const KernelHit& hit, const CertifiedOptions& options) {
-  if (hit.toi_lower >= options.t_max) {
+  // (Where the time of impact is 0, both are.)
+  if (hit.toi_lower >= options.t_max && hit.toi_upper > 0.0) {
     return CertifiedResult{.verdict = Verdict::no, .stage = Stage::bisection};
   }
   if (hit.toi_upper > options.t_max || options.toi_tolerance < least_kernel_tolerance) {

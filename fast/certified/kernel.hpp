@@ -40,7 +40,7 @@ struct KernelInput {
 /// Below this, the rounding of the enclosure's own ends would count.
 inline constexpr double least_kernel_tolerance = 0x1p-48;
 
-/// A collision: the contact is the only one up to toi_upper, and after toi_lower.
+/// A collision: no contact up to toi_lower, and one up to toi_upper; or both are 0 and so is the toi.
 struct KernelHit {
   std::uint32_t index;  ///< in the block
   double toi_lower;

@@ -537,15 +537,23 @@ TEST(CertifiedMethod, AnswersWhatTheSolverFinds) {
   }
 }
 
-TEST(CertifiedMethod, HeedsTMaxAndRefusesASeparation) {
+TEST(CertifiedMethod, HeedsTMaxAndTheSeparation) {
   const Query query = over_triangle(1, 1, 1, -1).query;
   Answer answer;
   certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
                             {.t_max = 0.25});
   EXPECT_EQ(answer.verdict, Verdict::no);
+  // At a distance of a half it is at t = 1/4.
   certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
-                            {.min_separation = 1e-8});
-  EXPECT_EQ(answer.verdict, Verdict::error);
+                            {.min_separation = 0.5, .t_max = 0.25, .norm = Norm::l2});
+  EXPECT_EQ(answer.verdict, Verdict::yes);
+  EXPECT_LT(answer.toi_lower, 0.25);
+  EXPECT_EQ(answer.toi_upper, 0.25);
+  for (const double bad : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
+                              {.min_separation = bad});
+    EXPECT_EQ(answer.verdict, Verdict::error) << bad;
+  }
 }
 
 }  // namespace

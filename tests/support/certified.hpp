@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "exact/distance_oracle.hpp"
 #include "exact/number.hpp"
-#include "exact/oracle.hpp"
 #include "fast/certified.hpp"
 
 namespace touchstone::tests {
@@ -41,9 +41,9 @@ namespace touchstone::tests {
 [[nodiscard]] inline std::optional<std::string> fault(Kind kind, const Query& query,
                                                       const fast::CertifiedResult& result,
                                                       const fast::CertifiedOptions& options = {}) {
-  const exact::Verdict truth = exact::decide(kind, query);
+  const exact::DistanceVerdict truth = exact::decide(kind, query, options.separation);
   bool collides = truth.collides();
-  if (collides && options.t_max < 1.0) collides = compare(truth.impact->toi, options.t_max) <= 0;
+  if (collides && options.t_max < 1.0) collides = compare(*truth.toi, options.t_max) <= 0;
   if (result.verdict != (collides ? fast::Verdict::yes : fast::Verdict::no)) {
     return collides ? "a collision is missed" : "a collision is made up";
   }
@@ -52,7 +52,7 @@ namespace touchstone::tests {
   const bool in_domain = u >= 0 && v >= 0 && u <= 1 && v <= 1 &&
                          (kind == Kind::edge_edge || exact::Rational(u) + exact::Rational(v) <= 1);
   if (!in_domain) return "(u,v) is not in the domain";
-  return enclosure_fault(truth.impact->toi, result.toi_lower, result.toi_upper,
+  return enclosure_fault(*truth.toi, result.toi_lower, result.toi_upper,
                          options.toi_tolerance);
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -18,6 +19,7 @@
 
 #include "exact/number.hpp"
 #include "fast/certified.hpp"
+#include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "verify/families/families.hpp"
@@ -35,6 +37,10 @@ extern const CertifiedKernel fault_in_rejection;
 extern const CertifiedKernel fault_in_agreement;
 extern const CertifiedKernel fault_in_zero;
 extern const CertifiedKernel fault_in_refinement;
+extern const CertifiedKernel fault_in_axis_distance;
+extern const CertifiedKernel fault_in_widening;
+extern const CertifiedKernel fault_in_step;
+extern const CertifiedKernel fault_in_witness;
 
 namespace {
 
@@ -102,6 +108,13 @@ std::vector<const CertifiedKernel*> all_kernels() {
   return kernels;
 }
 
+/// None, and from beyond rounding to far below it, in both norms.
+Separation separation_of(int round) {
+  constexpr std::array<double, 6> distances{0.0, 0.05, 1e-8, 1e-15, 1e-30, 1e300};
+  return {.distance = distances.at(static_cast<std::size_t>(round) % distances.size()),
+          .norm = round % 4 < 2 ? Norm::linf : Norm::l2};
+}
+
 TEST(CertifiedKernels, GiveTheSameBits) {
   const auto plain = std::make_unique<KernelOutput>(), other = std::make_unique<KernelOutput>();
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
@@ -112,6 +125,7 @@ TEST(CertifiedKernels, GiveTheSameBits) {
       const KernelInput input{.kind = kind,
                               .count = queries.size(),
                               .queries = queries.data(),
+                              .separation = separation_of(round),
                               .t_limit = round % 3 == 0 ? 0.5 : 1.0};
       certified_kernels().front()->decide(input, *plain);
       for (const CertifiedKernel* const kernel : all_kernels()) {
@@ -202,6 +216,48 @@ TEST(CertifiedKernels, FamiliesFindAFaultInEachStage) {
     const std::vector<std::string> found = families_that_find(*kernel);
     std::printf("fault in %s: found by %zu families\n", fault.c_str(), found.size());
     EXPECT_FALSE(found.empty()) << fault;
+  }
+}
+
+// ---- With a separation --------------------------------------------------------------------------
+
+/// At how many of the distances some answer is wrong.
+int distances_that_find(const CertifiedKernel& kernel) {
+  int found = 0;
+  for (const double distance : {0.25, 1e-2, 1e-8, 1e-15, 1e-16}) {
+    bool is_found = false;
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      Random random(41);
+      for (int i = 0; i < 400 && !is_found; ++i) {
+        const Norm norm = i % 2 == 0 ? Norm::linf : Norm::l2;
+        const CertifiedOptions options{.separation = {.distance = distance, .norm = norm},
+                                       .kernel = &kernel};
+        // Nothing moves by more than the points' distances here and there.
+        Query query = tests::near_contact_query(random, kind);
+        if (i % 3 == 0) query = tests::full_significand_query(random);
+        is_found = tests::fault(kind, query, certified(kind, query, options), options).has_value();
+      }
+    }
+    found += is_found ? 1 : 0;
+  }
+  return found;
+}
+
+TEST(CertifiedKernels, DistancesFindNoFaultWhereThereIsNone) {
+  EXPECT_EQ(distances_that_find(*certified_kernels().front()), 0);
+  EXPECT_EQ(distances_that_find(best_certified_kernel()), 0);
+}
+
+TEST(CertifiedKernels, DistancesFindAFaultInEachStage) {
+  const std::map<std::string, const CertifiedKernel*> faults{
+      {"axis with a distance", &fault_in_axis_distance},
+      {"widening", &fault_in_widening},
+      {"step", &fault_in_step},
+      {"witness", &fault_in_witness}};
+  for (const auto& [fault, kernel] : faults) {
+    const int found = distances_that_find(*kernel);
+    std::printf("fault in %s: found at %d distances\n", fault.c_str(), found);
+    EXPECT_GT(found, 0) << fault;
   }
 }
 
