@@ -11,18 +11,7 @@ namespace {
 using Coefficients = std::span<const Integer>;
 
 bool is_positive(const Integer& x) { return sgn(x) > 0; }
-
-/// The form in a higher degree.
-template <std::size_t up, std::size_t degree>
-Form<degree + up> raised(const Form<degree>& form) {
-  return form * one<up>();
-}
-
-template <std::size_t degree>
-Form<degree> times(Form<degree> form, const Integer& factor) {
-  for (Integer& x : form.c) x *= factor;
-  return form;
-}
+bool is_negative(const Integer& x) { return sgn(x) < 0; }
 
 /// The polynomials of features; products of corners are made when first needed.
 class Values {
@@ -30,7 +19,7 @@ class Values {
   using Holds = std::function<bool(Coefficients)>;
 
   explicit Values(const Motion& motion)
-      : motion_(motion), square_(times(one<2>(), motion.distance * motion.distance)) {}
+      : motion_(motion), square_(multiple(one<2>(), motion.distance * motion.distance)) {}
 
   /// All features, the cheaper ones first.
   [[nodiscard]] std::vector<Feature> features() const {
@@ -169,25 +158,30 @@ class Values {
 
   // ---- linf -------------------------------------------------------------------------------------
 
-  /// a·w > d(σ·a) for all σ, from a·w and those components of a that may differ from zero.
+  /// a·w > d(σ·a) for all σ, from a·w and those components of a that may differ from zero. Of a
+  /// component whose sign is that of its coefficients, that sign is the one that asks for most.
   template <std::size_t degree, std::size_t below, std::size_t count>
   bool is_beyond_cube(const Form<degree>& value, const std::array<Form<below>, count>& components,
                       const Holds& holds) {
+    static_assert(degree == below + 1);
+    if (std::ranges::none_of(value.c, is_positive)) return false;
     std::vector<Form<degree>> sums{value};
     for (const Form<below>& component : components) {
-      if (component.is_zero() || !is_apart()) continue;
-      const Form<degree> step = raised<degree - below>(times(component, motion_.distance));
+      if (!is_apart()) continue;
+      const Form<degree> step = raised(multiple(component, motion_.distance));
+      const bool never_positive = std::ranges::none_of(component.c, is_positive);
+      const bool is_both = !never_positive && std::ranges::any_of(component.c, is_negative);
       const std::size_t size = sums.size();
       for (std::size_t n = 0; n < size; ++n) {
-        sums.push_back(sums[n] + step);
-        sums[n] -= step;
+        if (is_both) sums.push_back(sums[n] + step);
+        never_positive ? sums[n] += step : sums[n] -= step;
       }
     }
     return std::ranges::all_of(sums, [&](const Form<degree>& form) { return holds(form.c); });
   }
 
   bool every_of_axis(const Feature& feature, const Holds& holds) {
-    const Form<1> distance = times(one<1>(), motion_.distance);
+    const Form<1> distance = multiple(one<1>(), motion_.distance);
     for (std::size_t k = 0; k < corners(); ++k) {
       const Form<1>& x = motion_.corners.at(k).at(feature.axis);
       if (!holds(((feature.sort == Sort::positive_axis ? x : -x) - distance).c)) return false;
@@ -232,7 +226,7 @@ const Polynomial& Separator::polynomial(std::size_t n) {
   return *value.polynomial;
 }
 
-const std::vector<AlgebraicNumber>& Separator::roots(std::size_t n) {
+std::vector<AlgebraicNumber>& Separator::roots(std::size_t n) {
   Value& value = values_[n];
   if (!value.roots) value.roots = roots_in_unit_interval(polynomial(n));
   return *value.roots;
@@ -248,25 +242,38 @@ bool Separator::holds_at(AlgebraicNumber& t) {
   return true;
 }
 
-Separator::End Separator::end_after(const AlgebraicNumber& t,
-                                    const std::optional<AlgebraicNumber>& bound) {
+/// Is one of its polynomials seen to be negative between t and the bound? Asked of one point close to
+/// the bound, which spares most separators the isolation of roots.
+bool Separator::is_over_before(const AlgebraicNumber& t, const AlgebraicNumber& bound) {
+  const Rational point = bound.interval().lower;
+  if (t >= point) return false;
+  for (std::size_t n = 0; n < size(); ++n) {
+    if (sign_at(polynomial(n), point) < 0) return true;
+  }
+  return false;
+}
+
+Separator::End Separator::end_after(AlgebraicNumber& t, std::optional<AlgebraicNumber>& bound) {
+  static constexpr unsigned long close = 32;
+  if (bound) bound->refine_to_level(close);
+  if (bound && is_over_before(t, *bound)) return {.root = {}, .is_within_bound = true};
   End end;
   for (std::size_t n = 0; n < size(); ++n) {
-    const auto& all = roots(n);
-    const auto root = std::ranges::find_if(all, [&](const auto& x) { return t < x; });
-    if (root == all.end() || (end.root && *end.root <= *root)) continue;
+    auto& all = roots(n);
+    const auto root = std::ranges::find_if(all, [&](auto& x) { return compare(t, x) < 0; });
+    if (root == all.end() || (end.root && compare(*end.root, *root) <= 0)) continue;
     end.root = *root;
-    end.is_before_bound = bound && *root <= *bound;
-    if (end.is_before_bound) break;
+    end.is_within_bound = bound && compare(*root, *bound) <= 0;
+    if (end.is_within_bound) break;
   }
   return end;
 }
 
-std::optional<AlgebraicNumber> Separator::begin_before(const AlgebraicNumber& t) {
+std::optional<AlgebraicNumber> Separator::begin_before(AlgebraicNumber& t) {
   std::optional<AlgebraicNumber> begin;
   for (std::size_t n = 0; n < size(); ++n) {
-    for (const AlgebraicNumber& root : roots(n)) {
-      if (root < t && (!begin || *begin < root)) begin = root;
+    for (AlgebraicNumber& root : roots(n)) {
+      if (compare(root, t) < 0 && (!begin || compare(*begin, root) < 0)) begin = root;
     }
   }
   return begin;
@@ -294,8 +301,9 @@ std::optional<Span> farthest(std::vector<Separator>& separators, AlgebraicNumber
   std::optional<Span> best;
   for (Separator& separator : separators) {
     if (!separator.holds_at(t)) continue;
-    Separator::End end = separator.end_after(t, best ? best->end : std::nullopt);
-    if (end.is_before_bound) continue;
+    std::optional<AlgebraicNumber> none;
+    Separator::End end = separator.end_after(t, best ? best->end : none);
+    if (end.is_within_bound) continue;
     best = {&separator, std::move(end.root)};
     if (!best->end) break;
   }

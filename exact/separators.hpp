@@ -98,15 +98,15 @@ class Separator {
   /// \pre holds_at(t)
   struct End {
     std::optional<AlgebraicNumber> root;
-    /// Is `root` only known to be no later than the bound that was given?
-    bool is_before_bound = false;
+    /// Is it not after the bound that was given? Then `root` may be missing or a later one.
+    bool is_within_bound = false;
   };
-  /// \param bound If one is given, ends that are not after it need not be found.
-  End end_after(const AlgebraicNumber& t, const std::optional<AlgebraicNumber>& bound);
+  /// \param bound If one is given, which is after t, ends that are not after it need not be found.
+  End end_after(AlgebraicNumber& t, std::optional<AlgebraicNumber>& bound);
 
   /// The last root before t, none if there is no such: from where on it holds, excluded.
   /// \pre holds_at(t)
-  std::optional<AlgebraicNumber> begin_before(const AlgebraicNumber& t);
+  std::optional<AlgebraicNumber> begin_before(AlgebraicNumber& t);
 
  private:
   struct Value {
@@ -114,7 +114,8 @@ class Separator {
     std::optional<Polynomial> polynomial;
     std::optional<std::vector<AlgebraicNumber>> roots;
   };
-  const std::vector<AlgebraicNumber>& roots(std::size_t n);
+  std::vector<AlgebraicNumber>& roots(std::size_t n);
+  bool is_over_before(const AlgebraicNumber& t, const AlgebraicNumber& bound);
 
   Feature feature_;
   std::vector<Value> values_;
