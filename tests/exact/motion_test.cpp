@@ -377,8 +377,8 @@ TEST(ScaleUniformly, TakesTheDistanceAlong) {
   Query query{};
   query.at(0, 0, 0) = 3.0;
   const Motion coarse = scale_uniformly(Kind::vertex_face, query, {6.0, Norm::linf});
-  EXPECT_EQ(coarse.points[0][0].c[0], 1);
-  EXPECT_EQ(coarse.distance, 2);
+  EXPECT_EQ(coarse.points[0][0].c[0], 3);
+  EXPECT_EQ(coarse.distance, 6);
   EXPECT_EQ(coarse.norm, Norm::linf);
   const Motion fine = scale_uniformly(Kind::vertex_face, query, {0.125, Norm::l2});
   EXPECT_EQ(fine.points[0][0].c[0], 24);

@@ -162,9 +162,9 @@ TEST(Separate, KeepsADistance) {
 }
 
 TEST(Separate, TakesACubesEdgeWhereNothingElseSeparates) {
-  // Beside a side in x = y that leans: neither an axis nor the face separates, as at any distance
-  // between that of linf and the reach of the two.
-  const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 4, 4, -8};
+  // (6,2) is 2 from the side in x = y. The triangle leans away from it: its plane is nearer, and all
+  // coordinates of the vertex are between those of the triangle.
+  const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 2, 6, -8};
   const auto posed = tests::vertex_face(tests::with_vertex(6, 2, -0.25, face),
                                         tests::with_vertex(6, 2, -0.5, face));
   const Motion motion = scale_uniformly(posed.kind, posed.query, {1.9, Norm::linf});
