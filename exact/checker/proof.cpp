@@ -187,14 +187,11 @@ class Proof {
   bool is_positive(const Form& form, std::size_t bisections = 0) {
     for (const mpz_class& x : form) work_bits_ += bits(x);
     if (work_bits_ > max_work_bits) reject("the proof takes too much work");
-    const auto doubt = [&](const char* reason) { return doubt_ = reason, false; };
-    if (form.front() <= 0 || form.back() <= 0) {
-      return doubt("a polynomial is not positive at a point");
-    }
+    doubt_ = "a polynomial is not positive at a point";
+    if (form.front() <= 0 || form.back() <= 0) return false;
     if (std::ranges::all_of(form, [](const mpz_class& x) { return x >= 0; })) return true;
-    if (bisections == max_bisections)
-      return doubt("a polynomial is not seen to be positive within 128 bisections");
-    return is_positive(substitute(form, 2, 1), bisections + 1) &&
+    doubt_ = "a polynomial is not seen to be positive within 128 bisections";
+    return bisections < max_bisections && is_positive(substitute(form, 2, 1), bisections + 1) &&
            is_positive(substitute(mirrored(form), 2, 1), bisections + 1);
   }
 
@@ -240,12 +237,17 @@ class Proof {
     return d;
   }
 
-  /// value − D (σ·d), the signs σ given by the bits of a number.
-  [[nodiscard]] Form less_reach(Form value, const Vector& d, unsigned signs) const {
-    for (std::size_t n = 0; n < 3; ++n, signs /= 2) {
-      value = add_product(value, d[n], {distance_}, signs % 2 == 0 ? mpz_submul : mpz_addmul);
+  /// D (σ·d) for every vector σ of signs.
+  [[nodiscard]] std::vector<Form> reaches(const Vector& d) const {
+    std::vector<Form> sums{Form{0}};
+    for (const Form& x : d) {
+      if (std::ranges::all_of(x, [](const mpz_class& c) { return c == 0; })) continue;
+      for (std::size_t n = sums.size(); n-- > 0;) {
+        sums.push_back(add_product(sums[n], x, {distance_}, mpz_submul));
+        sums[n] = add_product(sums[n], x, {distance_});
+      }
     }
-    return value;
+    return sums;
   }
 
   /// value − D² |d|².
@@ -258,14 +260,13 @@ class Proof {
   void prove_separation(const Piece& piece) {
     const Vector d = direction(piece) * (piece.is_negative ? -1 : 1);
     const std::size_t count = piece.feature == Feature::face ? 1 : corners_.size();
+    const bool is_plain = distance_ == 0, is_l2 = certificate_.is_l2;
+    const std::vector<Form> sums = is_plain || is_l2 ? std::vector<Form>{} : reaches(d);
     for (std::size_t n = 0; n < count; ++n) {
       const Form value = dot(d, corners_[n]);
-      if (certificate_.is_l2 || distance_ == 0) prove_positive(value);
-      if (distance_ == 0) continue;
-      if (certificate_.is_l2) prove_positive(less_square(value * value, d));
-      for (unsigned signs = 0; signs < 8 && !certificate_.is_l2; ++signs) {
-        prove_positive(less_reach(value, d, signs));
-      }
+      if (is_plain || is_l2) prove_positive(value);
+      if (!is_plain && is_l2) prove_positive(less_square(value * value, d));
+      for (const Form& sum : sums) prove_positive(add_product(value, sum, {-1}));
     }
   }
 
@@ -355,16 +356,17 @@ class Proof {
       axes.push_back(cross(unit(n % 3), next(n / 3) - corners_[n / 3]));
     }
     for (const Vector& axis : axes) {
-      if (!reaches(axis) || !reaches(axis * -1)) reject("an axis separates, or is not seen not to");
+      if (!is_reached(axis) || !is_reached(axis * -1))
+        reject("an axis separates, or is not seen not to");
     }
   }
 
   /// Is d·w ≤ D‖d‖ seen for some corner w? For some σ is enough.
-  bool reaches(const Vector& d) {
-    for (const Vector& w : corners_) {
-      for (unsigned signs = 0; signs < 8; ++signs) {
-        const Form rest = less_reach(dot(d, w), d, signs);
-        if (divides(g_, rest) || is_positive(on_interval(rest * -1))) return true;
+  bool is_reached(const Vector& d) {
+    for (const Form& sum : reaches(d)) {
+      for (const Vector& w : corners_) {
+        const Form gap = add_product(sum, dot(d, w), {-1});
+        if (divides(g_, gap) || is_positive(on_interval(gap))) return true;
       }
     }
     return false;
