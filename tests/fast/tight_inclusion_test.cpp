@@ -798,7 +798,7 @@ TEST(PlantedFault, IsCaughtByTheFamilies) {
                                             {Fault::lost_interval, "interval lost"}};
   std::map<std::string, std::set<Fault>> table;
   for (const auto& [fault, name] : faults) {
-    const auto families = families_that_catch(fault, tests::trials(100U));
+    const auto families = families_that_catch(fault, 100);
     EXPECT_GE(families.size(), 3U) << name;
     for (const std::string& family : families) table[family].insert(fault);
   }
