@@ -5,7 +5,7 @@
 
 namespace touchstone::tests {
 
-/// Under the sanitizers a case costs some eight times as much, and what they look for depends on the path
+/// Under the sanitizers a case costs several times as much, and what they look for depends on the path
 /// taken and not on the numbers: one case in eight there.
 #ifdef TOUCHSTONE_SANITIZED
 inline constexpr int sanitizer_divisor = 8;
