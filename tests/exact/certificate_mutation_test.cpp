@@ -17,6 +17,7 @@
 #include "tests/support/certificates.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 #include "verify/families/families.hpp"
 
 // Certificates (exact/certificate.hpp) altered in every field: whatever the checker still accepts has
@@ -365,7 +366,7 @@ class MutationTest : public ::testing::Test {
 
 TEST_F(MutationTest, WhatIsAcceptedIsTrue) {
   const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-  const std::uint64_t wanted = soak ? 100000 : 5000;
+  const std::uint64_t wanted = soak ? 100000U : tests::trials(5000U);
   const unsigned stride = soak ? 2 : 12;
   tests::Random random(23);
   for (std::uint64_t index = 0; judged() < wanted; ++index) {

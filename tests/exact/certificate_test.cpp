@@ -16,6 +16,7 @@
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 #include "verify/dataset/dataset.hpp"
 #include "verify/families/families.hpp"
 
@@ -310,7 +311,7 @@ TEST(Prove, ScalesDoNotMatter) {
 
 TEST(Prove, AnyFiniteDoublesHaveACertificate) {
   tests::Random random(3);
-  const int count = soak() ? 3000 : 60;
+  const int count = soak() ? 3000 : tests::trials(60);
   for (int repetition = 0; repetition < count; ++repetition) {
     PosedQuery posed{random.coin() ? Kind::vertex_face : Kind::edge_edge, {}};
     for (double& x : posed.query.coordinates) x = random.finite_double();
@@ -389,7 +390,7 @@ class RoundTrip {
 };
 
 TEST(RoundTrip, AllFamiliesAreAccepted) {
-  const std::uint64_t count = soak() ? 1000 : 20;
+  const std::uint64_t count = soak() ? 1000U : tests::trials(20U);
   for (const verify::Family& family : verify::families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (!verify::supports(family, kind)) continue;
@@ -405,7 +406,7 @@ TEST(RoundTrip, AllFamiliesAreAccepted) {
 TEST(RoundTrip, RandomQueriesAreAccepted) {
   tests::Random random(6);
   RoundTrip trip;
-  const std::size_t count = soak() ? 100000 : 1000;
+  const std::size_t count = soak() ? 100000U : tests::trials(1000U);
   for (std::size_t i = 0; i < count; ++i) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     trip.add(

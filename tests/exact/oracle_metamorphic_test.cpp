@@ -19,6 +19,7 @@
 #include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 
 namespace touchstone::exact {
 namespace {
@@ -29,8 +30,9 @@ using tests::has_integer_coordinates;
 using tests::PosedQuery;
 using tests::Random;
 using tests::random_query;
+using tests::trials;
 
-constexpr int queries_per_family_and_kind = 700;
+constexpr int queries_per_family_and_kind = trials(700);
 constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
 
 Verdict decide(const PosedQuery& posed) { return exact::decide(posed.kind, posed.query); }
@@ -184,8 +186,8 @@ Tally check_families(const std::vector<Family>& families, const Check& check) {
         check(random, posed, verdict, tally);
         if (testing::Test::HasFailure()) return total;
       }
-      EXPECT_GT(tally.hits, 15) << to_string(kind) << ' ' << static_cast<int>(family);
-      EXPECT_GT(tally.misses, 100) << to_string(kind) << ' ' << static_cast<int>(family);
+      EXPECT_GT(tally.hits, trials(15)) << to_string(kind) << ' ' << static_cast<int>(family);
+      EXPECT_GT(tally.misses, trials(100)) << to_string(kind) << ' ' << static_cast<int>(family);
       total.hits += tally.hits;
       total.misses += tally.misses;
       total.left_out += tally.left_out;
@@ -278,8 +280,8 @@ TEST(OracleMetamorphic, ReversingTimeKeepsTheVerdictAndBoundsTheToi) {
                    EXPECT_TRUE(verdict.impact->toi <= last);
                    ++(verdict.impact->toi == last ? single_instants : longer);
                  });
-  EXPECT_GT(single_instants, 100);
-  EXPECT_GT(longer, 100);
+  EXPECT_GT(single_instants, trials(100));
+  EXPECT_GT(longer, trials(100));
 }
 
 // ------------------------------------------------------------------ parts of the motion
@@ -322,8 +324,8 @@ TEST(OracleMetamorphic, StoppingBeforeTheToiMissesAndAfterItCollides) {
                    expect_toi_of_part(stopped.impact->toi, toi, 0, Rational(end));
                    ++stopped_after;
                  });
-  EXPECT_GT(stopped_before, 300);
-  EXPECT_GT(stopped_after, 100);
+  EXPECT_GT(stopped_before, trials(300));
+  EXPECT_GT(stopped_after, trials(100));
 }
 
 TEST(OracleMetamorphic, StartingLaterKeepsTheContactAtTheToi) {
@@ -341,7 +343,7 @@ TEST(OracleMetamorphic, StartingLaterKeepsTheContactAtTheToi) {
                    expect_toi_of_part(rest.impact->toi, toi, from, 1);
                    ++started_later;
                  });
-  EXPECT_GT(started_later, 300);
+  EXPECT_GT(started_later, trials(300));
 }
 
 TEST(OracleMetamorphic, CollidesIffOneOfItsHalvesDoes) {
@@ -365,8 +367,8 @@ TEST(OracleMetamorphic, CollidesIffOneOfItsHalvesDoes) {
                      ++in_second;
                    }
                  });
-  EXPECT_GT(in_first, 300);
-  EXPECT_GT(in_second, 150);
+  EXPECT_GT(in_first, trials(300));
+  EXPECT_GT(in_second, trials(150));
 }
 
 }  // namespace

@@ -29,6 +29,7 @@
 
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 
 namespace touchstone::exact {
 namespace {
@@ -41,6 +42,7 @@ using tests::over_triangle;
 using tests::PosedQuery;
 using tests::Random;
 using tests::random_query;
+using tests::trials;
 using tests::turning_triangle;
 using tests::twisting_triangle;
 using tests::vertex_face;
@@ -782,21 +784,21 @@ void compare_family_with_second_way(Family family, int count, Tally& tally) {
 
 TEST(Oracle, AgreesWithEliminationOnSmallIntegers) {
   Tally tally;
-  compare_family_with_second_way(Family::tiny_integers, 2000, tally);
-  compare_family_with_second_way(Family::small_integers, 2000, tally);
-  EXPECT_GT(tally.hits, 1000);
-  EXPECT_GT(tally.misses, 1000);
-  EXPECT_GT(tally.rational_hits, 500);
-  EXPECT_GT(tally.touching_at_start, 200);
-  EXPECT_GT(tally.hits - tally.rational_hits, 100);
+  compare_family_with_second_way(Family::tiny_integers, trials(2000), tally);
+  compare_family_with_second_way(Family::small_integers, trials(2000), tally);
+  EXPECT_GT(tally.hits, trials(1000));
+  EXPECT_GT(tally.misses, trials(1000));
+  EXPECT_GT(tally.rational_hits, trials(500));
+  EXPECT_GT(tally.touching_at_start, trials(200));
+  EXPECT_GT(tally.hits - tally.rational_hits, trials(100));
 }
 
 TEST(Oracle, AgreesWithEliminationOnFullSignificands) {
   Tally tally;
-  compare_family_with_second_way(Family::full_significands, 200, tally);
-  compare_family_with_second_way(Family::near_contact, 200, tally);
-  EXPECT_GT(tally.hits, 40);
-  EXPECT_GT(tally.misses, 40);
+  compare_family_with_second_way(Family::full_significands, trials(200), tally);
+  compare_family_with_second_way(Family::near_contact, trials(200), tally);
+  EXPECT_GT(tally.hits, trials(40));
+  EXPECT_GT(tally.misses, trials(40));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "exact/positivity.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 
 namespace touchstone::exact {
 
@@ -199,7 +200,7 @@ TEST(Separate, SaysSoWhereTheLimitsCannotBeKept) {
 TEST(Separate, TakesTwoPiecesOnlyWhereNoFeatureSeparatesThroughout) {
   tests::Random random(5);
   std::size_t several = 0;
-  for (int repetition = 0; repetition < 4000; ++repetition) {
+  for (int repetition = 0; repetition < tests::trials(4000); ++repetition) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     const PosedQuery posed = tests::random_query(random, kind, tests::Family::near_contact);
     if (decide(posed.kind, posed.query).collides()) continue;
@@ -209,7 +210,7 @@ TEST(Separate, TakesTwoPiecesOnlyWhereNoFeatureSeparatesThroughout) {
     ++several;
     EXPECT_FALSE(some_direction_separates(scale_uniformly(posed.kind, posed.query))) << posed;
   }
-  EXPECT_GT(several, 20U);
+  EXPECT_GT(several, tests::trials(20U));
 }
 
 TEST(IsWithinLimit, CountsTheBitsOfBothParts) {

@@ -26,6 +26,7 @@
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
 #include "verify/dataset/dataset.hpp"
 #include "verify/families/families.hpp"
 
@@ -123,24 +124,25 @@ TEST_P(Conservative, OnAllFamilies) {
 }
 
 TEST(TightInclusion, GivesTheSameResultOnAllKernels) {
-  for_each_family_query(12, [&](const verify::Family& family, Kind kind, const auto& known) {
-    for (const double d : {0.0, 1e-3}) {
-      TightInclusionOptions options;
-      options.max_checks = some_checks;
-      options.min_separation = d;
-      options.kernel = box_kernels().front();
-      const TightInclusionResult expected = tight_inclusion(kind, known.query, options);
-      for (const BoxKernel* const kernel : box_kernels()) {
-        options.kernel = kernel;
-        const TightInclusionResult result = tight_inclusion(kind, known.query, options);
-        EXPECT_EQ(result.verdict, expected.verdict) << family.name;
-        EXPECT_EQ(result.checks, expected.checks) << family.name;
-        if (result.verdict != Verdict::yes) continue;
-        EXPECT_EQ(result.toi, expected.toi) << family.name;
-        EXPECT_EQ(result.tolerance, expected.tolerance) << family.name;
-      }
-    }
-  });
+  for_each_family_query(
+      tests::trials(12U), [&](const verify::Family& family, Kind kind, const auto& known) {
+        for (const double d : {0.0, 1e-3}) {
+          TightInclusionOptions options;
+          options.max_checks = some_checks;
+          options.min_separation = d;
+          options.kernel = box_kernels().front();
+          const TightInclusionResult expected = tight_inclusion(kind, known.query, options);
+          for (const BoxKernel* const kernel : box_kernels()) {
+            options.kernel = kernel;
+            const TightInclusionResult result = tight_inclusion(kind, known.query, options);
+            EXPECT_EQ(result.verdict, expected.verdict) << family.name;
+            EXPECT_EQ(result.checks, expected.checks) << family.name;
+            if (result.verdict != Verdict::yes) continue;
+            EXPECT_EQ(result.toi, expected.toi) << family.name;
+            EXPECT_EQ(result.tolerance, expected.tolerance) << family.name;
+          }
+        }
+      });
 }
 
 TEST(TightInclusion, MissesNothingOnThePublicData) {

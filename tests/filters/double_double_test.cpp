@@ -10,6 +10,7 @@
 #include <random>
 
 #include "filters/derivation/mpfr_number.hpp"
+#include "tests/support/trials.hpp"
 
 namespace touchstone::filters {
 namespace {
@@ -19,7 +20,9 @@ using Pair = DoubleDouble<double>;
 constexpr double u = 0x1p-53;
 
 /// Ten times as many trials where TOUCHSTONE_SOAK asks for them.
-int trials(int usual) { return std::getenv("TOUCHSTONE_SOAK") == nullptr ? usual : 10 * usual; }
+int trials(int usual) {
+  return std::getenv("TOUCHSTONE_SOAK") == nullptr ? tests::trials(usual) : 10 * usual;
+}
 
 /// A double whose product_error is a fused operation.
 struct Fused {

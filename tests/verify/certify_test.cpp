@@ -16,6 +16,7 @@
 
 #include "tests/support/memory_source.hpp"
 #include "tests/support/methods.hpp"
+#include "tests/support/trials.hpp"
 #include "verify/dataset/dataset.hpp"
 #include "verify/families/families.hpp"
 
@@ -429,7 +430,7 @@ class BuiltInSet : public ::testing::TestWithParam<Family> {};
 
 TEST_P(BuiltInSet, AgreesWithTheOracle) {
   const char* soak = std::getenv("TOUCHSTONE_SOAK");
-  const std::uint64_t count = soak != nullptr ? 50000 : 1000;
+  const std::uint64_t count = soak != nullptr ? 50000U : tests::trials(1000U);
   CertifyOptions options;
   options.toi_tolerance = 0;
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {

@@ -22,6 +22,7 @@
 #include "exact/motion.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/checker_outcome.hpp"
+#include "tests/support/trials.hpp"
 
 namespace touchstone::checker {
 namespace {
@@ -937,7 +938,7 @@ bool is_true(const std::string& claim, const RandomCertificate& certificate) {
 
 TEST(AtRandom, NoFalseClaimIsAccepted) {
   const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-  const unsigned trials = soak ? 2'000'000 : 120'000;
+  const unsigned trials = soak ? 2'000'000 : tests::trials(120'000U);
   std::map<std::string, int> accepted;
   for (unsigned seed = 0; seed < trials; ++seed) {
     RandomCertificate certificate(seed);
@@ -957,7 +958,7 @@ TEST(AtRandom, NoFalseClaimIsAccepted) {
        {std::pair("no_collision", 1'000), std::pair("collision", 200),
         std::pair("collision at a root", 50), std::pair("time_of_impact", 100),
         std::pair("time_of_impact at a root", 10)}) {
-    EXPECT_GE(accepted[claim], least) << claim;
+    EXPECT_GE(accepted[claim], tests::trials(least)) << claim;
     RecordProperty(claim, accepted[claim]);
   }
 }

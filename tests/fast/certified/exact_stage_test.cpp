@@ -16,6 +16,7 @@
 
 #include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
+#include "tests/support/trials.hpp"
 #include "verify/families/families.hpp"
 
 namespace touchstone::fast {
@@ -93,7 +94,7 @@ void expect_truth(const PosedQuery& posed, double tolerance) {
 }
 
 TEST(ExactStage, AgreesWithTheOracleOnAllFamilies) {
-  constexpr std::uint64_t count = 200;
+  constexpr std::uint64_t count = tests::trials(200U);
   std::size_t turn = 0;
   for (const verify::Family& family : verify::families()) {
     for (const Kind kind : kinds) {
@@ -112,7 +113,7 @@ TEST(ExactStage, KnowsTheTruthOfTheFamiliesByConstruction) {
   for (const verify::Family& family : verify::families()) {
     for (const Kind kind : kinds) {
       if (!verify::supports(family, kind)) continue;
-      for (std::uint64_t i = 0; i < 300; ++i) {
+      for (std::uint64_t i = 0; i < tests::trials(300U); ++i) {
         const verify::KnownQuery known = verify::make_query(family, kind, 2, i);
         const auto impact = decide_exactly(kind, known.query, 1e-12, 1.0);
         ASSERT_EQ(impact.has_value(), known.collides) << family.name << ' ' << i;
@@ -134,13 +135,17 @@ void expect_truth_of_integers(int bound, std::uint64_t seed, int count) {
   }
 }
 
-TEST(ExactStage, AgreesWithTheOracleOnTinyIntegers) { expect_truth_of_integers(1, 3, 10000); }
+TEST(ExactStage, AgreesWithTheOracleOnTinyIntegers) {
+  expect_truth_of_integers(1, 3, tests::trials(10000));
+}
 
-TEST(ExactStage, AgreesWithTheOracleOnSmallIntegers) { expect_truth_of_integers(2, 4, 20000); }
+TEST(ExactStage, AgreesWithTheOracleOnSmallIntegers) {
+  expect_truth_of_integers(2, 4, tests::trials(20000));
+}
 
 TEST(ExactStage, AgreesWithTheOracleOnFullSignificands) {
   Random random(5);
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < tests::trials(1500); ++i) {
     const Kind kind = kinds[static_cast<std::size_t>(i) % 2];
     for (const auto family : {tests::Family::full_significands, tests::Family::near_contact}) {
       expect_truth(tests::random_query(random, kind, family),
@@ -152,7 +157,7 @@ TEST(ExactStage, AgreesWithTheOracleOnFullSignificands) {
 
 TEST(ExactStage, AgreesWithTheOracleOnSmallIntegersPerturbedInTheLastPlace) {
   Random random(6);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < tests::trials(2000); ++i) {
     PosedQuery posed{kinds[static_cast<std::size_t>(i) % 2], tests::integer_query(random, 2)};
     for (double& x : posed.query.coordinates) {
       if (random.between(0, 3) == 0) x = std::nextafter(x, random.coin() ? 4.0 : -4.0);
@@ -175,7 +180,7 @@ TEST(ExactStage, AgreesWithTheOracleOnMagnitudesOfTheWholeRange) {
 TEST(ExactStage, AgreesWithTheOracleOnDegeneraciesOfMixedMagnitudes) {
   Random random(8);
   constexpr std::array<double, 6> values{0.0, 1.0, 5e-324, 1e308, -1e308, 0x1p-600};
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < tests::trials(200); ++i) {
     PosedQuery posed{kinds[static_cast<std::size_t>(i) % 2], {}};
     for (double& x : posed.query.coordinates) {
       x = values[random.bits() % values.size()];
@@ -191,7 +196,7 @@ TEST(ExactStage, AgreesWithTheOracleOnDegeneraciesOfMixedMagnitudes) {
 
 TEST(ExactStage, AgreesWithTheOracleOnSubnormals) {
   Random random(9);
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < tests::trials(1000); ++i) {
     PosedQuery posed{kinds[static_cast<std::size_t>(i) % 2], tests::integer_query(random, 3)};
     for (double& x : posed.query.coordinates) x *= std::numeric_limits<double>::denorm_min();
     expect_truth(posed, 0.0);

@@ -21,6 +21,7 @@
 
 #include "exact/number.hpp"
 #include "exact/query.hpp"
+#include "tests/support/trials.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -30,7 +31,7 @@ using exact::Rational;
 using Vector = std::array<Integer, 3>;
 
 constexpr std::uint64_t seed = 20211;
-constexpr std::uint64_t queries_a_family = 120;
+constexpr std::uint64_t queries_a_family = tests::trials(120U);
 constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
 
 template <class Function>
@@ -303,14 +304,13 @@ TEST(Families, HaveNoQueryTwice) {
 /// machine that draws other bits.
 TEST(Families, DrawTheSameBitsEverywhere) {
   std::uint64_t digest = 0xcbf29ce484222325ULL;
-  for_each_query(queries_a_family,
-                 [&](const Family&, Kind, std::uint64_t, const KnownQuery& known) {
-                   for (const double coordinate : known.query.coordinates) {
-                     std::uint64_t bits = 0;
-                     std::memcpy(&bits, &coordinate, sizeof bits);
-                     digest = (digest ^ bits) * 0x100000001b3ULL;
-                   }
-                 });
+  for_each_query(120, [&](const Family&, Kind, std::uint64_t, const KnownQuery& known) {
+    for (const double coordinate : known.query.coordinates) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &coordinate, sizeof bits);
+      digest = (digest ^ bits) * 0x100000001b3ULL;
+    }
+  });
   EXPECT_EQ(digest, 2340645805834162717ULL);
 }
 
@@ -346,20 +346,21 @@ TEST(Families, HaveFiniteCoordinates) {
 }
 
 TEST(Families, HaveFullSignificandsInHalfOfTheQueries) {
-  for_each_query(1000, [](const Family&, Kind, std::uint64_t, const KnownQuery& known) {
-    if (!known.full_significands) return;
-    std::set<double> magnitudes;
-    std::set<int> exponents;
-    for (const double coordinate : known.query.coordinates) {
-      if (coordinate == 0) continue;
-      magnitudes.insert(std::abs(coordinate));
-      exponents.insert(std::ilogb(coordinate));
-    }
-    const auto full = std::count_if(magnitudes.begin(), magnitudes.end(),
-                                    [](double x) { return significand_bits(x) >= 45; });
-    EXPECT_GT(2 * static_cast<std::size_t>(full), magnitudes.size());
-    EXPECT_GE(exponents.size(), 2U);
-  });
+  for_each_query(
+      tests::trials(1000), [](const Family&, Kind, std::uint64_t, const KnownQuery& known) {
+        if (!known.full_significands) return;
+        std::set<double> magnitudes;
+        std::set<int> exponents;
+        for (const double coordinate : known.query.coordinates) {
+          if (coordinate == 0) continue;
+          magnitudes.insert(std::abs(coordinate));
+          exponents.insert(std::ilogb(coordinate));
+        }
+        const auto full = std::count_if(magnitudes.begin(), magnitudes.end(),
+                                        [](double x) { return significand_bits(x) >= 45; });
+        EXPECT_GT(2 * static_cast<std::size_t>(full), magnitudes.size());
+        EXPECT_GE(exponents.size(), 2U);
+      });
 }
 
 TEST(Families, HaveContactPointsThatAreRootsOfF) {
@@ -374,7 +375,7 @@ TEST(Families, HaveContactPointsThatAreRootsOfF) {
                    EXPECT_TRUE(kind == Kind::vertex_face ? u + v <= 1 : u <= 1 && v <= 1);
                    ++points;
                  });
-  EXPECT_GT(points, 800U);
+  EXPECT_GT(points, tests::trials(800U));
 }
 
 TEST(Families, HaveSeparatingDirectionsThatSeparate) {
@@ -395,7 +396,7 @@ TEST(Families, HaveSeparatingDirectionsThatSeparate) {
                      }
                    }
                  });
-  EXPECT_GT(directions, 200U);
+  EXPECT_GT(directions, tests::trials(200U));
 }
 
 TEST(Families, TellTheTruthAtRationalTimes) {
@@ -494,7 +495,7 @@ TEST(Families, ExtremeRangeReachesBothEndsOfTheDoubles) {
   }
   EXPECT_GT(largest, 1.7e308);
   EXPECT_EQ(smallest, 0x1p-1074);
-  EXPECT_GT(overflows, 100U);
+  EXPECT_GT(overflows, tests::trials(100U));
 }
 
 TEST(Families, OpenAsStreams) {

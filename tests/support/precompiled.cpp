@@ -1,0 +1,1 @@
+// Empty: the targets that precompile the header need a source.
