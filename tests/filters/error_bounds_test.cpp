@@ -11,6 +11,7 @@
 #include "filters/derivation/catalogue.hpp"
 #include "filters/derivation/gappa.hpp"
 #include "filters/polynomial_expressions.hpp"
+#include "filters/separation_expressions.hpp"
 #include "tests/filters/support.hpp"
 
 namespace touchstone::filters {
@@ -76,7 +77,8 @@ using Bounds = ::testing::Types<
     Shipped<EdgeEdgeSeparated, double, edge_edge_separated_double>,
     Shipped<EdgeEdgeSeparated, float, edge_edge_separated_float>,
     Shipped<VertexFaceSeparated, double, vertex_face_separated_double>,
-    Shipped<VertexFaceSeparated, float, vertex_face_separated_float>>;
+    Shipped<VertexFaceSeparated, float, vertex_face_separated_float>,
+    Shipped<ComponentSum, double, component_sum_double>>;
 TYPED_TEST_SUITE(EveryBound, Bounds);
 
 TYPED_TEST(EveryBound, IsProvedByGappa) {
@@ -132,7 +134,7 @@ TYPED_TEST(EveryBound, TakesZerosOfBothSigns) {
   });
 }
 
-// ---- Bounds with classes, of differences of coordinates -----------------------------------------
+// ---- Bounds of differences of coordinates, and of products, by classes where there are any -------
 
 /// A difference of two doubles: exactly, rounded, and as a pair.
 struct Difference {
@@ -148,8 +150,14 @@ struct InDouble {
   using Number = double;
   static double of(const Difference& x) { return x.pair.high; }
   static double of(double weight) { return weight; }
+  static mpq_class truth(const Difference& x) { return x.exact; }
   static mpq_class exactly(double x) { return {x}; }
   static double high(double x) { return x; }
+};
+
+/// Doubles that are no differences: what is rounded is the truth.
+struct InDoubleItself : InDouble {
+  static mpq_class truth(const Difference& x) { return {x.pair.high}; }
 };
 
 /// The exact differences in double-double.
@@ -157,6 +165,7 @@ struct InDoubleDouble {
   using Number = DoubleDouble<double>;
   static Number of(const Difference& x) { return x.pair; }
   static Number of(double weight) { return {weight, 0}; }
+  static mpq_class truth(const Difference& x) { return x.exact; }
   static mpq_class exactly(const Number& x) { return mpq_class(x.high) + mpq_class(x.low); }
   static double high(const Number& x) { return x.high; }
 };
@@ -170,7 +179,7 @@ struct ShippedByClasses {
   using Arithmetic = Computing;
   static constexpr std::size_t degree = of_degree;
   static constexpr const ErrorBound<double, of_degree>& bound = constant;
-  static constexpr bool is_double = std::is_same_v<Computing, InDouble>;
+  static constexpr bool is_double = std::is_base_of_v<InDouble, Computing>;
   static constexpr const Format& format = is_double ? double_format : double_double_format;
   /// Of the bound, that errors of random inputs reach.
   static constexpr double least_part = is_double ? 1.0 / 50 : 1.0 / 200;
@@ -207,6 +216,12 @@ class EveryBoundByClasses : public ::testing::Test {
     return least + static_cast<int>(random_() % static_cast<unsigned>(greatest - least + 1));
   }
 
+  /// The class of a coordinate; the first for all where there are none.
+  static std::size_t class_of([[maybe_unused]] std::size_t coordinate) {
+    if constexpr (requires { Expression::classes; }) return Expression::classes.at(coordinate);
+    return 0;
+  }
+
   /// Numbers and their differences, of the sizes of the class that each coordinate is in.
   std::vector<Difference> differences(const Sizes& sizes) {
     std::array<int, 3> scale{};
@@ -214,7 +229,7 @@ class EveryBoundByClasses : public ::testing::Test {
       scale.at(i) = between(sizes.least.at(i), sizes.greatest.at(i));
     std::vector<Difference> result;
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t of = Expression::classes.at(i);
+      const std::size_t of = class_of(i);
       const int exponent =
           random_() % 2 == 0 ? scale.at(of) : between(sizes.least.at(of), sizes.greatest.at(of));
       const double a = number(exponent);
@@ -229,11 +244,15 @@ class EveryBoundByClasses : public ::testing::Test {
   static std::vector<double> leading_terms(const std::vector<Difference>& x) {
     std::array<double, T::degree> magnitude{};
     for (std::size_t i = 0; i < count; ++i) {
-      double& greatest = magnitude.at(Expression::classes.at(i));
+      double& greatest = magnitude.at(class_of(i));
       greatest = std::max(greatest, std::abs(x[i].pair.high));
     }
     const double rounding = T::bound.rounding();
-    if constexpr (T::degree == 2) {
+    if constexpr (T::degree == 1) {
+      return {magnitude[0] * rounding};
+    } else if constexpr (!requires { Expression::classes; }) {
+      return {magnitude[0] * magnitude[0] * rounding};
+    } else if constexpr (T::degree == 2) {
       return {magnitude[0] * magnitude[1] * rounding, rounding * magnitude[1] * magnitude[0]};
     } else {
       return {magnitude[0] * magnitude[1] * magnitude[2] * rounding,
@@ -256,7 +275,7 @@ class EveryBoundByClasses : public ::testing::Test {
     using Number = typename Arithmetic::Number;
     return {Expression::evaluate(std::array<Number, count>{Arithmetic::of(x[i])...},
                                  std::array<Number, sizeof...(j)>{Arithmetic::of(w[j])...}),
-            Expression::evaluate(std::array<mpq_class, count>{x[i].exact...},
+            Expression::evaluate(std::array<mpq_class, count>{Arithmetic::truth(x[i])...},
                                  std::array<mpq_class, sizeof...(j)>{mpq_class(w[j])...})};
   }
 
@@ -290,19 +309,25 @@ class EveryBoundByClasses : public ::testing::Test {
   std::mt19937_64 random_{9};
 };
 
-using BoundsByClasses =
-    ::testing::Types<ShippedByClasses<MeasuredProjectedGap, ProjectedGap, InDouble, 2,
-                                      measured_projected_gap_double>,
-                     ShippedByClasses<MeasuredDeterminantEnd, DeterminantEnd, InDouble, 3,
-                                      measured_determinant_end_double>,
-                     ShippedByClasses<MeasuredDeterminantMiddle, DeterminantMiddle, InDouble, 3,
-                                      measured_determinant_middle_double>,
-                     ShippedByClasses<MeasuredOrientationEnd, OrientationEnd, InDouble, 3,
-                                      measured_orientation_end_double>,
-                     ShippedByClasses<MeasuredOrientationMiddle, OrientationMiddle, InDouble, 3,
-                                      measured_orientation_middle_double>,
-                     ShippedByClasses<DeterminantEnd, DeterminantEnd, InDoubleDouble, 3,
-                                      determinant_end_double_double>>;
+using BoundsByClasses = ::testing::Types<
+    ShippedByClasses<MeasuredProjectedGap, ProjectedGap, InDouble, 2,
+                     measured_projected_gap_double>,
+    ShippedByClasses<MeasuredDeterminantEnd, DeterminantEnd, InDouble, 3,
+                     measured_determinant_end_double>,
+    ShippedByClasses<MeasuredDeterminantMiddle, DeterminantMiddle, InDouble, 3,
+                     measured_determinant_middle_double>,
+    ShippedByClasses<MeasuredOrientationEnd, OrientationEnd, InDouble, 3,
+                     measured_orientation_end_double>,
+    ShippedByClasses<MeasuredOrientationMiddle, OrientationMiddle, InDouble, 3,
+                     measured_orientation_middle_double>,
+    ShippedByClasses<DeterminantEnd, DeterminantEnd, InDoubleDouble, 3,
+                     determinant_end_double_double>,
+    ShippedByClasses<MeasuredAdvancedGap, AdvancedGap, InDouble, 2, measured_advanced_gap_double>,
+    ShippedByClasses<AdvancedGap, AdvancedGap, InDoubleDouble, 2, advanced_gap_double_double>,
+    ShippedByClasses<SquaredLength, SquaredLength, InDoubleItself, 2, squared_length_double>,
+    ShippedByClasses<LengthDefect, LengthDefect, InDoubleDouble, 2, length_defect_double_double>,
+    ShippedByClasses<ContactComponent, ContactComponent, InDoubleDouble, 1,
+                     contact_component_double_double>>;
 TYPED_TEST_SUITE(EveryBoundByClasses, BoundsByClasses);
 
 TYPED_TEST(EveryBoundByClasses, IsProvedByGappa) {

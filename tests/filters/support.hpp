@@ -38,7 +38,7 @@ inline double greatest_coordinate(const Inputs& inputs) {
 }
 
 /// Random weights of an expression's groups: t, u, v are multiples of 2^-bits. With two vertices a
-/// group is (1−t, t), with four (1−u−v, u, v).
+/// group is (1−t, t), with four (1−u−v, u, v); a group of one weight is that.
 template <class Expression>
 std::vector<double> random_weights(std::mt19937_64& random, int bits) {
   const auto fraction = [&] {
@@ -47,6 +47,10 @@ std::vector<double> random_weights(std::mt19937_64& random, int bits) {
   };
   std::vector<double> weights;
   Expression::visit_groups([&](const auto& group) {
+    if (group.front().size() == 1) {
+      weights.push_back(fraction());
+      return;
+    }
     double rest = 1;
     const std::size_t first = weights.size();
     weights.push_back(0);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "filters/polynomial_expressions.hpp"
+#include "filters/separation_expressions.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 
@@ -67,6 +68,15 @@ TEST(RoundingModel, GivesTheBoundsOfThePolynomials) {
   EXPECT_EQ(first_order_units<MeasuredDeterminantMiddle>(), 276);
   EXPECT_EQ(first_order_units<DeterminantEnd>(), 64);
   EXPECT_EQ(first_order_units<DeterminantEnd>(double_double_format), 64);
+}
+
+TEST(RoundingModel, GivesTheBoundsOfSeparations) {
+  EXPECT_EQ(first_order_units<MeasuredAdvancedGap>(), 56);
+  EXPECT_EQ(first_order_units<AdvancedGap>(double_double_format), 42);
+  EXPECT_EQ(first_order_units<ComponentSum>(), 5);
+  EXPECT_EQ(first_order_units<SquaredLength>(), 8);
+  EXPECT_EQ(first_order_units<LengthDefect>(double_double_format), 13);
+  EXPECT_EQ(first_order_units<ContactComponent>(double_double_format), 17);
 }
 
 /// (a b) c of three measured coordinates.
