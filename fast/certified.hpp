@@ -12,6 +12,10 @@
 ///     axis, direction, determinant, bisection    fast/certified/kernel_on_lanes.hpp
 ///     exact                                      fast/certified/exact_stage.hpp
 ///
+/// With a minimum separation, contact is to be within a distance, in L∞ or L2, and all of this holds of
+/// that. (fast/certified/advance_on_lanes.hpp takes the place of bisection where the distance is beyond
+/// rounding.)
+///
 /// So every answer is proved, in floating point or in integers, and none is guessed. The floating-
 /// point state of the caller (rounding mode, flushing of subnormals, traps) does not matter and is
 /// left as it was.
@@ -37,7 +41,7 @@ enum class Stage : std::uint8_t {
   axis,         ///< a coordinate axis separates the primitives all the time
   direction,    ///< so does one fixed direction
   determinant,  ///< the determinant keeps its sign
-  bisection,    ///< bisection of t, with floating-point bounds
+  bisection,    ///< steps in t, with floating-point bounds
   exact,        ///< exact arithmetic
 };
 inline constexpr std::size_t stages = 5;
@@ -65,7 +69,8 @@ struct CertifiedResult {
   Stage stage = Stage::axis;        ///< that decided
   double toi_lower = Answer::none;  ///< with yes: below the time of impact, or 0 if that is 0
   double toi_upper = Answer::none;  ///< with yes: not below the time of impact
-  /// With yes: where on the primitives the contact is, in F's domain, computed without a bound.
+  /// With yes: where on the primitives the contact is, or where they are nearest then, in F's domain,
+  /// computed without a bound.
   double u = Answer::none;
   double v = Answer::none;
 };
