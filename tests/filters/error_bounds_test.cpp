@@ -338,7 +338,7 @@ TYPED_TEST(EveryBoundByClasses, IsProvedByGappa) {
 
 TYPED_TEST(EveryBoundByClasses, HoldsForMixedMagnitudes) {
   const auto found = this->expect_within_bound_for({{-20, -20, -20}, {20, 20, 20}});
-  EXPECT_GT(found.rounded, 10'000);
+  EXPECT_GT(found.rounded, static_cast<int>(1000 * TypeParam::Expression::coordinates));
 }
 
 TYPED_TEST(EveryBoundByClasses, HoldsFarFromTheOriginAndIsNotFarFromTheError) {

@@ -18,8 +18,10 @@ class SeparationExpressions : public ::testing::Test {
  protected:
   static constexpr int trials = 200;
 
-  mpq_class number() { return {static_cast<int>(random_() % 41) - 20, 1 + random_() % 7}; }
-  mpq_class fraction() { return {static_cast<int>(random_() % 9), 8}; }
+  mpq_class number() {
+    return mpq_class(static_cast<int>(random_() % 41) - 20) / (1 + static_cast<int>(random_() % 7));
+  }
+  mpq_class fraction() { return mpq_class(static_cast<int>(random_() % 9)) / 8; }
   Vector vector() { return {number(), number(), number()}; }
 
   static Vector at(const Vector& start, const Vector& end, const mpq_class& t) {
