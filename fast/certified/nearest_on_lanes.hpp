@@ -92,12 +92,12 @@ class NearestPoint {
     Value length(0.0);
     if constexpr (norm == Norm::l2) {
       constexpr auto bound = filters::squared_length_double;
-      const Value square = filters::SquaredLength::evaluate<Value>(direction, {});
+      const auto square = filters::SquaredLength::evaluate<Value>(direction, {});
       length = sqrt(square + (greatest * greatest * Value(bound.rounding()) +
                               Value(bound.underflow(greatest_length))));
     } else {
       constexpr auto bound = filters::component_sum_double;
-      const Value sum = filters::ComponentSum::evaluate<Value>(
+      const auto sum = filters::ComponentSum::evaluate<Value>(
           {abs(direction[0]), abs(direction[1]), abs(direction[2])}, {});
       length = sum + (greatest * Value(bound.rounding()) + Value(bound.underflow(greatest_length)));
     }
