@@ -175,7 +175,7 @@ class PreciseProof {
   /// \param magnitude Of all differences of points.
   PreciseProof(const std::array<Vector, query_points>& points, const Value& magnitude,
                double distance)
-      : points_(points), magnitude_(max(magnitude, Value(distance))), distance_(distance) {}
+      : magnitude_(max(magnitude, Value(distance))), points_(points), distance_(distance) {}
 
   /// The least c·w − D n of all corners at a time, less its bound.
   [[nodiscard]] Value least_gap(const Vector& c, const Value& time) const {
@@ -269,8 +269,8 @@ class PreciseProof {
     return defect > bound;
   }
 
-  const std::array<Vector, query_points>& points_;
   Value magnitude_;
+  const std::array<Vector, query_points>& points_;
   double distance_;
 };
 

@@ -545,7 +545,7 @@ TEST(CertifiedMethod, HeedsTMaxAndTheSeparation) {
   EXPECT_EQ(answer.verdict, Verdict::no);
   // At a distance of a half it is at t = 1/4.
   certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
-                            {.min_separation = 0.5, .t_max = 0.25, .norm = Norm::l2});
+                            {.min_separation = 0.5, .norm = Norm::l2, .t_max = 0.25});
   EXPECT_EQ(answer.verdict, Verdict::yes);
   EXPECT_LT(answer.toi_lower, 0.25);
   EXPECT_EQ(answer.toi_upper, 0.25);
