@@ -66,6 +66,7 @@ class Mutations {
   std::vector<Mutant> all() {
     alter_points();
     for (std::size_t i = 0; i < lines_.size(); ++i) {
+      if (lines_[i].starts_with("separation")) alter_separation(i);
       if (lines_[i].starts_with("claim")) alter_claim(i);
       if (lines_[i].starts_with("separate")) alter_piece(i);
       if (lines_[i].starts_with("contact time")) alter_numbers("time", i, 2, 3);
@@ -166,6 +167,19 @@ class Mutations {
     }
   }
 
+  void alter_separation(std::size_t line) {
+    alter_numbers("separation", line, 1, 2);
+    const Lines words = split(lines_[line], ' ');
+    for (const char* const norm : {"linf", "l2"}) {
+      replace("norm", line, words_to_line({words[0], words[1], norm}));
+    }
+    replace("norm", line, words_to_line({words[0], words[1]}));
+    const double distance = certificate_.separation.distance;
+    for (const double by : {std::nextafter(distance, 0.0), std::nextafter(distance, HUGE_VAL)}) {
+      replace("separation", line, words_to_line({words[0], number(Rational(by)), words[2]}));
+    }
+  }
+
   void alter_piece(std::size_t line) {
     alter_numbers("break point", line, 1, 3);
     const Lines words = split(lines_[line], ' ');
@@ -195,7 +209,18 @@ class Mutations {
     Lines result{"face +", "face -"};
     for (const char i : std::string("01234")) {
       result.push_back(std::string("vertex ") + i);
-      for (const char j : std::string("0123")) result.push_back(std::string("edge ") + i + " " + j);
+      for (const char j : std::string("0123")) {
+        const std::string corners = std::string(1, i) + " " + j;
+        result.push_back("edge " + corners);
+        for (const char axis : std::string("xyz")) {
+          result.push_back(std::string("cross ") + axis + " " + corners);
+        }
+      }
+    }
+    for (const char axis : std::string("xyz")) {
+      for (const char sign : std::string("+-")) {
+        result.push_back(std::string("axis ") + axis + " " + sign);
+      }
     }
     return result;
   }
@@ -228,11 +253,16 @@ class Mutations {
       for (int j = 0; j < 4; ++j) {
         const std::string two = std::to_string(i) + " " + std::to_string(j);
         replace("place", line, "at segment " + two);
+        replace("place", line, "at edge " + two);
         const int k = random_.between(0, 3);
         for (const char axis : std::string("xyz")) {
           replace("place", line, "at triangle " + two + " " + std::to_string(k) + " " + axis);
         }
       }
+    }
+    for (const char* const other :
+         {"at face", "at axes", "at vertex 0", "at vertex 1", "at vertex 2", "at vertex 3"}) {
+      replace("place", line, other);
     }
     for (const char axis : std::string("xyz")) {
       std::string other = lines_[line];
@@ -305,8 +335,9 @@ class MutationTest : public ::testing::Test {
   }
 
   /// Judges about one of `stride` mutants of the certificate.
-  void judge_all(const PosedQuery& posed, const ProveOptions& options, unsigned stride) {
-    const Certificate certificate = tests::prove(posed, options);
+  void judge_all(const PosedQuery& posed, const ProveOptions& options, unsigned stride,
+                 const Separation& separation = {}) {
+    const Certificate certificate = tests::prove(posed, separation, options);
     ASSERT_EQ(tests::rejection(certificate), "") << posed;
     for (const Mutant& mutant : Mutations(certificate, ++seed_).all()) {
       if (random_.bits() % stride == 0) judge(mutant);
@@ -352,6 +383,26 @@ TEST_F(MutationTest, WhatIsAcceptedIsTrue) {
     }
   }
   EXPECT_GE(judged(), wanted);
+  report();
+}
+
+TEST_F(MutationTest, WhatIsAcceptedAtADistanceIsTrue) {
+  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
+  const std::uint64_t wanted = soak ? 100000 : 3000;
+  const unsigned stride = soak ? 2 : 20;
+  tests::Random random(29);
+  while (judged() < wanted) {
+    for (const tests::Family family : tests::all_families) {
+      for (const Norm norm : {Norm::linf, Norm::l2}) {
+        const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+        const Separation near{random.between(1, 4) / 4.0, norm}, tiny{0x1p-60, norm};
+        judge_all(tests::random_query(random, kind, family), {}, stride, near);
+        judge_all(tests::random_query(random, kind, family), {}, stride, tiny);
+        judge_all(tests::random_query(random, kind, family), {.collision_claim = Claim::collision},
+                  stride, near);
+      }
+    }
+  }
   report();
 }
 

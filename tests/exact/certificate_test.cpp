@@ -187,6 +187,62 @@ TEST(Prove, TheOtherHalfOfAParallelogramIsATriangleToo) {
   EXPECT_EQ(triangles, (std::set<std::array<std::size_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
 }
 
+// ---- At a distance ------------------------------------------------------------------------------
+
+TEST(Prove, AtADistanceItSaysSoAndProvesIt) {
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    const Certificate hit = tests::prove(over_triangle(1, 1, 3, -1), Separation{1, norm});
+    EXPECT_EQ(hit.separation, (Separation{1, norm}));
+    EXPECT_EQ(hit.claim, Claim::time_of_impact);
+    EXPECT_EQ(time_of(hit), Rational(1, 2));
+    EXPECT_EQ(rejection(hit), "");
+    const Certificate miss = tests::prove(over_triangle(1, 1, 3, 1.5), Separation{1, norm});
+    EXPECT_EQ(miss.claim, Claim::no_collision);
+    EXPECT_EQ(rejection(miss), "");
+    const Certificate at_once = tests::prove(over_edge(1, 2, 1, -1), Separation{1, norm});
+    EXPECT_EQ(at_once.toi.upper, 0);
+    EXPECT_TRUE(at_once.pieces.empty());
+    EXPECT_EQ(rejection(at_once), "");
+  }
+}
+
+TEST(Prove, EveryPlaceOfAContactAtADistance) {
+  const auto place = [](const PosedQuery& posed, const Separation& separation) {
+    const Certificate certificate = tests::prove(posed, separation);
+    EXPECT_EQ(rejection(certificate), "");
+    return certificate.contact.value().place;
+  };
+  EXPECT_EQ(place(over_triangle(-3, -4, 16, 8), {13, Norm::l2}), ContactPlace(VertexContact{0}));
+  EXPECT_EQ(place(over_triangle(2, -3, 8, 0), {5, Norm::l2}), ContactPlace(EdgeContact{{0, 1}}));
+  EXPECT_EQ(place(over_triangle(1, 1, 3, -1), {1, Norm::l2}), ContactPlace(FaceContact{}));
+  EXPECT_EQ(place(over_triangle(1, 1, 3, -1), {1, Norm::linf}), ContactPlace(AxesContact{}));
+}
+
+TEST(Prove, WithoutADistanceTheTextIsAsWithoutASeparation) {
+  for (const PosedQuery& posed : {over_triangle(1, 1, 3, -1), over_triangle(1, 1, 3, 1),
+                                  tests::turning_triangle(4, 0, 1, 0.5), over_edge(7, 1, 3, -1)}) {
+    const std::string plain = tests::as_stream(tests::prove(posed));
+    for (const Separation& zero : {Separation{0.0, Norm::l2}, Separation{-0.0, Norm::linf}}) {
+      EXPECT_EQ(tests::as_stream(tests::prove(posed, zero)), plain);
+    }
+  }
+}
+
+TEST(Prove, AtADistanceCannotProveAWrongVerdict) {
+  const PosedQuery hit = over_triangle(1, 1, 3, -1), miss = over_triangle(1, 1, 3, 1.5);
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    const Separation one{1, norm};
+    const auto of_hit = decide(hit.kind, hit.query, one),
+               of_miss = decide(miss.kind, miss.query, one);
+    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, one, of_miss)), std::logic_error);
+    EXPECT_THROW(static_cast<void>(prove(miss.kind, miss.query, one, of_hit)), std::logic_error);
+    const DistanceVerdict late{AlgebraicNumber(Rational(3, 4))};
+    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, one, late)), std::logic_error);
+    const Separation bad{-1, norm};
+    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, bad, of_hit)), std::invalid_argument);
+  }
+}
+
 // ---- Options ------------------------------------------------------------------------------------
 
 TEST(Prove, ClaimsACollisionAloneIfAsked) {
@@ -298,13 +354,13 @@ TEST(Prove, IsIndependentOfTheRoundingMode) {
 /// Certificates of many queries on their way to the checker, all in one stream.
 class RoundTrip {
  public:
-  void add(const PosedQuery& posed) {
-    const Verdict verdict = decide(posed.kind, posed.query);
-    const Certificate certificate = prove(posed.kind, posed.query, verdict);
+  void add(const PosedQuery& posed, const Separation& separation = {}) {
+    const DistanceVerdict verdict = decide(posed.kind, posed.query, separation);
+    const Certificate certificate = prove(posed.kind, posed.query, separation, verdict);
     ASSERT_EQ(certificate.claim == Claim::time_of_impact, verdict.collides());
     if (verdict.collides()) {
       ++collisions_;
-      const AlgebraicNumber& toi = verdict.impact->toi;
+      const AlgebraicNumber& toi = *verdict.toi;
       const auto& [lower, upper] = certificate.toi;
       ASSERT_TRUE((toi > lower && toi <= upper) || (toi == Rational(0) && upper == 0)) << posed;
       ASSERT_LE(round_up(lower), upper.get_d());
@@ -356,6 +412,67 @@ TEST(RoundTrip, RandomQueriesAreAccepted) {
         tests::random_query(random, kind, tests::all_families.at(i % tests::all_families.size())));
   }
   trip.expect_accepted("random");
+}
+
+TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
+  const std::uint64_t count = soak() ? 100 : 2;
+  for (const verify::Family& family : verify::families()) {
+    // Distances that are as far from the coordinates as those from each other: numbers too long.
+    if (family.name == "extreme-range") continue;
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (!verify::supports(family, kind)) continue;
+      RoundTrip trip;
+      for (std::uint64_t i = 0; i < count; ++i) {
+        const PosedQuery posed{kind, verify::make_query(family, kind, 8, i).query};
+        for (const Norm norm : {Norm::linf, Norm::l2}) {
+          for (const double distance : {0.125, 1e-30}) trip.add(posed, {distance, norm});
+          // By the walk, which knows nothing of the plain oracle.
+          const auto walked = decide_by_walk(scale_uniformly(kind, posed.query, {0.0, norm}));
+          const Verdict plain = decide(kind, posed.query);
+          ASSERT_EQ(walked.collides(), plain.collides()) << family.name << posed;
+          if (plain.collides()) {
+            ASSERT_TRUE(*walked.toi == plain.impact->toi) << family.name << posed;
+          }
+        }
+      }
+      trip.expect_accepted(std::string(family.name));
+    }
+  }
+}
+
+TEST(RoundTrip, RandomQueriesAtADistanceAreAccepted) {
+  tests::Random random(9);
+  RoundTrip trip;
+  const std::size_t count = soak() ? 30000 : 300;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    const PosedQuery posed =
+        tests::random_query(random, kind, tests::all_families.at(i % tests::all_families.size()));
+    const double distance = std::ldexp(random.between(1, 7), random.between(-100, -1));
+    trip.add(posed, {random.coin() ? distance : random.between(1, 7) / 4.0,
+                     random.coin() ? Norm::linf : Norm::l2});
+  }
+  trip.expect_accepted("random at a distance");
+}
+
+TEST(RoundTrip, PublicDataAtADistanceAreAccepted) {
+  const std::uint64_t stride = soak() ? 1 : 70;
+  const auto files = tests::public_datasets();
+  if (files.empty()) GTEST_SKIP() << "public data missing";
+  RoundTrip trip;
+  for (const auto& file : files) {
+    const auto source = verify::open_dataset(file);
+    while (const auto record = source->next()) {
+      if (record->index % stride != 0) continue;
+      for (const Norm norm : {Norm::linf, Norm::l2}) {
+        for (const double distance : {1e-2, 1e-16, 1e-100}) {
+          trip.add({source->kind(), record->query}, {distance, norm});
+        }
+      }
+    }
+  }
+  trip.expect_accepted("public data at a distance");
+  EXPECT_GE(trip.queries(), 6 * 9891 / stride);
 }
 
 TEST(RoundTrip, PublicDataAreAccepted) {

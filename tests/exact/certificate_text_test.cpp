@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "tests/support/certificates.hpp"
 #include "tests/support/random.hpp"
@@ -110,6 +111,49 @@ TEST(WriteCertificate, WritesEveryFeatureAndContact) {
   text.clear();
   write(text, certificate);
   EXPECT_TRUE(text.ends_with("claim collision\ncontact root 1/2 1 -1 0 2\nat segment 1 2\nend\n"));
+}
+
+TEST(WriteCertificate, NamesADistanceAndWhatBelongsToIt) {
+  using Sort = Feature::Sort;
+  Certificate certificate;
+  certificate.separation = {.distance = 0.125, .norm = Norm::linf};
+  certificate.pieces = {{0, Rational(1, 4), {.sort = Sort::positive_axis, .axis = 0}},
+                        {Rational(1, 4), Rational(1, 2), {.sort = Sort::negative_axis, .axis = 2}},
+                        {Rational(1, 2), 1, {.sort = Sort::cross, .i = 2, .j = 0, .axis = 1}}};
+  std::string text;
+  write(text, certificate);
+  EXPECT_TRUE(text.ends_with(
+      "point 0x0p+0 0x0p+0 0x0p+0\nseparation 0x1p-3 linf\nclaim no_collision\n"
+      "separate 0 1/4 axis x +\nseparate 1/4 1/2 axis z -\nseparate 1/2 1 cross y 2 0\nend\n"));
+  certificate.separation.norm = Norm::l2;
+  certificate.claim = Claim::collision;
+  certificate.pieces.clear();
+  for (const auto& [place, line] :
+       {std::pair<ContactPlace, const char*>(VertexContact{2}, "at vertex 2"),
+        {EdgeContact{{1, 2}}, "at edge 1 2"},
+        {FaceContact{}, "at face"},
+        {AxesContact{}, "at axes"}}) {
+    certificate.contact = {Rational(1, 2), place};
+    text.clear();
+    write(text, certificate);
+    EXPECT_TRUE(text.ends_with(std::string("\nseparation 0x1p-3 l2\nclaim collision\n"
+                                           "contact time 1/2\n") +
+                               line + "\nend\n"))
+        << text;
+  }
+}
+
+TEST(WriteCertificate, NamesTheLeastDistanceAndNoneOfZero) {
+  Certificate certificate;
+  for (const auto& [distance, line] :
+       {std::pair(0x1p-1074, "\nseparation 0x0.0000000000001p-1022 linf\n"), std::pair(0.0, ""),
+        std::pair(-0.0, "")}) {
+    certificate.separation.distance = distance;
+    std::string text;
+    write(text, certificate);
+    EXPECT_EQ(text.find("separation") != std::string::npos, *line != '\0');
+    EXPECT_NE(text.find(line), std::string::npos);
+  }
 }
 
 TEST(WriteCertificate, KeepsLabelsToOneLineAndTheirLimit) {

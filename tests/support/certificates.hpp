@@ -14,6 +14,7 @@
 #include "exact/certificate.hpp"
 #include "exact/certificate_text.hpp"
 #include "exact/checker/checker.hpp"
+#include "exact/distance_oracle.hpp"
 #include "exact/number.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
@@ -24,6 +25,13 @@ namespace touchstone::tests {
 [[nodiscard]] inline exact::Certificate prove(const PosedQuery& posed,
                                               const exact::ProveOptions& options = {}) {
   return exact::prove(posed.kind, posed.query, exact::decide(posed.kind, posed.query), options);
+}
+
+/// The certificate of its verdict at a distance.
+[[nodiscard]] inline exact::Certificate prove(const PosedQuery& posed, const Separation& separation,
+                                              const exact::ProveOptions& options = {}) {
+  const auto verdict = exact::decide(posed.kind, posed.query, separation);
+  return exact::prove(posed.kind, posed.query, separation, verdict, options);
 }
 
 /// A certificate as a stream of its own.
@@ -49,6 +57,7 @@ namespace touchstone::tests {
 /// The claim of a certificate, read from its text.
 struct ReadClaim {
   PosedQuery posed{Kind::vertex_face, {}};
+  Separation separation;
   exact::Claim claim = exact::Claim::no_collision;
   exact::RationalInterval toi;
 };
@@ -76,8 +85,19 @@ struct ReadClaim {
   return negative ? exact::Rational(-value) : value;
 }
 
-/// The claim of the last certificate in a stream that the checker accepted; empty if a coordinate is
-/// no double, for then the oracle has nothing to say. \pre it has the lines of a certificate.
+/// The double that a number is, if it is one.
+[[nodiscard]] inline std::optional<double> read_double(std::string_view word) {
+  const exact::Rational value = read_number(word);
+  const double rounded = exact::round_to_nearest(value);
+  if (std::abs(rounded) > 1.7976931348623157e308 || exact::Rational(rounded) != value) {
+    return std::nullopt;
+  }
+  return rounded;
+}
+
+/// The claim of the last certificate in a stream that the checker accepted; empty if a coordinate or
+/// the distance is no double, for then the oracle has nothing to say. \pre it has the lines of a
+/// certificate.
 [[nodiscard]] inline std::optional<ReadClaim> read_claim(const std::string& stream) {
   ReadClaim result;
   std::istringstream lines(stream);
@@ -88,17 +108,21 @@ struct ReadClaim {
     words >> word;
     if (word == "query") {
       words >> word;
+      result = {};
       result.posed.kind = word == "vertex_face" ? Kind::vertex_face : Kind::edge_edge;
       coordinate = 0;
     } else if (word == "point") {
       while (words >> word && coordinate < result.posed.query.coordinates.size()) {
-        const exact::Rational value = read_number(word);
-        const double rounded = exact::round_to_nearest(value);
-        if (std::abs(rounded) > 1.7976931348623157e308 || exact::Rational(rounded) != value) {
-          return std::nullopt;
-        }
-        result.posed.query.coordinates.at(coordinate++) = rounded;
+        const auto value = read_double(word);
+        if (!value) return std::nullopt;
+        result.posed.query.coordinates.at(coordinate++) = *value;
       }
+    } else if (word == "separation") {
+      std::string norm;
+      words >> word >> norm;
+      const auto value = read_double(word);
+      if (!value) return std::nullopt;
+      result.separation = {*value, norm_from_string(norm)};
     } else if (word == "claim") {
       std::string lower, upper;
       words >> word >> lower >> upper;
@@ -113,11 +137,11 @@ struct ReadClaim {
 
 /// Is the claim true, by the oracle?
 [[nodiscard]] inline bool is_true(const ReadClaim& claim) {
-  const exact::Verdict verdict = exact::decide(claim.posed.kind, claim.posed.query);
-  if (claim.claim == exact::Claim::no_collision) return !verdict.collides();
-  if (claim.claim == exact::Claim::collision) return verdict.collides();
-  if (!verdict.collides()) return false;
-  const exact::AlgebraicNumber& toi = verdict.impact->toi;
+  const auto& [kind, query] = claim.posed;
+  const auto first = exact::decide(kind, query, claim.separation).toi;
+  if (claim.claim == exact::Claim::no_collision) return !first;
+  if (claim.claim == exact::Claim::collision || !first) return first.has_value();
+  const exact::AlgebraicNumber& toi = *first;
   if (claim.toi.lower == claim.toi.upper) return claim.toi.upper == 0 && toi == exact::Rational(0);
   return toi > claim.toi.lower && toi <= claim.toi.upper;
 }

@@ -529,6 +529,269 @@ TEST(TimeOfImpact, NeedsBothProofs) {
             "12: a polynomial is not positive at a point");
 }
 
+// ---- At a distance ------------------------------------------------------------------------------
+
+/// The line between the points and the claim; what follows is a line further down.
+std::string separation(std::string_view distance, std::string_view norm) {
+  return "separation " + std::string(distance) + " " + std::string(norm) + "\n";
+}
+
+const std::string not_positive = "13: a polynomial is not positive at a point";
+
+TEST(Distance, IsKeptStrictly) {
+  // From height 2 to 3.
+  const std::string above = over_triangle("1 1 2", "1 1 3");
+  for (const std::string_view feature : {"face +", "axis z +"}) {
+    const std::string proof = no_collision("separate 0 1 " + std::string(feature));
+    for (const std::string_view norm : {"linf", "l2"}) {
+      EXPECT_EQ(outcome(above + separation("0", norm) + proof), "no_collision");
+      EXPECT_EQ(outcome(above + separation("1", norm) + proof), "no_collision");
+      EXPECT_EQ(outcome(above + separation("0x1.fffffffffffffp+0", norm) + proof), "no_collision");
+      EXPECT_EQ(outcome(above + separation("2", norm) + proof), not_positive);
+      EXPECT_EQ(outcome(above + separation("3", norm) + proof), not_positive);
+      EXPECT_EQ(outcome(above + separation("1000", norm) + proof), not_positive);
+    }
+  }
+}
+
+TEST(Distance, IsANumberThatIsNotNegativeWithANorm) {
+  const std::string above = over_triangle("1 1 2", "1 1 3"),
+                    proof = no_collision("separate 0 1 face +");
+  EXPECT_EQ(outcome(above + separation("-1", "l2") + proof), "11: a distance below 0");
+  EXPECT_EQ(outcome(above + separation("-1/1000", "linf") + proof), "11: a distance below 0");
+  EXPECT_EQ(outcome(above + separation("-0", "l2") + proof), "no_collision");
+  EXPECT_EQ(outcome(above + separation("1", "l1") + proof), "11: unknown word: 'l1'");
+  EXPECT_EQ(outcome(above + "separation 1\n" + proof), "11: the line has too few words");
+  EXPECT_EQ(outcome(above + "separation l2\n" + proof), "11: not a number: 'l2'");
+  EXPECT_EQ(outcome(above + separation("1", "l2 l2") + proof), "11: the line has too many words");
+  EXPECT_EQ(outcome(above + separation("1", "l2") + separation("0", "l2") + proof),
+            "12: expected 'claim', found 'separation'");
+}
+
+/// The coordinates' denominators are 3, the distance's 7.
+TEST(Distance, IsEnlargedWithTheCoordinates) {
+  const std::string above = over_triangle("1 1 1/3", "1 1 2/3");
+  for (const std::string_view norm : {"linf", "l2"}) {
+    for (const std::string_view feature : {"face +", "axis z +"}) {
+      const std::string proof = no_collision("separate 0 1 " + std::string(feature));
+      EXPECT_EQ(outcome(above + separation("2/7", norm) + proof), "no_collision");
+      EXPECT_EQ(outcome(above + separation("3/7", norm) + proof), not_positive);
+    }
+  }
+}
+
+TEST(Distance, InL2IsThatOfTheDirectionsLength) {
+  // (−3,−4,12) is 13 from the corner: its own direction; the others are farther.
+  const std::string beside = over_triangle("-3 -4 12", "-3 -4 12");
+  const std::string vertex = no_collision("separate 0 1 vertex 0");
+  EXPECT_EQ(outcome(beside + separation("12.9", "l2") + vertex).substr(0, 2), "11");
+  EXPECT_EQ(outcome(beside + separation("129/10", "l2") + vertex), "no_collision");
+  EXPECT_EQ(outcome(beside + separation("13", "l2") + vertex), not_positive);
+  EXPECT_EQ(outcome(beside + separation("129/10", "l2") + no_collision("separate 0 1 axis z +")),
+            not_positive);
+  EXPECT_EQ(outcome(beside + separation("119/10", "l2") + no_collision("separate 0 1 axis z +")),
+            "no_collision");
+  // (2,−3,4) is 5 from the side.
+  const std::string side = over_triangle("2 -3 4", "2 -3 4");
+  const std::string edge = no_collision("separate 0 1 edge 0 1");
+  EXPECT_EQ(outcome(side + separation("49/10", "l2") + edge), "no_collision");
+  EXPECT_EQ(outcome(side + separation("5", "l2") + edge), not_positive);
+}
+
+TEST(Distance, InLinfIsThatOfTheSumOfComponents) {
+  // From (1,1,1) to a point at the origin: 1 in linf, though the corner's direction reaches √3.
+  const std::string corner =
+      vertex_face({"1 1 1", "0 0 0", "0 0 0", "0 0 0"}, {"1 1 1", "0 0 0", "0 0 0", "0 0 0"});
+  for (const std::string_view feature : {"vertex 0", "axis x +", "axis y +", "axis z +"}) {
+    const std::string proof = no_collision("separate 0 1 " + std::string(feature));
+    EXPECT_EQ(outcome(corner + separation("99/100", "linf") + proof), "no_collision");
+    EXPECT_EQ(outcome(corner + separation("1", "linf") + proof), not_positive);
+  }
+  EXPECT_EQ(outcome(corner + separation("17/10", "l2") + no_collision("separate 0 1 vertex 0")),
+            "no_collision");
+  // Every sign counts: (±1,±1,±1).
+  for (const std::string_view at :
+       {"-1 1 1", "1 -1 1", "1 1 -1", "-1 -1 1", "1 -1 -1", "-1 1 -1", "-1 -1 -1"}) {
+    const std::string v(at);
+    const std::string other =
+        vertex_face({v, "0 0 0", "0 0 0", "0 0 0"}, {v, "0 0 0", "0 0 0", "0 0 0"});
+    const std::string proof = no_collision("separate 0 1 vertex 0");
+    EXPECT_EQ(outcome(other + separation("99/100", "linf") + proof), "no_collision");
+    EXPECT_EQ(outcome(other + separation("1", "linf") + proof), not_positive);
+  }
+}
+
+TEST(Distance, AxesAndCrossesHaveTheirSign) {
+  const std::string above = over_triangle("1 1 2", "1 1 3");
+  for (const std::string_view wrong : {"axis z -", "axis x +", "axis y -", "cross x 0 1",
+                                       "cross x 1 0", "cross y 1 0", "cross z 0 1"}) {
+    EXPECT_EQ(outcome(above + separation("1", "linf") +
+                      no_collision("separate 0 1 " + std::string(wrong))),
+              not_positive)
+        << wrong;
+  }
+  // e_y × (w_1 − w_0) = e_y × (−4,0,0) = (0,0,4).
+  const std::string one = separation("1", "linf");
+  EXPECT_EQ(outcome(above + one + no_collision("separate 0 1 cross y 0 1")), "no_collision");
+}
+
+TEST(Distance, ACrossOfACornerWithItselfProvesNothing) {
+  const std::string far = over_triangle("100 100 100", "100 100 200");
+  for (const std::string_view feature : {"cross x 0 0", "cross y 1 1", "cross z 2 2", "edge 0 0"}) {
+    for (const std::string& line : {separation("1", "linf"), separation("0", "linf")}) {
+      EXPECT_EQ(outcome(far + line + no_collision("separate 0 1 " + std::string(feature))),
+                not_positive);
+    }
+  }
+}
+
+TEST(Distance, MustBeKeptFromEveryCorner) {
+  // Two corners 2 and more away, the third 1.
+  const std::string leaning =
+      vertex_face({"0 0 2", "0 0 0", "4 0 0", "0 4 1"}, {"0 0 2", "0 0 0", "4 0 0", "0 4 1"});
+  for (const std::string_view norm : {"linf", "l2"}) {
+    EXPECT_EQ(outcome(leaning + separation("1", norm) + no_collision("separate 0 1 axis z +")),
+              not_positive);
+    EXPECT_EQ(outcome(leaning + separation("3/4", norm) + no_collision("separate 0 1 axis z +")),
+              "no_collision");
+    // The nearest corner's own direction, which the other ones are not beyond.
+    EXPECT_EQ(outcome(leaning + separation("3/2", norm) + no_collision("separate 0 1 vertex 0")),
+              not_positive);
+  }
+}
+
+TEST(Near, AVertex) {
+  const std::string beside = over_triangle("-3 -4 16", "-3 -4 8");  // (−3,−4,12) at 1/2
+  const auto at = [&](std::string_view distance, const std::string& contact,
+                      const std::string& place) {
+    return outcome(beside + separation(distance, "l2") + collision(contact, place));
+  };
+  EXPECT_EQ(at("13", "time 1/2", "vertex 0"), "collision");
+  EXPECT_EQ(at("13", "root 1/4 3/4 -1 2", "vertex 0"), "collision");
+  EXPECT_EQ(at("13", "time 1/4", "vertex 0"), "13: the place is farther than the distance");
+  EXPECT_EQ(at("0x1.9ffffffffffffp+3", "time 1/2", "vertex 0"),
+            "13: the place is farther than the distance");
+  EXPECT_EQ(at("13", "time 1/2", "vertex 1"), "13: the place is farther than the distance");
+  EXPECT_EQ(at("13", "time 1/2", "edge 0 1"), "13: the nearest point is not inside");
+  EXPECT_EQ(at("13", "time 1/2", "edge 0 0"), "13: the edge's or the face's direction is 0");
+  EXPECT_EQ(at("13", "time 1/2", "face"), "13: the nearest point is not inside");
+  // A root that does not belong to it.
+  EXPECT_EQ(at("13", "root 1/4 3/4 -3 5", "vertex 0"), not_positive);
+  // What is near in l2 is so in linf, and may be proved by the same.
+  EXPECT_EQ(outcome(beside + separation("13", "linf") + collision("time 1/2", "vertex 0")),
+            "collision");
+}
+
+TEST(Near, AnEdge) {
+  const std::string beside = over_triangle("2 -3 8", "2 -3 0");  // (2,−3,4) at 1/2
+  const auto at = [&](std::string_view distance, const std::string& place) {
+    return outcome(beside + separation(distance, "l2") + collision("time 1/2", place));
+  };
+  EXPECT_EQ(at("5", "edge 0 1"), "collision");
+  EXPECT_EQ(at("5", "edge 1 0"), "collision");
+  EXPECT_EQ(at("499/100", "edge 0 1"), "13: the place is farther than the distance");
+  EXPECT_EQ(at("5", "edge 0 2"), "13: the nearest point is not inside");
+  EXPECT_EQ(at("5", "edge 1 2"), "13: the nearest point is not inside");
+  // Beyond either end of the side's line.
+  for (const std::string_view beyond : {"-1 -3 4", "5 -3 4"}) {
+    const std::string v(beyond);
+    EXPECT_EQ(
+        outcome(over_triangle(v, v) + separation("5", "l2") + collision("time 1/2", "edge 0 1")),
+        "13: the nearest point is not inside");
+  }
+}
+
+TEST(Near, AFace) {
+  const std::string falling = over_triangle("1 1 3", "1 1 -1");  // height 1 at 1/2
+  const auto at = [&](std::string_view distance, const std::string& contact) {
+    return outcome(falling + separation(distance, "l2") + collision(contact, "face"));
+  };
+  EXPECT_EQ(at("1", "time 1/2"), "collision");
+  EXPECT_EQ(at("1", "root 1/4 3/4 -1 2"), "collision");
+  EXPECT_EQ(at("1", "time 1/4"), "13: the place is farther than the distance");
+  EXPECT_EQ(at("99/100", "time 1/2"), "13: the place is farther than the distance");
+  for (const std::string_view beside : {"-1 1 1/2", "1 -1 1/2", "3 3 1/2"}) {
+    const std::string v(beside);
+    EXPECT_EQ(outcome(over_triangle(v, v) + separation("1", "l2") + collision("time 0", "face")),
+              "13: the nearest point is not inside");
+  }
+  // Without area there is no face, however near.
+  const std::string needle =
+      vertex_face({"1 0 9", "0 0 0", "4 0 0", "2 0 0"}, {"1 0 9", "0 0 0", "4 0 0", "2 0 0"});
+  EXPECT_EQ(outcome(needle + separation("1", "l2") + collision("time 0", "face")),
+            "13: the edge's or the face's direction is 0");
+  // All four sides of a parallelogram.
+  EXPECT_EQ(outcome(crossing("1", "1") + separation("1", "l2") + collision("time 0", "face")),
+            "collision");
+  const std::array<std::string, 4> past{"2 0 1", "4 0 1", "0 -1 0", "0 1 0"};
+  EXPECT_EQ(outcome(edge_edge(past, past) + separation("1", "l2") + collision("time 0", "face")),
+            "13: the nearest point is not inside");
+}
+
+TEST(Near, AllAxes) {
+  const std::string reason = "13: an axis separates, or is not seen not to";
+  const std::string falling = over_triangle("1 1 3", "1 1 -1");
+  const auto at = [&](std::string_view distance, std::string_view norm, const std::string& time) {
+    return outcome(falling + separation(distance, norm) + collision(time, "axes"));
+  };
+  EXPECT_EQ(at("1", "linf", "time 1/2"), "collision");
+  EXPECT_EQ(at("1", "linf", "root 1/4 3/4 -1 2"), "collision");
+  EXPECT_EQ(at("1", "linf", "time 3/4"), "collision");
+  EXPECT_EQ(at("1", "linf", "time 1/4"), reason);
+  EXPECT_EQ(at("99/100", "linf", "time 1/2"), reason);
+  EXPECT_EQ(at("1", "linf", "root 1/4 3/4 -3 5"), reason);
+  EXPECT_EQ(at("1", "l2", "time 1/2"), "13: axes prove nothing of the distance in l2");
+  EXPECT_EQ(at("100", "l2", "time 1/2"), "13: axes prove nothing of the distance in l2");
+}
+
+/// One kind of axis alone separates; without it each of these would be accepted.
+TEST(Near, NoAxisMayBeLeftOut) {
+  const std::string reason = "13: an axis separates, or is not seen not to";
+  const auto at_rest = [](const std::array<std::string, 4>& points, std::string_view distance) {
+    return outcome(vertex_face(points, points) + separation(distance, "linf") +
+                   collision("time 0", "axes"));
+  };
+  for (const std::string_view beside : {"-2 1 0", "1 -2 0", "1 1 2", "1 1 -2"}) {
+    EXPECT_EQ(at_rest({std::string(beside), "0 0 0", "4 0 0", "0 4 0"}, "19/10"), reason);
+    EXPECT_EQ(at_rest({std::string(beside), "0 0 0", "4 0 0", "0 4 0"}, "2"), "collision");
+  }
+  // The plane x + y + z = 0 through a large triangle; (1,1,1) is 1 from it.
+  const std::array<std::string, 4> plane{"1 1 1", "20 -10 -10", "-10 20 -10", "-10 -10 20"};
+  EXPECT_EQ(at_rest(plane, "99/100"), reason);
+  EXPECT_EQ(at_rest(plane, "1"), "collision");
+  // A side in x = y of a triangle that leans; (6,2) is 2 from it. For each pair of axes.
+  EXPECT_EQ(at_rest({"6 2 -1/4", "0 0 0", "8 8 0", "2 6 -8"}, "19/10"), reason);
+  EXPECT_EQ(at_rest({"6 2 -1/4", "0 0 0", "8 8 0", "2 6 -8"}, "2"), "collision");
+  EXPECT_EQ(at_rest({"-1/4 6 2", "-8 2 6", "0 0 0", "0 8 8"}, "19/10"), reason);
+  EXPECT_EQ(at_rest({"2 -1/4 6", "8 0 8", "6 -8 2", "0 0 0"}, "19/10"), reason);
+}
+
+TEST(Near, DistanceZeroIsContact) {
+  const std::string through = over_triangle("1 1 1", "1 1 -1");
+  for (const std::string& line : {""s, separation("0", "linf")}) {
+    const std::string at = line.empty() ? "12" : "13";
+    EXPECT_EQ(outcome(through + line + collision("time 1/2", "axes")), "collision");
+    EXPECT_EQ(outcome(through + line + collision("time 1/2", "face")), "collision");
+    EXPECT_EQ(outcome(through + line + collision("time 1/4", "face")),
+              at + ": the place is farther than the distance");
+  }
+  // And a contact is one at any distance.
+  for (const std::string_view norm : {"linf", "l2"}) {
+    EXPECT_EQ(outcome(through + separation("1", norm) + collision("time 1/2", "triangle 0 1 2 z")),
+              "collision");
+  }
+}
+
+TEST(Near, ATimeOfImpactNeedsThePiecesAtTheDistance) {
+  const std::string falling = over_triangle("1 1 3", "1 1 -1") + separation("1", "l2");
+  EXPECT_EQ(
+      outcome(falling + time_of_impact("1/4 1/2", "separate 0 1/4 face +\n", "time 1/2", "face")),
+      "time_of_impact");
+  EXPECT_EQ(
+      outcome(falling + time_of_impact("5/8 3/4", "separate 0 5/8 face +\n", "time 3/4", "face")),
+      not_positive);
+}
+
 // ---- At random, against the oracle --------------------------------------------------------------
 
 /// Certificates whose every part is drawn at random from few small values, so that many prove their
