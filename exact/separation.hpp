@@ -41,13 +41,15 @@ struct Piece {
 /// \pre the motion is scaled uniformly, and nothing is within its distance in [0,until].
 /// \throws std::logic_error if something does.
 /// \throws CertificateLimitError if a break point needs more than number_limit bits. Where the corners
-/// are integers below 2^s, the values are polynomials of degree 4 with coefficients below 2^(4s+10).
-/// Roots of two of them are at least 2^(−32s−100) apart (their resultant, or that of coprime factors,
-/// is a nonzero integer), two roots of one 2^(−12s−100) (Mahler): a break between features takes at
-/// most the bits of the first bound, one for a checker those of the second more, and of `until`. So
-/// nothing is thrown while s ≤ 300 and `until` has at most 2,000 bits, that is while the largest
-/// coordinate is below 2^300 times the last bit of any other; and beyond that only if features change,
-/// or come near to zero, at such a distance of each other.
+/// and the distance are integers below 2^s, the values are polynomials of degree at most 4 with
+/// coefficients below 2^(4s+10). Roots of two of them are at least 2^(−32s−100) apart (their
+/// resultant, or that of coprime factors, is a nonzero integer), two roots of one 2^(−12s−100)
+/// (Mahler): a break between features takes at most the bits of the first bound, one for a checker
+/// those of the second more, and of `until`. So nothing is thrown while s ≤ 300 and `until` has at most
+/// 2,000 bits, that is while the largest coordinate is below 2^300 times the last bit of any other; and
+/// beyond that only if features change, or come near to zero, at such a distance of each other. At a
+/// distance > 0 in l2 the degree is 8 and the coefficients are below 2^(8s+24): the bounds are
+/// 2^(−128s−500) and 2^(−56s−400), and s ≤ 70 is enough.
 [[nodiscard]] std::vector<Piece> separate(const Motion& motion, const Rational& until);
 
 /// Numerator and denominator of a number in a certificate have at most so many bits.

@@ -12,13 +12,14 @@
 ///     vertex_face:  w = v−f0, v−f1, v−f2
 ///     edge_edge:    w = ea0−eb0, ea1−eb0, ea1−eb1, ea0−eb1     (a parallelogram, in cyclic order)
 ///
-/// and the primitives touch at time t iff 0 ∈ conv{w_i(t)}. The *time of impact* (toi) is the least
-/// such t in [0,1].
+/// and the primitives touch at time t iff 0 ∈ conv{w_i(t)}. A certificate may name a distance D ≥ 0 and a
+/// norm, l2 or linf: then t is a *contact* iff ‖x‖ ≤ D for some x ∈ conv{w_i(t)}; else D = 0. The
+/// *time of impact* (toi) is the least contact in [0,1]. ‖d‖* is |d| for l2, |d_x|+|d_y|+|d_z| for linf.
 ///
 /// **Theorem.** Each of these proves what it says.
-///   - *Separation* on [a,b]: a direction d(t) with d(t)·w_i(t) > 0 for all i and all t ∈ [a,b].
-///     Then no t ∈ [a,b] is a contact: if Σ α_i w_i = 0 with α_i ≥ 0, Σ α_i = 1, then
-///     0 = d·Σ α_i w_i = Σ α_i (d·w_i) > 0.
+///   - *Separation* on [a,b]: a direction d(t) with d(t)·w_i(t) > D‖d(t)‖* for all i and all
+///     t ∈ [a,b]. Then no t ∈ [a,b] is a contact: if x = Σ α_i w_i with α_i ≥ 0, Σ α_i = 1, then
+///     ‖d‖*‖x‖ ≥ d·x = Σ α_i (d·w_i) > D‖d‖*.
 ///   - *Triangle* i, j, k at t, for one axis: det(w_i,w_j,w_k) = 0, and the three weights
 ///     (w_j×w_k)_axis, (w_k×w_i)_axis, (w_i×w_j)_axis are all ≥ 0 or all ≤ 0, and their sum is not
 ///     0. Then t is a contact, since
@@ -26,6 +27,13 @@
 ///     (Cramer's rule): 0 is a convex combination of the three corners.
 ///   - *Segment* i, j at t: w_i×w_j = 0 and w_i·w_j ≤ 0. Then t is a contact: either one of the two
 ///     is 0, or they point in opposite directions and |w_j| w_i + |w_i| w_j = 0.
+///   - *Vertex* i, *edge* i, j, *face*: |w_i| ≤ D; or e = w_j−w_i ≠ 0, w_i·e ≤ 0 ≤ w_j·e and
+///     |w_i×w_j| ≤ D|e|; or N ≠ 0, N·(w_i×w_j) ≥ 0 for all sides in cyclic order and |N·w_0| ≤ D|N|.
+///     Then t is a contact in either norm: the corner, or the foot of the perpendicular from 0 on the
+///     edge's line or the face's plane, is in the hull and within D by |·|, hence by linf.
+///   - *Axes*, linf: for each coordinate axis, N, and each product of a coordinate axis and a side as
+///     a, some corner has a·w ≤ D‖a‖* and some −a·w ≤ D‖a‖*. Then t is a contact: were there none,
+///     a facet's normal of the polytope cube ⊕ −conv{w_i} would be an axis for which one fails.
 ///   - *Root*: if a polynomial g has strictly opposite signs at LO < HI, it has a root t ∈ (LO,HI).
 ///     A polynomial that g divides is 0 at t; one that has a strict sign on [LO,HI] has it at t.
 /// So: separations of pieces that cover [0,1] prove `no_collision`; a contact in [0,1] proves
