@@ -193,7 +193,7 @@ class Values {
 
   /// a·w = ((w_j − w_i) × w)_axis: one value at the side, one at all corners opposite.
   bool every_of_cross(const Feature& feature, const Holds& holds) {
-    const auto& [sort, i, j, axis] = feature;
+    const std::size_t i = feature.i, j = feature.j, axis = feature.axis;
     const auto component = [&](std::size_t k) {
       return motion_.corners.at(j).at(k % 3) - motion_.corners.at(i).at(k % 3);
     };

@@ -416,7 +416,7 @@ TEST(RoundTrip, RandomQueriesAreAccepted) {
 }
 
 TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
-  const std::uint64_t count = soak() ? 100 : 2;
+  const std::uint64_t count = soak() ? 100 : 1;
   for (const verify::Family& family : verify::families()) {
     // Distances that are as far from the coordinates as those from each other: numbers too long.
     if (family.name == "extreme-range") continue;
@@ -444,7 +444,7 @@ TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
 TEST(RoundTrip, RandomQueriesAtADistanceAreAccepted) {
   tests::Random random(9);
   RoundTrip trip;
-  const std::size_t count = soak() ? 30000 : 300;
+  const std::size_t count = soak() ? 30000 : 200;
   for (std::size_t i = 0; i < count; ++i) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     const PosedQuery posed =
@@ -457,7 +457,7 @@ TEST(RoundTrip, RandomQueriesAtADistanceAreAccepted) {
 }
 
 TEST(RoundTrip, PublicDataAtADistanceAreAccepted) {
-  const std::uint64_t stride = soak() ? 1 : 70;
+  const std::uint64_t stride = soak() ? 1 : 140;
   const auto files = tests::public_datasets();
   if (files.empty()) GTEST_SKIP() << "public data missing";
   RoundTrip trip;
