@@ -98,83 +98,6 @@ RationalInterval toi_interval(AlgebraicNumber& toi, const std::optional<Rational
 
 // ---- Contacts -----------------------------------------------------------------------------------
 
-/// What must hold at the time of contact, and does: the place's conditions.
-struct Conditions {
-  std::variant<TriangleContact, SegmentContact> place;
-  std::vector<Polynomial> zero;
-  std::vector<Polynomial> nonzero;
-
-  /// Adds a condition on a form; the sign is the form's at the time.
-  template <std::size_t degree>
-  void add(const Form<degree>& form, int sign) {
-    // What is zero throughout is divided by everything.
-    if (form.is_zero()) return;
-    (sign == 0 ? zero : nonzero).push_back(to_polynomial(form));
-  }
-};
-
-/// Looks for the part of the polygon that holds the origin at a time of contact.
-class ContactFinder {
- public:
-  ContactFinder(const Motion& motion, AlgebraicNumber& time) : motion_(motion), time_(time) {}
-
-  std::optional<Conditions> find() {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Form<2> normal = normal_component(motion_, axis);
-      const int orientation = sign_at(normal, time_);
-      if (orientation == 0) continue;
-      for (std::size_t second = 1; second + 1 < motion_.corner_count; ++second) {
-        auto found = in_triangle({0, second, second + 1}, axis, normal, orientation);
-        if (found) return found;
-      }
-      return std::nullopt;
-    }
-    for (std::size_t i = 0; i < motion_.corner_count; ++i) {
-      auto found = on_segment({i, (i + 1) % motion_.corner_count});
-      if (found) return found;
-    }
-    return std::nullopt;
-  }
-
- private:
-  /// All triangles of the polygon have its normal (of half a parallelogram's length or the whole) and
-  /// its determinant.
-  std::optional<Conditions> in_triangle(const std::array<std::size_t, 3>& corners, std::size_t axis,
-                                        const Form<2>& normal, int orientation) {
-    Conditions conditions{.place = TriangleContact{corners, axis}, .zero = {}, .nonzero = {}};
-    const Form<3> det = determinant(motion_);
-    const int det_sign = sign_at(det, time_);
-    if (det_sign != 0) return std::nullopt;
-    conditions.add(det, det_sign);
-    conditions.add(normal, orientation);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Form<2> side = cross_component(motion_, corners.at(k), corners.at((k + 1) % 3), axis);
-      const int sign = sign_at(side, time_);
-      if (sign * orientation < 0) return std::nullopt;
-      conditions.add(side, sign);
-    }
-    return conditions;
-  }
-
-  std::optional<Conditions> on_segment(const std::array<std::size_t, 2>& corners) {
-    Conditions conditions{.place = SegmentContact{corners}, .zero = {}, .nonzero = {}};
-    const auto [i, j] = corners;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Form<2> cross = cross_component(motion_, i, j, axis);
-      if (sign_at(cross, time_) != 0) return std::nullopt;
-      conditions.add(cross, 0);
-    }
-    const Form<2> product = dot(motion_, i, j);
-    const int sign = sign_at(product, time_);
-    if (sign > 0) return std::nullopt;
-    conditions.add(product, sign);
-    return conditions;
-  }
-
-  const Motion& motion_;
-  AlgebraicNumber& time_;
-};
-
 /// Does the polynomial change sign across the interval, and has every other one a sign on it?
 bool proves(const Polynomial& g, const std::vector<Polynomial>& nonzero,
             const RationalInterval& interval) {
@@ -185,7 +108,8 @@ bool proves(const Polynomial& g, const std::vector<Polynomial>& nonzero,
 }
 
 /// \param within An interval that holds the time.
-std::variant<Rational, RootTime> proved_time(AlgebraicNumber time, const Conditions& conditions,
+std::variant<Rational, RootTime> proved_time(AlgebraicNumber time,
+                                             const ContactConditions& conditions,
                                              const RationalInterval& within) {
   if (time.rational()) return *time.rational();
   Polynomial g = time.polynomial();
@@ -233,7 +157,7 @@ void require_limits(const Certificate& certificate) {
 void prove_collision(const Motion& motion, const Impact& impact, const ProveOptions& options,
                      Certificate& certificate) {
   AlgebraicNumber toi = recognised(impact.toi);
-  const auto conditions = ContactFinder(motion, toi).find();
+  const auto conditions = find_contact(motion, toi);
   if (!conditions) throw std::logic_error("touchstone: no contact at the verdict's time of impact");
   RationalInterval within{Rational(0), Rational(1)};
   certificate.claim = options.collision_claim;

@@ -8,13 +8,9 @@
 ///   - collision: a contact;
 ///   - time of impact in (lower, upper]: a contact there, and pieces of [0,lower].
 ///
-/// **A contact** is a time t* and a part of the polygon conv{w_i(t*)} that holds the origin:
-///   - the triangle i, j, k, with normal N' = (w_j − w_i) × (w_k − w_i): N'_axis ≠ 0,
-///     det(w_i, w_j, w_k) = 0, and (w_i × w_j)_axis, (w_j × w_k)_axis, (w_k × w_i)_axis each zero or
-///     of the sign of N'_axis;
-///   - or the segment i, j: w_i × w_j = 0 and w_i · w_j ≤ 0.
+/// **A contact** is a time t* and a place with its conditions (exact/contact_places.hpp).
 /// The time is a rational number, or a root of an integer polynomial g in an interval at whose ends g
-/// has opposite signs. Then g divides every polynomial above that is zero at t*, and every other one
+/// has opposite signs. Then g divides every polynomial of the conditions that is zero at t*, and every other one
 /// has one sign on the whole interval: whichever root of g there it is, the conditions hold at it.
 /// Hence g is the greatest common divisor of the polynomials that vanish, and the interval is so
 /// small that the others do not.
@@ -28,6 +24,7 @@
 #include <variant>
 #include <vector>
 
+#include "exact/contact_places.hpp"
 #include "exact/number.hpp"
 #include "exact/oracle.hpp"
 #include "exact/polynomial.hpp"
@@ -45,25 +42,10 @@ struct RootTime {
   Polynomial polynomial;
 };
 
-/// The origin is in the triangle of three corners; their normal's component `axis` is not zero.
-struct TriangleContact {
-  std::array<std::size_t, 3> corners;
-  std::size_t axis;
-
-  friend bool operator==(const TriangleContact&, const TriangleContact&) = default;
-};
-
-/// The origin is on the segment between two corners.
-struct SegmentContact {
-  std::array<std::size_t, 2> corners;
-
-  friend bool operator==(const SegmentContact&, const SegmentContact&) = default;
-};
-
 /// When and where the primitives touch.
 struct ContactProof {
   std::variant<Rational, RootTime> time;
-  std::variant<TriangleContact, SegmentContact> place;
+  ContactPlace place;
 };
 
 /// A claim about a query with its proof.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace touchstone::exact {
 namespace {
@@ -30,30 +32,40 @@ Decomposed decompose(double x) {
   return {(bits >> 63U) != 0 ? -magnitude : magnitude, std::max(field, 1) - exponent_bias + zeros};
 }
 
-void scale_axis(const Query& query, std::size_t axis, Motion& motion) {
-  std::array<std::array<Decomposed, moving_points>, 2> parts;
-  int least = std::numeric_limits<int>::max();
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      parts[end][point] = decompose(query.at(end, point, axis));
-      if (parts[end][point].significand != 0) least = std::min(least, parts[end][point].exponent);
-    }
-  }
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t point = 0; point < moving_points; ++point) {
-      const auto& [significand, exponent] = parts[end][point];
-      Integer& value = motion.points[point][axis].c[end];
-      value = significand;
-      if (significand != 0) value <<= static_cast<unsigned long>(exponent - least);
-    }
-  }
+constexpr int no_exponent = std::numeric_limits<int>::max();
+
+/// The exponent of the last bit; no_exponent for zero.
+int last_exponent(const Decomposed& x) { return x.significand == 0 ? no_exponent : x.exponent; }
+
+/// x as a multiple of 2^unit. \pre unit ≤ its last exponent
+Integer in_units(const Decomposed& x, int unit) {
+  Integer value = x.significand;
+  if (x.significand != 0) value <<= static_cast<unsigned long>(x.exponent - unit);
+  return value;
 }
 
-}  // namespace
+/// The exponent of an axis' last bit.
+int axis_exponent(const Query& query, std::size_t axis) {
+  int least = no_exponent;
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      least = std::min(least, last_exponent(decompose(query.at(end, point, axis))));
+    }
+  }
+  return least;
+}
 
-Motion scale_to_integers(Kind kind, const Query& query) {
+/// The motion in units 2^units of each axis.
+Motion in_units(Kind kind, const Query& query, const std::array<int, 3>& units) {
   Motion motion{.kind = kind, .points = {}, .corners = {}, .corner_count = 0};
-  for (std::size_t axis = 0; axis < 3; ++axis) scale_axis(query, axis, motion);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      for (std::size_t point = 0; point < moving_points; ++point) {
+        motion.points[point][axis].c[end] =
+            in_units(decompose(query.at(end, point, axis)), units[axis]);
+      }
+    }
+  }
   for (const auto& [plus, minus] : corners(kind)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       motion.corners[motion.corner_count][axis] =
@@ -61,6 +73,52 @@ Motion scale_to_integers(Kind kind, const Query& query) {
     }
     ++motion.corner_count;
   }
+  return motion;
+}
+
+}  // namespace
+
+Polynomial to_polynomial(std::span<const Integer> form) {
+  // With s = 1−t, one factor s at a time: Σ c_k s^(n−k) t^k by Horner's rule in s.
+  std::vector<Integer> a(form.size());
+  a[0] = form[0];
+  for (std::size_t k = 1; k < form.size(); ++k) {
+    for (std::size_t i = k; i > 0; --i) a[i] -= a[i - 1];
+    a[k] += form[k];
+  }
+  return Polynomial(std::move(a));
+}
+
+int sign_at(std::span<const Integer> form, AlgebraicNumber& t) {
+  if (t.rational() == Rational(0)) return sgn(form.front());
+  if (t.rational() == Rational(1)) return sgn(form.back());
+  bool positive = false, negative = false;
+  for (const Integer& x : form) {
+    positive = positive || sgn(x) > 0;
+    negative = negative || sgn(x) < 0;
+  }
+  if (positive && negative) return t.sign_of(to_polynomial(form));
+  return (positive ? 1 : 0) - (negative ? 1 : 0);
+}
+
+Motion scale_to_integers(Kind kind, const Query& query) {
+  return in_units(kind, query,
+                  {axis_exponent(query, 0), axis_exponent(query, 1), axis_exponent(query, 2)});
+}
+
+Motion scale_uniformly(Kind kind, const Query& query, const Separation& separation) {
+  // Where subnormals count as zero a comparison takes a negative one for valid.
+  const bool is_infinite_or_nan = !is_valid(separation);
+  const Decomposed distance =
+      is_infinite_or_nan ? Decomposed{-1, 0} : decompose(separation.distance);
+  if (distance.significand < 0) {
+    throw std::invalid_argument("a separation's distance must be finite and not negative");
+  }
+  int unit = last_exponent(distance);
+  for (std::size_t axis = 0; axis < 3; ++axis) unit = std::min(unit, axis_exponent(query, axis));
+  Motion motion = in_units(kind, query, {unit, unit, unit});
+  motion.distance = in_units(distance, unit);
+  motion.norm = separation.norm;
   return motion;
 }
 

@@ -5,7 +5,7 @@
 ///
 /// Each axis is multiplied by its own power of two that makes its eight coordinates integers: a
 /// linear map of space with positive diagonal, which changes no root of F. (t,u,v) of a contact
-/// stay as they are.
+/// stay as they are. Where angles and distances matter one power of two serves all axes.
 ///
 /// A polynomial of degree n in time is held as a *form*, Σ c_k (1−t)^(n−k) t^k: a point that moves
 /// from a to b is the form (a, b), products are convolutions, and the c_k are the polynomial's
@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -86,35 +87,24 @@ template <std::size_t degree>
   }
 }
 
-/// The same polynomial in the monomial basis.
+/// The polynomial of the form with these coefficients, in the monomial basis.
+[[nodiscard]] Polynomial to_polynomial(std::span<const Integer> form);
+
 template <std::size_t degree>
 [[nodiscard]] Polynomial to_polynomial(const Form<degree>& form) {
-  // With s = 1−t, one factor s at a time: Σ c_k s^(n−k) t^k by Horner's rule in s.
-  std::vector<Integer> a(degree + 1);
-  a[0] = form.c[0];
-  for (std::size_t k = 1; k <= degree; ++k) {
-    for (std::size_t i = k; i > 0; --i) a[i] -= a[i - 1];
-    a[k] += form.c[k];
-  }
-  return Polynomial(std::move(a));
+  return to_polynomial(std::span<const Integer>(form.c));
 }
 
-/// Sign of the form at a number in [0,1]. The coefficients settle most cases at once: on (0,1) a
+/// Sign of a form at a number in [0,1]. The coefficients settle most cases at once: on (0,1) a
 /// form without sign change has the sign of its coefficients.
+[[nodiscard]] int sign_at(std::span<const Integer> form, AlgebraicNumber& t);
+
 template <std::size_t degree>
 [[nodiscard]] int sign_at(const Form<degree>& form, AlgebraicNumber& t) {
-  if (t.rational() == Rational(0)) return sgn(form.c.front());
-  if (t.rational() == Rational(1)) return sgn(form.c.back());
-  bool positive = false, negative = false;
-  for (const Integer& x : form.c) {
-    positive = positive || sgn(x) > 0;
-    negative = negative || sgn(x) < 0;
-  }
-  if (positive && negative) return t.sign_of(to_polynomial(form));
-  return (positive ? 1 : 0) - (negative ? 1 : 0);
+  return sign_at(std::span<const Integer>(form.c), t);
 }
 
-/// The four moving points and the corners of a query, scaled to integers axis by axis.
+/// The four moving points and the corners of a query, scaled to integers.
 struct Motion {
   using Point = std::array<Form<1>, 3>;
 
@@ -123,10 +113,21 @@ struct Motion {
   /// w_0..w_2 (vertex_face) or w_0..w_3 (edge_edge), in the order of touchstone::corners.
   std::array<Point, 4> corners;
   std::size_t corner_count;
+  /// How near counts as contact, in the unit of the coordinates; 0 where each axis has its own.
+  Integer distance = 0;
+  Norm norm = Norm::l2;
 };
 
+/// Each axis in its own unit.
 /// \throws std::invalid_argument if a coordinate is NaN or infinite.
 [[nodiscard]] Motion scale_to_integers(Kind kind, const Query& query);
+
+/// All axes and the distance in one unit, a power of two: angles and ratios of lengths keep. Exact
+/// for all finite doubles, in every floating-point environment.
+/// \throws std::invalid_argument if a coordinate is NaN or infinite, or the separation is not valid.
+[[nodiscard]] Motion scale_uniformly(Kind kind, const Query& query,
+                                     const Separation& separation = {.distance = 0.0,
+                                                                     .norm = Norm::l2});
 
 /// Component `axis` of w_i × w_j, as the corners move.
 [[nodiscard]] Form<2> cross_component(const Motion& motion, std::size_t i, std::size_t j,

@@ -2,30 +2,20 @@
 
 /// \file
 /// Why a query does not collide: the times from 0 on in pieces, each with one direction that keeps
-/// all corners on one side of the origin.
+/// all corners on one side of the origin, and farther from it than asked for.
 ///
-/// While the origin is outside the polygon conv{w_i(t)}, the polygon's nearest point x to it lies
-/// inside a vertex, an edge or the face, and x·w_i ≥ |x|² > 0 for every corner. So at every time the
-/// direction of some *feature* separates:
-///
-///     vertex i:    w_i
-///     edge i, j:   |e|² w_i − (w_i·e) e,  e = w_j − w_i   (|e|² times the point of its line nearest
-///                                                           to the origin)
-///     face:        ±N,  N = (w_1 − w_0) × (w_2 − w_0)
-///
-/// and being polynomial in t it does so on an open set of times. Finitely many of these cover the
-/// times asked for. Covering from 0 on, always with the feature that holds at the first time not yet
-/// covered and reaches farthest, takes the fewest. Each edge of the polygon is a side of it: where
-/// the polygon has no area, its sides cover it, so the diagonals of an edge-edge query are not needed.
+/// While the polygon conv{w_i(t)} is farther from the origin than the distance that counts as contact,
+/// the direction of some feature separates (exact/separators.hpp), on an open set of times. Finitely
+/// many of these cover the times asked for. Covering from 0 on, always with the feature that holds at
+/// the first time not yet covered and reaches farthest, takes the fewest.
 
 #include <cstddef>
-#include <cstdint>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "exact/motion.hpp"
 #include "exact/number.hpp"
+#include "exact/separators.hpp"
 
 namespace touchstone::exact {
 
@@ -33,17 +23,6 @@ namespace touchstone::exact {
 class CertificateLimitError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-/// A part of the polygon, which stands for a direction as above.
-struct Feature {
-  enum class Sort : std::uint8_t { vertex, edge, positive_face, negative_face };
-
-  Sort sort = Sort::vertex;
-  std::size_t i = 0;  ///< corner, of a vertex or edge
-  std::size_t j = 0;  ///< corner, of an edge
-
-  friend bool operator==(const Feature&, const Feature&) = default;
 };
 
 /// The feature separates on all of [from, to].
@@ -55,15 +34,11 @@ struct Piece {
   friend bool operator==(const Piece&, const Piece&) = default;
 };
 
-/// As scale_to_integers, but with one power of two for all axes: angles and distances keep.
-/// \throws std::invalid_argument if a coordinate is NaN or infinite.
-[[nodiscard]] Motion scale_uniformly(Kind kind, const Query& query);
-
 /// Pieces that cover [0,until], each from where the one before ends, the fewest that can. Where a
 /// checker's bisection (bisection_limit) would not reach, a piece is broken further, in two or three
 /// where the polynomial has one minimum that near to zero. Break points are rationals of few bits.
 /// \param until In [0,1]; at 0 the one piece is a point.
-/// \pre the motion is scaled uniformly, and nothing touches in [0,until].
+/// \pre the motion is scaled uniformly, and nothing is within its distance in [0,until].
 /// \throws std::logic_error if something does.
 /// \throws CertificateLimitError if a break point needs more than number_limit bits. Where the corners
 /// are integers below 2^s, the values are polynomials of degree 4 with coefficients below 2^(4s+10).
