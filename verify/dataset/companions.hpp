@@ -103,7 +103,7 @@ struct Truth {
   std::optional<exact::Rational> toi;
 };
 
-/// The companion files that there are of a dataset.
+/// The companion files that there are of a dataset, the one of its separation included.
 [[nodiscard]] std::vector<std::filesystem::path> find_companions(
     const std::filesystem::path& dataset);
 

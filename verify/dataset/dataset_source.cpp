@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "verify/dataset/separation_file.hpp"
+
 namespace touchstone::verify {
 
 DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions options)
@@ -9,7 +11,8 @@ DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions o
       name_(path.string()),
       options_(std::move(options)),
       kind_(options_.kind ? *options_.kind : kind_from_path(path)),
-      companions_(path) {}
+      companions_(path),
+      separation_(verify::recorded_separation(path)) {}
 
 std::optional<RecordedQuery> DatasetSource::next() {
   while (!ended_) {
