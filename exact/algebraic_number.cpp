@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -30,21 +31,79 @@ DyadicCell half(const DyadicCell& cell, bool upper) {
   return {2 * cell.index + (upper ? 1 : 0), cell.level + 1};
 }
 
-/// Isolates the roots of a squarefree polynomial in (0,1) by bisection, ascending; or gives up at the
-/// first root that is met at a midpoint, and returns it: divided out it leaves a polynomial that has
-/// no root at the end of a cell.
+/// A cell that holds several roots, or may.
+struct Crowded {
+  DyadicCell cell;
+  int changes;
+  /// How many bits the next guess of where they are tries to gain.
+  unsigned long bits;
+};
+
+/// Where a cell's roots are if they are near to each other, as many as its form has changes: Newton's
+/// step for a root of that multiplicity, from the lower or the upper end. The nearest grid point of
+/// 2^bits parts strictly inside the cell.
+Integer guess_of_cluster(std::vector<Integer> local, const Crowded& crowded, bool from_upper) {
+  const Integer parts = Integer(1) << crowded.bits;
+  // The value and the slope at an end.
+  Integer value = local[0], slope = local[1];
+  if (from_upper) {
+    value = slope = 0;
+    for (std::size_t i = 0; i < local.size(); ++i) {
+      value += local[i];
+      slope += local[i] * i;
+    }
+  }
+  if (sgn(slope) == 0) return 1;
+  Integer guess;
+  const Integer step = -2 * crowded.changes * value * parts + slope, twice = 2 * slope;
+  mpz_fdiv_q(guess.get_mpz_t(), step.get_mpz_t(), twice.get_mpz_t());
+  if (from_upper) guess += parts;
+  return std::clamp(guess, Integer(1), Integer(parts - 1));
+}
+
+/// The two cells of 2^-bits of a crowded one on both sides of a guess, if they have all its changes.
+/// Then (the changes of parts, and the roots between parts, are no more than those of the whole) there
+/// is no root elsewhere in it, nor at the ends of the two.
+std::vector<Crowded> cells_of_cluster(const Polynomial& p, const Crowded& crowded) {
+  const auto local = local_coefficients(p, crowded.cell);
+  for (const bool from_upper : {false, true}) {
+    const Integer guess =
+        (crowded.cell.index << crowded.bits) + guess_of_cluster(local, crowded, from_upper);
+    const unsigned long level = crowded.cell.level + crowded.bits;
+    const DyadicCell above{guess, level}, below{guess - 1, level};
+    const int changes_above = sign_changes(bernstein_form(p, above));
+    const int changes_below = sign_changes(bernstein_form(p, below));
+    if (changes_above + changes_below != crowded.changes) continue;
+    return {{above, changes_above, 2 * crowded.bits}, {below, changes_below, 2 * crowded.bits}};
+  }
+  return {};
+}
+
+/// Isolates the roots of a squarefree polynomial in (0,1), ascending; or gives up at the first root
+/// that is met at a midpoint, and returns it: divided out it leaves a polynomial that has no root at
+/// the end of a cell. By bisection, but where the roots in a cell are near to each other the cell is
+/// replaced by much smaller ones at once, as long as guesses are right (Sagraloff, Mehlhorn 2016).
 std::optional<Rational> isolate(const Polynomial& p, std::vector<AlgebraicNumber>& roots) {
-  std::vector<DyadicCell> cells{DyadicCell{}};
-  while (!cells.empty()) {
-    const DyadicCell cell = std::move(cells.back());
-    cells.pop_back();
+  static constexpr unsigned long first_bits = 2;
+  const auto crowded = [&](DyadicCell cell, unsigned long bits) {
     const int changes = sign_changes(bernstein_form(p, cell));
-    if (changes == 1) roots.emplace_back(p, cell);
-    if (changes < 2) continue;
-    const DyadicCell upper = half(cell, true);
-    if (sign_at_dyadic(p.coefficients(), upper.index, upper.level) == 0) return upper.lower();
-    cells.push_back(upper);
-    cells.push_back(half(cell, false));
+    return Crowded{std::move(cell), changes, bits};
+  };
+  std::vector<Crowded> rest{crowded(DyadicCell{}, 1)};
+  while (!rest.empty()) {
+    const Crowded here = std::move(rest.back());
+    rest.pop_back();
+    if (here.changes == 1) roots.emplace_back(p, here.cell);
+    if (here.changes < 2) continue;
+    std::vector<Crowded> parts;
+    if (here.bits > 1) parts = cells_of_cluster(p, here);
+    if (parts.empty()) {
+      const DyadicCell upper = half(here.cell, true);
+      if (sign_at_dyadic(p.coefficients(), upper.index, upper.level) == 0) return upper.lower();
+      const unsigned long bits = std::max(here.bits / 2, first_bits);
+      parts = {crowded(upper, bits), crowded(half(here.cell, false), bits)};
+    }
+    std::ranges::move(parts, std::back_inserter(rest));
   }
   return std::nullopt;
 }
@@ -208,13 +267,11 @@ std::strong_ordering operator<=>(const AlgebraicNumber& a, const Rational& b) {
   return sign == a.sign_below_ ? std::strong_ordering::greater : std::strong_ordering::less;
 }
 
-std::strong_ordering operator<=>(const AlgebraicNumber& a, const AlgebraicNumber& b) {
-  if (b.rational_) return a <=> *b.rational_;
-  if (a.rational_) return 0 <=> (b <=> *a.rational_);
-  AlgebraicNumber x = a, y = b;
+std::strong_ordering compare(AlgebraicNumber& x, AlgebraicNumber& y) {
   bool known_different = false;
   for (unsigned long step = 1;; step *= 2) {
-    if (x.rational_ || y.rational_) return x <=> y;
+    if (y.rational_) return x <=> *y.rational_;
+    if (x.rational_) return 0 <=> (y <=> *x.rational_);
     const Rational lower = std::max(x.cell_.lower(), y.cell_.lower());
     const Rational upper = std::min(x.cell_.upper(), y.cell_.upper());
     if (lower >= upper) return cmp(x.cell_.lower(), y.cell_.lower()) <=> 0;
@@ -228,6 +285,11 @@ std::strong_ordering operator<=>(const AlgebraicNumber& a, const AlgebraicNumber
     x.refine_to_level(x.cell_.level + step);
     y.refine_to_level(y.cell_.level + step);
   }
+}
+
+std::strong_ordering operator<=>(const AlgebraicNumber& a, const AlgebraicNumber& b) {
+  AlgebraicNumber x = a, y = b;
+  return compare(x, y);
 }
 
 std::vector<AlgebraicNumber> roots_in_unit_interval(const Polynomial& p) {

@@ -154,10 +154,11 @@ void require_limits(const Certificate& certificate) {
   }
 }
 
-void prove_collision(const Motion& motion, const Impact& impact, const ProveOptions& options,
-                     Certificate& certificate) {
-  AlgebraicNumber toi = recognised(impact.toi);
-  const auto conditions = find_contact(motion, toi);
+void prove_collision(const Motion& motion, const AlgebraicNumber& first,
+                     const ProveOptions& options, Certificate& certificate) {
+  AlgebraicNumber toi = recognised(first);
+  const bool is_apart = sgn(motion.distance) > 0;
+  const auto conditions = is_apart ? find_near_contact(motion, toi) : find_contact(motion, toi);
   if (!conditions) throw std::logic_error("touchstone: no contact at the verdict's time of impact");
   RationalInterval within{Rational(0), Rational(1)};
   certificate.claim = options.collision_claim;
@@ -174,8 +175,8 @@ void prove_collision(const Motion& motion, const Impact& impact, const ProveOpti
 
 }  // namespace
 
-Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
-                  const ProveOptions& options) {
+Certificate prove(Kind kind, const Query& query, const Separation& separation,
+                  const DistanceVerdict& verdict, const ProveOptions& options) {
   if (options.width && sgn(*options.width) <= 0) {
     throw std::invalid_argument("the interval of a time of impact must have a positive width");
   }
@@ -185,14 +186,24 @@ Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
   Certificate certificate;
   certificate.kind = kind;
   certificate.query = query;
-  const Motion motion = scale_uniformly(kind, query);
-  if (verdict.impact) {
-    prove_collision(motion, *verdict.impact, options, certificate);
+  certificate.separation = separation;
+  Motion motion = scale_uniformly(kind, query, separation);
+  // At distance 0 there is but one collision, and the features of l2 are fewer.
+  if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
+  if (verdict.toi) {
+    prove_collision(motion, *verdict.toi, options, certificate);
   } else {
     certificate.pieces = separate(motion, Rational(1));
   }
   require_limits(certificate);
   return certificate;
+}
+
+Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
+                  const ProveOptions& options) {
+  DistanceVerdict first;
+  if (verdict.impact) first.toi = verdict.impact->toi;
+  return prove(kind, query, Separation{}, first, options);
 }
 
 }  // namespace touchstone::exact

@@ -3,7 +3,8 @@
 /// \file
 /// Verdicts that carry their proof, for a checker that trusts nothing of the oracle.
 ///
-/// A certificate is a claim about a query and what proves it:
+/// A certificate is a claim about a query, and a distance at which things count as touching, and what
+/// proves it:
 ///   - no collision: pieces of [0,1] with a separating feature each (exact/separation.hpp);
 ///   - collision: a contact;
 ///   - time of impact in (lower, upper]: a contact there, and pieces of [0,lower].
@@ -25,6 +26,7 @@
 #include <vector>
 
 #include "exact/contact_places.hpp"
+#include "exact/distance_oracle.hpp"
 #include "exact/number.hpp"
 #include "exact/oracle.hpp"
 #include "exact/polynomial.hpp"
@@ -52,6 +54,8 @@ struct ContactProof {
 struct Certificate {
   Kind kind = Kind::vertex_face;
   Query query{};
+  /// How near is a contact.
+  Separation separation{};
   Claim claim = Claim::no_collision;
   /// For a time of impact: lower < toi ≤ upper, or both are 0 and so is the toi.
   RationalInterval toi;
@@ -69,15 +73,20 @@ struct ProveOptions {
   std::optional<Rational> width = std::nullopt;
 };
 
-/// The proof of the oracle's verdict on a query: always one, and the same on every machine and in
+/// The proof of the oracle's verdict on a query at a distance: always one, and the same on every machine and in
 /// every floating-point environment. Thread-safe.
-/// \param verdict decide(kind, query)
-/// \throws std::invalid_argument if a coordinate is NaN or infinite, the width is not positive, or
-/// the claim asked for is `no_collision`.
+/// \param verdict decide(kind, query, separation)
+/// \throws std::invalid_argument if a coordinate is NaN or infinite, the separation is not valid, the
+/// width is not positive, or the claim asked for is `no_collision`.
 /// \throws std::logic_error if the verdict is not the query's.
 /// \throws CertificateLimitError if the certificate would exceed the format's limits: at most
 /// number_limit bits above and below in a number and piece_limit pieces. separate() says when; the
 /// interval of a contact needs no more bits than the break points there.
+[[nodiscard]] Certificate prove(Kind kind, const Query& query, const Separation& separation,
+                                const DistanceVerdict& verdict, const ProveOptions& options = {});
+
+/// The same without a distance.
+/// \param verdict decide(kind, query)
 [[nodiscard]] Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
                                 const ProveOptions& options = {});
 

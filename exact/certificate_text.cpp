@@ -1,10 +1,12 @@
 #include "exact/certificate_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <variant>
 
 namespace touchstone::exact {
 namespace {
@@ -83,6 +85,16 @@ void write_points(std::string& text, const Query& query) {
   }
 }
 
+/// In bits, because a floating-point environment may take what is small for zero.
+bool is_zero(double value) { return std::bit_cast<std::uint64_t>(value) << 1U == 0; }
+
+void write_separation(std::string& text, const Separation& separation) {
+  if (is_zero(separation.distance)) return;
+  text += "separation ";
+  write_hexadecimal(text, separation.distance);
+  text.append(" ").append(to_string(separation.norm)).append("\n");
+}
+
 void write_interval(std::string& text, const RationalInterval& interval) {
   write_number(text, interval.lower);
   text += ' ';
@@ -104,21 +116,33 @@ void write_claim(std::string& text, const Certificate& certificate) {
   }
 }
 
+char axis_name(std::size_t axis) { return "xyz"[axis]; }
+
+template <std::size_t count>
+void write_corners(std::string& text, const std::array<std::size_t, count>& corners) {
+  for (const std::size_t corner : corners) text.append(" ").append(std::to_string(corner));
+}
+
 void write_feature(std::string& text, const Feature& feature) {
-  switch (feature.sort) {
-    case Feature::Sort::vertex:
-      text.append("vertex ").append(std::to_string(feature.i));
-      break;
-    case Feature::Sort::edge:
-      text.append("edge ").append(std::to_string(feature.i));
-      text.append(" ").append(std::to_string(feature.j));
-      break;
-    case Feature::Sort::positive_face:
-      text += "face +";
+  using Sort = Feature::Sort;
+  const auto& [sort, i, j, axis] = feature;
+  switch (sort) {
+    case Sort::vertex:
+      return write_corners(text += "vertex", std::array{i});
+    case Sort::edge:
+      return write_corners(text += "edge", std::array{i, j});
+    case Sort::cross:
+      (text += "cross ") += axis_name(axis);
+      return write_corners(text, std::array{i, j});
+    case Sort::positive_axis:
+    case Sort::negative_axis:
+      (text += "axis ") += axis_name(axis);
       break;
     default:
-      text += "face -";
+      text += "face";
   }
+  const bool is_positive = sort == Sort::positive_face || sort == Sort::positive_axis;
+  text += is_positive ? " +" : " -";
 }
 
 void write_pieces(std::string& text, const std::vector<Piece>& pieces) {
@@ -131,10 +155,24 @@ void write_pieces(std::string& text, const std::vector<Piece>& pieces) {
   }
 }
 
-template <std::size_t count>
-void write_corners(std::string& text, const std::array<std::size_t, count>& corners) {
-  for (const std::size_t corner : corners) text.append(" ").append(std::to_string(corner));
-}
+/// Writes a place by its type.
+struct PlaceWriter {
+  std::string& text;
+
+  void operator()(const TriangleContact& place) const {
+    write_corners(text += "triangle", place.corners);
+    (text += ' ') += axis_name(place.axis);
+  }
+  void operator()(const SegmentContact& place) const {
+    write_corners(text += "segment", place.corners);
+  }
+  void operator()(const VertexContact& place) const {
+    write_corners(text += "vertex", std::array{place.corner});
+  }
+  void operator()(const EdgeContact& place) const { write_corners(text += "edge", place.corners); }
+  void operator()(const FaceContact&) const { text += "face"; }
+  void operator()(const AxesContact&) const { text += "axes"; }
+};
 
 void write_contact(std::string& text, const ContactProof& contact) {
   if (const auto* time = std::get_if<Rational>(&contact.time)) {
@@ -147,14 +185,7 @@ void write_contact(std::string& text, const ContactProof& contact) {
     for (const Integer& x : root.polynomial.coefficients()) text.append(" ").append(x.get_str());
   }
   text += "\nat ";
-  if (const auto* triangle = std::get_if<TriangleContact>(&contact.place)) {
-    text += "triangle";
-    write_corners(text, triangle->corners);
-    text.append(" ").append(1, "xyz"[triangle->axis]);
-  } else {
-    text += "segment";
-    write_corners(text, std::get<SegmentContact>(contact.place).corners);
-  }
+  std::visit(PlaceWriter{text}, contact.place);
   text += '\n';
 }
 
@@ -166,6 +197,7 @@ void write(std::string& text, const Certificate& certificate, std::string_view l
   write_kind(text, certificate.kind);
   write_label(text, label);
   write_points(text, certificate.query);
+  write_separation(text, certificate.separation);
   write_claim(text, certificate);
   write_pieces(text, certificate.pieces);
   if (certificate.contact) write_contact(text, *certificate.contact);

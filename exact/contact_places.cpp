@@ -145,7 +145,9 @@ class CubeContact {
     const std::array normal{normal_component(motion_, 0), normal_component(motion_, 1),
                             normal_component(motion_, 2)};
     if (!reaches_across(normal)) return std::nullopt;
-    for (std::size_t i = 0; i < motion_.corner_count; ++i) {
+    // Opposite sides of a parallelogram are parallel.
+    const std::size_t sides = motion_.kind == Kind::vertex_face ? 3 : 2;
+    for (std::size_t i = 0; i < sides; ++i) {
       if (!reaches_across_side(i)) return std::nullopt;
     }
     return std::move(conditions_).of(AxesContact{});
@@ -171,33 +173,32 @@ class CubeContact {
   bool reaches_across(const std::array<Form<degree>, 3>& direction) {
     Form<degree> length{};
     for (const Form<degree>& x : direction) sign_at(x, time_) < 0 ? length -= x : length += x;
-    for (Integer& x : length.c) x *= motion_.distance;
-    const Form<degree + 1> reach = length * one<1>();
-    std::vector<Form<degree + 1>> above(motion_.corner_count), below(motion_.corner_count);
-    for (std::size_t k = 0; k < motion_.corner_count; ++k) {
-      Form<degree + 1> value{};
+    const Form<degree + 1> reach = raised(multiple(length, motion_.distance));
+    const auto value = [&](std::size_t corner) {
+      Form<degree + 1> sum{};
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        add_product(value, direction.at(axis), motion_.corners.at(k).at(axis));
+        add_product(sum, direction.at(axis), motion_.corners.at(corner).at(axis));
       }
-      above[k] = value - reach;
-      below[k] = -value - reach;
-    }
-    return add_one_not_positive(above) && add_one_not_positive(below);
+      return sum;
+    };
+    return add_one_not_positive([&](std::size_t k) { return value(k) - reach; }) &&
+           add_one_not_positive([&](std::size_t k) { return -value(k) - reach; });
   }
 
-  /// A negative one, if there is one: it asks for less.
-  template <std::size_t degree>
-  bool add_one_not_positive(const std::vector<Form<degree>>& forms) {
-    const Form<degree>* zero = nullptr;
-    for (const Form<degree>& form : forms) {
+  /// Of one form a corner; a negative one, if there is one: it asks for less.
+  template <class FormOf>
+  bool add_one_not_positive(const FormOf& form_of) {
+    std::optional<decltype(form_of(0))> zero;
+    for (std::size_t k = 0; k < motion_.corner_count; ++k) {
+      const auto form = form_of(k);
       const int sign = sign_at(form, time_);
-      if (sign == 0) zero = &form;
+      if (sign == 0) zero = form;
       if (sign >= 0) continue;
       conditions_.add(form, sign);
       return true;
     }
-    if (zero != nullptr) conditions_.add(*zero, 0);
-    return zero != nullptr;
+    if (zero) conditions_.add(*zero, 0);
+    return zero.has_value();
   }
 
   const Motion& motion_;

@@ -87,6 +87,24 @@ template <std::size_t degree>
   }
 }
 
+/// The same polynomial as a form of one degree more: times (1−t) + t.
+template <std::size_t degree>
+[[nodiscard]] Form<degree + 1> raised(const Form<degree>& form) {
+  Form<degree + 1> result;
+  for (std::size_t k = 0; k <= degree; ++k) {
+    result.c[k] += form.c[k];
+    result.c[k + 1] += form.c[k];
+  }
+  return result;
+}
+
+/// factor · form.
+template <std::size_t degree>
+[[nodiscard]] Form<degree> multiple(Form<degree> form, const Integer& factor) {
+  for (Integer& x : form.c) x *= factor;
+  return form;
+}
+
 /// The polynomial of the form with these coefficients, in the monomial basis.
 [[nodiscard]] Polynomial to_polynomial(std::span<const Integer> form);
 

@@ -11,26 +11,15 @@ namespace {
 using Coefficients = std::span<const Integer>;
 
 bool is_positive(const Integer& x) { return sgn(x) > 0; }
-
-/// The form in a higher degree.
-template <std::size_t up, std::size_t degree>
-Form<degree + up> raised(const Form<degree>& form) {
-  return form * one<up>();
-}
-
-template <std::size_t degree>
-Form<degree> times(Form<degree> form, const Integer& factor) {
-  for (Integer& x : form.c) x *= factor;
-  return form;
-}
+bool is_negative(const Integer& x) { return sgn(x) < 0; }
 
 /// The polynomials of features; products of corners are made when first needed.
 class Values {
  public:
-  using Holds = std::function<bool(Coefficients)>;
+  using Holds = std::function<bool(Coefficients, bool is_guard)>;
 
   explicit Values(const Motion& motion)
-      : motion_(motion), square_(times(one<2>(), motion.distance * motion.distance)) {}
+      : motion_(motion), square_(multiple(one<2>(), motion.distance * motion.distance)) {}
 
   /// All features, the cheaper ones first.
   [[nodiscard]] std::vector<Feature> features() const {
@@ -126,15 +115,15 @@ class Values {
   template <std::size_t degree, std::size_t twice>
   bool is_beyond(const Form<degree>& value, const Form<twice>& squared_length, const Holds& holds) {
     static_assert(twice + 2 == 2 * degree);
-    if (!holds(value.c)) return false;
+    if (!holds(value.c, is_apart())) return false;
     if (!is_apart()) return true;
     Form<2 * degree> difference = value * value;
     subtract_product(difference, squared_length, square_);
-    return holds(difference.c);
+    return holds(difference.c, false);
   }
 
   bool every_of_vertex(std::size_t i, const Holds& holds) {
-    if (!holds((product(i, i) - square_).c)) return false;
+    if (!holds((product(i, i) - square_).c, false)) return false;
     for (std::size_t k = 0; k < corners(); ++k) {
       if (k != i && !is_beyond(product(i, k), product(i, i), holds)) return false;
     }
@@ -151,7 +140,7 @@ class Values {
       return result;
     };
     const Form<4> at_edge = value(i);
-    if (!holds((at_edge - length * square_).c)) return false;
+    if (!holds((at_edge - length * square_).c, false)) return false;
     const Form<6> squared_length = is_apart() ? length * at_edge : Form<6>{};
     for (std::size_t k = 0; k < corners(); ++k) {
       if (k != i && k != j && !is_beyond(value(k), squared_length, holds)) return false;
@@ -161,7 +150,7 @@ class Values {
 
   bool every_of_face(const Form<3>& value, const Holds& holds) {
     if (motion_.norm == Norm::linf) return is_beyond_cube(value, normal(), holds);
-    if (!is_apart()) return holds(value.c);
+    if (!is_apart()) return holds(value.c, false);
     Form<4> squared_length{};
     for (const Form<2>& x : normal()) add_product(squared_length, x, x);
     return is_beyond(value, squared_length, holds);
@@ -169,28 +158,35 @@ class Values {
 
   // ---- linf -------------------------------------------------------------------------------------
 
-  /// a·w > d(σ·a) for all σ, from a·w and those components of a that may differ from zero.
+  /// a·w > d(σ·a) for all σ, from a·w and those components of a that may differ from zero. Of a
+  /// component whose sign is that of its coefficients, that sign is the one that asks for most.
   template <std::size_t degree, std::size_t below, std::size_t count>
   bool is_beyond_cube(const Form<degree>& value, const std::array<Form<below>, count>& components,
                       const Holds& holds) {
+    static_assert(degree == below + 1);
+    if (std::ranges::none_of(value.c, is_positive)) return false;
     std::vector<Form<degree>> sums{value};
     for (const Form<below>& component : components) {
-      if (component.is_zero() || !is_apart()) continue;
-      const Form<degree> step = raised<degree - below>(times(component, motion_.distance));
+      if (!is_apart()) continue;
+      const Form<degree> step = raised(multiple(component, motion_.distance));
+      const bool never_positive = std::ranges::none_of(component.c, is_positive);
+      const bool is_both = !never_positive && std::ranges::any_of(component.c, is_negative);
       const std::size_t size = sums.size();
       for (std::size_t n = 0; n < size; ++n) {
-        sums.push_back(sums[n] + step);
-        sums[n] -= step;
+        if (is_both) sums.push_back(sums[n] + step);
+        never_positive ? sums[n] += step : sums[n] -= step;
       }
     }
-    return std::ranges::all_of(sums, [&](const Form<degree>& form) { return holds(form.c); });
+    return std::ranges::all_of(sums,
+                               [&](const Form<degree>& form) { return holds(form.c, false); });
   }
 
   bool every_of_axis(const Feature& feature, const Holds& holds) {
-    const Form<1> distance = times(one<1>(), motion_.distance);
+    const Form<1> distance = multiple(one<1>(), motion_.distance);
     for (std::size_t k = 0; k < corners(); ++k) {
       const Form<1>& x = motion_.corners.at(k).at(feature.axis);
-      if (!holds(((feature.sort == Sort::positive_axis ? x : -x) - distance).c)) return false;
+      if (!holds(((feature.sort == Sort::positive_axis ? x : -x) - distance).c, false))
+        return false;
     }
     return true;
   }
@@ -219,28 +215,32 @@ class Values {
 
 }  // namespace
 
-Separator::Separator(const Feature& feature, std::vector<std::vector<Integer>> forms)
+Separator::Separator(const Feature& feature, std::vector<Condition> conditions)
     : feature_(feature) {
-  std::ranges::stable_sort(forms, {}, [](const auto& form) { return form.size(); });
-  values_.reserve(forms.size());
-  for (auto& form : forms) values_.push_back({std::move(form), {}, {}});
+  std::ranges::stable_sort(conditions, {}, [](const Condition& x) { return x.form.size(); });
+  values_.reserve(conditions.size());
+  for (Condition& x : conditions) values_.push_back({std::move(x), {}, {}});
 }
 
 const Polynomial& Separator::polynomial(std::size_t n) {
   Value& value = values_[n];
-  if (!value.polynomial) value.polynomial = to_polynomial(value.form);
+  if (!value.polynomial) value.polynomial = to_polynomial(value.condition.form);
   return *value.polynomial;
 }
 
-const std::vector<AlgebraicNumber>& Separator::roots(std::size_t n) {
+std::vector<AlgebraicNumber>& Separator::roots(std::size_t n) {
   Value& value = values_[n];
-  if (!value.roots) value.roots = roots_in_unit_interval(polynomial(n));
+  if (!value.roots) {
+    value.roots.emplace();
+    if (!value.condition.is_guard) value.roots = roots_in_unit_interval(polynomial(n));
+  }
   return *value.roots;
 }
 
 bool Separator::holds_at(AlgebraicNumber& t) {
   if (t.rational() == Rational(0)) {
-    return std::ranges::all_of(values_, [](const Value& value) { return sgn(value.form[0]) > 0; });
+    return std::ranges::all_of(values_,
+                               [](const Value& value) { return sgn(value.condition.form[0]) > 0; });
   }
   for (std::size_t n = 0; n < size(); ++n) {
     if (t.sign_of(polynomial(n)) <= 0) return false;
@@ -248,25 +248,38 @@ bool Separator::holds_at(AlgebraicNumber& t) {
   return true;
 }
 
-Separator::End Separator::end_after(const AlgebraicNumber& t,
-                                    const std::optional<AlgebraicNumber>& bound) {
+/// Is one of its polynomials seen to be negative between t and the bound? Asked of one point close to
+/// the bound, which spares most separators the isolation of roots.
+bool Separator::is_over_before(const AlgebraicNumber& t, const AlgebraicNumber& bound) {
+  const Rational point = bound.interval().lower;
+  if (t >= point) return false;
+  for (std::size_t n = 0; n < size(); ++n) {
+    if (sign_at(polynomial(n), point) < 0) return true;
+  }
+  return false;
+}
+
+Separator::End Separator::end_after(AlgebraicNumber& t, std::optional<AlgebraicNumber>& bound) {
+  static constexpr unsigned long close = 32;
+  if (bound) bound->refine_to_level(close);
+  if (bound && is_over_before(t, *bound)) return {.root = {}, .is_within_bound = true};
   End end;
   for (std::size_t n = 0; n < size(); ++n) {
-    const auto& all = roots(n);
-    const auto root = std::ranges::find_if(all, [&](const auto& x) { return t < x; });
-    if (root == all.end() || (end.root && *end.root <= *root)) continue;
+    auto& all = roots(n);
+    const auto root = std::ranges::find_if(all, [&](auto& x) { return compare(t, x) < 0; });
+    if (root == all.end() || (end.root && compare(*end.root, *root) <= 0)) continue;
     end.root = *root;
-    end.is_before_bound = bound && *root <= *bound;
-    if (end.is_before_bound) break;
+    end.is_within_bound = bound && compare(*root, *bound) <= 0;
+    if (end.is_within_bound) break;
   }
   return end;
 }
 
-std::optional<AlgebraicNumber> Separator::begin_before(const AlgebraicNumber& t) {
+std::optional<AlgebraicNumber> Separator::begin_before(AlgebraicNumber& t) {
   std::optional<AlgebraicNumber> begin;
   for (std::size_t n = 0; n < size(); ++n) {
-    for (const AlgebraicNumber& root : roots(n)) {
-      if (root < t && (!begin || *begin < root)) begin = root;
+    for (AlgebraicNumber& root : roots(n)) {
+      if (compare(root, t) < 0 && (!begin || compare(*begin, root) < 0)) begin = root;
     }
   }
   return begin;
@@ -276,14 +289,16 @@ std::vector<Separator> separators(const Motion& motion) {
   Values values(motion);
   std::vector<Separator> result;
   for (const Feature& feature : values.features()) {
-    std::vector<std::vector<Integer>> forms;
-    const bool possible = values.every(feature, [&](Coefficients form) {
+    std::vector<Separator::Condition> conditions;
+    const bool possible = values.every(feature, [&](Coefficients form, bool is_guard) {
       if (std::ranges::none_of(form, is_positive)) return false;
-      if (!std::ranges::all_of(form, is_positive)) forms.emplace_back(form.begin(), form.end());
+      if (!std::ranges::all_of(form, is_positive)) {
+        conditions.push_back({{form.begin(), form.end()}, is_guard});
+      }
       return true;
     });
     if (!possible) continue;
-    Separator separator(feature, std::move(forms));
+    Separator separator(feature, std::move(conditions));
     if (separator.is_trivial()) return {std::move(separator)};
     result.push_back(std::move(separator));
   }
@@ -294,8 +309,9 @@ std::optional<Span> farthest(std::vector<Separator>& separators, AlgebraicNumber
   std::optional<Span> best;
   for (Separator& separator : separators) {
     if (!separator.holds_at(t)) continue;
-    Separator::End end = separator.end_after(t, best ? best->end : std::nullopt);
-    if (end.is_before_bound) continue;
+    std::optional<AlgebraicNumber> none;
+    Separator::End end = separator.end_after(t, best ? best->end : none);
+    if (end.is_within_bound) continue;
     best = {&separator, std::move(end.root)};
     if (!best->end) break;
   }

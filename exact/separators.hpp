@@ -32,7 +32,9 @@
 ///
 /// In integer polynomials, all of which have to be positive for a feature to hold:
 ///   - l2: a·w_k and (a·w_k)² − d²|a|². For k = i of vertex i these say |w_i|² − d² > 0; for k = i, j
-///     of edge i, j, where a·w_k = V = |e|²|w_i|² − (w_i·e)² and |a|² = |e|² V, V − d²|e|² > 0.
+///     of edge i, j, where a·w_k = V = |e|²|w_i|² − (w_i·e)² and |a|² = |e|² V, V − d²|e|² > 0. In
+///     time the second of a pair ends first: where a·w_k gets to 0 it is not positive. So the first is
+///     a *guard*, which has to be asked where a walk begins, but whose roots are never needed.
 ///   - linf: a·w_k − d(σ·a) for every vector σ of signs.
 ///
 /// So the times at which P is farther than d are a finite union of open sets. **The walk**: from
@@ -78,7 +80,13 @@ struct Feature {
 /// throughout by the signs of their forms' coefficients.
 class Separator {
  public:
-  Separator(const Feature& feature, std::vector<std::vector<Integer>> forms);
+  /// A form that is to be positive.
+  struct Condition {
+    std::vector<Integer> form;
+    bool is_guard = false;
+  };
+
+  Separator(const Feature& feature, std::vector<Condition> conditions);
 
   [[nodiscard]] const Feature& feature() const { return feature_; }
 
@@ -87,7 +95,9 @@ class Separator {
 
   [[nodiscard]] std::size_t size() const { return values_.size(); }
   /// Coefficients of a form that is to be positive (exact/motion.hpp).
-  [[nodiscard]] const std::vector<Integer>& form(std::size_t n) const { return values_[n].form; }
+  [[nodiscard]] const std::vector<Integer>& form(std::size_t n) const {
+    return values_[n].condition.form;
+  }
   /// The same as a polynomial.
   const Polynomial& polynomial(std::size_t n);
 
@@ -98,23 +108,25 @@ class Separator {
   /// \pre holds_at(t)
   struct End {
     std::optional<AlgebraicNumber> root;
-    /// Is `root` only known to be no later than the bound that was given?
-    bool is_before_bound = false;
+    /// Is it not after the bound that was given? Then `root` may be missing or a later one.
+    bool is_within_bound = false;
   };
-  /// \param bound If one is given, ends that are not after it need not be found.
-  End end_after(const AlgebraicNumber& t, const std::optional<AlgebraicNumber>& bound);
+  /// \param bound If one is given, which is after t, ends that are not after it need not be found.
+  End end_after(AlgebraicNumber& t, std::optional<AlgebraicNumber>& bound);
 
   /// The last root before t, none if there is no such: from where on it holds, excluded.
   /// \pre holds_at(t)
-  std::optional<AlgebraicNumber> begin_before(const AlgebraicNumber& t);
+  std::optional<AlgebraicNumber> begin_before(AlgebraicNumber& t);
 
  private:
   struct Value {
-    std::vector<Integer> form;
+    Condition condition;
     std::optional<Polynomial> polynomial;
     std::optional<std::vector<AlgebraicNumber>> roots;
   };
-  const std::vector<AlgebraicNumber>& roots(std::size_t n);
+  /// None of a guard.
+  std::vector<AlgebraicNumber>& roots(std::size_t n);
+  bool is_over_before(const AlgebraicNumber& t, const AlgebraicNumber& bound);
 
   Feature feature_;
   std::vector<Value> values_;

@@ -120,6 +120,12 @@ void read_query(Reader& reader, Certificate& certificate) {
     certificate.coordinates[n] = parse(reader.word());
     if (n % 3 == 2) reader.end();
   }
+  if (!reader.is_line() || reader.first_word() != "separation") return;
+  reader.begin("separation");
+  certificate.distance = parse(reader.word());
+  if (certificate.distance < 0) reject("a distance below 0");
+  certificate.is_l2 = reader.one_of({"linf", "l2"}) == 1;
+  reader.end();
 }
 
 void read_claim(Reader& reader, Certificate& certificate) {
@@ -148,12 +154,13 @@ void read_piece(Reader& reader, Certificate& certificate) {
   reader.begin("separate");
   piece.from = parse(reader.word());
   piece.to = parse(reader.word());
-  piece.feature = Feature(reader.one_of({"vertex", "edge", "face"}));
-  if (piece.feature == Feature::face_plus) {
-    if (reader.one_of({"+", "-"}) == 1) piece.feature = Feature::face_minus;
+  piece.feature = Feature(reader.one_of({"vertex", "edge", "face", "axis", "cross"}));
+  if (piece.feature >= Feature::axis) piece.axis = reader.one_of({"x", "y", "z"});
+  if (piece.feature == Feature::face || piece.feature == Feature::axis) {
+    piece.is_negative = reader.one_of({"+", "-"}) == 1;
   } else {
     piece.i = read_corner(reader, certificate);
-    if (piece.feature == Feature::edge) piece.j = read_corner(reader, certificate);
+    if (piece.feature != Feature::vertex) piece.j = read_corner(reader, certificate);
   }
   reader.end();
 }
@@ -176,11 +183,12 @@ void read_contact(Reader& reader, Certificate& certificate) {
     reject("a polynomial whose leading coefficient is 0");
   reader.end();
   reader.begin("at");
-  contact.is_triangle = reader.one_of({"segment", "triangle"}) == 1;
-  for (std::size_t n = 0; n < (contact.is_triangle ? 3U : 2U); ++n) {
+  contact.place = Place(reader.one_of({"vertex", "segment", "triangle", "edge", "face", "axes"}));
+  static constexpr std::array<std::size_t, 6> counts{1, 2, 3, 2, 0, 0};
+  for (std::size_t n = 0; n < counts.at(std::size_t(contact.place)); ++n) {
     contact.corners.at(n) = read_corner(reader, certificate);
   }
-  if (contact.is_triangle) contact.axis = reader.one_of({"x", "y", "z"});
+  if (contact.place == Place::triangle) contact.axis = reader.one_of({"x", "y", "z"});
   reader.end();
 }
 

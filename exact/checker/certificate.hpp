@@ -35,29 +35,36 @@ struct Rejected {
 
 enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 
-/// Whose direction separates.
-enum class Feature : std::uint8_t { vertex, edge, face_plus, face_minus };
-
 /// What stands on a line of its own and speaks of [from, to].
 struct Part {
   std::size_t line = 0;
   mpq_class from, to;
 };
 
+/// What names the direction that separates.
+enum class Feature : std::uint8_t { vertex, edge, face, axis, cross };
+
 /// `separate`: no contact in the interval.
 struct Piece : Part {
   Feature feature = Feature::vertex;
   /// The vertex, or the ends of the edge.
   std::size_t i = 0, j = 0;
+  /// Of an axis or a cross.
+  std::size_t axis = 0;
+  /// Of a face or an axis.
+  bool is_negative = false;
 };
+
+/// Where a contact is.
+enum class Place : std::uint8_t { vertex, segment, triangle, edge, face, axes };
 
 /// `contact` and `at`: the interval is that of the root; a given time is both its ends.
 struct Contact : Part {
   bool is_root = false;
   /// The coefficients G0 … Gn of a root, n ≥ 1, Gn ≠ 0; none for a given time.
   std::vector<mpz_class> g;
-  bool is_triangle = false;
-  /// Two corners of a segment, three of a triangle.
+  Place place = Place::vertex;
+  /// As many as the place has: a vertex 1, a segment or an edge 2, a triangle 3.
   std::array<std::size_t, 3> corners{};
   /// The triangle's axis.
   std::size_t axis = 0;
@@ -70,6 +77,9 @@ struct Certificate {
   std::string label;
   /// The eight points of the query, x y z each, as listed.
   std::array<mpq_class, 24> coordinates;
+  /// How near is a contact, and by which norm: l2, or else linf.
+  mpq_class distance = 0;
+  bool is_l2 = false;
   Claim claim = Claim::no_collision;
   /// The bounds of a time of impact; for the other claims all of time.
   mpq_class lower = 0, upper = 1;

@@ -1,6 +1,7 @@
 #include "exact/checker/proof.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace touchstone::checker {
 namespace {
@@ -24,7 +25,7 @@ using Form = std::vector<mpz_class>;
 
 /// sum + a·b, or sum − a·b with mpz_submul: in place, for most of the checker's time is spent here.
 Form add_product(Form sum, const Form& a, const Form& b, decltype(mpz_addmul) add = mpz_addmul) {
-  sum.resize(a.size() + b.size() - 1);
+  sum.resize(std::max(sum.size(), a.size() + b.size() - 1));
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) {
       add(sum[i + j].get_mpz_t(), a[i].get_mpz_t(), b[j].get_mpz_t());
@@ -83,6 +84,11 @@ Vector operator-(Vector a, const Vector& b) {
   return a;
 }
 
+Vector operator*(Vector a, int factor) {
+  for (Form& x : a) x = std::move(x) * factor;
+  return a;
+}
+
 Form dot(const Vector& a, const Form& x, const Form& y, const Form& z) {
   return add_product(add_product(a[0] * x, a[1], y), a[2], z);
 }
@@ -93,19 +99,34 @@ Form cross(const Vector& a, const Vector& b, std::size_t axis) {
   return add_product(a[next] * b[last], a[last], b[next], mpz_submul);
 }
 
-/// The corners, polynomials of degree 1 in t, as integers: all of space is enlarged by one factor,
-/// which changes no sign below.
-std::vector<Vector> corners_of(const Certificate& certificate) {
+Vector cross(const Vector& a, const Vector& b) {
+  return {cross(a, b, 0), cross(a, b, 1), cross(a, b, 2)};
+}
+
+Vector unit(std::size_t axis) {
+  Vector result{Form{0}, Form{0}, Form{0}};
+  result[axis][0] = 1;
+  return result;
+}
+
+/// The corners, polynomials of degree 1 in t, and the distance as integers: all of space is enlarged
+/// by one factor, which changes no sign below.
+std::vector<Vector> corners_of(const Certificate& certificate, mpz_class& distance) {
   mpz_class factor = 1;
-  for (const mpq_class& x : certificate.coordinates) {
+  const auto include = [&](const mpq_class& x) {
     factor = lcm(factor, x.get_den());
     if (bits(factor) > max_scaled_bits) reject("a common denominator that is too large");
-  }
+  };
+  const auto enlarged = [&](const mpq_class& x) {
+    mpz_class result = scaled(x, factor);
+    if (bits(result) > max_scaled_bits) reject("numbers too far apart in size");
+    return result;
+  };
+  std::ranges::for_each(certificate.coordinates, include);
+  include(certificate.distance);
   std::array<mpz_class, 24> x;
-  for (std::size_t n = 0; n < x.size(); ++n) {
-    x[n] = scaled(certificate.coordinates[n], factor);
-    if (bits(x[n]) > max_scaled_bits) reject("numbers too far apart in size");
-  }
+  std::ranges::transform(certificate.coordinates, x.begin(), enlarged);
+  distance = enlarged(certificate.distance);
   using Pairs = std::vector<std::array<std::size_t, 2>>;
   static const Pairs vertex_face{{0, 1}, {0, 2}, {0, 3}};
   static const Pairs edge_edge{{0, 2}, {1, 2}, {1, 3}, {0, 3}};
@@ -128,7 +149,7 @@ std::vector<Vector> corners_of(const Certificate& certificate) {
 class Proof {
  public:
   Proof(const Certificate& certificate, std::size_t& line)
-      : certificate_(certificate), line_(line), corners_(corners_of(certificate)) {}
+      : certificate_(certificate), line_(line), corners_(corners_of(certificate, distance_)) {}
 
   void verify() {
     const mpq_class &lower = certificate_.lower, &upper = certificate_.upper;
@@ -160,20 +181,26 @@ class Proof {
     return substitute(mirrored(std::move(p)), 1, 1);
   }
 
-  /// Proves that a form in 1−u and u is positive for all u ∈ [0,1]. It is if the first and the last
+  /// Is a form in 1−u and u seen to be positive for all u ∈ [0,1]? It is if the first and the last
   /// coefficient, its values at 0 and 1, are positive and no other is negative; or else if it is so
   /// on both halves: u = (1+v)/2, where twice 1−u and u are 1−v and (1−v) + 2v, and u = (1−v)/2.
-  void prove_positive(const Form& form, std::size_t bisections = 0) {
+  bool is_positive(const Form& form, std::size_t bisections = 0) {
     for (const mpz_class& x : form) work_bits_ += bits(x);
     if (work_bits_ > max_work_bits) reject("the proof takes too much work");
-    if (form.front() <= 0 || form.back() <= 0) reject("a polynomial is not positive at a point");
-    if (std::ranges::all_of(form, [](const mpz_class& x) { return x >= 0; })) return;
-    if (bisections == max_bisections) {
-      reject("a polynomial is not seen to be positive within " + std::to_string(max_bisections) +
-             " bisections");
+    const auto doubt = [&](const char* reason) { return doubt_ = reason, false; };
+    if (form.front() <= 0 || form.back() <= 0) {
+      return doubt("a polynomial is not positive at a point");
     }
-    prove_positive(substitute(form, 2, 1), bisections + 1);
-    prove_positive(substitute(mirrored(form), 2, 1), bisections + 1);
+    if (std::ranges::all_of(form, [](const mpz_class& x) { return x >= 0; })) return true;
+    if (bisections == max_bisections)
+      return doubt("a polynomial is not seen to be positive within 128 bisections");
+    return is_positive(substitute(form, 2, 1), bisections + 1) &&
+           is_positive(substitute(mirrored(form), 2, 1), bisections + 1);
+  }
+
+  /// Proves that a polynomial in t is positive in the part's interval.
+  void prove_positive(Form p) {
+    if (!is_positive(on_interval(std::move(p)))) reject(doubt_);
   }
 
   /// Proves that there is no contact in [0, end]: the pieces follow one another without a gap.
@@ -190,24 +217,56 @@ class Proof {
     if (reached != end) reject("the last piece does not end where it should");
   }
 
-  /// Proves d·w > 0 for all corners w, d the direction of the piece's feature.
-  void prove_separation(const Piece& piece) {
+  /// The normal N = a×b of the polygon. N·w is the same for all corners: N is orthogonal to a and b,
+  /// hence also to w_3 − w_0 = b − a.
+  [[nodiscard]] Vector normal() const {
+    return cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
+  }
+
+  [[nodiscard]] const Vector& next(std::size_t corner) const {
+    return corners_[(corner + 1) % corners_.size()];
+  }
+
+  /// The direction of a piece's feature, but for its sign.
+  [[nodiscard]] Vector direction(const Piece& piece) const {
+    if (piece.feature == Feature::face) return normal();
+    if (piece.feature == Feature::axis) return unit(piece.axis);
     Vector d = corners_[piece.i];
-    std::size_t count = corners_.size();
-    if (piece.feature == Feature::edge) {
-      // |e|² w_i − (w_i·e) e
-      const Vector e = corners_[piece.j] - corners_[piece.i];
-      const Form e_e = dot(e, e), d_e = dot(d, e);
-      for (std::size_t n = 0; n < 3; ++n) d[n] = add_product(e_e * d[n], d_e, e[n], mpz_submul);
-    } else if (piece.feature != Feature::vertex) {
-      // ±N, N = a×b. N·w is the same for all corners: N is orthogonal to a and b, hence also to
-      // w_3 − w_0 = b − a.
-      const Vector a = corners_[1] - corners_[0], b = corners_[2] - corners_[0];
-      const int sign = piece.feature == Feature::face_plus ? 1 : -1;
-      for (std::size_t n = 0; n < 3; ++n) d[n] = cross(a, b, n) * sign;
-      count = 1;
+    if (piece.feature == Feature::vertex) return d;
+    const Vector e = corners_[piece.j] - d;
+    if (piece.feature == Feature::cross) return cross(unit(piece.axis), e);
+    const Form e_e = dot(e, e), d_e = dot(d, e);
+    for (std::size_t n = 0; n < 3; ++n) d[n] = add_product(e_e * d[n], d_e, e[n], mpz_submul);
+    return d;
+  }
+
+  /// value − D (σ·d), the signs σ given by the bits of a number.
+  [[nodiscard]] Form less_reach(Form value, const Vector& d, unsigned signs) const {
+    for (std::size_t n = 0; n < 3; ++n, signs /= 2) {
+      value = add_product(value, d[n], {distance_}, signs % 2 == 0 ? mpz_submul : mpz_addmul);
     }
-    for (std::size_t n = 0; n < count; ++n) prove_positive(on_interval(dot(d, corners_[n])));
+    return value;
+  }
+
+  /// value − D² |d|².
+  [[nodiscard]] Form less_square(const Form& value, const Vector& d) const {
+    return add_product(value, dot(d, d), {distance_ * distance_}, mpz_submul);
+  }
+
+  /// Proves d·w > D‖d‖ for all corners w, d the direction of the piece's feature, ‖d‖ its length or,
+  /// for linf, the greatest of the σ·d.
+  void prove_separation(const Piece& piece) {
+    const Vector d = direction(piece) * (piece.is_negative ? -1 : 1);
+    const std::size_t count = piece.feature == Feature::face ? 1 : corners_.size();
+    for (std::size_t n = 0; n < count; ++n) {
+      const Form value = dot(d, corners_[n]);
+      if (certificate_.is_l2 || distance_ == 0) prove_positive(value);
+      if (distance_ == 0) continue;
+      if (certificate_.is_l2) prove_positive(less_square(value * value, d));
+      for (unsigned signs = 0; signs < 8 && !certificate_.is_l2; ++signs) {
+        prove_positive(less_reach(value, d, signs));
+      }
+    }
   }
 
   /// Proves that there is a contact in the interval of the claim: at any root of g in its own.
@@ -226,7 +285,9 @@ class Proof {
         reject("the polynomial does not change its sign in the interval");
       }
     }
-    contact.is_triangle ? prove_triangle(contact) : prove_segment(contact);
+    if (contact.place == Place::triangle) return prove_triangle(contact);
+    if (contact.place == Place::segment) return prove_segment(contact);
+    contact.place == Place::axes ? prove_axes() : prove_near(contact);
   }
 
   /// The sign of a polynomial at the time of the contact.
@@ -234,7 +295,7 @@ class Proof {
     if (divides(g_, p)) return 0;
     const Form form = on_interval(std::move(p));
     const int sign = sgn(form.front());
-    prove_positive(form * sign);
+    if (!is_positive(form * sign)) reject(doubt_);
     return sign;
   }
 
@@ -263,10 +324,59 @@ class Proof {
     if (sign(dot(a, b)) > 0) reject("the origin is not on the segment");
   }
 
+  /// Proves that a vertex, or the foot of the perpendicular on an edge or on the face, is in the
+  /// polygon and within D of the origin.
+  void prove_near(const Contact& contact) {
+    const Vector &a = corners_[contact.corners[0]], &b = corners_[contact.corners[1]];
+    Vector base = unit(0);  // its square is what that of the distance is divided by
+    Form square = dot(a, a);
+    bool is_inside = true;
+    if (contact.place == Place::edge) {
+      base = b - a;
+      square = dot(cross(a, b), cross(a, b));
+      is_inside = sign(dot(a, base)) <= 0 && sign(dot(b, base)) >= 0;
+    } else if (contact.place == Place::face) {
+      base = normal();
+      square = dot(base, a) * dot(base, a);
+      for (std::size_t n = 0; n < corners_.size(); ++n) {
+        is_inside = is_inside && sign(dot(base, cross(corners_[n], next(n)))) >= 0;
+      }
+    }
+    if (!is_inside) reject("the nearest point is not inside");
+    if (sign(dot(base, base)) == 0) reject("the edge's or the face's direction is 0");
+    if (sign(less_square(square, base)) > 0) reject("the place is farther than the distance");
+  }
+
+  /// Proves that no axis separates the polygon from the cube of the distance.
+  void prove_axes() {
+    if (certificate_.is_l2) reject("axes prove nothing of the distance in l2");
+    std::vector<Vector> axes{normal(), unit(0), unit(1), unit(2)};
+    for (std::size_t n = 0; n < 3 * corners_.size(); ++n) {
+      axes.push_back(cross(unit(n % 3), next(n / 3) - corners_[n / 3]));
+    }
+    for (const Vector& axis : axes) {
+      if (!reaches(axis) || !reaches(axis * -1)) reject("an axis separates, or is not seen not to");
+    }
+  }
+
+  /// Is d·w ≤ D‖d‖ seen for some corner w? For some σ is enough.
+  bool reaches(const Vector& d) {
+    for (const Vector& w : corners_) {
+      for (unsigned signs = 0; signs < 8; ++signs) {
+        const Form rest = less_reach(dot(d, w), d, signs);
+        if (divides(g_, rest) || is_positive(on_interval(rest * -1))) return true;
+      }
+    }
+    return false;
+  }
+
   const Certificate& certificate_;
   std::size_t& line_;
+  mpz_class distance_;
   std::vector<Vector> corners_;
   std::uint64_t work_bits_ = 0;
+  /// Why is_positive saw it not.
+  const char* doubt_ = "";
   /// The interval of the part at hand: numerators of its start and its length, and their denominator.
   mpz_class from_, length_, denominator_;
   /// The polynomial whose root the time of the contact is.

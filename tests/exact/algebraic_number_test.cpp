@@ -224,6 +224,34 @@ TEST(RootsInUnitInterval, OfACubicAreItsCosines) {
   EXPECT_NEAR(roots[1].enclosure().lower, std::cos(std::numbers::pi * 40 / 180), 1e-15);
 }
 
+TEST(RootsInUnitInterval, AreFoundInClustersHoweverNear) {
+  // ((3t−1)² − ε²)((3t−2)² + δ²)(2t−5): two roots at 1/3 ± ε/3, and two that are not real near 2/3.
+  for (const unsigned bits : {10U, 100U, 1000U, 5000U}) {
+    const Integer whole = Integer(1) << bits;
+    const auto pair = [&](long root, long sign) {
+      const Polynomial linear(Integer(-root * whole), Integer(3 * whole));
+      return linear * linear + Polynomial(Integer(sign));
+    };
+    const Polynomial p = pair(1, -1) * pair(2, 1) * Polynomial(Integer(-5), Integer(2));
+    const auto roots = roots_in_unit_interval(p);
+    ASSERT_EQ(roots.size(), 2U) << bits;
+    const Rational distance(Integer(1), Integer(3 * whole));
+    EXPECT_TRUE(roots[0] == Rational(Rational(1, 3) - distance));
+    EXPECT_TRUE(roots[1] == Rational(Rational(1, 3) + distance));
+  }
+}
+
+TEST(RootsInUnitInterval, AreFoundInClustersOfThree) {
+  // (3t−1)³ = ±ε²(3t−1), so three roots or one, and the same about 1/2, where a midpoint is one.
+  const Integer whole = Integer(1) << 300U;
+  for (const long denominator : {2L, 3L, 7L}) {
+    const Polynomial linear(Integer(-whole), Integer(denominator * whole));
+    const Polynomial square = linear * linear;
+    EXPECT_EQ(roots_in_unit_interval(linear * (square - Polynomial(Integer(1)))).size(), 3U);
+    EXPECT_EQ(roots_in_unit_interval(linear * (square + Polynomial(Integer(1)))).size(), 1U);
+  }
+}
+
 TEST(AlgebraicNumber, IsConstructedFromARational) {
   EXPECT_EQ(AlgebraicNumber().rational(), Rational(0));
   const Rational value(3, 7);
@@ -372,6 +400,22 @@ TEST(Comparison, IsTheOrderOfTheNumbers) {
     }
   }
   EXPECT_GT(equal, 100);
+}
+
+TEST(Comparison, InPlaceIsTheSameAndKeepsWhatItRefined) {
+  const auto roots = [](long constant) {
+    return roots_in_unit_interval(Polynomial(Integer(-constant), Integer(0), Integer(2000000)));
+  };
+  AlgebraicNumber a = roots(1000000).front(), b = roots(1000001).front(), c = a;
+  const Rational width = a.interval().upper - a.interval().lower;
+  EXPECT_TRUE(compare(a, b) < 0);
+  EXPECT_TRUE(compare(b, a) > 0);
+  EXPECT_LT(a.interval().upper - a.interval().lower, width);
+  EXPECT_TRUE(a.interval().upper <= b.interval().lower);
+  EXPECT_TRUE(compare(a, c) == 0);
+  AlgebraicNumber half(Rational(1, 2));
+  EXPECT_TRUE(compare(half, a) < 0);
+  EXPECT_TRUE(compare(a, half) > 0);
 }
 
 TEST(Comparison, AgainstRationals) {

@@ -131,6 +131,13 @@ void expect_same_polynomial(Random& random) {
   }
 }
 
+TEST(Form, RaisedIsTheSameFunctionAndAMultipleIsOne) {
+  const Form<2> form{{Integer(3), Integer(-5), Integer(7)}};
+  EXPECT_EQ(to_polynomial(raised(form)), to_polynomial(form));
+  EXPECT_EQ(to_polynomial(multiple(form, Integer(-4))),
+            Polynomial(Integer(-4)) * to_polynomial(form));
+}
+
 TEST(Form, ToPolynomialIsTheSameFunction) {
   Random random(74);
   expect_same_polynomial<0>(random);
@@ -335,6 +342,56 @@ TEST(ScaleToIntegers, NanAndInfinityAreErrorsEverywhere) {
             << i;
       }
     }
+  }
+}
+
+TEST(ScaleUniformly, MultipliesAllAxesByOnePowerOfTwo) {
+  Query query{};
+  query.at(0, 0, 0) = 3.0;
+  query.at(1, 2, 1) = -0.25;
+  query.at(0, 3, 2) = 1024.0;
+  const Motion motion = scale_uniformly(Kind::edge_edge, query);
+  EXPECT_EQ(motion.points[0][0].c[0], 12);
+  EXPECT_EQ(motion.points[2][1].c[1], -1);
+  EXPECT_EQ(motion.points[3][2].c[0], 4096);
+  EXPECT_EQ(motion.corners[0][0].c[0], 12);  // ea0 − eb0
+  EXPECT_EQ(motion.corners[1][1].c[1], 1);
+  EXPECT_EQ(motion.corners[2][2].c[0], -4096);
+  EXPECT_EQ(motion.distance, 0);
+}
+
+TEST(ScaleUniformly, TakesEveryFiniteDouble) {
+  constexpr double greatest = std::numeric_limits<double>::max();
+  Query query{};
+  query.at(0, 0, 0) = least_subnormal;
+  query.at(0, 0, 1) = greatest;
+  const Motion motion = scale_uniformly(Kind::vertex_face, query);
+  EXPECT_EQ(motion.corners[0][0].c[0], 1);
+  EXPECT_EQ(Rational(motion.corners[0][1].c[0]), Rational(greatest) * power_of_two(1074));
+  EXPECT_EQ(scale_uniformly(Kind::vertex_face, Query{}).corners[2][2].c[1], 0);
+  query.at(1, 1, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(static_cast<void>(scale_uniformly(Kind::vertex_face, query)), std::invalid_argument);
+}
+
+TEST(ScaleUniformly, TakesTheDistanceAlong) {
+  Query query{};
+  query.at(0, 0, 0) = 3.0;
+  const Motion coarse = scale_uniformly(Kind::vertex_face, query, {6.0, Norm::linf});
+  EXPECT_EQ(coarse.points[0][0].c[0], 1);
+  EXPECT_EQ(coarse.distance, 2);
+  EXPECT_EQ(coarse.norm, Norm::linf);
+  const Motion fine = scale_uniformly(Kind::vertex_face, query, {0.125, Norm::l2});
+  EXPECT_EQ(fine.points[0][0].c[0], 24);
+  EXPECT_EQ(fine.distance, 1);
+  EXPECT_EQ(fine.norm, Norm::l2);
+  const Motion finest = scale_uniformly(Kind::vertex_face, query, {least_subnormal, Norm::l2});
+  EXPECT_EQ(finest.distance, 1);
+  EXPECT_EQ(Rational(finest.points[0][0].c[0]), 3 * power_of_two(1074));
+  EXPECT_EQ(scale_uniformly(Kind::vertex_face, Query{}, {0.75, Norm::l2}).distance, 3);
+  for (const double bad :
+       {-1.0, -least_subnormal, infinity, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(static_cast<void>(scale_uniformly(Kind::vertex_face, query, {bad, Norm::l2})),
+                 std::invalid_argument);
   }
 }
 

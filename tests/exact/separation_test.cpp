@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <limits>
 #include <ostream>
 #include <vector>
 
@@ -20,7 +19,7 @@ namespace touchstone::exact {
 void PrintTo(const Piece& piece, std::ostream* out) {
   const auto& [from, to, feature] = piece;
   *out << '[' << from << ", " << to << "] " << static_cast<int>(feature.sort) << ' ' << feature.i
-       << ' ' << feature.j;
+       << ' ' << feature.j << ' ' << feature.axis;
 }
 
 namespace {
@@ -110,33 +109,6 @@ void expect_cover(const std::vector<Piece>& pieces, const Rational& until) {
   }
 }
 
-TEST(ScaleUniformly, MultipliesAllAxesByOnePowerOfTwo) {
-  Query query{};
-  query.at(0, 0, 0) = 3.0;
-  query.at(1, 2, 1) = -0.25;
-  query.at(0, 3, 2) = 1024.0;
-  const Motion motion = scale_uniformly(Kind::edge_edge, query);
-  EXPECT_EQ(motion.points[0][0].c[0], 12);
-  EXPECT_EQ(motion.points[2][1].c[1], -1);
-  EXPECT_EQ(motion.points[3][2].c[0], 4096);
-  EXPECT_EQ(motion.corners[0][0].c[0], 12);  // ea0 − eb0
-  EXPECT_EQ(motion.corners[1][1].c[1], 1);
-  EXPECT_EQ(motion.corners[2][2].c[0], -4096);
-}
-
-TEST(ScaleUniformly, TakesEveryFiniteDouble) {
-  using Limits = std::numeric_limits<double>;
-  Query query{};
-  query.at(0, 0, 0) = Limits::denorm_min();
-  query.at(0, 0, 1) = Limits::max();
-  const Motion motion = scale_uniformly(Kind::vertex_face, query);
-  EXPECT_EQ(motion.corners[0][0].c[0], 1);
-  EXPECT_EQ(Rational(motion.corners[0][1].c[0]), Rational(Limits::max()) * power_of_two(1074));
-  EXPECT_EQ(scale_uniformly(Kind::vertex_face, Query{}).corners[2][2].c[1], 0);
-  query.at(1, 1, 1) = Limits::quiet_NaN();
-  EXPECT_THROW(static_cast<void>(scale_uniformly(Kind::vertex_face, query)), std::invalid_argument);
-}
-
 TEST(Separate, TakesEachFeatureForWhatItIs) {
   EXPECT_EQ(separate_all(over_triangle(1, 1, 3, 1)), one(face_above));
   EXPECT_EQ(separate_all(over_triangle(1, 1, -3, -1)), one(face_below));
@@ -172,6 +144,33 @@ TEST(Separate, EndsWhereItIsToldTo) {
   EXPECT_EQ(separate(motion, 0), (std::vector<Piece>{{0, 0, face_above}}));
   EXPECT_THROW(static_cast<void>(separate(motion, Rational(3, 4))), std::logic_error);
   EXPECT_THROW(static_cast<void>(separate(motion, 1)), std::logic_error);
+}
+
+TEST(Separate, KeepsADistance) {
+  // Down to height 1 at t=1/2.
+  const auto falling = over_triangle(1, 1, 3, -1);
+  const auto pieces_until = [&](const Separation& separation, const Rational& until) {
+    return separate(scale_uniformly(falling.kind, falling.query, separation), until);
+  };
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    const Rational before = Rational(1, 2) - power_of_two(-200);
+    const Feature expected =
+        norm == Norm::l2 ? face_above : Feature{.sort = Sort::positive_axis, .axis = 2};
+    EXPECT_EQ(pieces_until({1, norm}, before), (std::vector<Piece>{{0, before, expected}}));
+    EXPECT_THROW(static_cast<void>(pieces_until({1, norm}, Rational(1, 2))), std::logic_error);
+  }
+}
+
+TEST(Separate, TakesACubesEdgeWhereNothingElseSeparates) {
+  // Beside a side in x = y that leans: neither an axis nor the face separates, as at any distance
+  // between that of linf and the reach of the two.
+  const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 4, 4, -8};
+  const auto posed = tests::vertex_face(tests::with_vertex(6, 2, -0.25, face),
+                                        tests::with_vertex(6, 2, -0.5, face));
+  const Motion motion = scale_uniformly(posed.kind, posed.query, {1.9, Norm::linf});
+  const auto pieces = separate(motion, 1);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces.front().feature.sort, Sort::cross);
 }
 
 TEST(Separate, BreaksWhatACheckerDoesNotReach) {
