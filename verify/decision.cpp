@@ -1,7 +1,5 @@
 #include "verify/decision.hpp"
 
-#include <stdexcept>
-
 #include "verify/separation.hpp"
 
 namespace touchstone::verify {
@@ -32,7 +30,8 @@ exact::Certificate Decision::prove(Kind kind, const Query& query,
   if (const auto* contact = std::get_if<exact::Verdict>(&verdict_)) {
     return exact::prove(kind, query, *contact, options);
   }
-  throw std::logic_error("no certificates at a distance yet");
+  return exact::prove(kind, query, separation_, std::get<exact::DistanceVerdict>(verdict_),
+                      options);
 }
 
 }  // namespace touchstone::verify

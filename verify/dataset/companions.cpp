@@ -234,8 +234,8 @@ Companions::Companions(const std::filesystem::path& dataset) {
   if (auto path = find_tois(dataset)) tois_.emplace(*path);
 }
 
-Truth Companions::at(std::uint64_t index) {
-  Truth truth;
+RecordedTruth Companions::at(std::uint64_t index) {
+  RecordedTruth truth;
   if (labels_) truth.collides = labels_->at(index);
   if (tois_) truth.toi = tois_->at(index);
   return truth;

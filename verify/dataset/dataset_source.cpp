@@ -34,7 +34,7 @@ std::optional<RecordedQuery> DatasetSource::read_record() {
   if (at_end()) return std::nullopt;
   const std::uint64_t index = count_++;
   const StoredQuery stored = read(index);
-  Truth truth = companions_.at(index);
+  RecordedTruth truth = companions_.at(index);
   if (stored.label && truth.collides && *stored.label != *truth.collides) {
     static constexpr std::uint64_t label_column = 7;
     throw DatasetError(path_, {.line = stored.line, .column = label_column},

@@ -245,6 +245,19 @@ TEST_F(SeparationOptions, SolveWritesWhatCertifyComparesUnderTheSameOptions) {
   EXPECT_EQ(run("certify " + file + " --exact --results " + answers), 1);
 }
 
+TEST_F(SeparationOptions, ProofsAreAboutThem) {
+  const std::string file = write("a_vf.csv", falls() + stays_away() + beside_corner());
+  const std::string prove = "prove " + file + half + " --out " + quoted("proof") + to_json();
+  ASSERT_EQ(run(prove + " --norm l2"), 0) << read("err");
+  EXPECT_EQ(json().at("no_collision"), 2);
+  EXPECT_EQ(json().at("time_of_impact"), 1);
+  EXPECT_EQ(json().at("separation").at("norm"), "l2");
+  EXPECT_TRUE(contains(read("proof"), "separation")) << read("proof");
+  ASSERT_EQ(run(prove), 0) << read("err");
+  EXPECT_EQ(json().at("no_collision"), 1);
+  EXPECT_EQ(json().at("time_of_impact"), 2);
+}
+
 TEST_F(SeparationOptions, BenchJudgesUnderThem) {
   const std::string file = write("a_vf.csv", falls() + stays_away() + beside_corner());
   ASSERT_EQ(run("bench " + file + " --method tight_inclusion --repetitions 1 --seconds 0.01" +
