@@ -45,6 +45,7 @@ bool has_separation(const std::vector<CertifyResult>& results) {
 /// The separation of all sources, if it is one, and more than contact.
 std::optional<Separation> separation_of(const std::vector<CertifyResult>& results) {
   std::vector<Separation> all;
+  all.reserve(results.size());
   for (const CertifyResult& result : results) all.push_back(result.separation);
   return common_separation(all);
 }
