@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "exact/oracle.hpp"
+#include "verify/decision.hpp"
 #include "verify/memory_pass.hpp"
 #include "verify/statistics.hpp"
 #include "verify/thread_clock.hpp"
@@ -101,6 +101,7 @@ class Run {
                options.on_progress) {
     result_.name = group.name();
     result_.kind = group.kind();
+    result_.separation = options.separation;
     result_.queries = queries_.size();
     for (std::size_t i = 0; i < contenders.size(); ++i) entries_[i].contender = contenders[i].get();
   }
@@ -223,10 +224,8 @@ class Run {
   }
 
   [[nodiscard]] Truth truth_of(std::size_t position) const {
-    const exact::Verdict verdict = exact::decide(group_.kind(), queries_[position]);
-    Truth truth{.index = position, .collides = verdict.collides(), .toi = std::nullopt};
-    if (truth.collides) truth.toi = verdict.impact->toi.enclosure();
-    return truth;
+    return verify::truth_of(position,
+                            Decision(group_.kind(), queries_[position], options_.separation));
   }
 
   /// The truth of these queries, or of the first of them if stopped.

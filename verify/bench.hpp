@@ -34,6 +34,8 @@
 namespace touchstone::verify {
 
 struct BenchOptions {
+  /// What counts as contact: the truth is about it. Contenders know it by themselves.
+  Separation separation = {};
   /// At least 1.
   std::size_t repetitions = 5;
   /// A contender is timed on as many queries as take it about this long; positive.
@@ -92,6 +94,7 @@ struct ContenderResult {
 struct BenchResult {
   std::string name;  ///< of the group
   Kind kind = Kind::vertex_face;
+  Separation separation = {};
   std::size_t queries = 0;
   std::size_t judged = 0;      ///< queries decided by the oracle
   std::size_t collisions = 0;  ///< of these

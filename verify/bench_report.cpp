@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "verify/methods/registry.hpp"
+#include "verify/separation.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -95,13 +96,19 @@ void append_wrong_answers(std::string& text, const ContenderResult& contender,
   }
 }
 
+/// ", minimum separation 1e-08 (l2)"; nothing at distance 0.
+std::string separation_text(const Separation& separation) {
+  if (is_contact(separation)) return "";
+  return ", minimum separation " + to_text(separation);
+}
+
 void append_group(std::string& text, const BenchResult& group) {
   const bool judged_all = group.judged == group.queries;
-  text += fmt::format("{}, {}: {} queries, {} collisions{}; memory pass {} ns/query{}\n",
-                      group.name, to_string(group.kind), group.queries, group.collisions,
-                      judged_all ? "" : fmt::format(" among {} judged", group.judged),
-                      number_text(group.memory_pass.median(), "{:.2f}"),
-                      group.interrupted ? " (interrupted)" : "");
+  text += fmt::format(
+      "{}, {}{}: {} queries, {} collisions{}; memory pass {} ns/query{}\n", group.name,
+      to_string(group.kind), separation_text(group.separation), group.queries, group.collisions,
+      judged_all ? "" : fmt::format(" among {} judged", group.judged),
+      number_text(group.memory_pass.median(), "{:.2f}"), group.interrupted ? " (interrupted)" : "");
   std::size_t width = 6;
   for (const ContenderResult& contender : group.contenders) {
     width = std::max(width, contender.name.size());
@@ -119,11 +126,12 @@ void append_group(std::string& text, const BenchResult& group) {
 
 void append_step(std::string& text, const StepResult& step) {
   text += fmt::format(
-      "{}: {} vertices, {} edges, {} faces; vertex-face {} candidates, {} collisions; edge-edge {} "
+      "{}{}: {} vertices, {} edges, {} faces; vertex-face {} candidates, {} collisions; edge-edge "
+      "{} "
       "candidates, {} collisions{}\n",
-      step.name, step.vertices, step.edges, step.faces, step.vertex_face.candidates,
-      step.vertex_face.collisions, step.edge_edge.candidates, step.edge_edge.collisions,
-      step.interrupted ? " (interrupted)" : "");
+      step.name, separation_text(step.separation), step.vertices, step.edges, step.faces,
+      step.vertex_face.candidates, step.vertex_face.collisions, step.edge_edge.candidates,
+      step.edge_edge.collisions, step.interrupted ? " (interrupted)" : "");
   if (step.earliest) {
     text += fmt::format("earliest impact between {} and {}{}\n", step.earliest->toi_lower,
                         step.earliest->toi_upper,
@@ -247,14 +255,16 @@ nlohmann::json json_of(const BenchResult& group) {
   for (const ContenderResult& contender : group.contenders) {
     methods.push_back(json_of(contender, group));
   }
-  return {{"name", group.name},
-          {"kind", to_string(group.kind)},
-          {"queries", group.queries},
-          {"judged", group.judged},
-          {"collisions", group.collisions},
-          {"interrupted", group.interrupted},
-          {"memory_pass", json_of(group.memory_pass)},
-          {"methods", std::move(methods)}};
+  nlohmann::json json{{"name", group.name},
+                      {"kind", to_string(group.kind)},
+                      {"queries", group.queries},
+                      {"judged", group.judged},
+                      {"collisions", group.collisions},
+                      {"interrupted", group.interrupted},
+                      {"memory_pass", json_of(group.memory_pass)},
+                      {"methods", std::move(methods)}};
+  if (!is_contact(group.separation)) json["separation"] = to_json(group.separation);
+  return json;
 }
 
 nlohmann::json json_of(const StepCounts& counts) {
@@ -274,16 +284,18 @@ nlohmann::json json_of(const std::optional<StepResult>& step) {
   if (step->earliest) {
     earliest = {{"toi_lower", step->earliest->toi_lower}, {"toi_upper", step->earliest->toi_upper}};
   }
-  return {{"name", step->name},
-          {"vertices", step->vertices},
-          {"edges", step->edges},
-          {"faces", step->faces},
-          {"vertex_face", json_of(step->vertex_face)},
-          {"edge_edge", json_of(step->edge_edge)},
-          {"earliest", std::move(earliest)},
-          {"earliest_agrees", step->earliest_agrees},
-          {"interrupted", step->interrupted},
-          {"times", std::move(times)}};
+  nlohmann::json json{{"name", step->name},
+                      {"vertices", step->vertices},
+                      {"edges", step->edges},
+                      {"faces", step->faces},
+                      {"vertex_face", json_of(step->vertex_face)},
+                      {"edge_edge", json_of(step->edge_edge)},
+                      {"earliest", std::move(earliest)},
+                      {"earliest_agrees", step->earliest_agrees},
+                      {"interrupted", step->interrupted},
+                      {"times", std::move(times)}};
+  if (!is_contact(step->separation)) json["separation"] = to_json(step->separation);
+  return json;
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ struct BenchReport {
 /// `errors`, `toi_error` (null, or `count`, `p50`, `p99`, `max`), `broke_promise`, and
 /// `wrong_answers`, a list of `source`, `index`, `fault`, `answer` and `truth`.
 ///
+/// With a separation, groups and step have it as `separation`, an object of `min_separation` and
+/// `norm`.
+///
 /// `step` has `name`, `vertices`, `edges`, `faces`, `vertex_face` and `edge_edge` (`candidates` and
 /// `collisions` each), `earliest` (null, or `toi_lower` and `toi_upper`), `earliest_agrees`,
 /// `interrupted`, and `times`, a list of `threads` and of seconds: `broad_phase_s`, `collisions_s`,

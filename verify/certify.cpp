@@ -4,7 +4,6 @@
 #include <span>
 #include <utility>
 
-#include "exact/oracle.hpp"
 #include "verify/dataset/toi_writer.hpp"
 #include "verify/stream.hpp"
 #include "verify/thread_clock.hpp"
@@ -34,17 +33,37 @@ bool within(const exact::AlgebraicNumber& toi, const exact::Rational& recorded,
   return toi >= lower && toi <= upper;
 }
 
-void compare(std::uint64_t index, const Block::Claim& claim, const exact::Verdict& verdict,
-             const exact::Rational& tolerance, std::vector<Mismatch>& mismatches) {
-  if (claim.collides && *claim.collides != verdict.collides()) {
-    mismatches.push_back({Mismatch::Of::label, index, verdict_text(*claim.collides),
-                          verdict_text(verdict.collides())});
+/// How claims are compared with the truth.
+struct Comparison {
+  Inference inference;
+  exact::Rational tolerance;
+
+  [[nodiscard]] bool uses_label(const Block::Claim& claim) const {
+    if (inference == Inference::collisions) return claim.collides.value_or(false);
+    return inference == Inference::all && claim.collides;
   }
-  if (!claim.toi) return;
-  if (verdict.collides() && within(verdict.impact->toi, *claim.toi, tolerance)) return;
-  mismatches.push_back(
-      {Mismatch::Of::toi, index, to_decimal(*claim.toi),
-       verdict.collides() ? decimal_text(verdict.impact->toi) : verdict_text(false)});
+
+  [[nodiscard]] bool uses_toi(const Block::Claim& claim) const {
+    return inference != Inference::nothing && claim.toi;
+  }
+
+  [[nodiscard]] bool accepts(const exact::Rational& recorded,
+                             const exact::AlgebraicNumber& toi) const {
+    if (inference == Inference::all) return within(toi, recorded, tolerance);
+    return toi <= exact::Rational(recorded + tolerance);
+  }
+};
+
+void compare(std::uint64_t index, const Block::Claim& claim, const Decision& truth,
+             const Comparison& comparison, std::vector<Mismatch>& mismatches) {
+  if (comparison.uses_label(claim) && *claim.collides != truth.collides()) {
+    mismatches.push_back({Mismatch::Of::label, index, verdict_text(*claim.collides),
+                          verdict_text(truth.collides())});
+  }
+  if (!comparison.uses_toi(claim)) return;
+  if (truth.collides() && comparison.accepts(*claim.toi, truth.toi())) return;
+  mismatches.push_back({Mismatch::Of::toi, index, to_decimal(*claim.toi),
+                        truth.collides() ? decimal_text(truth.toi()) : verdict_text(false)});
 }
 
 /// What the oracle finds in a part of a block.
@@ -64,9 +83,10 @@ struct AnsweredPart {
 /// The parallel stage: all that is true and all that is said of the queries of one block.
 class BlockJudgement {
  public:
-  BlockJudgement(const Block& block, const CertifyOptions& options)
+  BlockJudgement(const Block& block, const CertifyOptions& options, const Comparison& comparison)
       : block_(block),
         options_(options),
+        comparison_(comparison),
         passes_(block.queries.size(), options.stop),
         truths_(block.queries.size()),
         decided_(parts()) {
@@ -85,8 +105,8 @@ class BlockJudgement {
       const Block::Claim& claim = block_.claims[i];
       ++result.queries;
       result.collisions += truths_[i].collides ? 1U : 0U;
-      result.labels += claim.collides ? 1U : 0U;
-      result.tois += claim.toi ? 1U : 0U;
+      result.labels += comparison_.uses_label(claim) ? 1U : 0U;
+      result.tois += comparison_.uses_toi(claim) ? 1U : 0U;
       if (options_.on_truth) options_.on_truth(truths_[i]);
     }
     for (std::size_t part = 0; part * Passes::unit < complete_; ++part) {
@@ -122,30 +142,30 @@ class BlockJudgement {
   }
 
   void decide_part(std::size_t first, std::size_t count, DecidedPart& part) {
-    std::vector<exact::Verdict> verdicts;
-    verdicts.reserve(count);
+    std::vector<Decision> decisions;
+    decisions.reserve(count);
     const double start = thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {
-      verdicts.push_back(exact::decide(block_.kind, block_.queries[first + i]));
+      decisions.emplace_back(block_.kind, block_.queries[first + i], options_.separation);
     }
     part.nanoseconds = thread_nanoseconds() - start;
     const bool wants_toi = options_.on_truth || !options_.respondents.empty();
     for (std::size_t i = 0; i < count; ++i) {
-      const exact::Verdict& verdict = verdicts[i];
+      const Decision& decision = decisions[i];
       const std::uint64_t index = block_.indices[first + i];
-      compare(index, block_.claims[first + i], verdict, options_.toi_tolerance, part.mismatches);
-      Truth& truth = truths_[first + i];
-      truth = {.index = index, .collides = verdict.collides(), .toi = std::nullopt};
-      if (wants_toi && truth.collides) truth.toi = verdict.impact->toi.enclosure();
+      compare(index, block_.claims[first + i], decision, comparison_, part.mismatches);
+      truths_[first + i] =
+          wants_toi ? truth_of(index, decision)
+                    : Truth{.index = index, .collides = decision.collides(), .toi = std::nullopt};
     }
-    if (options_.on_certificates) prove_part(first, verdicts, part);
+    if (options_.on_certificates) prove_part(first, decisions, part);
   }
 
-  void prove_part(std::size_t first, const std::vector<exact::Verdict>& verdicts,
+  void prove_part(std::size_t first, const std::vector<Decision>& decisions,
                   DecidedPart& part) const {
     const double start = thread_nanoseconds();
-    for (std::size_t i = 0; i < verdicts.size(); ++i) {
-      append_certificate(block_.kind, block_.queries[first + i], verdicts[i],
+    for (std::size_t i = 0; i < decisions.size(); ++i) {
+      append_certificate(block_.kind, block_.queries[first + i], decisions[i],
                          certificate_label(*block_.source, block_.indices[first + i]), {},
                          part.certificates, part.proofs);
     }
@@ -160,7 +180,8 @@ class BlockJudgement {
       const Questions questions{.source = *block_.source,
                                 .kind = block_.kind,
                                 .queries = std::span(block_.queries).subspan(first, count),
-                                .indices = std::span(block_.indices).subspan(first, count)};
+                                .indices = std::span(block_.indices).subspan(first, count),
+                                .separation = options_.separation};
       Response response =
           respondent.answer(questions, std::span(said.answers).subspan(first, count));
       const bool done = !response.stopped;
@@ -175,7 +196,7 @@ class BlockJudgement {
       const Answers& said = answers_[respondent];
       for (std::size_t first = 0; first < complete_;) {
         const AnsweredPart& part = said.parts[first / Passes::unit];
-        judge_part(first, part, said.answers, judgements_[respondent]);
+        judge_part(first, part, said.answers, respondent);
         first += part.count;
       }
     }
@@ -183,7 +204,8 @@ class BlockJudgement {
 
   /// A part may reach beyond the queries that are complete; it then counts as far as they go.
   void judge_part(std::size_t first, const AnsweredPart& part,
-                  const std::vector<fast::Answer>& answers, Judgement& judgement) const {
+                  const std::vector<fast::Answer>& answers, std::size_t respondent) {
+    Judgement& judgement = judgements_[respondent];
     const std::size_t last = std::min(first + part.count, complete_);
     auto missing = part.response.missing.begin();
     for (std::size_t i = first; i < last; ++i) {
@@ -192,6 +214,9 @@ class BlockJudgement {
         ++missing;
       } else {
         judgement.add(truths_[i], answers[i]);
+        if (claims_too_much(*options_.respondents[respondent], i, answers[i])) {
+          judgement.add_beyond_tolerance(truths_[i], answers[i]);
+        }
       }
     }
     judgement.add_unplaced_crashes(part.response.unplaced_crashes);
@@ -199,8 +224,22 @@ class BlockJudgement {
                              static_cast<double>(part.count);
   }
 
+  /// A yes to what never comes as near as that claims. What collides is near enough for any claim.
+  [[nodiscard]] bool claims_too_much(const Respondent& respondent, std::size_t i,
+                                     const fast::Answer& answer) const {
+    if (truths_[i].collides || answer.verdict != fast::Verdict::yes || !respondent.reach()) {
+      return false;
+    }
+    const Query& query = block_.queries[i];
+    const Separation claimed{
+        .distance = respondent.reach()(block_.kind, query, answer, options_.separation),
+        .norm = Norm::linf};
+    return is_valid(claimed) && !exact::decide(block_.kind, query, claimed).collides();
+  }
+
   const Block& block_;
   const CertifyOptions& options_;
+  const Comparison& comparison_;
   Passes passes_;
   std::vector<Truth> truths_;
   std::vector<DecidedPart> decided_;
@@ -212,7 +251,8 @@ class BlockJudgement {
 void add_methods(std::vector<MethodResult>& sum, const std::vector<MethodResult>& methods) {
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const MethodResult& method = methods[i];
-    if (i == sum.size()) sum.push_back({method.name, method.promise, method.timed, {}});
+    if (i == sum.size())
+      sum.push_back({method.name, method.promise, method.timed, {}, method.checks_reach});
     Judgement counts = method.judgement;
     counts.wrong_answers.clear();
     counts.first_missing.reset();
@@ -253,15 +293,19 @@ CertifyResult& CertifyResult::operator+=(const CertifyResult& other) {
 }
 
 CertifyResult certify(QuerySource& source, const CertifyOptions& options) {
+  const Comparison comparison{.inference = infer(source.recorded_separation(), options.separation),
+                              .tolerance = options.toi_tolerance};
   CertifyResult result;
+  result.separation = options.separation;
+  result.compared = comparison.inference;
   result.name = source.name();
   result.kind = source.kind();
   for (const Respondent* respondent : options.respondents) {
-    result.methods.push_back(
-        {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
+    result.methods.push_back({respondent->name(), respondent->promise(), respondent->timed(),
+                              Judgement{}, respondent->reach() != nullptr});
   }
   const StreamResult ended = stream(
-      source, [&](const Block& block) { return BlockJudgement(block, options); },
+      source, [&](const Block& block) { return BlockJudgement(block, options, comparison); },
       [&](const BlockJudgement& judgement) { judgement.add_to(result); },
       {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
   result.skipped = ended.skipped;

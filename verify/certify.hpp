@@ -22,6 +22,7 @@
 #include "verify/methods/respondent.hpp"
 #include "verify/prove.hpp"
 #include "verify/query_source.hpp"
+#include "verify/separation.hpp"
 
 namespace touchstone::verify {
 
@@ -36,6 +37,8 @@ struct Mismatch {
 };
 
 struct CertifyOptions {
+  /// What counts as contact.
+  Separation separation = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
   /// A recorded time of impact may be off by this much; 0: not at all.
@@ -63,17 +66,21 @@ struct MethodResult {
   fast::Promise promise = fast::Promise::none;  ///< what it is held to
   bool timed = false;                           ///< Is its processor time known?
   Judgement judgement;
+  bool checks_reach = false;  ///< Is it known what its tolerances claim?
 };
 
 /// The judgement on one source.
 struct CertifyResult {
   std::string name;
+  Separation separation = {};  ///< what counted as contact; not set in a total
+  /// What of the recorded claims was compared; not set in a total.
+  Inference compared = Inference::all;
   std::optional<Kind> kind;      ///< empty for a total, and for a source that could not be opened
   std::uint64_t queries = 0;     ///< decided
   std::uint64_t collisions = 0;  ///< of these, by the truth
-  std::uint64_t labels = 0;      ///< queries with a recorded verdict
+  std::uint64_t labels = 0;      ///< queries with a recorded verdict that is compared
   std::uint64_t label_mismatches = 0;
-  std::uint64_t tois = 0;  ///< queries with a recorded time of impact
+  std::uint64_t tois = 0;  ///< queries with a recorded time of impact that is compared
   std::uint64_t toi_mismatches = 0;
   std::uint64_t skipped = 0;  ///< in error, left out
   std::uint64_t rounded = 0;  ///< coordinates rounded to double
@@ -99,7 +106,8 @@ struct CertifyResult {
 
 /// Decides every query of the source and compares. Errors of the source end up in the result.
 /// A recorded time of impact of a query that does not collide is a mismatch; a collision without a
-/// recorded time of impact is not.
+/// recorded time of impact is not. What is recorded about another separation is compared as far as
+/// something follows from it (verify/separation.hpp): collisions, which must be no later.
 [[nodiscard]] CertifyResult certify(QuerySource& source, const CertifyOptions& options = {});
 
 /// Sums of all counts, in a result called "total"; the mismatches and wrong answers stay with their

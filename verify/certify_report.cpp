@@ -37,6 +37,45 @@ void append_row(std::string& text, std::size_t width, const CertifyResult& resul
 
 std::string_view name_of(Mismatch::Of of) { return of == Mismatch::Of::label ? "label" : "toi"; }
 
+bool has_separation(const std::vector<CertifyResult>& results) {
+  return !std::ranges::all_of(
+      results, [](const CertifyResult& result) { return is_contact(result.separation); });
+}
+
+/// The separation of all sources, if it is one, and more than contact.
+std::optional<Separation> separation_of(const std::vector<CertifyResult>& results) {
+  std::vector<Separation> all;
+  all.reserve(results.size());
+  for (const CertifyResult& result : results) all.push_back(result.separation);
+  return common_separation(all);
+}
+
+std::string_view name_of(Inference inference) {
+  if (inference == Inference::all) return "all";
+  return inference == Inference::collisions ? "collisions" : "nothing";
+}
+
+/// What the numbers below are about.
+void append_separations(std::string& text, const std::vector<CertifyResult>& results) {
+  if (!has_separation(results)) return;
+  if (const auto separation = separation_of(results)) {
+    text += fmt::format("minimum separation {}\n", to_text(*separation));
+  } else {
+    for (const CertifyResult& result : results) {
+      text += fmt::format("minimum separation {}: {}\n", to_text(result.separation), result.name);
+    }
+  }
+  const auto compares_collisions = [](const CertifyResult& result) {
+    return result.compared == Inference::collisions;
+  };
+  if (std::ranges::any_of(results, compares_collisions)) {
+    text +=
+        "recorded answers are about less separation: only their collisions are compared, which "
+        "must "
+        "collide, no later\n";
+  }
+}
+
 nlohmann::json counts(const CertifyResult& result) {
   return {{"queries", result.queries},
           {"collisions", result.collisions},
@@ -55,8 +94,11 @@ std::string error_text(double error) {
   return std::isnan(error) ? "-" : fmt::format("{:.2e}", error);
 }
 
+/// Does the table of methods have a column of tolerances?
+enum class Tolerances : std::uint8_t { hidden, shown };
+
 void append_method_row(std::string& text, std::size_t width, const std::string& name,
-                       std::string_view kind, const MethodResult& method) {
+                       std::string_view kind, const MethodResult& method, Tolerances tolerances) {
   const Judgement& judged = method.judgement;
   fmt::format_to(std::back_inserter(text), fmt::runtime(method_row_format), name, width, kind,
                  judged.queries, judged.count(Fault::false_negative),
@@ -65,6 +107,11 @@ void append_method_row(std::string& text, std::size_t width, const std::string& 
                  method.timed ? fmt::format("{:.1f}", judged.nanoseconds_per_query()) : "-",
                  error_text(judged.toi_errors.quantile(0.5)),
                  error_text(judged.toi_errors.quantile(0.99)), error_text(judged.toi_errors.max()));
+  if (tolerances == Tolerances::hidden) return;
+  text.pop_back();
+  text += fmt::format("  {:>10}\n", method.checks_reach
+                                        ? std::to_string(judged.count(Fault::beyond_tolerance))
+                                        : "-");
 }
 
 void append_wrong_answers(std::string& text, const CertifyResult& result,
@@ -89,19 +136,24 @@ void append_wrong_answers(std::string& text, const CertifyResult& result,
 void append_methods(std::string& text, std::size_t width, const std::vector<CertifyResult>& results,
                     const CertifyResult& sum) {
   for (const MethodResult& method : sum.methods) width = std::max(width, method.name.size());
+  const Tolerances tolerances = has_separation(results) ? Tolerances::shown : Tolerances::hidden;
   width += 2;
   text += '\n';
   fmt::format_to(std::back_inserter(text), fmt::runtime(method_row_format), "method", width, "kind",
                  "queries", "false neg", "false pos", "late toi", "early upper", "undecided",
                  "errors", "ns/query", "error p50", "error p99", "error max");
+  if (tolerances == Tolerances::shown) {
+    text.pop_back();
+    text += fmt::format("  {:>10}\n", "beyond tol");
+  }
   std::string wrong_answers;
   for (std::size_t i = 0; i < sum.methods.size(); ++i) {
-    append_method_row(text, width, sum.methods[i].name, "", sum.methods[i]);
+    append_method_row(text, width, sum.methods[i].name, "", sum.methods[i], tolerances);
     for (const CertifyResult& result : results) {
       if (i >= result.methods.size()) continue;
       const MethodResult& method = result.methods[i];
       if (keeps(method.judgement, method.promise)) continue;
-      append_method_row(text, width, "  " + result.name, kind_text(result), method);
+      append_method_row(text, width, "  " + result.name, kind_text(result), method, tolerances);
       append_wrong_answers(wrong_answers, result, method);
     }
   }
@@ -121,26 +173,31 @@ nlohmann::json to_json(const ToiErrors& errors) {
           {"max", errors.max()}};
 }
 
-nlohmann::json counts(const MethodResult& method) {
+nlohmann::json counts(const MethodResult& method, Tolerances tolerances) {
   const Judgement& judged = method.judgement;
   const bool has_time = method.timed && judged.queries != 0;
-  return {{"name", method.name},
-          {"promise", to_string(method.promise)},
-          {"queries", judged.queries},
-          {"false_negatives", judged.count(Fault::false_negative)},
-          {"false_positives", judged.count(Fault::false_positive)},
-          {"late_toi", judged.count(Fault::late_toi)},
-          {"early_toi_upper", judged.count(Fault::early_toi_upper)},
-          {"undecided", judged.undecided},
-          {"errors", judged.count(Fault::error)},
-          {"missing", judged.missing},
-          {"ns_per_query", number_or_null(has_time, judged.nanoseconds_per_query())},
-          {"toi_error", to_json(judged.toi_errors)}};
+  nlohmann::json json{{"name", method.name},
+                      {"promise", to_string(method.promise)},
+                      {"queries", judged.queries},
+                      {"false_negatives", judged.count(Fault::false_negative)},
+                      {"false_positives", judged.count(Fault::false_positive)},
+                      {"late_toi", judged.count(Fault::late_toi)},
+                      {"early_toi_upper", judged.count(Fault::early_toi_upper)},
+                      {"undecided", judged.undecided},
+                      {"errors", judged.count(Fault::error)},
+                      {"missing", judged.missing},
+                      {"ns_per_query", number_or_null(has_time, judged.nanoseconds_per_query())},
+                      {"toi_error", to_json(judged.toi_errors)}};
+  const std::uint64_t beyond_tolerance = judged.count(Fault::beyond_tolerance);
+  if (tolerances == Tolerances::shown || beyond_tolerance != 0) {
+    json["beyond_tolerance"] = beyond_tolerance;
+  }
+  return json;
 }
 
-nlohmann::json methods_of(const CertifyResult& result) {
+nlohmann::json methods_of(const CertifyResult& result, Tolerances tolerances) {
   nlohmann::json json = nlohmann::json::array();
-  for (const MethodResult& method : result.methods) json.push_back(counts(method));
+  for (const MethodResult& method : result.methods) json.push_back(counts(method, tolerances));
   return json;
 }
 
@@ -164,6 +221,7 @@ std::string to_text(const std::vector<CertifyResult>& results) {
   for (const CertifyResult& result : results) width = std::max(width, result.name.size());
 
   std::string text;
+  append_separations(text, results);
   fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), "file", width, "kind",
                  "queries", "collisions", "labels", "mislabelled", "tois", "wrong tois",
                  "µs/query");
@@ -187,7 +245,9 @@ std::string to_text(const std::vector<CertifyResult>& results) {
 nlohmann::json to_json(const std::vector<CertifyResult>& results) {
   const CertifyResult sum = total(results);
   nlohmann::json json = counts(sum);
-  json["methods"] = methods_of(sum);
+  const Tolerances tolerances = has_separation(results) ? Tolerances::shown : Tolerances::hidden;
+  if (const auto separation = separation_of(results)) json["separation"] = to_json(*separation);
+  json["methods"] = methods_of(sum, tolerances);
   if (sum.proofs.certificates() != 0) json["proofs"] = to_json(sum.proofs);
   for (nlohmann::json& method : json["methods"]) method["wrong_answers"] = nlohmann::json::array();
   json["mismatches"] = nlohmann::json::array();
@@ -196,7 +256,11 @@ nlohmann::json to_json(const std::vector<CertifyResult>& results) {
     nlohmann::json file = counts(result);
     file["file"] = result.name;
     file["kind"] = kind_text(result);
-    file["methods"] = methods_of(result);
+    if (!is_contact(result.separation)) {
+      file["separation"] = to_json(result.separation);
+      file["compared"] = name_of(result.compared);
+    }
+    file["methods"] = methods_of(result, tolerances);
     if (result.error) file["error"] = *result.error;
     json["files"].push_back(std::move(file));
     append_wrong_answers(json["methods"], result);

@@ -11,7 +11,9 @@
 
 namespace touchstone::verify {
 
-/// A line for each source and one for the total, then each mismatch with source, index and both
+/// With a separation a line that names it (a line for each source where they differ), and one that
+/// says what was compared if the recorded answers are about another one. Then
+/// a line for each source and one for the total, then each mismatch with source, index and both
 /// answers. Where respondents were judged follow a line for each with its total, below it a line
 /// for each source where it broke its promise, and the answers that broke it: the first twenty of a
 /// fault and source, and how many more there are.
@@ -23,14 +25,18 @@ namespace touchstone::verify {
 /// or "toi"), `recorded` and `truth`; `files`, a list with the total's fields a source, its name as
 /// `file`, its `kind`, and `error` if one ended the reading.
 ///
+/// With a separation, the total (if it is that of all sources) and each file have it as `separation`,
+/// an object of `min_separation` and `norm`, and each file has `compared`: "all", "collisions"
+/// (recorded about another separation, so only these are compared) or "nothing".
+///
 /// `methods`, in the total and in each file, is a list of `name`, `promise` (what it was held to:
 /// "none", "conservative", "exact"), `queries`, `false_negatives`, `false_positives` (undecided
 /// answers among them), `late_toi`, `early_toi_upper`, `undecided`, `errors`, `missing`,
-/// `ns_per_query` (null where no time was taken), and `toi_error`: null where no time of impact
+/// `beyond_tolerance` (only with a separation, or if there are any), `ns_per_query` (null where no time was taken), and `toi_error`: null where no time of impact
 /// was given, else `count`, `p50`, `p90`, `p99` and `max` of the distance from toi_lower to the
 /// exact time of impact, quantiles to 1.6%. In the total each has `wrong_answers`, a list of `file`,
 /// `index`, `kind`, `fault` ("false negative", "false positive", "late toi", "early toi_upper",
-/// "error"), `answer` and `truth`, of each source and fault the first Judgement::most_kept.
+/// "error", "beyond tolerance"), `answer` and `truth`, of each source and fault the first Judgement::most_kept.
 [[nodiscard]] nlohmann::json to_json(const std::vector<CertifyResult>& results);
 
 /// The header of the truth as CSV: `file,index,kind,collides,toi_lower,toi_upper`.

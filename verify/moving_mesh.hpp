@@ -28,10 +28,11 @@ struct MovingMesh {
 [[nodiscard]] MovingMesh read_step(const std::filesystem::path& before,
                                    const std::filesystem::path& after);
 
-/// What the broad phase leaves of all pairs.
-/// \param max_threads 0: all cores
+/// What the broad phase leaves of all pairs, with all that come within the distance on every axis:
+/// enough for either norm. \param max_threads 0: all cores
 [[nodiscard]] std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind,
-                                                           int max_threads = 0);
+                                                           int max_threads = 0,
+                                                           double min_separation = 0.0);
 
 /// Pairs of a kind with what their indices mean; refers to the mesh and to the pairs.
 [[nodiscard]] fast::Candidates candidates_of(const MovingMesh& mesh, Kind kind,

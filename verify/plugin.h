@@ -9,7 +9,10 @@
 ///
 /// The problem: four points move on straight lines from t=0 to t=1. Do a vertex and a triangle, or
 /// two edges, touch at some t in [0,1], and when first? Contact at t=0, at t=1 and on the boundary
-/// of the primitives counts.
+/// of the primitives counts. With a minimum separation, coming within that distance is contact.
+///
+/// Version 2 added touchstone_options::norm, behind all else. Plugins of version 1 are still taken:
+/// they are told the distance and not the norm, and judged under the norm that was asked for.
 
 #include <stdint.h>
 
@@ -19,12 +22,18 @@ extern "C" {
 #pragma GCC visibility push(default)
 
 /// The version of this interface; touchstone_plugin_version returns it.
-enum { touchstone_interface_version = 1 };
+enum { touchstone_interface_version = 2 };
 
 /// Which two primitives a query holds.
 enum touchstone_kind {
   touchstone_vertex_face = 0,  ///< a vertex v and the triangle f0, f1, f2
   touchstone_edge_edge = 1     ///< the edge ea0, ea1 and the edge eb0, eb1
+};
+
+/// How the distance of two points is measured.
+enum touchstone_norm {
+  touchstone_linf = 0,  ///< the greatest of its components
+  touchstone_l2 = 1     ///< Euclid's
 };
 
 /// An answer to "do they collide?".
@@ -41,6 +50,7 @@ struct touchstone_options {
   int64_t max_checks;  ///< of iterative solvers: steps for a query; 0 or less: no limit
   double min_separation;  ///< distance that counts as contact, 0 or more
   double t_max;           ///< only impacts up to this time count, 0 to 1
+  int32_t norm;           ///< one of touchstone_norm: of min_separation; since version 2
 };
 
 /// What a solver fills in. The verdict is touchstone_error and every other field NaN when it gets

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "exact/certificate.hpp"
-#include "exact/oracle.hpp"
 #include "exact/query.hpp"
+#include "verify/decision.hpp"
 #include "verify/query_source.hpp"
 
 namespace touchstone::verify {
@@ -42,7 +42,7 @@ struct ProofCounts {
 [[nodiscard]] std::string certificate_label(std::string_view source, std::uint64_t index);
 
 /// Appends the certificate of a query to the text, and counts it; the time it takes is not counted.
-void append_certificate(Kind kind, const Query& query, const exact::Verdict& verdict,
+void append_certificate(Kind kind, const Query& query, const Decision& decision,
                         std::string_view label, const exact::ProveOptions& options,
                         std::string& text, ProofCounts& counts);
 
@@ -53,6 +53,8 @@ void append_certificate(Kind kind, const Query& query, const exact::Verdict& ver
 [[nodiscard]] nlohmann::json to_json(const ProofCounts& counts);
 
 struct SourceProofOptions {
+  /// What counts as contact.
+  Separation separation = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
   exact::ProveOptions proof = {};

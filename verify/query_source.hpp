@@ -38,6 +38,9 @@ class QuerySource {
   [[nodiscard]] virtual const std::string& name() const = 0;
   [[nodiscard]] virtual Kind kind() const = 0;
 
+  /// The separation that recorded labels and times of impact are about.
+  [[nodiscard]] virtual Separation recorded_separation() const { return {}; }
+
   /// The next query, or nothing at the end.
   /// \throws DatasetError on bad input, unless the source was opened to keep going.
   [[nodiscard]] virtual std::optional<RecordedQuery> next() = 0;

@@ -11,16 +11,17 @@ namespace {
 /// The parallel stage: the answers to one block.
 class BlockAnswers {
  public:
-  BlockAnswers(const Block& block, const Respondent& respondent, const std::atomic<bool>* stop)
+  BlockAnswers(const Block& block, const Respondent& respondent, const SolveOptions& options)
       : block_(block),
         answers_(block.queries.size()),
         responses_(block.queries.size() / Passes::unit + 1) {
-    Passes passes(block.queries.size(), stop);
+    Passes passes(block.queries.size(), options.stop);
     passes.run(respondent.good_span(), [&](std::size_t first, std::size_t count) {
       const Questions questions{.source = *block.source,
                                 .kind = block.kind,
                                 .queries = std::span(block.queries).subspan(first, count),
-                                .indices = std::span(block.indices).subspan(first, count)};
+                                .indices = std::span(block.indices).subspan(first, count),
+                                .separation = options.separation};
       Response& response = responses_[first / Passes::unit];
       response = respondent.answer(questions, std::span(answers_).subspan(first, count));
       return !response.stopped;
@@ -78,7 +79,7 @@ SolveResult& SolveResult::operator+=(const SolveResult& other) {
 SolveResult solve(QuerySource& source, const Respondent& respondent, const SolveOptions& options) {
   SolveResult result;
   const StreamResult ended = stream(
-      source, [&](const Block& block) { return BlockAnswers(block, respondent, options.stop); },
+      source, [&](const Block& block) { return BlockAnswers(block, respondent, options); },
       [&](const BlockAnswers& answers) { answers.add_to(result, options); },
       {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
   result.skipped = ended.skipped;

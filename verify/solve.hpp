@@ -17,6 +17,8 @@
 namespace touchstone::verify {
 
 struct SolveOptions {
+  /// What counts as contact.
+  Separation separation = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
   /// Called for every query with its index, in order, never from two threads at once.

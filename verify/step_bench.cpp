@@ -56,6 +56,7 @@ class StepRun {
   [[nodiscard]] StepResult result() {
     StepResult result;
     result.name = mesh_.name;
+    result.separation = options_.separation;
     result.vertices = mesh_.vertices.size();
     result.edges = mesh_.edges.size();
     result.faces = mesh_.faces.size();
@@ -90,7 +91,9 @@ class StepRun {
     fast::CertifiedOptions certified = options_.certified;
     certified.max_threads = series.threads;
     series.broad_phase.push_back(seconds([&] {
-      for (Part& part : parts_) part.pairs = find_candidates(mesh_, part.kind, series.threads);
+      for (Part& part : parts_)
+        part.pairs =
+            find_candidates(mesh_, part.kind, series.threads, options_.separation.distance);
     }));
     for (Part& part : parts_) part.results.resize(part.pairs.size());
     series.collisions.push_back(seconds([&] {

@@ -21,6 +21,8 @@ struct StepBenchOptions {
   std::size_t repetitions = 5;
   /// Timed with one thread and with so many; 0: all cores.
   int threads = 0;
+  /// What counts as contact, to the broad phase; `certified` must say the same.
+  Separation separation = {};
   /// max_threads is set by the benchmark.
   fast::CertifiedOptions certified = {};
   /// Called now and then with the fraction of the repetitions that is done, from this thread.
@@ -45,6 +47,7 @@ struct StepCounts {
 
 struct StepResult {
   std::string name;
+  Separation separation = {};
   std::size_t vertices = 0;
   std::size_t edges = 0;
   std::size_t faces = 0;

@@ -106,12 +106,13 @@ MovingMesh moving_patches(const PatchOptions& options) {
           .edges = fast::edges_of(faces)};
 }
 
-QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count) {
+QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
+                    const Separation& separation) {
   QueryGroup group("hard set", kind);
-  for (const Family& family : families()) {
+  for (const Family& family : families(separation)) {
     if (!supports(family, kind)) continue;
     group.read(
-        *open_family(family, kind, seed, count), [](double) {}, [] { return false; });
+        *open_family(family, kind, seed, count, separation), [](double) {}, [] { return false; });
   }
   return group;
 }

@@ -28,8 +28,9 @@ struct PatchOptions {
 /// \throws std::invalid_argument if there is no cell.
 [[nodiscard]] MovingMesh moving_patches(const PatchOptions& options = {});
 
-/// All queries of one kind of the generated hard set (verify/families/families.hpp), `count` a
-/// family.
-[[nodiscard]] QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count);
+/// All queries of one kind of the generated hard set for a separation (verify/families/families.hpp),
+/// `count` a family.
+[[nodiscard]] QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
+                                  const Separation& separation = {});
 
 }  // namespace touchstone::verify

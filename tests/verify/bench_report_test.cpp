@@ -237,5 +237,20 @@ TEST(BenchReport, JsonHasTheStep) {
   EXPECT_TRUE(to_json(stepped).at("step").at("earliest").is_null());
 }
 
+TEST(BenchReport, NamesTheSeparationWhereThereIsOne) {
+  BenchReport separated = report();
+  separated.step = step();
+  EXPECT_EQ(to_text(separated).find("separation"), std::string::npos);
+  EXPECT_EQ(to_json(separated).dump().find("separation"), std::string::npos);
+  separated.groups[0].separation = {.distance = 0.5, .norm = Norm::l2};
+  separated.step->separation = {.distance = 0.25};
+  EXPECT_NE(to_text(separated).find("b, edge-edge, minimum separation 0.5 (l2): 400 queries"),
+            std::string::npos);
+  EXPECT_NE(to_text(separated).find("92-93, minimum separation 0.25 (linf): 10 vertices"),
+            std::string::npos);
+  EXPECT_EQ(to_json(separated).at("groups")[0].at("separation").at("min_separation"), 0.5);
+  EXPECT_EQ(to_json(separated).at("step").at("separation").at("norm"), "linf");
+}
+
 }  // namespace
 }  // namespace touchstone::verify

@@ -223,6 +223,62 @@ TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
   EXPECT_EQ(json.at("files")[1].at("methods")[1].at("queries"), 29);
 }
 
+// ---- Separations --------------------------------------------------------------------------------
+
+constexpr Separation near{.distance = 1e-8, .norm = Norm::l2};
+
+std::vector<CertifyResult> separated_results() {
+  std::vector<CertifyResult> all = judged_results(Promise::conservative);
+  for (CertifyResult& result : all) {
+    result.separation = near;
+    result.methods[0].checks_reach = true;
+  }
+  return all;
+}
+
+TEST(CertifyReport, TextNamesTheSeparationAndWhatIsCompared) {
+  std::vector<CertifyResult> all = separated_results();
+  EXPECT_TRUE(to_text(all).starts_with("minimum separation 1e-08 (l2)\nfile "));
+  all[1].compared = Inference::collisions;
+  EXPECT_TRUE(to_text(all).starts_with(
+      "minimum separation 1e-08 (l2)\nrecorded answers are about less separation: only their "
+      "collisions are compared, which must collide, no later\nfile "));
+  all[1].separation.norm = Norm::linf;
+  EXPECT_TRUE(
+      to_text(all).starts_with("minimum separation 1e-08 (l2): a/vertex-face.csv\n"
+                               "minimum separation 1e-08 (linf): b,c/edge-edge.csv\n"));
+}
+
+TEST(CertifyReport, JsonHasTheSeparationOfFilesAndOfTheTotalIfItIsOne) {
+  std::vector<CertifyResult> all = separated_results();
+  EXPECT_EQ(to_json(all).at("separation").dump(), R"({"min_separation":1e-08,"norm":"l2"})");
+  EXPECT_EQ(to_json(all).at("files")[1].at("compared"), "all");
+  all[1].separation.norm = Norm::linf;
+  EXPECT_FALSE(to_json(all).contains("separation"));
+  EXPECT_EQ(to_json(all).at("files")[1].at("separation").at("norm"), "linf");
+}
+
+TEST(CertifyReport, TolerancesHaveAColumnWithASeparation) {
+  std::vector<CertifyResult> all = separated_results();
+  all[0].methods[0].judgement.add_beyond_tolerance(miss,
+                                                   {.verdict = Verdict::yes, .tolerance = 0.5});
+  const auto lines = method_lines(all);
+  EXPECT_TRUE(lines[0].ends_with("  beyond tol"));
+  EXPECT_EQ(words(lines[1]).back(), "1");
+  EXPECT_EQ(words(lines[3]).back(), "-") << "it is not known what the hasty one's claim";
+  EXPECT_EQ(lines[0].size(), lines[1].size());
+  const auto fault = std::ranges::find_if(
+      lines, [](const std::string& line) { return line.starts_with("beyond tolerance: "); });
+  ASSERT_NE(fault, lines.end());
+  EXPECT_EQ(*fault,
+            "beyond tolerance: careful: a/vertex-face.csv: vertex-face query 3: answer yes, "
+            "tolerance 0.5, truth no collision");
+  EXPECT_EQ(to_json(all).at("methods")[0].at("beyond_tolerance"), 1);
+  EXPECT_EQ(to_json(all).at("methods")[1].at("beyond_tolerance"), 0);
+  EXPECT_FALSE(
+      to_json(judged_results(Promise::none)).at("methods")[0].contains("beyond_tolerance"));
+}
+
 TEST(CertifyReport, TruthIsCsvWhoseDoublesComeBack) {
   const double lower = 0.1, upper = std::nextafter(0.1, 1.0);
   const double least = std::numeric_limits<double>::denorm_min();

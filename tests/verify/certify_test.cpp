@@ -123,6 +123,58 @@ TEST(Certify, ATimeOfImpactOfAMissIsAMismatch) {
   EXPECT_EQ(result.mismatches[0].truth, "no collision");
 }
 
+// ---- Separations --------------------------------------------------------------------------------
+
+TEST(CertifySeparation, CountsCollisionsAtTheDistance) {
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    CertifyOptions options;
+    options.separation = {.distance = 0.5, .norm = norm};
+    const CertifyResult result = certify_records(true_records(300), options);
+    EXPECT_EQ(result.separation, options.separation);
+    EXPECT_EQ(result.collisions, 300U) << "the misses come within ½ at the end";
+    EXPECT_EQ(result.compared, Inference::collisions);
+    EXPECT_EQ(result.labels, 200U);
+    EXPECT_EQ(result.tois, 200U);
+    EXPECT_EQ(result.label_mismatches + result.toi_mismatches, 0U);
+  }
+}
+
+TEST(CertifySeparation, RecordedContactMustBeNoEarlierThanNearness) {
+  // Within ½ from t = 1/8 on, in contact at 1/4.
+  CertifyOptions options;
+  options.separation.distance = 0.5;
+  options.toi_tolerance = 0;
+  auto records = true_records(4);
+  records[1].toi = Rational(1, 8);
+  EXPECT_EQ(certify_records(records, options).toi_mismatches, 0U);
+  records[1].toi = Rational(1, 8) - exact::power_of_two(-2000);
+  EXPECT_EQ(certify_records(records, options).toi_mismatches, 1U);
+  records[3].collides = true;  // true at the distance
+  EXPECT_EQ(certify_records(records, options).label_mismatches, 0U);
+  options.separation.distance = 0.25;
+  EXPECT_EQ(certify_records(records, options).label_mismatches, 1U);
+}
+
+/// What the built-in families about a separation record is compared in full.
+TEST(CertifySeparation, WhatIsAboutTheSameSeparationIsComparedInFull) {
+  const Separation separation{.distance = 0.75, .norm = Norm::l2};
+  const auto certified = [&](const Separation& asked) {
+    CertifyOptions options;
+    options.separation = asked;
+    options.toi_tolerance = 0;
+    return certify(
+        *open_family(family_from_name("separation-endpoint"), Kind::edge_edge, 5, 60, separation),
+        options);
+  };
+  const CertifyResult same = certified(separation);
+  EXPECT_EQ(same.compared, Inference::all);
+  EXPECT_EQ(same.labels, 60U);
+  EXPECT_EQ(same.label_mismatches + same.toi_mismatches, 0U);
+  const CertifyResult other = certified({.distance = 0.5, .norm = Norm::l2});
+  EXPECT_EQ(other.compared, Inference::nothing);
+  EXPECT_EQ(other.labels, 0U);
+}
+
 TEST(Certify, ShowsFortyFiveDigitsOfATrueTimeHoweverSmall) {
   // The vertex rises from 2^-1000 below the sinking face: toi = 2^-1000 / (2^-1000 + 3), no dyadic.
   auto records = true_records(2);
@@ -289,6 +341,36 @@ TEST(CertifyMethods, ThePerfectMethodIsPerfectOnTheBuiltInSet) {
       EXPECT_EQ(all_faults(result.methods.at(0).judgement), 0U) << family.name;
       EXPECT_EQ(result.methods.at(0).judgement.toi_errors.count(), result.collisions);
     }
+  }
+}
+
+TEST(CertifyMethods, AYesThatClaimsMoreNearnessThanThereIsIsCaught) {
+  // The misses end ½ above the face; their yes claims to be within its tolerance and the distance.
+  const auto judged_with = [](double tolerance, double distance) {
+    const FunctionMethod method([tolerance](Kind, const Query&) -> fast::Answer {
+      return {.verdict = fast::Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
+    });
+    const auto respondent = respond_in_process(method, {});
+    respondent->set_reach(
+        [](Kind, const Query&, const fast::Answer& answer, const Separation& separation) {
+          return answer.tolerance + separation.distance;
+        });
+    CertifyOptions options;
+    options.separation.distance = distance;
+    options.respondents = {respondent.get()};
+    return certify_records(numbered_records(30), options).methods.at(0);
+  };
+  for (const double distance : {0.0, 0.25}) {
+    const double enough = 0.5 - distance;
+    const MethodResult kept = judged_with(enough, distance);
+    EXPECT_TRUE(kept.checks_reach);
+    EXPECT_EQ(kept.judgement.count(Fault::false_positive), 10U);
+    EXPECT_EQ(kept.judgement.count(Fault::beyond_tolerance), 0U);
+    EXPECT_TRUE(keeps(kept.judgement, Promise::conservative));
+    const MethodResult broken = judged_with(std::nextafter(enough, 0.0), distance);
+    EXPECT_EQ(broken.judgement.count(Fault::beyond_tolerance), 10U);
+    EXPECT_FALSE(keeps(broken.judgement, Promise::conservative));
+    EXPECT_EQ(to_string(broken.judgement.wrong_answers.at(1).fault), "beyond tolerance");
   }
 }
 

@@ -18,15 +18,18 @@ TEST(PluginInterface, KindsAndVerdictsHaveTheirNumbers) {
   EXPECT_EQ(touchstone_yes, 1);
   EXPECT_EQ(touchstone_undecided, 2);
   EXPECT_EQ(touchstone_error, 3);
-  EXPECT_EQ(touchstone_interface_version, 1);
+  EXPECT_EQ(touchstone_linf, 0);
+  EXPECT_EQ(touchstone_l2, 1);
+  EXPECT_EQ(touchstone_interface_version, 2);
 }
 
 TEST(PluginInterface, StructsHaveTheirLayout) {
-  EXPECT_EQ(sizeof(touchstone_options), 32U);
+  EXPECT_EQ(sizeof(touchstone_options), 40U);
   EXPECT_EQ(offsetof(touchstone_options, tolerance), 0U);
   EXPECT_EQ(offsetof(touchstone_options, max_checks), 8U);
   EXPECT_EQ(offsetof(touchstone_options, min_separation), 16U);
   EXPECT_EQ(offsetof(touchstone_options, t_max), 24U);
+  EXPECT_EQ(offsetof(touchstone_options, norm), 32U);
 
   EXPECT_EQ(sizeof(touchstone_answer), 32U);
   EXPECT_EQ(offsetof(touchstone_answer, verdict), 0U);

@@ -83,6 +83,22 @@ TEST(Prove, ClaimsWhatItIsAskedTo) {
   EXPECT_EQ(tests::check(result.text).collision, 30U);
 }
 
+TEST(Prove, ProvesAtADistanceInEitherNorm) {
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    MemorySource source(Kind::vertex_face, falling_vertices(90));
+    // Of each nine, the six that end ½ above the face come within it there.
+    const ProofRun result = run(source, {.separation = {.distance = 0.5, .norm = norm}});
+    EXPECT_EQ(result.proof.counts.time_of_impact, 90U);
+    MemorySource again(Kind::vertex_face, falling_vertices(90));
+    const ProofRun less = run(again, {.separation = {.distance = 0.25, .norm = norm}});
+    EXPECT_EQ(less.proof.counts.no_collision, 60U);
+    for (const std::string& text : {result.text, less.text}) {
+      EXPECT_TRUE(tests::check(text).all_accepted());
+      EXPECT_EQ(tests::check(text).accepted(), 90U);
+    }
+  }
+}
+
 TEST(Prove, AnErrorOrAStopLeavesWholeCertificates) {
   MemorySource broken(Kind::vertex_face, falling_vertices(3000));
   broken.fail_at(2500, "row is broken");

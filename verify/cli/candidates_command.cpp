@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <chrono>
 #include <climits>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -35,6 +35,7 @@ struct Arguments {
   std::string after;
   std::string prefix;
   fast::BroadPhaseOptions broad_phase;
+  std::optional<double> min_separation;
   std::string json_file;
 };
 
@@ -162,11 +163,9 @@ void add_options(CLI::App& command, Arguments& arguments) {
           "face) and PREFIX_ee_pairs.npy (two edges) of each query, and PREFIX_edges.npy")
       ->type_name("PREFIX")
       ->required();
-  command
-      .add_option("--min-separation", arguments.broad_phase.min_separation,
-                  "Also what comes this near, on every axis")
-      ->capture_default_str()
-      ->check(real_number(0.0, DBL_MAX));
+  add_distance_option(command, arguments.min_separation,
+                      "Also what comes this near, on every axis: enough for either norm; a number "
+                      "from 0 on, also hexadecimal; default 0");
   command.add_option("--max-threads", arguments.broad_phase.max_threads, "Cores to use; 0: all")
       ->capture_default_str()
       ->check(whole_number(0, INT_MAX));
@@ -186,7 +185,10 @@ void add_candidates_command(CLI::App& app, Status& status) {
       "Exit status: 0 all is written, 2 bad input or usage, 130 interrupted.\n"
       "Example: touchstone candidates frames/92.ply frames/93.ply --out cloth && \\\n"
       "         touchstone certify cloth_vf.npy cloth_ee.npy");
-  command->callback([arguments, &status] { status = candidates(*arguments); });
+  command->callback([arguments, &status] {
+    arguments->broad_phase.min_separation = arguments->min_separation.value_or(0.0);
+    status = candidates(*arguments);
+  });
 }
 
 }  // namespace touchstone::verify::cli

@@ -108,6 +108,7 @@ class CertifyRun {
 
   void certify_source(QuerySource& source, const Progress& progress) {
     CertifyOptions options;
+    options.separation = separation_for(arguments_.sources, source);
     // The truth of the families is exact.
     if (arguments_.sources.built_in_set()) options.toi_tolerance = 0;
     options.threads = arguments_.sources.threads;
@@ -131,10 +132,11 @@ class CertifyRun {
     report_error(error.what());
     CertifyResult result;
     result.name = path.string();
+    result.separation = arguments_.sources.separation.given();
     result.fail(error.what());
     for (const Respondent* respondent : respondents_.all()) {
-      result.methods.push_back(
-          {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
+      result.methods.push_back({respondent->name(), respondent->promise(), respondent->timed(),
+                                Judgement{}, respondent->reach() != nullptr});
     }
     add(std::move(result));
   }
@@ -237,7 +239,13 @@ void add_certify_command(CLI::App& app, Status& status) {
       "the true one and of errors, an exact one of false positives too), 2 bad input, a query\n"
       "without a recorded answer, or bad usage, 130 interrupted (what is done by then is reported\n"
       "and written).\n"
-      "Example: touchstone certify data/handcrafted --json result.json --truth truth.csv");
+      "With --min-separation the truth is about that distance; of what is recorded about contact "
+      "only\n"
+      "what follows is compared: a collision must collide, no later. A yes of Tight-Inclusion is "
+      "held\n"
+      "to its tolerance: the primitives must come within it, the distance and twice the filter.\n"
+      "Example: touchstone certify data/handcrafted --json result.json --truth truth.csv\n"
+      "Example: touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);
     status = CertifyRun(*arguments).run();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,8 +14,10 @@
 #include "verify/cli/options.hpp"
 #include "verify/dataset/csv_dataset.hpp"
 #include "verify/dataset/npy.hpp"
+#include "verify/dataset/separation_file.hpp"
 #include "verify/dataset/toi_writer.hpp"
 #include "verify/families/families.hpp"
+#include "verify/separation.hpp"
 #include "verify/terminal.hpp"
 
 namespace touchstone::verify::cli {
@@ -27,6 +30,7 @@ struct Arguments {
   std::vector<std::string> names;
   std::uint64_t seed = default_seed;
   std::uint64_t count = 1000;
+  SeparationArguments separation;
   bool npy = false;
   bool list = false;
   std::string json_file;
@@ -36,10 +40,11 @@ struct Written {
   fs::path file;
   std::uint64_t queries = 0;
   std::uint64_t collisions = 0;
+  bool is_known = true;  ///< Is the truth known by construction?
 };
 
-std::vector<Family> chosen(const std::vector<std::string>& names) {
-  if (names.empty()) return {families().begin(), families().end()};
+std::vector<Family> chosen(const std::vector<std::string>& names, const Separation& separation) {
+  if (names.empty()) return families(separation);
   std::vector<Family> result;
   result.reserve(names.size());
   for (const std::string& name : names) result.push_back(family_from_name(name));
@@ -51,52 +56,89 @@ void list_families(const std::vector<Family>& chosen_families) {
     fmt::print("{}\n    {}\n", family.name, family.reason);
 }
 
-/// FOLDER/KIND/FAMILY.csv with its times of impact in FOLDER/KIND/toi/FAMILY_toi.csv.
-Written write_csv(QuerySource& source, const fs::path& folder) {
-  Written written{.file = folder / (source.name() + ".csv")};
-  fs::create_directories(folder / "toi");
-  CsvWriter queries(written.file);
-  ToiWriter tois(folder / "toi" / (source.name() + "_toi.csv"));
+/// The query without what is known of it at another separation.
+void keep_claims_about(const Separation& separation, const QuerySource& source,
+                       std::optional<RecordedQuery>& query) {
+  if (!query || same_question(source.recorded_separation(), separation)) return;
+  query->collides.reset();
+  query->toi.reset();
+}
+
+/// Every query of a source, with what is known of it at the separation; counted.
+template <class Use>
+Written for_each_query(QuerySource& source, const Separation& separation, const fs::path& file,
+                       const Use& use) {
+  Written written{.file = file};
   for (auto query = source.next(); query && !interrupted(); query = source.next()) {
-    queries.write(query->query, query->collides.value());
-    if (query->toi) tois.write(query->index, *query->toi);
+    keep_claims_about(separation, source, query);
+    use(*query);
     ++written.queries;
-    written.collisions += query->collides.value() ? 1U : 0U;
+    written.collisions += query->collides.value_or(false) ? 1U : 0U;
+    written.is_known = query->collides.has_value();
   }
+  return written;
+}
+
+/// FOLDER/KIND/FAMILY.csv with its times of impact in FOLDER/KIND/toi/FAMILY_toi.csv.
+Written write_csv(QuerySource& source, const Separation& separation, const fs::path& folder) {
+  const fs::path file = folder / (source.name() + ".csv");
+  fs::create_directories(folder / "toi");
+  CsvWriter queries(file);
+  ToiWriter tois(folder / "toi" / (source.name() + "_toi.csv"));
+  Written written = for_each_query(source, separation, file, [&](const RecordedQuery& query) {
+    queries.write(query.query, query.collides);
+    if (query.toi) tois.write(query.index, *query.toi);
+  });
   queries.close();
   tois.close();
   return written;
 }
 
 /// FOLDER/KIND/FAMILY.npy, without the truth.
-Written write_npy(QuerySource& source, const fs::path& folder) {
-  Written written{.file = folder / (source.name() + ".npy")};
+Written write_npy(QuerySource& source, const Separation& separation, const fs::path& folder) {
+  const fs::path file = folder / (source.name() + ".npy");
   const fs::path companion = folder / "toi" / (source.name() + "_toi.csv");
   if (fs::exists(companion)) {
     throw std::runtime_error(companion.string() +
                              ": would be taken for the array's; choose another folder");
   }
   fs::create_directories(folder);
-  NpyWriter queries(written.file);
-  for (auto query = source.next(); query && !interrupted(); query = source.next()) {
-    queries.write(query->query);
-    ++written.queries;
-    written.collisions += query->collides.value() ? 1U : 0U;
-  }
+  NpyWriter queries(file);
+  Written written = for_each_query(source, separation, file,
+                                   [&](const RecordedQuery& query) { queries.write(query.query); });
   queries.close();
   return written;
 }
 
+/// \throws std::runtime_error if the folder has queries about another separation.
+void require_same_separation(const fs::path& folder, const Separation& separation) {
+  const bool has_queries = fs::exists(folder / to_string(Kind::vertex_face)) ||
+                           fs::exists(folder / to_string(Kind::edge_edge));
+  const Separation recorded = recorded_separation(folder / "any");
+  if ((!has_queries && is_contact(recorded)) || same_question(recorded, separation)) return;
+  throw std::runtime_error(
+      fmt::format("{}: is about a minimum separation of {}, not {}; choose another folder",
+                  folder.string(), to_text(recorded), to_text(separation)));
+}
+
 std::vector<Written> write_families(const Arguments& arguments) {
   std::vector<Written> result;
-  const std::vector<Family> chosen_families = chosen(arguments.names);
+  const Separation separation = arguments.separation.given();
+  require_same_separation(arguments.folder, separation);
+  const std::vector<Family> chosen_families = chosen(arguments.names, separation);
+  if (!is_contact(separation)) {
+    fs::create_directories(arguments.folder);
+    write_separation(arguments.folder, separation);
+  }
   ProgressBar progress("generate");
   for (std::size_t i = 0; i < chosen_families.size(); ++i) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (interrupted() || !supports(chosen_families[i], kind)) continue;
-      const auto source = open_family(chosen_families[i], kind, arguments.seed, arguments.count);
+      const auto source =
+          open_family(chosen_families[i], kind, arguments.seed, arguments.count, separation);
       const fs::path folder = fs::path(arguments.folder) / to_string(kind);
-      result.push_back(arguments.npy ? write_npy(*source, folder) : write_csv(*source, folder));
+      result.push_back(arguments.npy ? write_npy(*source, separation, folder)
+                                     : write_csv(*source, separation, folder));
     }
     progress.update(static_cast<double>(i + 1) / static_cast<double>(chosen_families.size()));
   }
@@ -105,24 +147,29 @@ std::vector<Written> write_families(const Arguments& arguments) {
 
 Status generate(const Arguments& arguments) {
   if (arguments.list) {
-    list_families(chosen(arguments.names));
+    list_families(chosen(arguments.names, arguments.separation.given()));
     return Status::all_well;
   }
   if (arguments.folder.empty()) throw CLI::RequiredError("--out");
   OptionalOutput json_output(arguments.json_file);
   nlohmann::json json = nlohmann::json::array();
   std::uint64_t queries = 0, collisions = 0;
+  const Separation separation = arguments.separation.given();
   const std::vector<Written> files = write_families(arguments);
   for (const Written& written : files) {
     queries += written.queries;
     collisions += written.collisions;
-    json.push_back({{"file", written.file.string()},
-                    {"queries", written.queries},
-                    {"collisions", written.collisions}});
+    json.push_back({{"file", written.file.string()}, {"queries", written.queries}});
+    json.back()["collisions"] =
+        written.is_known ? nlohmann::json(written.collisions) : nlohmann::json();
+    if (!is_contact(separation)) json.back()["separation"] = to_json(separation);
   }
   if (json_output) json_output.write(json.dump(2) + "\n");
   json_output.close();
-  fmt::print("{} queries, {} of them collisions, in {} files below {}\n", queries, collisions,
+  fmt::print("{} queries, {} of them collisions{}, in {} files below {}\n", queries, collisions,
+             is_contact(separation)
+                 ? ""
+                 : " at minimum separation " + to_text(separation) + " by construction",
              files.size(), arguments.folder);
   return interrupted() ? Status::interrupted : Status::all_well;
 }
@@ -142,14 +189,20 @@ void add_generate_command(CLI::App& app, Status& status) {
   command->add_option("--count", arguments->count, "Queries a family and kind")
       ->capture_default_str()
       ->check(whole_number(1, UINT64_MAX));
+  add_separation_options(*command, arguments->separation);
   command->add_flag("--npy", arguments->npy,
                     "Write float64 arrays of shape (N, 8, 3), without the truth, instead of CSV");
   command->add_flag("--list", arguments->list, "Name the families and why their truth is known");
   command->add_option("--json", arguments->json_file, "Write the list of files as JSON")
       ->type_name("FILE");
   command->footer(
+      "With --min-separation there are further families, with contact at exactly that distance, "
+      "the\n"
+      "families about contact are written without truth, and FOLDER/separation.json says what the\n"
+      "truth is about.\n"
       "Exit status: 0 all is written, 2 bad usage or an error in writing, 130 interrupted.\n"
-      "Example: touchstone generate --out hard --count 100 --family hourglass");
+      "Example: touchstone generate --out hard --count 100 --family hourglass\n"
+      "Example: touchstone generate --out near --min-separation 1e-8 --norm l2");
   command->callback([arguments, &status] { status = generate(*arguments); });
 }
 

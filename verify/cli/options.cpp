@@ -9,6 +9,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "verify/dataset/separation_file.hpp"
+#include "verify/separation.hpp"
+
 namespace touchstone::verify::cli {
 namespace {
 
@@ -61,6 +64,56 @@ CLI::Validator real_number(double least, double greatest) {
     return fmt::format("{} is no number from {} to {}", text, least, greatest);
   };
   return {check, ""};
+}
+
+CLI::Validator distance_number() {
+  const auto check = [](const std::string& text) -> std::string {
+    if (distance_from_text(text)) return {};
+    return fmt::format("{} is no finite number from 0 on", text);
+  };
+  return {check, ""};
+}
+
+Separation SeparationArguments::given() const {
+  return {.distance = distance.value_or(0.0), .norm = norm.value_or(Norm::linf)};
+}
+
+Separation SeparationArguments::settle(const Separation& recorded) const {
+  if (is_contact(recorded)) return given();
+  const Separation asked{.distance = distance.value_or(recorded.distance),
+                         .norm = norm.value_or(recorded.norm)};
+  if (same_question(asked, recorded)) return asked;
+  throw std::invalid_argument(
+      fmt::format("asked for a minimum separation of {}, but its separation.json says {}",
+                  to_text(asked), to_text(recorded)));
+}
+
+CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& distance,
+                                 const std::string& description) {
+  // Read by strtod: CLI11 would round twice.
+  return command
+      .add_option_function<std::string>(
+          "--min-separation",
+          [&distance](const std::string& text) { distance = distance_from_text(text); },
+          description)
+      ->type_name("D")
+      ->check(distance_number());
+}
+
+void add_separation_options(CLI::App& command, SeparationArguments& arguments) {
+  add_distance_option(
+      command, arguments.distance,
+      "What comes within this distance counts as contact: a number from 0 on, in "
+      "units of the coordinates, also hexadecimal (0x1p-10); default 0, or what the "
+      "separation.json beside a dataset says");
+  command
+      .add_option_function<std::string>(
+          "--norm",
+          [&arguments](const std::string& text) { arguments.norm = norm_from_string(text); },
+          "How that distance is measured: linf (the greatest of its components, the default) or l2 "
+          "(Euclid's); e.g. --min-separation 1e-8 --norm l2")
+      ->type_name("NORM")
+      ->check(CLI::IsMember({"linf", "l2"}));
 }
 
 void report_error(std::string_view message) {

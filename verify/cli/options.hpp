@@ -8,9 +8,11 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "exact/query.hpp"
 #include "verify/dataset/output_file.hpp"
 
 namespace touchstone::verify::cli {
@@ -23,6 +25,30 @@ inline constexpr std::uint64_t default_seed = 2021;
 
 /// Accepts finite numbers from `least` to `greatest`.
 [[nodiscard]] CLI::Validator real_number(double least, double greatest);
+
+/// Accepts finite numbers from 0 on as strtod takes them, hexadecimal ones too, that do not become 0.
+[[nodiscard]] CLI::Validator distance_number();
+
+/// What the user said of the separation.
+struct SeparationArguments {
+  std::optional<double> distance;
+  std::optional<Norm> norm;
+
+  /// The separation asked for on the command line; contact itself if nothing is said.
+  [[nodiscard]] Separation given() const;
+
+  /// The separation to ask for of queries whose recorded answers are about `recorded`: that one if
+  /// nothing is said. Answers about contact contradict nothing.
+  /// \throws std::invalid_argument naming both if what is said contradicts what is recorded.
+  [[nodiscard]] Separation settle(const Separation& recorded) const;
+};
+
+/// Adds --min-separation; the double must live until the command line is parsed.
+CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& distance,
+                                 const std::string& description);
+
+/// Adds --min-separation and --norm; the arguments must live until the command line is parsed.
+void add_separation_options(CLI::App& command, SeparationArguments& arguments);
 
 /// Prints "touchstone: error: …" on standard error.
 void report_error(std::string_view message);

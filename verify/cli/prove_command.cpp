@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "exact/number.hpp"
 #include "verify/cli/certificates_file.hpp"
@@ -17,6 +18,7 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/prove.hpp"
+#include "verify/separation.hpp"
 #include "verify/terminal.hpp"
 
 namespace touchstone::verify::cli {
@@ -81,6 +83,8 @@ class ProveRun {
 
   void prove_source(QuerySource& source, const Progress& progress) {
     SourceProofOptions options;
+    options.separation = separation_for(arguments_.sources, source);
+    separations_.push_back(options.separation);
     options.threads = arguments_.sources.threads;
     options.proof = options_;
     options.stop = &interrupted();
@@ -118,12 +122,18 @@ class ProveRun {
                    {"rounded", sum_.rounded},
                    {"reading_errors", reading_errors_},
                    {"interrupted", sum_.interrupted}});
+    if (const auto separation = common_separation(separations_)) {
+      result["separation"] = to_json(*separation);
+    }
     return result;
   }
 
   void print_summary() const {
     std::FILE* const stream =
         out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
+    if (const auto separation = common_separation(separations_)) {
+      fmt::print(stream, "minimum separation {}\n", to_text(*separation));
+    }
     fmt::print(stream, "{}", to_text(sum_.counts));
     fmt::print(stream, "oracle {:.2f} µs/query, file {} bytes\n", oracle_microseconds(),
                out_.bytes());
@@ -144,6 +154,7 @@ class ProveRun {
   CertificatesFile out_;
   ReportedOutput json_;
   SourceProof sum_;
+  std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;
 };
 

@@ -107,6 +107,7 @@ Respondents::Respondents(const RespondentArguments& arguments) {
     add(arguments.query_limit > 0.0 ? respond_isolated(*method, arguments.options, isolation)
                                     : respond_in_process(*method, arguments.options),
         arguments.exact);
+    respondents_.back()->set_reach(reach_of(method->name()));
   }
   for (const std::filesystem::path& path : arguments.plugins) {
     plugins_.push_back(load_plugin(path));

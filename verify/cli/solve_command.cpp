@@ -2,21 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <cfloat>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/respondents.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/methods/answers.hpp"
+#include "verify/separation.hpp"
 #include "verify/solve.hpp"
 #include "verify/terminal.hpp"
 
@@ -89,6 +91,9 @@ class SolveRun {
   void print_summary() const {
     std::FILE* const stream =
         out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
+    if (const auto separation = the_separation()) {
+      fmt::print(stream, "minimum separation {}\n", to_text(*separation));
+    }
     fmt::print(stream, "{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
                solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
                sum_.nanoseconds_per_query());
@@ -98,6 +103,8 @@ class SolveRun {
 
   void solve_source(QuerySource& source, const Progress& progress) {
     SolveOptions options;
+    options.separation = separation_for(arguments_.sources, source);
+    separations_.push_back(options.separation);
     options.threads = arguments_.sources.threads;
     options.stop = &interrupted();
     options.on_progress = progress;
@@ -122,18 +129,25 @@ class SolveRun {
   }
 
   [[nodiscard]] nlohmann::json summary() const {
-    return {{"method", solver_.name()},
-            {"queries", sum_.queries},
-            {"yes", sum_.yes},
-            {"no", sum_.no},
-            {"undecided", sum_.undecided},
-            {"errors", sum_.errors},
-            {"unplaced_crashes", sum_.unplaced_crashes},
-            {"ns_per_query", sum_.nanoseconds_per_query()},
-            {"skipped", sum_.skipped},
-            {"rounded", sum_.rounded},
-            {"reading_errors", reading_errors_},
-            {"interrupted", sum_.interrupted}};
+    nlohmann::json json{{"method", solver_.name()},
+                        {"queries", sum_.queries},
+                        {"yes", sum_.yes},
+                        {"no", sum_.no},
+                        {"undecided", sum_.undecided},
+                        {"errors", sum_.errors},
+                        {"unplaced_crashes", sum_.unplaced_crashes},
+                        {"ns_per_query", sum_.nanoseconds_per_query()},
+                        {"skipped", sum_.skipped},
+                        {"rounded", sum_.rounded},
+                        {"reading_errors", reading_errors_},
+                        {"interrupted", sum_.interrupted}};
+    if (const auto separation = the_separation()) json["separation"] = to_json(*separation);
+    return json;
+  }
+
+  /// The one of all sources, if it is one and more than contact.
+  [[nodiscard]] std::optional<Separation> the_separation() const {
+    return common_separation(separations_);
   }
 
   [[nodiscard]] Status status() const {
@@ -149,15 +163,11 @@ class SolveRun {
   ReportedOutput out_;
   ReportedOutput json_;
   SolveResult sum_;
+  std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;
 };
 
 void add_problem_options(CLI::App& command, fast::MethodOptions& options) {
-  command
-      .add_option("--min-separation", options.min_separation,
-                  "Contact is to be this near, for methods that know of it")
-      ->capture_default_str()
-      ->check(real_number(0.0, DBL_MAX));
   command
       .add_option("--t-max", options.t_max,
                   "Only impacts up to this time count, for methods that know of it")
@@ -184,6 +194,8 @@ void add_solve_command(CLI::App& app, Status& status) {
   command->footer(
       "Exit status: 0 all is answered and written, 2 bad input or usage, 130 interrupted (what is\n"
       "done by then is written).\n"
+      "Methods get --min-separation and --norm; one that can only do linf finds all of l2 with "
+      "it.\n"
       "Example: touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);

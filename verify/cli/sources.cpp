@@ -35,16 +35,18 @@ class TotalProgress {
 };
 
 void for_each_family(const SourceArguments& arguments, const SourceHandlers& handlers) {
-  std::vector<std::pair<const Family*, Kind>> sources;
-  for (const Family& family : families()) {
+  const Separation separation = arguments.separation.given();
+  std::vector<std::pair<Family, Kind>> sources;
+  for (const Family& family : families(separation)) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (supports(family, kind)) sources.emplace_back(&family, kind);
+      if (supports(family, kind)) sources.emplace_back(family, kind);
     }
   }
   TotalProgress progress(handlers.title, sources.size());
   for (std::size_t i = 0; i < sources.size() && !handlers.stopped(); ++i) {
-    const auto [family, kind] = sources[i];
-    handlers.use(*open_family(*family, kind, arguments.seed, arguments.count), progress.of(i));
+    const auto& [family, kind] = sources[i];
+    handlers.use(*open_family(family, kind, arguments.seed, arguments.count, separation),
+                 progress.of(i));
   }
 }
 
@@ -117,6 +119,15 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
   command.add_option("--count", arguments.count, "Queries a family and kind of the built-in set")
       ->capture_default_str()
       ->check(whole_number(1, UINT64_MAX));
+  add_separation_options(command, arguments.separation);
+}
+
+Separation separation_for(const SourceArguments& arguments, const QuerySource& source) {
+  try {
+    return arguments.separation.settle(source.recorded_separation());
+  } catch (const std::invalid_argument& error) {
+    throw DatasetError(source.name(), {}, error.what());
+  }
 }
 
 void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers) {

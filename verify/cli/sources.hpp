@@ -25,6 +25,7 @@ struct SourceArguments {
   unsigned threads = 0;
   std::uint64_t seed = default_seed;
   std::uint64_t count = 1000;
+  SeparationArguments separation = {};
 
   /// Without a path the queries are those of the built-in set.
   [[nodiscard]] bool built_in_set() const { return paths.empty(); }
@@ -47,8 +48,13 @@ struct SourceHandlers {
   std::function<bool(const std::filesystem::path&)> is_output;
 };
 
-/// Opens and hands over the sources one after the other: the families of the built-in set, or the
-/// dataset files of all paths, each once. Queries skipped with keep_going are reported on standard
+/// What counts as contact in a source: what the user said, or what is recorded with the source.
+/// \throws DatasetError naming both if they contradict each other.
+[[nodiscard]] Separation separation_for(const SourceArguments& arguments,
+                                        const QuerySource& source);
+
+/// Opens and hands over the sources one after the other: the families of the built-in set (of
+/// that with a separation, if one is asked for), or the dataset files of all paths, each once. Queries skipped with keep_going are reported on standard
 /// error. \throws std::runtime_error if an input, or a file of labels or times of
 /// impact beside one, is an output.
 void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers);

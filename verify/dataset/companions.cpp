@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "verify/dataset/separation_file.hpp"
+
 namespace touchstone::verify {
 namespace {
 
@@ -223,6 +225,7 @@ std::vector<std::filesystem::path> find_companions(const std::filesystem::path& 
   for (const auto& path : {find_labels(dataset), find_tois(dataset)}) {
     if (path) paths.push_back(*path);
   }
+  if (const auto path = find_separation_file(dataset)) paths.push_back(*path);
   return paths;
 }
 
@@ -231,8 +234,8 @@ Companions::Companions(const std::filesystem::path& dataset) {
   if (auto path = find_tois(dataset)) tois_.emplace(*path);
 }
 
-Truth Companions::at(std::uint64_t index) {
-  Truth truth;
+RecordedTruth Companions::at(std::uint64_t index) {
+  RecordedTruth truth;
   if (labels_) truth.collides = labels_->at(index);
   if (tois_) truth.toi = tois_->at(index);
   return truth;

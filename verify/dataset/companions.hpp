@@ -98,12 +98,12 @@ class ToiReader {
 };
 
 /// What companion files say about a query.
-struct Truth {
+struct RecordedTruth {
   std::optional<bool> collides;
   std::optional<exact::Rational> toi;
 };
 
-/// The companion files that there are of a dataset.
+/// The companion files that there are of a dataset, the one of its separation included.
 [[nodiscard]] std::vector<std::filesystem::path> find_companions(
     const std::filesystem::path& dataset);
 
@@ -117,7 +117,7 @@ class Companions {
 
   /// What is known of a query; numbers must ascend from call to call.
   /// \throws DatasetError if what is recorded cannot be read.
-  [[nodiscard]] Truth at(std::uint64_t index);
+  [[nodiscard]] RecordedTruth at(std::uint64_t index);
 
   /// The errors that lie behind the entries of `count` queries, at most one a file.
   [[nodiscard]] std::vector<DatasetError> beyond(std::uint64_t count);

@@ -117,14 +117,16 @@ DatasetError CsvDataset::error(const Line& line, std::size_t column,
 
 CsvWriter::CsvWriter(std::filesystem::path path) : file_(std::move(path)) {}
 
-void CsvWriter::write(const Query& query, bool collides) {
+void CsvWriter::write(const Query& query, std::optional<bool> collides) {
+  const std::string_view label = !collides ? "" : *collides ? ",1" : ",0";
   std::string text;
   for (std::size_t row = 0; row < query_points; ++row) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis != 0) text += ',';
       append_coordinate(text, query.at(row / moving_points, row % moving_points, axis));
-      text += ',';
     }
-    text += collides ? "1\n" : "0\n";
+    text += label;
+    text += '\n';
   }
   file_.write(text);
 }

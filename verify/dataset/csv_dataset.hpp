@@ -74,10 +74,11 @@ class CsvWriter {
   /// \throws DatasetError if no file can be made there.
   explicit CsvWriter(std::filesystem::path path);
 
-  /// Appends a query with its label: do they collide.
+  /// Appends a query with its label: do they collide. Without one the rows have six columns, which
+  /// must then be so for all queries.
   /// \throws DatasetError if it cannot be written.
   /// \throws std::invalid_argument if a coordinate is not finite; nothing is written then.
-  void write(const Query& query, bool collides);
+  void write(const Query& query, std::optional<bool> collides);
 
   /// Completes the file and gives it its name; without this call there is no file.
   /// \throws DatasetError if it cannot be written.

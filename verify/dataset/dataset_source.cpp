@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "verify/dataset/separation_file.hpp"
+
 namespace touchstone::verify {
 
 DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions options)
@@ -9,7 +11,8 @@ DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions o
       name_(path.string()),
       options_(std::move(options)),
       kind_(options_.kind ? *options_.kind : kind_from_path(path)),
-      companions_(path) {}
+      companions_(path),
+      separation_(verify::recorded_separation(path)) {}
 
 std::optional<RecordedQuery> DatasetSource::next() {
   while (!ended_) {
@@ -31,7 +34,7 @@ std::optional<RecordedQuery> DatasetSource::read_record() {
   if (at_end()) return std::nullopt;
   const std::uint64_t index = count_++;
   const StoredQuery stored = read(index);
-  Truth truth = companions_.at(index);
+  RecordedTruth truth = companions_.at(index);
   if (stored.label && truth.collides && *stored.label != *truth.collides) {
     static constexpr std::uint64_t label_column = 7;
     throw DatasetError(path_, {.line = stored.line, .column = label_column},

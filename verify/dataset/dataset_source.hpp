@@ -26,6 +26,7 @@ class DatasetSource : public QuerySource {
   [[nodiscard]] Kind kind() const final { return kind_; }
   [[nodiscard]] std::optional<RecordedQuery> next() final;
   [[nodiscard]] std::uint64_t skipped() const final { return skipped_; }
+  [[nodiscard]] Separation recorded_separation() const final { return separation_; }
 
  protected:
   /// A query as the file itself records it.
@@ -36,7 +37,7 @@ class DatasetSource : public QuerySource {
     std::uint64_t line;
   };
 
-  /// \throws DatasetError if the kind is unknown or a companion file cannot be read.
+  /// \throws DatasetError if the kind is unknown, or a companion file or the separation's cannot be read.
   DatasetSource(const std::filesystem::path& path, DatasetOptions options);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -57,6 +58,7 @@ class DatasetSource : public QuerySource {
   DatasetOptions options_;
   Kind kind_;
   Companions companions_;
+  Separation separation_;
   std::uint64_t count_ = 0;
   std::uint64_t skipped_ = 0;
   bool ended_ = false;

@@ -42,12 +42,37 @@ std::span<const Definition> all_definitions() {
 }
 
 const Definition& find_definition(std::string_view name) {
-  const auto all = all_definitions();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Definition& definition) {
-    return definition.family.name == name;
-  });
-  if (found == all.end()) throw std::invalid_argument("no family is named " + std::string(name));
-  return *found;
+  for (const auto list : {all_definitions(), separated_definitions()}) {
+    const auto found = std::ranges::find(
+        list, name, [](const Definition& definition) { return definition.family.name; });
+    if (found != list.end()) return *found;
+  }
+  throw std::invalid_argument("no family is named " + std::string(name));
+}
+
+bool is_about_separation(const Definition& definition) {
+  const auto list = separated_definitions();
+  return &definition >= list.data() && &definition < list.data() + list.size();
+}
+
+/// The definition of a family. \throws std::invalid_argument if it has no such queries.
+const Definition& find_definition(const Family& family, Kind kind, const Separation& separation) {
+  if (!supports(family, kind)) {
+    throw std::invalid_argument(std::string(family.name) + " has no " +
+                                std::string(to_string(kind)) + " queries");
+  }
+  const Definition& definition = find_definition(family.name);
+  if (is_about_separation(definition) && !has_separation_families(separation)) {
+    throw std::invalid_argument(std::string(family.name) +
+                                " needs a minimum separation from 2^-1000 to 2^1000");
+  }
+  return definition;
+}
+
+std::vector<Family> families_of(std::span<const Definition> definitions) {
+  std::vector<Family> list;
+  for (const Definition& definition : definitions) list.push_back(definition.family);
+  return list;
 }
 
 /// Every attempt at every query has its own stream, whatever was drawn for others.
@@ -61,16 +86,19 @@ Random stream_of(std::string_view name, Kind kind, std::uint64_t seed, std::uint
 
 /// Random significands end in zeros now and then: a query that is to be full but has too many of
 /// those (about one in ten thousand) is drawn again.
-KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t index) {
+KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t index,
+                 const Separation& separation) {
   for (std::uint64_t attempt = 0;; ++attempt) {
     Recipe recipe{.kind = kind,
                   .index = index,
                   .variant = index / 2,
                   .full = index % 2 == 1,
-                  .random = stream_of(definition.family.name, kind, seed, index, attempt)};
+                  .random = stream_of(definition.family.name, kind, seed, index, attempt),
+                  .separation = separation};
     KnownQuery known = definition.build(recipe);
-    if (recipe.full && !uses_full_significands(known.query)) continue;
-    known.full_significands = recipe.full;
+    const bool is_full = recipe.full && uses_full_significands(known.query);
+    if (recipe.full && !is_full && !is_about_separation(definition)) continue;
+    known.full_significands = is_full;
     if (!recipe.as_printed) apply_random_symmetry(kind, recipe.random, known);
     return known;
   }
@@ -79,15 +107,22 @@ KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, st
 /// The stream of queries behind open_family.
 class FamilySource final : public QuerySource {
  public:
-  FamilySource(const Family& family, Kind kind, std::uint64_t seed, std::uint64_t count)
-      : family_(family), name_(family.name), kind_(kind), seed_(seed), count_(count) {}
+  FamilySource(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t count,
+               const Separation& separation)
+      : definition_(definition),
+        name_(definition.family.name),
+        kind_(kind),
+        seed_(seed),
+        count_(count),
+        separation_(is_about_separation(definition) ? separation : Separation{}) {}
 
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] Kind kind() const override { return kind_; }
+  [[nodiscard]] Separation recorded_separation() const override { return separation_; }
 
   [[nodiscard]] std::optional<RecordedQuery> next() override {
     if (index_ == count_) return std::nullopt;
-    KnownQuery known = make_query(family_, kind_, seed_, index_);
+    KnownQuery known = build(definition_, kind_, seed_, index_, separation_);
     return RecordedQuery{known.query, index_++, known.collides, std::move(known.toi)};
   }
 
@@ -96,11 +131,12 @@ class FamilySource final : public QuerySource {
   }
 
  private:
-  Family family_;
+  const Definition& definition_;
   std::string name_;
   Kind kind_;
   std::uint64_t seed_;
   std::uint64_t count_;
+  Separation separation_;
   std::uint64_t index_ = 0;
 };
 
@@ -114,14 +150,24 @@ std::span<const Definition> base_definitions() {
 }  // namespace builtin
 
 std::span<const Family> families() {
-  static const std::vector<Family> all = [] {
-    std::vector<Family> list;
-    for (const builtin::Definition& definition : builtin::all_definitions()) {
-      list.push_back(definition.family);
-    }
-    return list;
-  }();
+  static const std::vector<Family> all = builtin::families_of(builtin::all_definitions());
   return all;
+}
+
+std::span<const Family> separation_families() {
+  static const std::vector<Family> all = builtin::families_of(builtin::separated_definitions());
+  return all;
+}
+
+bool has_separation_families(const Separation& separation) {
+  return separation.distance >= 0x1p-1000 && separation.distance <= 0x1p1000;
+}
+
+std::vector<Family> families(const Separation& separation) {
+  std::vector<Family> list(families().begin(), families().end());
+  if (!has_separation_families(separation)) return list;
+  list.insert(list.end(), separation_families().begin(), separation_families().end());
+  return list;
 }
 
 const Family& family_from_name(std::string_view name) {
@@ -133,21 +179,16 @@ bool supports(const Family& family, Kind kind) {
   return kind == Kind::vertex_face ? definition.vertex_face : definition.edge_edge;
 }
 
-KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::uint64_t index) {
-  if (!supports(family, kind)) {
-    throw std::invalid_argument(std::string(family.name) + " has no " +
-                                std::string(to_string(kind)) + " queries");
-  }
-  return builtin::build(builtin::find_definition(family.name), kind, seed, index);
+KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::uint64_t index,
+                      const Separation& separation) {
+  const builtin::Definition& definition = builtin::find_definition(family, kind, separation);
+  return builtin::build(definition, kind, seed, index, separation);
 }
 
 std::unique_ptr<QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,
-                                         std::uint64_t count) {
-  if (!supports(family, kind)) {
-    throw std::invalid_argument(std::string(family.name) + " has no " +
-                                std::string(to_string(kind)) + " queries");
-  }
-  return std::make_unique<builtin::FamilySource>(family, kind, seed, count);
+                                         std::uint64_t count, const Separation& separation) {
+  const builtin::Definition& definition = builtin::find_definition(family, kind, separation);
+  return std::make_unique<builtin::FamilySource>(definition, kind, seed, count, separation);
 }
 
 }  // namespace touchstone::verify

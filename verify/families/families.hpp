@@ -14,6 +14,10 @@
 ///
 /// Every query is then turned by a random exact symmetry (axes permuted and mirrored, the
 /// primitives' points renumbered), so that no place among the 24 coordinates is special.
+///
+/// With a minimum separation there are further families, whose truth is about that separation: their
+/// odd queries have full significands only as far as the distance lets them. The claims of all other
+/// families stay what they are, about contact itself.
 
 #include <array>
 #include <cstdint>
@@ -21,6 +25,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "exact/number.hpp"
 #include "exact/query.hpp"
@@ -55,10 +60,20 @@ struct KnownQuery {
   bool full_significands = false;
 };
 
-/// All families, always in the same order.
+/// All families about contact, always in the same order.
 [[nodiscard]] std::span<const Family> families();
 
-/// The family of that name.
+/// All families about a separation, always in the same order.
+[[nodiscard]] std::span<const Family> separation_families();
+
+/// Have those families queries for this separation? For distances from 2^-1000 to 2^1000.
+[[nodiscard]] bool has_separation_families(const Separation& separation);
+
+/// The built-in set for a separation: families(), and behind them separation_families() where they
+/// have queries.
+[[nodiscard]] std::vector<Family> families(const Separation& separation);
+
+/// The family of that name, about contact or about a separation.
 /// \throws std::invalid_argument if there is none.
 [[nodiscard]] const Family& family_from_name(std::string_view name);
 
@@ -66,15 +81,16 @@ struct KnownQuery {
 /// \throws std::invalid_argument if no family has the name of `family`.
 [[nodiscard]] bool supports(const Family& family, Kind kind);
 
-/// Query number `index` of a family: a function of (family, kind, seed, index) and nothing else,
-/// the same on every machine. \throws std::invalid_argument if the family does not support the kind
-/// or is unknown.
+/// Query number `index` of a family: a function of the arguments and nothing else, the same on every
+/// machine. Families about contact do not look at the separation. \throws std::invalid_argument if
+/// the family does not support the kind or is unknown, or has no queries for the separation.
 [[nodiscard]] KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed,
-                                    std::uint64_t index);
+                                    std::uint64_t index, const Separation& separation = {});
 
 /// The queries 0 to count−1 of one family and kind as a stream; its name is the family's name.
-/// \throws std::invalid_argument if the family does not support the kind or is unknown.
+/// \throws std::invalid_argument as make_query does.
 [[nodiscard]] std::unique_ptr<QuerySource> open_family(const Family& family, Kind kind,
-                                                       std::uint64_t seed, std::uint64_t count);
+                                                       std::uint64_t seed, std::uint64_t count,
+                                                       const Separation& separation = {});
 
 }  // namespace touchstone::verify

@@ -27,6 +27,8 @@ struct Recipe {
   bool full;
   /// The query's own stream of random numbers.
   Random random;
+  /// What counts as contact, for families that are about it.
+  Separation separation = {};
   /// Set by a builder whose query must stay as it is printed in the paper: no symmetry is applied.
   bool as_printed = false;
 
@@ -54,6 +56,9 @@ struct Definition {
 [[nodiscard]] std::span<const Definition> tangential_definitions();
 [[nodiscard]] std::span<const Definition> published_definitions();
 [[nodiscard]] std::span<const Definition> scaled_definitions();
+
+/// The definitions of the families that are about a separation, in separated.cpp.
+[[nodiscard]] std::span<const Definition> separated_definitions();
 
 /// Every definition that does not build on another: all lists but the scaled ones.
 [[nodiscard]] std::span<const Definition> base_definitions();

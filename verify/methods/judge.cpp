@@ -30,6 +30,7 @@ double upper_end(std::uint32_t bucket) {
 std::string answer_text(Fault fault, const fast::Answer& answer) {
   if (fault == Fault::late_toi) return fmt::format("toi_lower {}", answer.toi_lower);
   if (fault == Fault::early_toi_upper) return fmt::format("toi_upper {}", answer.toi_upper);
+  if (fault == Fault::beyond_tolerance) return fmt::format("yes, tolerance {}", answer.tolerance);
   return std::string(to_string(answer.verdict));
 }
 
@@ -42,6 +43,12 @@ std::string truth_text(const Truth& truth) {
 
 }  // namespace
 
+Truth truth_of(std::uint64_t index, const Decision& decision) {
+  Truth truth{.index = index, .collides = decision.collides(), .toi = std::nullopt};
+  if (truth.collides) truth.toi = decision.toi().enclosure();
+  return truth;
+}
+
 std::string_view to_string(Fault fault) {
   switch (fault) {
     case Fault::false_negative:
@@ -52,6 +59,8 @@ std::string_view to_string(Fault fault) {
       return "late toi";
     case Fault::early_toi_upper:
       return "early toi_upper";
+    case Fault::beyond_tolerance:
+      return "beyond tolerance";
     default:
       return "error";
   }
@@ -119,6 +128,10 @@ void Judgement::add_fault(Fault fault, const Truth& truth, const fast::Answer& a
   auto& count = faults[static_cast<std::size_t>(fault)];
   if (++count > most_kept) return;
   wrong_answers.push_back({fault, truth.index, answer_text(fault, answer), truth_text(truth)});
+}
+
+void Judgement::add_beyond_tolerance(const Truth& truth, const fast::Answer& answer) {
+  add_fault(Fault::beyond_tolerance, truth, answer);
 }
 
 void Judgement::add_missing(std::uint64_t index) {

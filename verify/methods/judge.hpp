@@ -7,6 +7,7 @@
 /// - A yes and an undecided both mean "take it for a collision"; so an undecided is never a false
 ///   negative, and one about a query that does not collide is a false positive, as a yes is. It is
 ///   counted as undecided in any case.
+/// - Truth is about the separation that was asked for, in the norm that was asked for.
 /// - An error is an answer to nothing: it is counted as an error and as nothing else.
 /// - Times of impact are judged for a yes to a query that does collide, and only where the method
 ///   gives them. All comparisons are exact: the truth is enclosed by neighbouring doubles, or is
@@ -23,6 +24,7 @@
 
 #include "exact/number.hpp"
 #include "fast/method.hpp"
+#include "verify/decision.hpp"
 
 namespace touchstone::verify {
 
@@ -34,17 +36,22 @@ struct Truth {
   std::optional<exact::DoubleInterval> toi;
 };
 
+/// The truth of query number `index` of its source.
+[[nodiscard]] Truth truth_of(std::uint64_t index, const Decision& decision);
+
 /// What an answer can be wrong in.
 enum class Fault : std::uint8_t {
-  false_negative,   ///< no, but they collide
-  false_positive,   ///< yes or undecided, but they do not collide
-  late_toi,         ///< toi_lower is above the exact time of impact
-  early_toi_upper,  ///< toi_upper is below the exact time of impact
-  error,            ///< the method could not answer
+  false_negative,    ///< no, but they collide
+  false_positive,    ///< yes or undecided, but they do not collide
+  late_toi,          ///< toi_lower is above the exact time of impact
+  early_toi_upper,   ///< toi_upper is below the exact time of impact
+  error,             ///< the method could not answer
+  beyond_tolerance,  ///< yes, but they never come as near as its tolerance claims (reach.hpp)
 };
-inline constexpr std::size_t fault_count = 5;
+inline constexpr std::size_t fault_count = 6;
 
-/// "false negative", "false positive", "late toi", "early toi_upper" or "error".
+/// "false negative", "false positive", "late toi", "early toi_upper", "error" or "beyond
+/// tolerance".
 [[nodiscard]] std::string_view to_string(Fault fault);
 
 /// How far toi_lower is from the exact time of impact, of many answers, in bounded memory.
@@ -106,6 +113,9 @@ struct Judgement {
   /// Judges an answer. \pre truth.toi is there if it collides.
   void add(const Truth& truth, const fast::Answer& answer);
 
+  /// Notes that a yes claims more nearness than there is.
+  void add_beyond_tolerance(const Truth& truth, const fast::Answer& answer);
+
   /// Notes that there is no answer to that query.
   void add_missing(std::uint64_t index);
 
@@ -121,8 +131,8 @@ struct Judgement {
 };
 
 /// Does that fault break the promise? Every method, whatever it promises, is to be free of false
-/// negatives, of times of impact that exclude the true one, and of errors; one that promises
-/// exactness also of false positives.
+/// negatives, of times of impact that exclude the true one, of errors, and of a yes that claims more
+/// nearness than there is; one that promises exactness also of false positives.
 [[nodiscard]] bool breaks(Fault fault, fast::Promise promise);
 
 /// Is there no fault that breaks the promise?

@@ -17,6 +17,8 @@ namespace {
 
 static_assert(static_cast<int>(Kind::vertex_face) == touchstone_vertex_face &&
               static_cast<int>(Kind::edge_edge) == touchstone_edge_edge);
+static_assert(static_cast<int>(Norm::linf) == touchstone_linf &&
+              static_cast<int>(Norm::l2) == touchstone_l2);
 static_assert(static_cast<int>(fast::Verdict::no) == touchstone_no &&
               static_cast<int>(fast::Verdict::yes) == touchstone_yes &&
               static_cast<int>(fast::Verdict::undecided) == touchstone_undecided &&
@@ -50,10 +52,13 @@ Function* find_function(const Library& library, const std::filesystem::path& pat
   return reinterpret_cast<Function*>(address);
 }
 
+/// Version 2 only added an option behind the others, so a plugin of version 1 reads what it knows.
+constexpr std::int32_t oldest_version = 1;
+
 void check_version(const Library& library, const std::filesystem::path& path) {
   const auto version = find_function<decltype(touchstone_plugin_version)>(
       library, path, "touchstone_plugin_version")();
-  if (version == touchstone_interface_version) return;
+  if (version >= oldest_version && version <= touchstone_interface_version) return;
   throw DatasetError(path, {},
                      "made for version " + std::to_string(version) +
                          " of the plugin interface, this program has version " +
@@ -103,7 +108,8 @@ class PluginMethod final : public fast::Method {
     const touchstone_options plugin_options{.tolerance = options.tolerance,
                                             .max_checks = options.max_checks,
                                             .min_separation = options.min_separation,
-                                            .t_max = options.t_max};
+                                            .t_max = options.t_max,
+                                            .norm = static_cast<std::int32_t>(options.norm)};
     for (std::size_t i = 0; i < queries.size(); ++i) {
       answers[i] = ask(kind, queries[i], plugin_options);
     }

@@ -26,7 +26,7 @@ struct PluginOptions {
 /// impact. Times of impact with any other verdict than yes are dropped, and so is a tolerance that
 /// is none (negative or NaN).
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
-/// made for another version of the interface, or has no printable name.
+/// made for a version of the interface that this program does not know, or has no printable name.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                                         const PluginOptions& options = {});
 

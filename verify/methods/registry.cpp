@@ -54,6 +54,16 @@ const fast::Method& find_method(std::string_view name) {
       fmt::format("no method is called {} (there are: {})", name, known.empty() ? "none" : known));
 }
 
+Reach reach_of(std::string_view name) {
+  const bool published = name == "tight_inclusion_published";
+  if (name != "tight_inclusion" && !published) return nullptr;
+  return
+      [model = published ? fast::ErrorModel::published : fast::ErrorModel::derived](
+          Kind kind, const Query& query, const fast::Answer& answer, const Separation& separation) {
+        return tight_inclusion_reach(kind, query, answer, separation, model);
+      };
+}
+
 std::string_view to_string(fast::Promise promise) {
   switch (promise) {
     case fast::Promise::none:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fast/method.hpp"
+#include "verify/methods/reach.hpp"
 
 namespace touchstone::verify {
 
@@ -22,6 +23,9 @@ namespace touchstone::verify {
 /// The method of that name.
 /// \throws std::invalid_argument, with the names there are, if there is none.
 [[nodiscard]] const fast::Method& find_method(std::string_view name);
+
+/// What the tolerances of the method of that name claim; null if nothing.
+[[nodiscard]] Reach reach_of(std::string_view name);
 
 /// "none", "conservative" or "exact".
 [[nodiscard]] std::string_view to_string(fast::Promise promise);

@@ -14,6 +14,12 @@ constexpr double longest_span = 1e6;
 /// A child costs milliseconds: it is to solve much longer, and to begin with as much as it gets.
 constexpr Respondent::Pacing isolated_pacing{.span_seconds = 0.5, .first_guess = 0.0};
 
+fast::MethodOptions with_separation(fast::MethodOptions options, const Questions& questions) {
+  options.min_separation = questions.separation.distance;
+  options.norm = questions.separation.norm;
+  return options;
+}
+
 /// Solves one by one; what throws is in error.
 void solve_despite_exceptions(const fast::Method& method, const Questions& questions,
                               std::span<fast::Answer> answers, const fast::MethodOptions& options) {
@@ -36,12 +42,13 @@ class InProcess final : public Respondent {
  private:
   [[nodiscard]] Response solve(const Questions& questions,
                                std::span<fast::Answer> answers) const override {
+    const fast::MethodOptions options = with_separation(options_, questions);
     const double start = thread_nanoseconds();
     try {
-      method_.solve(questions.kind, questions.queries, answers, options_);
+      method_.solve(questions.kind, questions.queries, answers, options);
     } catch (const std::exception&) {
       std::ranges::fill(answers, fast::Answer{});
-      solve_despite_exceptions(method_, questions, answers, options_);
+      solve_despite_exceptions(method_, questions, answers, options);
     }
     return {.nanoseconds = thread_nanoseconds() - start};
   }
@@ -62,8 +69,8 @@ class Isolated final : public Respondent {
  private:
   [[nodiscard]] Response solve(const Questions& questions,
                                std::span<fast::Answer> answers) const override {
-    const IsolatedSolve solved =
-        solve_isolated(method_, questions.kind, questions.queries, answers, options_, isolation_);
+    const IsolatedSolve solved = solve_isolated(method_, questions.kind, questions.queries, answers,
+                                                with_separation(options_, questions), isolation_);
     return {.nanoseconds = 1e9 * solved.processor_seconds,
             .seconds = solved.wall_seconds,
             .unplaced_crashes = solved.unplaced_crashes,

@@ -18,6 +18,7 @@
 #include "fast/method.hpp"
 #include "verify/methods/answers.hpp"
 #include "verify/methods/isolation.hpp"
+#include "verify/methods/reach.hpp"
 
 namespace touchstone::verify {
 
@@ -27,6 +28,8 @@ struct Questions {
   Kind kind;
   std::span<const Query> queries;
   std::span<const std::uint64_t> indices;
+  /// What counts as contact. Methods take it from here, whatever their MethodOptions say.
+  Separation separation = {};
 };
 
 /// What came with the answers.
@@ -68,6 +71,9 @@ class Respondent {
   [[nodiscard]] fast::Promise promise() const { return promise_; }
   void hold_to(fast::Promise promise) { promise_ = promise; }
   [[nodiscard]] bool timed() const { return timed_; }
+  /// What its tolerances claim; null if nothing is known of it.
+  [[nodiscard]] const Reach& reach() const { return reach_; }
+  void set_reach(Reach reach) { reach_ = std::move(reach); }
 
   /// Answers query i in answers[i], in this thread.
   /// \pre all spans have the same length.
@@ -86,6 +92,7 @@ class Respondent {
   std::string name_;
   fast::Promise promise_;
   bool timed_;
+  Reach reach_;
   double span_seconds_;
   /// Wall-clock seconds a query, of the latest span; a guess before there is one.
   mutable std::atomic<double> pace_;

@@ -64,6 +64,39 @@ class Sources : public ::testing::Test {
   fs::path output;
 };
 
+TEST_F(Sources, WithASeparationTheBuiltInSetHasItsFamiliesToo) {
+  SourceArguments arguments;
+  arguments.count = 1;
+  arguments.separation.distance = 0.5;
+  for_each_source(arguments, handlers);
+  EXPECT_EQ(used.back(),
+            std::pair(std::string(separation_families().back().name), Kind::edge_edge));
+  arguments.separation.distance = 0x1p-1070;
+  used.clear();
+  for_each_source(arguments, handlers);
+  EXPECT_EQ(used.back().first, families().back().name) << "they cannot double that";
+}
+
+TEST_F(Sources, WhatIsRecordedIsAskedUnlessTheUserSaysOtherwise) {
+  std::ofstream(folder / "separation.json") << R"({"min_separation": "0.5", "norm": "l2"})";
+  SourceArguments arguments;
+  arguments.paths = {folder};
+  std::vector<Separation> asked;
+  handlers.use = [&](QuerySource& source, const std::function<void(double)>&) {
+    asked.push_back(separation_for(arguments, source));
+  };
+  constexpr Separation recorded{.distance = 0.5, .norm = Norm::l2};
+  for_each_source(arguments, handlers);
+  EXPECT_EQ(asked, (std::vector<Separation>{recorded, recorded}));
+  arguments.separation = {.distance = 0.5, .norm = Norm::l2};
+  for_each_source(arguments, handlers);
+  EXPECT_TRUE(failed.empty());
+  arguments.separation = {.distance = std::nullopt, .norm = Norm::linf};
+  for_each_source(arguments, handlers);
+  EXPECT_EQ(failed.size(), 2U);
+  EXPECT_EQ(asked.size(), 4U);
+}
+
 TEST_F(Sources, WithoutPathsAreTheBuiltInSet) {
   SourceArguments arguments;
   arguments.count = 2;

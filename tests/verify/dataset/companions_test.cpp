@@ -185,7 +185,7 @@ TEST(Companions, are_found_beside_and_below_the_folder_of_the_dataset_in_order) 
        {"scene/queries/7vf_toi.csv", "scene/queries/toi/7vf_toi.csv", "scene/toi/7vf_toi.csv"}) {
     (void)folder.file(place, "query,toi\n0," + std::to_string(place.size()) + "\n");
     Companions companions(dataset);
-    const Truth truth = companions.at(0);
+    const RecordedTruth truth = companions.at(0);
     EXPECT_EQ(truth.collides, std::optional(true));
     EXPECT_EQ(truth.toi, std::optional(Rational(place.size())));
     EXPECT_TRUE(companions.beyond(1).empty());

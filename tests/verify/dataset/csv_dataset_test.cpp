@@ -278,6 +278,17 @@ TEST(CsvWriter, writes_the_2021_format_to_the_byte) {
   EXPECT_EQ(contents(folder.path() / "a.csv"), expected + "0,1,0,1,-3,1,1\n");
 }
 
+TEST(CsvWriter, without_a_label_rows_have_six_columns) {
+  const TemporaryFolder folder;
+  CsvWriter writer(folder.path() / "a_vf.csv");
+  writer.write(numbered_query(0), std::nullopt);
+  writer.close();
+  const std::string text = contents(folder.path() / "a_vf.csv");
+  const std::string first_row = text.substr(0, text.find('\n'));
+  EXPECT_EQ(std::count(first_row.begin(), first_row.end(), ','), 5);
+  EXPECT_EQ(CsvDataset(folder.path() / "a_vf.csv", {}).next()->collides, std::nullopt);
+}
+
 TEST(CsvWriter, what_is_read_back_is_what_was_written) {
   const TemporaryFolder folder;
   std::mt19937_64 random(7);

@@ -170,8 +170,8 @@ TEST(LoadPlugin, NamesFileAndReason) {
   EXPECT_EQ(load_error(TOUCHSTONE_OTHER_LIBRARY),
             "other_library.so: defines no touchstone_plugin_version");
   EXPECT_EQ(load_error(TOUCHSTONE_WRONG_VERSION),
-            "wrong_version.so: made for version 42 of the plugin interface, this program has "
-            "version 1");
+            "wrong_version.so: made for version 43 of the plugin interface, this program has "
+            "version 2");
   EXPECT_EQ(load_error(TOUCHSTONE_WITHOUT_SOLVE),
             "without_solve.so: defines no touchstone_plugin_solve");
   EXPECT_EQ(load_error(TOUCHSTONE_WITHOUT_NAME),
@@ -203,6 +203,24 @@ TEST(Plugin, GetsTheOptions) {
   EXPECT_EQ(answer.toi_lower, 0.0625);
   EXPECT_EQ(answer.toi_upper, 0.25);
   EXPECT_EQ(answer.tolerance, 0.5);
+}
+
+TEST(Plugin, GetsTheNorm) {
+  const auto method = load_plugin(misbehaving);
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    const Answer answer = ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_norm),
+                              {.min_separation = 0.25, .norm = norm});
+    EXPECT_EQ(answer.toi_lower, norm == Norm::l2 ? 1.0 : 0.0);
+  }
+}
+
+TEST(Plugin, MayBeOfTheVersionBeforeTheNorm) {
+  const auto method = load_plugin(TOUCHSTONE_OLD_VERSION);
+  EXPECT_EQ(method->name(), "old_version");
+  const Answer answer =
+      ask(*method, Kind::vertex_face, {}, {.min_separation = 0.25, .norm = Norm::l2, .t_max = 0.5});
+  EXPECT_EQ(answer.toi_lower, 0.25);
+  EXPECT_EQ(answer.toi_upper, 0.5);
 }
 
 TEST(Plugin, MayGiveNoTimeOfImpact) {

@@ -82,6 +82,10 @@ void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
     case Misbehaviour::repeats_query:
       *answer = {touchstone_yes, coordinates[1], coordinates[23], static_cast<double>(kind)};
       return;
+    case Misbehaviour::repeats_norm:
+      answer->verdict = touchstone_yes;
+      answer->toi_lower = static_cast<double>(options->norm);
+      return;
     case Misbehaviour::repeats_options:
       *answer = {options->max_checks == 77 ? touchstone_yes : touchstone_no, options->tolerance,
                  options->min_separation, options->t_max};

@@ -15,6 +15,7 @@ enum class Misbehaviour {
   infinite_toi_upper,
   yes_without_toi,
   repeats_query,    ///< yes; times: coordinates 1 and 23; tolerance: the kind
+  repeats_norm,     ///< yes, the norm as the time
   repeats_options,  ///< yes if max_checks is 77; times: tolerance, min_separation; tolerance: t_max
   negative_tolerance,
   nan_tolerance,

@@ -1,0 +1,77 @@
+#include "verify/methods/reach.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "exact/distance_oracle.hpp"
+#include "exact/number.hpp"
+#include "fast/tight_inclusion.hpp"
+#include "verify/families/families.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using exact::Rational;
+using fast::Answer;
+using fast::ErrorModel;
+using fast::Verdict;
+
+constexpr Query falling{{1, 1, 2, 0, 0, 0, 4, 0, 0, 0, 4, 0,  //
+                         1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+
+double reach_of_yes(double tolerance, const Query& query, double distance) {
+  return tight_inclusion_reach(Kind::vertex_face, query,
+                               {.verdict = Verdict::yes, .tolerance = tolerance},
+                               {.distance = distance}, ErrorModel::derived);
+}
+
+TEST(Reach, IsTheSumRoundedUpAndHardlyMore) {
+  const double tolerance = 0.1, distance = 1e-3;
+  const double filter = fast::error_filter(Kind::vertex_face, {4, 4, 2}, distance)[0];
+  ASSERT_GT(filter, 0.0);
+  const Rational sum = Rational(tolerance) + Rational(distance) + 2 * Rational(filter);
+  const Rational reach(reach_of_yes(tolerance, falling, distance));
+  EXPECT_GT(reach, sum);
+  EXPECT_LT(reach, sum + Rational(0x1p-52));
+}
+
+TEST(Reach, WithoutAToleranceOrBeyondTheScaleNothingIsClaimed) {
+  EXPECT_TRUE(std::isinf(reach_of_yes(Answer::none, falling, 0.0)));
+  EXPECT_TRUE(std::isinf(reach_of_yes(1.0, falling, 0x1p1017)));
+  Query huge = falling;
+  huge.at(0, 2, 1) = -0x1p1017;
+  EXPECT_TRUE(std::isinf(reach_of_yes(1.0, huge, 0.0)));
+  EXPECT_FALSE(std::isinf(reach_of_yes(1.0, falling, 0.0)));
+}
+
+/// The claim itself, held against the oracle.
+TEST(Reach, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
+  std::size_t claims = 0;
+  for (const double distance : {0.0, 1e-8, 1e-30}) {
+    const Separation separation{.distance = distance};
+    for (const Family& family : families(separation)) {
+      for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+        if (!supports(family, kind)) continue;
+        for (std::uint64_t index = 0; index < 4; ++index) {
+          const Query query = make_query(family, kind, 7, index, separation).query;
+          const auto result =
+              fast::tight_inclusion(kind, query, {.max_checks = 1000, .min_separation = distance});
+          if (result.verdict != Verdict::yes) continue;
+          const double reach = tight_inclusion_reach(
+              kind, query, {.verdict = Verdict::yes, .tolerance = result.tolerance}, separation,
+              ErrorModel::derived);
+          if (std::isinf(reach)) continue;
+          ++claims;
+          ASSERT_TRUE(exact::decide(kind, query, {.distance = reach}).collides()) << family.name;
+        }
+      }
+    }
+  }
+  EXPECT_GT(claims, 300U);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,84 @@
+#include "verify/dataset/separation_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "verify/dataset/dataset_error.hpp"
+#include "verify/dataset/output_file.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view file_name = "separation.json";
+
+/// Is there a digit other than 0 before the exponent?
+bool has_value(std::string_view text) {
+  const bool is_hexadecimal = text.find_first_of("xX") != std::string_view::npos;
+  const std::size_t end = text.find_first_of(is_hexadecimal ? "pP" : "eE");
+  return text.substr(0, end).find_first_of("123456789abcdefABCDEF") != std::string_view::npos;
+}
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.is_open() || file.bad()) throw DatasetError(path, {}, "cannot read");
+  return text;
+}
+
+}  // namespace
+
+std::optional<double> distance_from_text(const std::string& text) {
+  if (text.empty() || std::isspace(static_cast<unsigned char>(text.front())) != 0) {
+    return std::nullopt;
+  }
+  char* end = nullptr;
+  const double distance = std::strtod(text.c_str(), &end);
+  const bool is_read = end == text.c_str() + text.size();
+  if (!is_read || !is_valid({.distance = distance})) return std::nullopt;
+  if (distance == 0.0 && has_value(text)) return std::nullopt;
+  // −0 is the distance 0.
+  return distance == 0.0 ? 0.0 : distance;
+}
+
+std::optional<fs::path> find_separation_file(const fs::path& dataset) {
+  const fs::path folder = dataset.parent_path();
+  for (const fs::path& path : {folder / file_name, folder / ".." / file_name}) {
+    if (fs::exists(path)) return path;
+  }
+  return std::nullopt;
+}
+
+Separation read_separation(const fs::path& path) {
+  try {
+    const nlohmann::json json = nlohmann::json::parse(read_text(path));
+    const auto distance = distance_from_text(json.at("min_separation").get<std::string>());
+    if (!distance) throw DatasetError(path, {}, "min_separation is no finite number from 0 on");
+    return {.distance = *distance, .norm = norm_from_string(json.at("norm").get<std::string>())};
+  } catch (const nlohmann::json::exception& error) {
+    throw DatasetError(path, {}, std::string("is no separation: ") + error.what());
+  } catch (const std::invalid_argument& error) {
+    throw DatasetError(path, {}, error.what());
+  }
+}
+
+Separation recorded_separation(const fs::path& dataset) {
+  const auto path = find_separation_file(dataset);
+  return path ? read_separation(*path) : Separation{};
+}
+
+void write_separation(const fs::path& folder, const Separation& separation) {
+  OutputFile file(folder / file_name);
+  file.write(fmt::format("{{\"min_separation\": \"{:a}\", \"norm\": \"{}\"}}\n",
+                         separation.distance, to_string(separation.norm)));
+  file.close();
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,35 @@
+#pragma once
+
+/// \file
+/// The file that says which separation the recorded answers of a dataset are about:
+/// `separation.json`, {"min_separation": "0x1.5798ee2308c3ap-27", "norm": "l2"}, in the dataset's
+/// folder or the one above it. Without one they are about contact itself.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "exact/query.hpp"
+
+namespace touchstone::verify {
+
+/// The finite double ≥ 0 that the text stands for, decimal or hexadecimal as strtod takes it;
+/// nothing if it is none, or so small that it would become 0.
+[[nodiscard]] std::optional<double> distance_from_text(const std::string& text);
+
+/// The file of a dataset: of <dir>/<name>.csv the first that exists of <dir>/separation.json and
+/// <dir>/../separation.json.
+[[nodiscard]] std::optional<std::filesystem::path> find_separation_file(
+    const std::filesystem::path& dataset);
+
+/// \throws DatasetError if it cannot be read or is none.
+[[nodiscard]] Separation read_separation(const std::filesystem::path& path);
+
+/// The separation that the recorded answers of a dataset are about. \throws DatasetError as above.
+[[nodiscard]] Separation recorded_separation(const std::filesystem::path& dataset);
+
+/// Writes the file into the folder. \throws DatasetError if it cannot be written.
+void write_separation(const std::filesystem::path& folder, const Separation& separation);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,32 @@
+#pragma once
+
+/// \file
+/// How near the primitives really come by what a yes of Tight-Inclusion claims.
+///
+/// **Claim.** A yes with tolerance τ, asked for the separation d, means that the primitives come
+/// within τ + d + 2ε of each other in L∞ at some time, ε being the greatest filter of an axis.
+/// Proof: the answer's box of parameters was not dropped, so on each axis not all corner values are
+/// beyond d + ε on one side; and either the box is at most τ wide, so that no corner value is beyond
+/// d + ε + τ, or all are within d + ε. Computed values are within ε of F, so |F| ≤ τ + d + 2ε on each
+/// axis at every corner, of which the one with the lowest parameters is in the domain. The width is
+/// the rounded difference of two values, hence one step more than τ.
+
+#include <functional>
+
+#include "exact/query.hpp"
+#include "fast/filter.hpp"
+#include "fast/method.hpp"
+
+namespace touchstone::verify {
+
+/// How near, in L∞ and in units of the coordinates, the primitives come at some time by what a yes
+/// to the query claims; infinite where it claims nothing.
+using Reach = std::function<double(Kind, const Query&, const fast::Answer&, const Separation&)>;
+
+/// The claim of Tight-Inclusion, rounded up. Infinite for an answer without a tolerance, and for
+/// coordinates or separations beyond 2^1016, which it scales down first.
+[[nodiscard]] double tight_inclusion_reach(Kind kind, const Query& query,
+                                           const fast::Answer& answer, const Separation& separation,
+                                           fast::ErrorModel model);
+
+}  // namespace touchstone::verify

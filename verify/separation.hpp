@@ -1,0 +1,45 @@
+#pragma once
+
+/// \file
+/// Separations as the reports name them, and what a claim about one says about another.
+///
+/// Contact at distance d is contact at any d' ≥ d, and ‖x‖∞ ≤ ‖x‖₂; so a recorded collision, and the
+/// time up to which it happened, stay true at a greater distance in the same norm and from L2 to L∞,
+/// and at distance 0 the norm does not matter. A recorded miss says nothing about greater distances.
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "exact/query.hpp"
+
+namespace touchstone::verify {
+
+/// Is it about contact itself, at distance 0, where the norm does not matter?
+[[nodiscard]] bool is_contact(const Separation& separation);
+
+/// Do both ask the same?
+[[nodiscard]] bool same_question(const Separation& a, const Separation& b);
+
+/// What claims about one separation say about another.
+enum class Inference : std::uint8_t {
+  all,         ///< it is the same separation
+  collisions,  ///< a collision is one there too, and no later
+  nothing,
+};
+
+/// What a claim about `claimed` says about `asked`.
+[[nodiscard]] Inference infer(const Separation& claimed, const Separation& asked);
+
+/// The separation of all of a list, if it is one, and more than contact.
+[[nodiscard]] std::optional<Separation> common_separation(std::span<const Separation> all);
+
+/// "1e-08 (l2)", with as many digits as give the same double again.
+[[nodiscard]] std::string to_text(const Separation& separation);
+
+/// An object of `min_separation`, a number, and `norm`, "linf" or "l2".
+[[nodiscard]] nlohmann::json to_json(const Separation& separation);
+
+}  // namespace touchstone::verify
