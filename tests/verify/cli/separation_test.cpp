@@ -71,7 +71,7 @@ constexpr const char* answers_header = "file,index,kind,verdict,toi_lower,toi_up
 
 TEST_F(SeparationOptions, BadValuesAreUsageErrors) {
   const std::string file = write("a_vf.csv", falls());
-  for (const std::string command :
+  for (const std::string& command :
        {"certify " + file, "solve " + file + " --method tight_inclusion --out " + quoted("o"),
         "bench " + file, "prove " + file + " --out " + quoted("o"),
         "generate --count 1 --out " + quoted("set")}) {
