@@ -367,7 +367,7 @@ TEST(CertifyMethods, AYesThatClaimsMoreNearnessThanThereIsIsCaught) {
     EXPECT_EQ(kept.judgement.count(Fault::false_positive), 10U);
     EXPECT_EQ(kept.judgement.count(Fault::beyond_tolerance), 0U);
     EXPECT_TRUE(keeps(kept.judgement, Promise::conservative));
-    const MethodResult broken = judged_with(std::nextafter(enough, 0.0), distance);
+    const MethodResult broken = judged_with(enough - 0x1p-50, distance);
     EXPECT_EQ(broken.judgement.count(Fault::beyond_tolerance), 10U);
     EXPECT_FALSE(keeps(broken.judgement, Promise::conservative));
     EXPECT_EQ(to_string(broken.judgement.wrong_answers.at(1).fault), "beyond tolerance");

@@ -71,7 +71,7 @@ constexpr const char* answers_header = "file,index,kind,verdict,toi_lower,toi_up
 
 TEST_F(SeparationOptions, BadValuesAreUsageErrors) {
   const std::string file = write("a_vf.csv", falls());
-  for (const std::string command :
+  for (const std::string& command :
        {"certify " + file, "solve " + file + " --method tight_inclusion --out " + quoted("o"),
         "bench " + file, "prove " + file + " --out " + quoted("o"),
         "generate --count 1 --out " + quoted("set")}) {
@@ -178,22 +178,38 @@ TEST_F(SeparationOptions, OfAnswersAboutContactOnlyWhatFollowsIsCompared) {
 
 TEST_F(SeparationOptions, GeneratedSetsSayWhatTheyAreAbout) {
   const std::string set = quoted("set");
-  ASSERT_EQ(run("generate --count 6 --min-separation 1e-8 --norm l2 --out " + set), 0)
+  const std::string families =
+      " --family separation-tilted --family separation-grazing --family interior-dyadic ";
+  ASSERT_EQ(run("generate --count 6 --min-separation 1e-8 --norm l2 --out " + set + families), 0)
       << read("err");
   EXPECT_TRUE(contains(read("out"), "minimum separation 1e-08 (l2)")) << read("out");
   ASSERT_EQ(run("certify " + set + to_json()), 0) << read("out") << read("err");
   EXPECT_EQ(json().at("separation").dump(), R"({"min_separation":1e-08,"norm":"l2"})");
-  EXPECT_EQ(json().at("labels"), 7 * 2 * 6) << "those about contact have none";
-  const std::uint64_t tois = json().at("tois").get<std::uint64_t>();
-  EXPECT_GT(tois, 20U);
-  ASSERT_EQ(run("certify --count 6 --method none --min-separation 1e-8 --norm l2" + to_json()), 0);
-  EXPECT_GT(json().at("tois"), tois) << "what follows from contact too";
+  EXPECT_EQ(json().at("queries"), 3 * 2 * 6);
+  EXPECT_EQ(json().at("labels"), 2 * 2 * 6) << "the family about contact has none";
+  EXPECT_GT(json().at("tois"), 8);
   ASSERT_EQ(run("certify " + set + " --min-separation 1e-8"), 0) << "the norm is recorded";
   for (const char* contradiction :
        {" --min-separation 1e-7", " --min-separation 0", " --norm linf"}) {
     EXPECT_EQ(run("certify " + set + contradiction), 2) << contradiction;
     EXPECT_TRUE(contains(read("err"), "1e-08 (l2)")) << read("err");
   }
+}
+
+TEST_F(SeparationOptions, TheBuiltInSetHasItsFamiliesAndWhatFollowsForTheOthers) {
+  const std::string certify = "certify --count 2 --method none --min-separation 1e-8" + to_json();
+  ASSERT_EQ(run(certify), 0) << read("out");
+  std::uint64_t compared = 0;
+  for (const nlohmann::json& file : json().at("files")) {
+    const bool is_about_it = contains(file.at("file"), "separation-");
+    EXPECT_EQ(file.at("compared"), is_about_it ? "all" : "collisions");
+    if (is_about_it) {
+      EXPECT_EQ(file.at("labels"), 2);
+    } else {
+      compared += file.at("labels").get<std::uint64_t>();
+    }
+  }
+  EXPECT_GT(compared, 50U);
 }
 
 TEST_F(SeparationOptions, SetsAboutDifferentSeparationsAreKeptApart) {

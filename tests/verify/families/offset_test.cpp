@@ -31,7 +31,7 @@ TEST(Offset, TheTimeIsTheFirstAndExact) {
   EXPECT_EQ(arrival(falling, five_linf).time, Rational(3, 8));
   const Offset3 passing{.start = {-13, 3, 0}, .end = {13, 3, 0}};
   EXPECT_EQ(arrival(passing, five_l2).time, Rational(9, 26));
-  EXPECT_EQ(arrival(passing, five_linf).time, Rational(8, 26));
+  EXPECT_EQ(arrival(passing, five_linf).time, Rational(4, 13));
   EXPECT_EQ(arrival({.start = {3, 5, 0}, .end = {3, 4, 0}}, five_l2).time, Rational(1));
 }
 
