@@ -38,8 +38,9 @@
 /// as they are: a contact at a zero of det is one at distance 0, and as det keeps the bound's distance
 /// from 0 before the enclosure, there is none before. (det, det + b and det − b, b the bound, cross zero
 /// once each on an interval on which det's coefficients are seen to.) But the zero of det is later than
-/// the time of impact. Where D is beyond rounding, the enclosure would be too wide, and another stage
-/// follows 3: fast/certified/advance_on_lanes.hpp.
+/// the time of impact. Where D is beyond rounding, the enclosure would be too wide; then what the whole
+/// interval and the one around det's only zero do not reject goes to another stage:
+/// fast/certified/advance_on_lanes.hpp.
 ///
 /// Queries that no stage ends, or whose coordinates are so large, or not numbers, that the bounds do
 /// not hold, are undecided here.
@@ -139,10 +140,11 @@ class CertifiedStages {
     output.rejected.count = output.hits.count = output.undecided.count = 0;
     Indices open, mixed, far, undecided;
     axis_stage<kind, Source>(input, open);
-    unit_interval_stages<kind, Source>(input, open, mixed, far, output);
+    unit_interval_stages<kind, Source>(input, open, mixed, output);
+    far.count = 0;
     Crossings contacts, zeros;
-    orientation_stage<kind, Source>(input, mixed, contacts, zeros, undecided, output);
-    zero_stage<kind, Source>(input, zeros, contacts, undecided, output);
+    orientation_stage<kind, Source>(input, mixed, contacts, zeros, undecided, far, output);
+    zero_stage<kind, Source>(input, zeros, contacts, undecided, far, output);
     Moving<kind> moving;
     load_moving<kind, Source>(input, undecided, moving);
     Bisection<kind>(input, moving, contacts, output).run();
@@ -550,8 +552,8 @@ class CertifiedStages {
 
   template <Kind kind, class Source>
   static void unit_interval_stages(const KernelInput& input, const Indices& open, Indices& mixed,
-                                   Indices& far, KernelOutput& output) {
-    Marks unbounded, of_direction, of_determinant, of_neither, of_far;
+                                   KernelOutput& output) {
+    Marks unbounded, of_direction, of_determinant, of_neither;
     const Value distance(input.separation.distance);
     for (std::size_t first = 0; first < open.count; first += width) {
       const std::size_t count = taken(first, open.count);
@@ -569,17 +571,13 @@ class CertifiedStages {
       unbounded.add(first, first_lanes(count) & ~bits);
       of_direction.add(first, bits & apart.bits());
       of_determinant.add(first, bits & ~apart.bits() & one_sided.bits());
-      const unsigned rest = bits & ~apart.bits() & ~one_sided.bits();
-      const unsigned is_far = (distance * Value(far_beyond_rounding) > magnitude).bits();
-      of_neither.add(first, separated ? rest & ~is_far : rest);
-      of_far.add(first, separated ? rest & is_far : 0U);
+      of_neither.add(first, bits & ~apart.bits() & ~one_sided.bits());
     }
     append_marked(output.undecided, open, unbounded);
     append_marked(output.separated_in_direction, open, of_direction);
     append_marked(output.one_sided, open, of_determinant);
-    mixed.count = far.count = 0;
+    mixed.count = 0;
     append_marked(mixed, open, of_neither);
-    append_marked(far, open, of_far);
   }
 
   /// The sum of the corners has every coordinate in it: NaN and infinities show.
@@ -693,8 +691,9 @@ class CertifiedStages {
 
   template <Kind kind, class Source>
   static void orientation_stage(const KernelInput& input, const Indices& mixed, Crossings& contacts,
-                                Crossings& zeros, Indices& undecided, KernelOutput& output) {
-    Marks of_contacts, of_rejected, of_zeros, of_rest;
+                                Crossings& zeros, Indices& undecided, Indices& far,
+                                KernelOutput& output) {
+    Marks of_contacts, of_rejected, of_zeros, of_rest, of_far;
     Intervals intervals;
     for (std::size_t first = 0; first < mixed.count; first += width) {
       const std::size_t count = taken(first, mixed.count);
@@ -706,10 +705,13 @@ class CertifiedStages {
       const unsigned rejected = valid_bits(found.has_no_contact(), count) & ~contact;
       const unsigned zero =
           valid_bits(found.determinant.crosses_once, count) & ~contact & ~rejected;
-      of_contacts.add(first, contact);
+      const unsigned rest = first_lanes(count) & ~contact & ~rejected & ~zero;
+      const unsigned is_far = far_lanes(input, unit);
+      of_contacts.add(first, contact & ~is_far);
       of_rejected.add(first, rejected);
       of_zeros.add(first, zero);
-      of_rest.add(first, first_lanes(count) & ~contact & ~rejected & ~zero);
+      of_rest.add(first, rest & ~is_far);
+      of_far.add(first, (contact | rest) & is_far);
     }
     const auto crossing = [&](std::size_t place) {
       return intervals.crossing(place, mixed.items[place]);
@@ -718,6 +720,14 @@ class CertifiedStages {
     of_zeros.for_each([&](std::size_t place) { append(zeros, crossing(place)); });
     append_marked(output.rejected, mixed, of_rejected);
     append_marked(undecided, mixed, of_rest);
+    append_marked(far, mixed, of_far);
+  }
+
+  /// The lanes whose distance is beyond rounding: there a contact at distance 0 is too late.
+  static unsigned far_lanes(const KernelInput& input, const Ends& unit) {
+    if constexpr (!separated) return 0;
+    const Value size = max(max(magnitude(unit[r]), magnitude(unit[p])), magnitude(unit[q]));
+    return (Value(input.separation.distance * far_beyond_rounding) > size).bits();
   }
 
   // ---- 4b. Around the only zero of det ----------------------------------------------------------
@@ -733,8 +743,8 @@ class CertifiedStages {
 
   template <Kind kind, class Source>
   static void zero_stage(const KernelInput& input, const Crossings& zeros, Crossings& contacts,
-                         Indices& undecided, KernelOutput& output) {
-    Marks of_contacts, of_rejected, of_rest;
+                         Indices& undecided, Indices& far, KernelOutput& output) {
+    Marks of_contacts, of_rejected, of_rest, of_far;
     Intervals intervals;
     Indices all;
     all.count = zeros.count;
@@ -753,14 +763,17 @@ class CertifiedStages {
       const unsigned here = valid_bits(found.determinant.crosses_once, count);
       const unsigned rejected = here & (found.orientation.opposed | is_late).bits();
       const unsigned contact = here & ~rejected & found.orientation.agree.bits();
-      of_contacts.add(first, contact);
+      const unsigned is_far = far_lanes(input, unit) & first_lanes(count);
+      of_contacts.add(first, contact & ~is_far);
       of_rejected.add(first, rejected);
-      of_rest.add(first, first_lanes(count) & ~contact & ~rejected);
+      of_rest.add(first, first_lanes(count) & ~contact & ~rejected & ~is_far);
+      of_far.add(first, is_far & ~rejected);
     }
     of_contacts.for_each(
         [&](std::size_t place) { append(contacts, intervals.crossing(place, all.items[place])); });
     append_marked(output.rejected, all, of_rejected);
     append_marked(undecided, all, of_rest);
+    append_marked(far, all, of_far);
   }
 
   // ---- 4c. Bisection ----------------------------------------------------------------------------
