@@ -200,7 +200,8 @@ TEST_F(SeparationOptions, TheBuiltInSetHasItsFamiliesAndWhatFollowsForTheOthers)
   const std::string certify = "certify --count 2 --method none --min-separation 1e-8" + to_json();
   ASSERT_EQ(run(certify), 0) << read("out");
   std::uint64_t compared = 0;
-  for (const nlohmann::json& file : json().at("files")) {
+  const nlohmann::json result = json();
+  for (const nlohmann::json& file : result.at("files")) {
     const bool is_about_it = contains(file.at("file"), "separation-");
     EXPECT_EQ(file.at("compared"), is_about_it ? "all" : "collisions");
     if (is_about_it) {
