@@ -43,8 +43,8 @@ struct MethodOptions {
   double tolerance = 1e-6;              ///< of tolerance-driven methods: Tight-Inclusion's δ
   std::int64_t max_checks = 1'000'000;  ///< of iterative methods: Tight-Inclusion's m_I; ≤ 0: none
   double min_separation = 0.0;          ///< contact is to be this near (d ≥ 0),
-  Norm norm = Norm::linf;               ///< measured so; what can only do L∞ finds all of L2 with it
-  double t_max = 1.0;                   ///< only impacts up to this time count (0 to 1)
+  Norm norm = Norm::linf;  ///< measured so; what can only do L∞ finds all of L2 with it
+  double t_max = 1.0;      ///< only impacts up to this time count (0 to 1)
 };
 
 /// A solver. Safe to use from several threads at once.
