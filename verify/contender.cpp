@@ -39,6 +39,7 @@ class CertifiedContender final : public MethodContender {
       : MethodContender(fast::certified_method(certified), options),
         certified_(in_one_thread(certified)) {
     certified_.t_max = options.t_max;
+    certified_.separation = {.distance = options.min_separation, .norm = options.norm};
   }
 
   [[nodiscard]] std::vector<StageCount> stages(Kind kind, std::span<const Query> queries) override {

@@ -56,7 +56,7 @@ class StepRun {
   [[nodiscard]] StepResult result() {
     StepResult result;
     result.name = mesh_.name;
-    result.separation = options_.separation;
+    result.separation = options_.certified.separation;
     result.vertices = mesh_.vertices.size();
     result.edges = mesh_.edges.size();
     result.faces = mesh_.faces.size();
@@ -93,7 +93,7 @@ class StepRun {
     series.broad_phase.push_back(seconds([&] {
       for (Part& part : parts_)
         part.pairs =
-            find_candidates(mesh_, part.kind, series.threads, options_.separation.distance);
+            find_candidates(mesh_, part.kind, series.threads, options_.certified.separation.distance);
     }));
     for (Part& part : parts_) part.results.resize(part.pairs.size());
     series.collisions.push_back(seconds([&] {

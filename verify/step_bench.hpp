@@ -21,9 +21,7 @@ struct StepBenchOptions {
   std::size_t repetitions = 5;
   /// Timed with one thread and with so many; 0: all cores.
   int threads = 0;
-  /// What counts as contact, to the broad phase; `certified` must say the same.
-  Separation separation = {};
-  /// max_threads is set by the benchmark.
+  /// Its separation is that of the broad phase too; max_threads is set by the benchmark.
   fast::CertifiedOptions certified = {};
   /// Called now and then with the fraction of the repetitions that is done, from this thread.
   std::function<void(double)> on_progress = nullptr;

@@ -41,7 +41,7 @@ std::vector<Vector> corners_at(const Motion& motion, const Rational& t) {
 
 /// A feature's direction as the format defines it.
 Vector direction(const Feature& feature, const std::vector<Vector>& w) {
-  const Vector normal = cross(minus(w[1], w[0]), minus(w[2], w[0]));
+  Vector normal = cross(minus(w[1], w[0]), minus(w[2], w[0]));
   Vector unit{0, 0, 0};
   unit.at(feature.axis) = 1;
   switch (feature.sort) {

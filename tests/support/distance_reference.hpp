@@ -30,12 +30,12 @@ class DistanceReference {
   using Vector = std::array<Polynomial, 3>;
 
   DistanceReference(const PosedQuery& posed, double distance) : distance_(integer(distance)) {
-    for (const auto& [plus, minus] : corners(posed.kind)) {
+    for (const Corner& corner : corners(posed.kind)) {
       Vector& w = w_.emplace_back();
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto at = [&](std::size_t end) {
-          return exact::Integer(integer(posed.query.at(end, plus, axis)) -
-                                integer(posed.query.at(end, minus, axis)));
+          return exact::Integer(integer(posed.query.at(end, corner.plus, axis)) -
+                                integer(posed.query.at(end, corner.minus, axis)));
         };
         w.at(axis) = Polynomial(at(0), exact::Integer(at(1) - at(0)));
       }
@@ -61,9 +61,7 @@ class DistanceReference {
   }
 
  private:
-  static exact::Integer integer(double x) {
-    return exact::Integer(exact::Rational(std::ldexp(x, 10)).get_num());
-  }
+  static exact::Integer integer(double x) { return exact::Rational(std::ldexp(x, 10)).get_num(); }
   static Polynomial constant(const exact::Integer& x) { return Polynomial(x); }
 
   static Vector minus(const Vector& a, const Vector& b) {

@@ -26,7 +26,7 @@ std::vector<Rational> exact_coefficients(const std::vector<std::int64_t>& c, con
   Rational binomial = 1;
   const std::size_t degree = c.size() - 1;
   for (std::size_t k = 0; k <= degree; ++k) {
-    b.push_back(Rational(c[k]) / binomial);
+    b.emplace_back(Rational(c[k]) / binomial);
     binomial *= Rational(static_cast<long>(degree - k), static_cast<long>(k + 1));
   }
   std::vector<Rational> result;
