@@ -52,8 +52,7 @@ namespace touchstone::tests {
   const bool in_domain = u >= 0 && v >= 0 && u <= 1 && v <= 1 &&
                          (kind == Kind::edge_edge || exact::Rational(u) + exact::Rational(v) <= 1);
   if (!in_domain) return "(u,v) is not in the domain";
-  return enclosure_fault(*truth.toi, result.toi_lower, result.toi_upper,
-                         options.toi_tolerance);
+  return enclosure_fault(*truth.toi, result.toi_lower, result.toi_upper, options.toi_tolerance);
 }
 
 }  // namespace touchstone::tests
