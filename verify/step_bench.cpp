@@ -92,8 +92,8 @@ class StepRun {
     certified.max_threads = series.threads;
     series.broad_phase.push_back(seconds([&] {
       for (Part& part : parts_)
-        part.pairs =
-            find_candidates(mesh_, part.kind, series.threads, options_.certified.separation.distance);
+        part.pairs = find_candidates(mesh_, part.kind, series.threads,
+                                     options_.certified.separation.distance);
     }));
     for (Part& part : parts_) part.results.resize(part.pairs.size());
     series.collisions.push_back(seconds([&] {
