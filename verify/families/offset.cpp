@@ -27,7 +27,7 @@ Arrival arrival_linf(const Offset3& offset, const Rational& d) {
 }
 
 std::optional<Rational> rational_root(const Rational& square) {
-  const Integer numerator = square.get_num(), denominator = square.get_den();
+  const Integer &numerator = square.get_num(), &denominator = square.get_den();
   if (mpz_perfect_square_p(numerator.get_mpz_t()) == 0 ||
       mpz_perfect_square_p(denominator.get_mpz_t()) == 0) {
     return std::nullopt;
