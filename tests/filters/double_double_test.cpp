@@ -160,7 +160,7 @@ TEST(DoubleDouble, ErrorsOfProductsAreExact) {
     ASSERT_EQ(mpq_class(product_error(Fused(a), Fused(b), Fused(a * b)).x), error);
     rounded += error != 0 ? 1 : 0;
   }
-  EXPECT_GT(rounded, 100'000);
+  EXPECT_GT(rounded, trials(100'000));
   for (const double factor : {0x1.fffffffffffffp989, 0x1p990, -0x1p990}) {
     const double small = 0x1.fffffffffffffp20;
     EXPECT_EQ(mpq_class(product_error(factor, small, factor * small)),
