@@ -1288,7 +1288,7 @@ class CertifiedStages {
     static constexpr double part_of_way = 1.0 - 0x1p-10;
     /// The contact is near where the rest of the way is this part of the time, or the gap is so many
     /// bounds.
-    static constexpr double near_in_time = 0x1p-20;
+    static constexpr double near_in_time = 0x1p-12;
     static constexpr double near_in_bounds = 0x1p12;
 
     void take(std::size_t lane) {
