@@ -318,6 +318,20 @@ TEST(Fuzz, EndsByTheClock) {
   EXPECT_GT(result.judged_per_second(), result.queries_per_second());
 }
 
+/// Even within a block, of which a method may make minutes.
+TEST(Fuzz, EndsByTheClockWhileItWaits) {
+  const auto slow = [](Kind kind, const Query& query) {
+    std::this_thread::sleep_for(20ms);
+    return honest(kind, query);
+  };
+  const FuzzResult result =
+      fuzz(FunctionMethod(slow), {.seconds = 0.5, .query_limit_seconds = 30.0});
+  EXPECT_LT(result.seconds, 2.5);
+  EXPECT_GT(result.queries, 2U);
+  EXPECT_LT(result.queries, 100U);
+  EXPECT_EQ(result.all_findings, 0U);
+}
+
 TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
   const fast::Method& method = find_method("certified");
   const auto refused = [&method](const FuzzOptions& options) {
