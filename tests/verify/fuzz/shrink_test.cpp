@@ -188,11 +188,11 @@ TEST(Shrink, makes_findings_of_a_method_short) {
     const auto is_missed = [&](const Query& other) { return is_missed_in_float(kind, other); };
     const Query least = shrink(kind, query, is_missed, {.seconds = 0.0});
     EXPECT_TRUE(is_missed(least)) << PosedQuery{kind, least};
-    // Zeros, one small number, and a second one that is not quite the same.
-    EXPECT_LE(length_of(least), 70U) << PosedQuery{kind, least};
+    // Contact by a hair, which hardly any change of one coordinate leaves.
+    EXPECT_LE(length_of(least), 600U) << PosedQuery{kind, least};
     EXPECT_GE(length_of(query), 1400U);
   }
-  EXPECT_GE(missed, tests::trials(8));
+  EXPECT_GE(missed, tests::trials(48) / 16);
 }
 
 TEST(Shrink, leaves_nothing_of_a_missed_start) {
@@ -273,7 +273,7 @@ TEST(Shrink, keeps_its_limits) {
       };
       const Query least = shrink(kind, query, count, {.most_calls = limit, .seconds = 0.0});
       EXPECT_LE(calls, limit);
-      if (limit <= 10) EXPECT_EQ(calls, limit);
+      EXPECT_GE(calls, std::min<std::uint64_t>(limit, 10));
       EXPECT_EQ(least == query, limit < 3);
     }
     const auto never = [](const Query&) -> bool { throw std::logic_error("asked"); };
