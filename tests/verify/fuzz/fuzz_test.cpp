@@ -282,7 +282,7 @@ TEST(Fuzz, AsksOnlyTheKindsOfItsOptions) {
 
 /// Wrong at one coordinate that no generator makes but from the corpus.
 TEST(Fuzz, MutatesTheCorpus) {
-  constexpr double rare = 0x1.23456789abcdep+5;
+  static constexpr double rare = 0x1.23456789abcdep+5;
   const auto wrong = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);
     const auto& x = query.coordinates;
@@ -372,7 +372,9 @@ TEST(StillFails, KnowsCrashesHangsAndMissingBounds) {
   const FunctionMethod method(ill, Promise::none);
   const FuzzOptions options{.query_limit_seconds = 0.1};
   const auto query_at = [](double x) { return tests::over_triangle(x, 0.25, 1, -1).query; };
-  Finding finding{.query = query_at(1.0), .method = "function"};
+  Finding finding;
+  finding.query = query_at(1.0);
+  finding.method = "function";
   const std::array<FindingKind, 3> kinds{FindingKind::crash, FindingKind::hang,
                                          FindingKind::not_finite};
   const std::array<double, 3> words{1.0, 2.0, 0.5};
