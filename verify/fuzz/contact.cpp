@@ -132,6 +132,20 @@ void put_edge_over_edge(Query& query, std::size_t end, Spot spot, Random& random
   if (spot == Spot::corner) put_plane(query, end, 0, {x, query.at(end, 2, 1)});
 }
 
+/// Projections that meet at all times, at height 0.
+Query draw_plan(Kind kind, Random& random) {
+  Query query{};
+  const auto spot = static_cast<Spot>(below(random, 3));
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (kind == Kind::vertex_face) {
+      put_vertex_over_face(query, end, spot, random);
+    } else {
+      put_edge_over_edge(query, end, spot, random);
+    }
+  }
+  return query;
+}
+
 /// Heights whose difference has a zero in [0,1]: inside, at an end, or everywhere.
 struct Heights {
   std::array<double, 2> first;
@@ -248,6 +262,21 @@ void put_sliding_edges(Query& query, Random& random) {
   }
 }
 
+/// Level primitives that come as near as the distance at an end, or stay there.
+Query hovering(Kind kind, const Separation& separation, Random& random) {
+  Query query = draw_plan(kind, random);
+  const double d = separation.distance;
+  const double size = std::min(d, 0x1p1000) * static_cast<double>(1U << below(random, 12));
+  draws::multiply(query, {size, size, size});
+  // A third, so that the sum has to be rounded for a power of two too.
+  const double height = one_in(random, 2) ? 0.0 : real(random, -1.0, 4.0) / 3.0 * d;
+  std::array<double, 2> above{height + d, height + d};
+  const std::size_t end = below(random, 2);
+  if (!one_in(random, 4)) above.at(end) = height + d * real(random, 1.0, 2.0);
+  put_heights(kind, {.first = above, .second = {height, height}}, query);
+  return draws::is_finite(query) ? turned(kind, query, random) : level_contact(kind, random);
+}
+
 }  // namespace
 
 Query grid_contact(Kind kind, Random& random) {
@@ -272,15 +301,7 @@ Query grid_contact(Kind kind, Random& random) {
 }
 
 Query level_contact(Kind kind, Random& random) {
-  Query query{};
-  const auto spot = static_cast<Spot>(below(random, 3));
-  for (std::size_t end = 0; end < 2; ++end) {
-    if (kind == Kind::vertex_face) {
-      put_vertex_over_face(query, end, spot, random);
-    } else {
-      put_edge_over_edge(query, end, spot, random);
-    }
-  }
+  Query query = draw_plan(kind, random);
   if (one_in(random, 6)) {
     for (std::size_t point = 0; point < moving_points; ++point) {
       put(query, 1, point, place_of(query, 0, point));
@@ -309,6 +330,7 @@ Query rounded_contact(Kind kind, Random& random) {
 }
 
 Query contact_apart(Kind kind, const Separation& separation, Random& random) {
+  if (random.coin()) return hovering(kind, separation, random);
   Query query = random.coin() ? level_contact(kind, random) : grid_contact(kind, random);
   // The size of the scene by that of the distance: from like it to a million times it.
   double greatest = 0.0;

@@ -30,9 +30,9 @@ namespace touchstone::verify {
 /// miss by a hair.
 [[nodiscard]] Query rounded_contact(Kind kind, builtin::Random& random);
 
-/// A contact as above, one primitive of which is moved away by the distance of the separation,
-/// rounded, in a direction that is often one of few bits: nearness that is about to be contact, or
-/// no more. \pre distance > 0
+/// Level primitives whose nearest heights differ by the distance of the separation, rounded; or a
+/// contact as above, one primitive of which is moved by as much, in a direction that is often one of
+/// few bits. \pre distance > 0
 [[nodiscard]] Query contact_apart(Kind kind, const Separation& separation, builtin::Random& random);
 
 /// Primitives that slide along each other, nearly parallel, in a common plane but for 2^-10 to

@@ -113,7 +113,7 @@ TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
     return finish(start(arguments));
   };
   EXPECT_EQ(certify("").status, 0);
-  EXPECT_GE(json("c").at("total").at("labels"), 3);
+  EXPECT_GE(json("c").at("labels"), 3);
   EXPECT_EQ(certify("--exact").status, 1);
 }
 

@@ -85,7 +85,6 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
         const Query query = contact_apart(kind, separation, random);
         for (const double x : query.coordinates) ASSERT_TRUE(std::isfinite(x));
         hits += Decision(kind, query, separation).collides() ? 1 : 0;
-        // The end that is moved away is nearer than this, if the other one is not.
         near += Decision(kind, query, {.distance = 1.01 * distance, .norm = norm}).collides();
       }
       EXPECT_GT(hits, count / 2);
