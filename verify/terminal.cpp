@@ -23,8 +23,11 @@ extern "C" void on_signal(int signal) {
 
 ProgressBar::ProgressBar(std::string title) : title_(std::move(title)) {}
 
-ProgressBar::~ProgressBar() {
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::clear() {
   if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  drawn_ = false;
 }
 
 void ProgressBar::update(double fraction) {

@@ -23,6 +23,9 @@ class ProgressBar {
   /// \param fraction done so far, 0 to 1
   void update(double fraction);
 
+  /// Takes the line away until the next update, for other output.
+  void clear();
+
  private:
   using Clock = std::chrono::steady_clock;
 

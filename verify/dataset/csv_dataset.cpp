@@ -115,9 +115,7 @@ DatasetError CsvDataset::error(const Line& line, std::size_t column,
   return {path(), {.line = line.number, .column = column}, reason};
 }
 
-CsvWriter::CsvWriter(std::filesystem::path path) : file_(std::move(path)) {}
-
-void CsvWriter::write(const Query& query, std::optional<bool> collides) {
+std::string csv_rows(const Query& query, std::optional<bool> collides) {
   const std::string_view label = !collides ? "" : *collides ? ",1" : ",0";
   std::string text;
   for (std::size_t row = 0; row < query_points; ++row) {
@@ -128,7 +126,13 @@ void CsvWriter::write(const Query& query, std::optional<bool> collides) {
     text += label;
     text += '\n';
   }
-  file_.write(text);
+  return text;
+}
+
+CsvWriter::CsvWriter(std::filesystem::path path) : file_(std::move(path)) {}
+
+void CsvWriter::write(const Query& query, std::optional<bool> collides) {
+  file_.write(csv_rows(query, collides));
 }
 
 }  // namespace touchstone::verify

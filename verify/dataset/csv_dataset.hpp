@@ -68,7 +68,12 @@ class CsvDataset final : public DatasetSource {
   std::uint64_t rounded_ = 0;
 };
 
-/// Writes the 2021 format: integers in lowest terms, LF, no spaces.
+/// The eight rows of a query in the 2021 format, with its label: integers in lowest terms, LF, no
+/// spaces. Without a label the rows have six columns.
+/// \throws std::invalid_argument if a coordinate is not finite.
+[[nodiscard]] std::string csv_rows(const Query& query, std::optional<bool> collides);
+
+/// Writes files of such rows.
 class CsvWriter {
  public:
   /// \throws DatasetError if no file can be made there.

@@ -1,0 +1,65 @@
+#include "tests/mutants/hunt.hpp"
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "verify/fuzz/shrink.hpp"
+#include "verify/methods/registry.hpp"
+
+namespace touchstone::tests {
+namespace {
+
+/// So many boxes a query are enough to go wrong in.
+constexpr std::int64_t most_checks = 5000;
+
+/// A mutant under its own name: what calls itself certified is not judged by the certified solver.
+class Named final : public fast::Method {
+ public:
+  explicit Named(const Mutant& mutant) : name_(mutant.name), method_(mutant.make()) {}
+
+  [[nodiscard]] std::string_view name() const override { return name_; }
+  [[nodiscard]] fast::Promise promise() const override { return method_->promise(); }
+  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+             const fast::MethodOptions& options) const override {
+    method_->solve(kind, queries, answers, options);
+  }
+
+ private:
+  std::string_view name_;
+  std::unique_ptr<fast::Method> method_;
+};
+
+verify::FuzzOptions fuzz_options(const Mutant& mutant) {
+  verify::FuzzOptions options;
+  options.separation = mutant.separation;
+  options.method.max_checks = most_checks;
+  options.reach = verify::reach_of(mutant.of);
+  options.most_findings = 1;
+  return options;
+}
+
+}  // namespace
+
+Hunt hunt(const Mutant& mutant, const HuntOptions& options) {
+  const Named method(mutant);
+  verify::FuzzOptions fuzzing = fuzz_options(mutant);
+  fuzzing.seconds = options.seconds;
+  fuzzing.most_queries = options.queries;
+  fuzzing.seed = options.seed;
+  verify::FuzzResult result = verify::fuzz(method, fuzzing);
+  Hunt hunt{.finding = {}, .seconds = result.seconds, .queries = result.queries};
+  if (!result.findings.empty()) {
+    hunt.finding = result.findings.front();
+    hunt.queries = hunt.finding->queries;
+  }
+  return hunt;
+}
+
+Query simplest(const Mutant& mutant, const verify::Finding& finding) {
+  const Named method(mutant);
+  return verify::shrink(finding.kind, finding.query,
+                        verify::still_fails(method, finding, fuzz_options(mutant)));
+}
+
+}  // namespace touchstone::tests

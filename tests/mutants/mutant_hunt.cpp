@@ -1,0 +1,128 @@
+/// \file
+/// The table of mutants: each hunted by the fuzzer, with the time and the queries it took. Exit status 1 if one is
+/// not found, or one that should be harmless is.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/mutants/hunt.hpp"
+#include "tests/mutants/mutants.hpp"
+#include "verify/dataset/csv_dataset.hpp"
+#include "verify/dataset/separation_file.hpp"
+#include "verify/decision.hpp"
+#include "verify/fuzz/reproduce.hpp"
+
+namespace touchstone::tests {
+namespace {
+
+std::string outcome(const Mutant& mutant, const Hunt& hunt) {
+  if (hunt.finding) {
+    return fmt::format("{} by {}{}", verify::to_string(hunt.finding->what), hunt.finding->generator,
+                       mutant.harmless.empty() ? "" : " (SHOULD BE HARMLESS)");
+  }
+  return mutant.harmless.empty() ? "NOT FOUND" : "harmless";
+}
+
+/// Is it as it should be?
+bool print(const Mutant& mutant, const Hunt& hunt) {
+  fmt::print("{:<30} {:<16} {:>8.2f} {:>10}  {:<46} {}\n", mutant.name, mutant.of, hunt.seconds,
+             hunt.queries, outcome(mutant, hunt), mutant.fault);
+  if (!hunt.finding && !mutant.harmless.empty()) fmt::print("    {}\n", mutant.harmless);
+  (void)std::fflush(stdout);
+  return hunt.finding.has_value() == mutant.harmless.empty();
+}
+
+/// Findings as datasets: a folder for each separation, in it a file for each kind.
+class Corpus {
+ public:
+  void add(const Mutant& mutant, const verify::Finding& finding) {
+    const Query query = simplest(mutant, finding);
+    const verify::Decision truth(finding.kind, query, finding.separation);
+    auto& queries = queries_[{name_of(finding.separation), finding.kind}];
+    const Labelled labelled{query, truth.collides()};
+    if (std::ranges::find(queries, labelled) == queries.end()) queries.push_back(labelled);
+    separations_[name_of(finding.separation)] = finding.separation;
+    fmt::print("{}", verify::as_points(finding.kind, query));
+  }
+
+  void write(const std::filesystem::path& folder) const {
+    for (const auto& [name, separation] : separations_) {
+      std::filesystem::create_directories(folder / name);
+      verify::write_separation(folder / name, separation);
+    }
+    for (const auto& [place, queries] : queries_) {
+      verify::CsvWriter file(folder / place.first / fmt::format("{}.csv", to_string(place.second)));
+      for (const Labelled& labelled : queries) file.write(labelled.query, labelled.collides);
+      file.close();
+    }
+  }
+
+ private:
+  struct Labelled {
+    Query query;
+    bool collides;
+
+    friend bool operator==(const Labelled&, const Labelled&) = default;
+  };
+
+  static std::string name_of(const Separation& separation) {
+    if (separation.distance == 0.0) return "contact";
+    return std::string(to_string(separation.norm));
+  }
+
+  std::map<std::string, Separation> separations_;
+  std::map<std::pair<std::string, Kind>, std::vector<Labelled>> queries_;
+};
+
+int run(const std::vector<std::string>& names, const HuntOptions& options,
+        const std::filesystem::path& folder) {
+  std::vector<const Mutant*> chosen;
+  for (const std::string& name : names) chosen.push_back(&find_mutant(name));
+  if (names.empty()) {
+    for (const Mutant& mutant : mutants()) chosen.push_back(&mutant);
+  }
+  fmt::print("{:<30} {:<16} {:>8} {:>10}  {:<46} {}\n", "mutant", "of", "seconds", "queries",
+             "found as", "fault");
+  std::size_t wrong = 0;
+  Corpus corpus;
+  for (const Mutant* const mutant : chosen) {
+    const Hunt found = hunt(*mutant, options);
+    if (!print(*mutant, found)) ++wrong;
+    if (found.finding && !folder.empty()) corpus.add(*mutant, *found.finding);
+  }
+  if (!folder.empty()) corpus.write(folder);
+  fmt::print("{} mutants, {} not as they should be\n", chosen.size(), wrong);
+  return wrong == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace touchstone::tests
+
+int main(int argc, char** argv) {
+  touchstone::tests::HuntOptions options;
+  std::vector<std::string> names;
+  std::filesystem::path folder;
+  CLI::App app("Hunts solvers with planted faults: tests/mutants/mutants.hpp");
+  app.footer("Example: mutant_hunt --seconds 10 filter_10 axis_of_start");
+  app.add_option("NAME", names, "mutants; without a name all");
+  app.add_option("--seconds", options.seconds, "for each mutant (60)")->check(CLI::PositiveNumber);
+  app.add_option("--seed", options.seed, "of the fuzzer (1)");
+  app.add_option("--corpus", folder, "write the findings, as simple as they get, as datasets here");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return touchstone::tests::run(names, options, folder);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "mutant_hunt: {}\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,68 @@
+/// \file
+/// Queries that some solver once answered wrongly, found by the fuzzer and made as simple as they get
+/// (tests/corpus/README.md): no solver of ours is to answer one wrongly again.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "verify/certify.hpp"
+#include "verify/dataset/dataset.hpp"
+#include "verify/dataset/separation_file.hpp"
+#include "verify/methods/registry.hpp"
+#include "verify/methods/respondent.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+std::vector<std::filesystem::path> corpus() {
+  const std::filesystem::path folder = std::string(TOUCHSTONE_SOURCE_DIR) + "/tests/corpus";
+  return find_datasets({{folder}});
+}
+
+std::vector<std::unique_ptr<Respondent>> respondents() {
+  std::vector<std::unique_ptr<Respondent>> result;
+  for (const std::string_view name : default_methods()) {
+    result.push_back(respond_in_process(find_method(name), {.max_checks = 20'000}));
+    result.back()->set_reach(reach_of(name));
+  }
+  return result;
+}
+
+TEST(Corpus, is_answered_rightly_by_the_oracle_and_by_every_solver) {
+  const auto asked = respondents();
+  ASSERT_GE(asked.size(), 2U);
+  std::uint64_t queries = 0;
+  for (const std::filesystem::path& path : corpus()) {
+    const auto source = open_dataset(path);
+    CertifyOptions options{.separation = recorded_separation(path), .threads = 1};
+    for (const auto& respondent : asked) options.respondents.push_back(respondent.get());
+    const CertifyResult result = certify(*source, options);
+    EXPECT_FALSE(result.error) << *result.error;
+    EXPECT_EQ(result.labels, result.queries) << path;
+    EXPECT_EQ(result.label_mismatches, 0U) << path;
+    for (const MethodResult& method : result.methods) {
+      EXPECT_TRUE(keeps(method.judgement, method.promise)) << path << ' ' << method.name;
+      EXPECT_EQ(method.judgement.queries, result.queries);
+    }
+    queries += result.queries;
+  }
+  EXPECT_GE(queries, 20U);
+}
+
+TEST(Corpus, has_both_kinds_and_a_separation) {
+  bool has_faces = false, has_edges = false, is_separated = false;
+  for (const std::filesystem::path& path : corpus()) {
+    const Kind kind = open_dataset(path)->kind();
+    has_faces = has_faces || kind == Kind::vertex_face;
+    has_edges = has_edges || kind == Kind::edge_edge;
+    is_separated = is_separated || recorded_separation(path).distance > 0.0;
+  }
+  EXPECT_TRUE(has_faces && has_edges && is_separated);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

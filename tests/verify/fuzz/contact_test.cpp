@@ -1,0 +1,109 @@
+#include "verify/fuzz/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+
+#include "exact/number.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/decision.hpp"
+#include "verify/families/random.hpp"
+#include "verify/families/recipe.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using builtin::Random;
+using Maker = Query (*)(Kind, Random&);
+
+constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
+
+/// Half of them drawn of each kind.
+template <class Use>
+void for_each_query(Maker make, int count, const Use& use) {
+  Random random(1);
+  for (int i = 0; i < count; ++i) {
+    const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
+    use(kind, make(kind, random));
+  }
+}
+
+TEST(Contact, OnAGridIsContactAlways) {
+  std::set<double> tois;
+  for_each_query(grid_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
+    const Decision decision(kind, query, {});
+    ASSERT_TRUE(decision.collides());
+    tois.insert(decision.toi().enclosure().lower);
+  });
+  // Eighths, and earlier contacts where the construction happens to have one.
+  for (const double eighth : {0.0, 0.125, 0.5, 0.875, 1.0}) EXPECT_TRUE(tois.contains(eighth));
+}
+
+TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
+  int full = 0, inside = 0, at_one = 0;
+  for_each_query(level_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
+    const Decision decision(kind, query, {});
+    ASSERT_TRUE(decision.collides());
+    full += builtin::uses_full_significands(query) ? 1 : 0;
+    const double toi = decision.toi().enclosure().lower;
+    inside += toi > 0.0 && toi < 1.0 ? 1 : 0;
+    at_one += toi == 1.0 ? 1 : 0;
+  });
+  EXPECT_GT(full, tests::trials(1200));
+  EXPECT_GT(inside, tests::trials(600));
+  EXPECT_GT(at_one, tests::trials(100));
+}
+
+/// A rounding decides, so both verdicts abound.
+TEST(Contact, RoundedIsAHitOrAMissByAHair) {
+  int hits = 0;
+  for_each_query(rounded_contact, tests::trials(800), [&](Kind kind, const Query& query) {
+    const bool collides = Decision(kind, query, {}).collides();
+    hits += collides ? 1 : 0;
+    if (collides) return;
+    double greatest = 0.0;
+    for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
+    const Separation near{.distance = 1e-13 * greatest, .norm = Norm::l2};
+    EXPECT_TRUE(Decision(kind, query, near).collides());
+  });
+  EXPECT_GT(hits, tests::trials(200));
+  EXPECT_LT(hits, tests::trials(760));
+}
+
+TEST(Contact, ApartIsAboutAtTheDistance) {
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    for (const double distance : {1e-3, 0x1p-200, 1e300}) {
+      const Separation separation{.distance = distance, .norm = norm};
+      Random random(2);
+      int hits = 0, near = 0;
+      const int count = tests::trials(80);
+      for (int i = 0; i < count; ++i) {
+        const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
+        const Query query = contact_apart(kind, separation, random);
+        for (const double x : query.coordinates) ASSERT_TRUE(std::isfinite(x));
+        hits += Decision(kind, query, separation).collides() ? 1 : 0;
+        near += Decision(kind, query, {.distance = 1.01 * distance, .norm = norm}).collides();
+      }
+      EXPECT_GT(hits, count / 2);
+      EXPECT_GT(near, hits);
+    }
+  }
+}
+
+TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
+  int hits = 0, near = 0;
+  for_each_query(sliding, tests::trials(400), [&](Kind kind, const Query& query) {
+    double greatest = 0.0;
+    for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
+    hits += Decision(kind, query, {}).collides() ? 1 : 0;
+    near += Decision(kind, query, {.distance = greatest * 0x1p-9, .norm = Norm::l2}).collides();
+  });
+  EXPECT_GT(hits, tests::trials(16));
+  EXPECT_GT(near, hits + tests::trials(80));
+}
+
+}  // namespace
+}  // namespace touchstone::verify

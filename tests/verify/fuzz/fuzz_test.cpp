@@ -1,0 +1,386 @@
+#include "verify/fuzz/fuzz.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "fast/certified.hpp"
+#include "fast/tight_inclusion.hpp"
+#include "tests/support/methods.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/decision.hpp"
+#include "verify/fuzz/referee.hpp"
+#include "verify/methods/registry.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::Promise;
+using fast::Verdict;
+using tests::FunctionMethod;
+using namespace std::chrono_literals;
+
+/// The right answer, quickly.
+Answer honest(Kind kind, const Query& query) {
+  const fast::CertifiedResult result = fast::certified(kind, query);
+  return {.verdict = result.verdict,
+          .toi_lower = result.toi_lower,
+          .toi_upper = result.toi_upper,
+          .tolerance = Answer::none};
+}
+
+constexpr std::uint64_t enough = 20'000;
+
+FuzzResult search(const FunctionMethod::Function& function, Promise promise,
+                  FuzzOptions options = {}) {
+  const FunctionMethod method(function, promise);
+  if (options.most_queries == 0) options.most_queries = enough;
+  if (options.most_findings == 0) options.most_findings = 1;
+  return fuzz(method, options);
+}
+
+/// Expects a finding of that kind, soon, that is what it says.
+void expect_found(FindingKind what, const FuzzResult& result) {
+  ASSERT_FALSE(result.findings.empty()) << to_string(what);
+  const Finding& finding = result.findings.front();
+  EXPECT_EQ(to_string(finding.what), to_string(what)) << finding.detail;
+  EXPECT_EQ(finding.method, "function");
+  EXPECT_FALSE(finding.detail.empty());
+  EXPECT_FALSE(finding.generator.empty());
+  EXPECT_EQ(finding.collides, Decision(finding.kind, finding.query, finding.separation).collides());
+  EXPECT_NE(finding.certificate.find(finding.collides ? "time_of_impact" : "no_collision"),
+            std::string::npos);
+  EXPECT_EQ(result.queries, finding.queries);
+  EXPECT_GE(result.all_findings, 1U);
+}
+
+TEST(Fuzz, FindsAMethodThatAlwaysSaysNo) {
+  const auto result =
+      search([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; }, Promise::none);
+  expect_found(FindingKind::false_negative, result);
+  EXPECT_LT(result.queries, 2000U);
+}
+
+TEST(Fuzz, FindsATimeThatIsLateByTheLeast) {
+  const auto late = [](Kind kind, const Query& query) {
+    Answer answer = honest(kind, query);
+    if (answer.verdict == Verdict::yes) answer.toi_lower = std::nextafter(answer.toi_upper, 2.0);
+    answer.toi_upper = Answer::none;
+    return answer;
+  };
+  expect_found(FindingKind::late_toi, search(late, Promise::conservative));
+}
+
+TEST(Fuzz, FindsAnUpperBoundThatIsEarly) {
+  const auto early = [](Kind kind, const Query& query) {
+    Answer answer = honest(kind, query);
+    answer.toi_upper = answer.toi_lower;
+    answer.toi_lower = Answer::none;
+    return answer;
+  };
+  expect_found(FindingKind::early_toi_upper, search(early, Promise::conservative));
+}
+
+TEST(Fuzz, FindsFalsePositivesOfWhatPromisesNone) {
+  const auto yes = [](Kind, const Query&) { return Answer{.verdict = Verdict::yes}; };
+  expect_found(FindingKind::beyond_promise, search(yes, Promise::exact));
+  expect_found(FindingKind::beyond_promise,
+               search(yes, Promise::none, {.promise = Promise::exact}));
+  const FuzzResult lenient =
+      search(yes, Promise::conservative, {.most_queries = tests::trials(std::uint64_t{2400})});
+  EXPECT_TRUE(lenient.findings.empty());
+  EXPECT_EQ(lenient.all_findings, 0U);
+}
+
+/// It says yes to all, which claims to be as near as the tolerance.
+TEST(Fuzz, FindsAYesBeyondItsTolerance) {
+  const auto yes = [](Kind, const Query&) {
+    return Answer{.verdict = Verdict::yes, .toi_lower = 0.0, .tolerance = 1e-9};
+  };
+  expect_found(FindingKind::beyond_promise,
+               search(yes, Promise::conservative, {.reach = reach_of("tight_inclusion")}));
+}
+
+/// Wrong only where the first point is on the left: the image of a query on the right.
+TEST(Fuzz, FindsWhatIsWrongInAMirror) {
+  const auto one_sided = [](Kind kind, const Query& query) {
+    Answer answer = honest(kind, query);
+    if (query.at(0, 0, 0) < 0.0 && query.at(0, 1, 0) >= 0.0) answer.verdict = Verdict::no;
+    return answer;
+  };
+  const FuzzOptions options{.most_queries = 2000, .most_findings = 1000};
+  const FuzzResult result = search(one_sided, Promise::exact, options);
+  EXPECT_GT(result.images, result.queries / 20);
+  const auto is_asymmetry = [](const Finding& finding) {
+    return finding.what == FindingKind::asymmetry;
+  };
+  const auto found = std::ranges::find_if(result.findings, is_asymmetry);
+  ASSERT_NE(found, result.findings.end());
+  EXPECT_LT(found->query.at(0, 0, 0), 0.0);
+  EXPECT_NE(found->detail.find("exact image"), std::string::npos);
+  // Of what does not call itself exact only the wrong answer counts.
+  const FuzzResult lenient = search(one_sided, Promise::conservative, options);
+  EXPECT_TRUE(std::ranges::none_of(lenient.findings, is_asymmetry));
+  EXPECT_FALSE(lenient.findings.empty());
+}
+
+TEST(Fuzz, FindsNumbersThatAreNone) {
+  const auto infinite = [](Kind kind, const Query& query) {
+    Answer answer = honest(kind, query);
+    if (query.at(0, 0, 0) == query.at(1, 0, 0)) answer.toi_lower = -HUGE_VAL;
+    return answer;
+  };
+  expect_found(FindingKind::not_finite, search(infinite, Promise::conservative));
+  const auto negative = [](Kind kind, const Query& query) {
+    Answer answer = honest(kind, query);
+    if (answer.toi_lower > 0.5) answer.tolerance = -1.0;
+    return answer;
+  };
+  expect_found(FindingKind::not_finite, search(negative, Promise::conservative));
+}
+
+/// A bound that is there with every other collision.
+TEST(Fuzz, FindsABoundThatIsMissing) {
+  const auto forgetful = [](Kind kind, const Query& query) {
+    Answer answer = honest(kind, query);
+    if (query.at(0, 0, 0) == 1.0 && query.at(1, 0, 0) == 1.0) answer.toi_lower = Answer::none;
+    return answer;
+  };
+  expect_found(FindingKind::not_finite, search(forgetful, Promise::conservative));
+  const auto timeless = [](Kind kind, const Query& query) {
+    return Answer{.verdict = honest(kind, query).verdict};
+  };
+  EXPECT_TRUE(search(timeless, Promise::exact, {.most_queries = tests::trials(std::uint64_t{2400})})
+                  .findings.empty());
+}
+
+TEST(Fuzz, FindsCrashesOfEverySort) {
+  const auto with = [](const std::function<void()>& act) {
+    return [act](Kind kind, const Query& query) {
+      if (query.at(0, 1, 1) == query.at(1, 1, 1) && query.at(0, 1, 1) != 0.0) act();
+      return honest(kind, query);
+    };
+  };
+  expect_found(FindingKind::crash, search(with([] { std::abort(); }), Promise::none));
+  expect_found(FindingKind::crash, search(with([] { std::_Exit(0); }), Promise::none));
+  expect_found(FindingKind::crash,
+               search(with([] { throw std::runtime_error("thrown"); }), Promise::none));
+  const auto says_error = [](Kind, const Query&) { return Answer{.verdict = Verdict::error}; };
+  expect_found(FindingKind::crash, search(says_error, Promise::none));
+}
+
+TEST(Fuzz, FindsAHang) {
+  const auto hanging = [](Kind kind, const Query& query) {
+    if (query.at(0, 1, 1) == query.at(1, 1, 1)) std::this_thread::sleep_for(1h);
+    return honest(kind, query);
+  };
+  expect_found(FindingKind::hang, search(hanging, Promise::none, {.query_limit_seconds = 0.1}));
+}
+
+TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
+  // The oracle takes a hundred times as long at a distance.
+  const std::vector<std::pair<Separation, std::uint64_t>> searches{
+      {{}, 6000}, {{.distance = 1e-3, .norm = Norm::l2}, 160}};
+  for (const auto& [separation, queries] : searches) {
+    const FuzzOptions options{.most_queries = tests::trials(queries), .separation = separation};
+    const FuzzResult certified = fuzz(find_method("certified"), options);
+    EXPECT_EQ(certified.all_findings, 0U);
+    EXPECT_EQ(certified.queries, options.most_queries);
+    EXPECT_EQ(certified.judged_by_oracle, certified.queries);
+    EXPECT_GT(certified.collisions, certified.queries / 20);
+  }
+}
+
+TEST(Fuzz, FindsNothingInTightInclusion) {
+  const FuzzOptions options{.most_queries = tests::trials(std::uint64_t{1200}),
+                            .method = {.max_checks = 200},
+                            .reach = reach_of("tight_inclusion"),
+                            .query_limit_seconds = 30.0};
+  const FuzzResult result = fuzz(find_method("tight_inclusion"), options);
+  EXPECT_EQ(result.all_findings, 0U);
+  EXPECT_LT(result.judged_by_oracle, result.queries);
+}
+
+/// What is asked for another distance than the separation misses what is nearer.
+TEST(Fuzz, TellsTheMethodTheSeparation) {
+  const auto contact_only = [](Kind kind, const Query& query) { return honest(kind, query); };
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    const auto result = search(contact_only, Promise::conservative,
+                               {.separation = {.distance = 0.25, .norm = norm}});
+    ASSERT_FALSE(result.findings.empty());
+    EXPECT_EQ(result.findings.front().separation.norm, norm);
+  }
+}
+
+std::vector<Query> queries_of(const FuzzResult& result) {
+  std::vector<Query> queries;
+  for (const Finding& finding : result.findings) queries.push_back(finding.query);
+  return queries;
+}
+
+Answer sometimes_wrong(Kind kind, const Query& query) {
+  Answer answer = honest(kind, query);
+  if (query.at(0, 0, 0) < query.at(1, 2, 1)) answer.verdict = Verdict::no;
+  return answer;
+}
+
+TEST(Fuzz, IsTheSameForTheSameSeed) {
+  const FuzzOptions options{
+      .most_queries = tests::trials(std::uint64_t{2400}), .seed = 5, .most_findings = 1000};
+  const FuzzResult a = search(sometimes_wrong, Promise::none, options);
+  const FuzzResult b = search(sometimes_wrong, Promise::none, options);
+  EXPECT_GT(a.findings.size(), tests::trials(8U));
+  EXPECT_EQ(queries_of(a), queries_of(b));
+  EXPECT_EQ(a.all_findings, b.all_findings);
+  EXPECT_EQ(a.judged_by_oracle, b.judged_by_oracle);
+  FuzzOptions other = options;
+  other.seed = 6;
+  EXPECT_NE(queries_of(a), queries_of(search(sometimes_wrong, Promise::none, other)));
+}
+
+TEST(Fuzz, KeepsAFewOfEachClassAndCountsAll) {
+  const FuzzResult result =
+      search(sometimes_wrong, Promise::none,
+             {.most_queries = tests::trials(std::uint64_t{2400}), .most_findings = 1000});
+  EXPECT_GT(result.all_findings, result.findings.size() + tests::trials(80U));
+  std::uint64_t by_generator = 0, queries = 0;
+  for (const GeneratorStatistics& generator : result.generators) {
+    by_generator += generator.findings;
+    queries += generator.queries;
+    EXPECT_GT(generator.queries, 0U) << generator.name;
+  }
+  EXPECT_EQ(by_generator, result.all_findings);
+  EXPECT_EQ(queries, result.queries);
+}
+
+TEST(Fuzz, AsksOnlyTheKindsOfItsOptions) {
+  std::set<Kind> kinds;
+  FuzzOptions options{.most_queries = 2000, .most_findings = 1000, .kinds = {Kind::edge_edge}};
+  options.on_finding = [&kinds](const Finding& finding) { kinds.insert(finding.kind); };
+  const auto no = [](Kind, const Query&) { return Answer{.verdict = Verdict::no}; };
+  EXPECT_FALSE(search(no, Promise::none, options).findings.empty());
+  EXPECT_EQ(kinds, std::set<Kind>{Kind::edge_edge});
+}
+
+/// Wrong at one coordinate that no generator makes but from the corpus.
+TEST(Fuzz, MutatesTheCorpus) {
+  static constexpr double rare = 0x1.23456789abcdep+5;
+  const auto wrong = [](Kind kind, const Query& query) {
+    Answer answer = honest(kind, query);
+    const auto& x = query.coordinates;
+    if (std::ranges::find(x, rare) != x.end()) answer.verdict = Verdict::no;
+    return answer;
+  };
+  FuzzOptions options{.most_queries = enough};
+  EXPECT_TRUE(search(wrong, Promise::none, {.most_queries = 2000}).findings.empty());
+  Query query = tests::over_triangle(1, 1, 1, -1).query;
+  query.at(0, 0, 2) = rare;
+  options.corpus = {{Kind::vertex_face, query}};
+  expect_found(FindingKind::false_negative, search(wrong, Promise::none, options));
+}
+
+TEST(Fuzz, StopsWhenTold) {
+  std::atomic<bool> stop = false;
+  FuzzOptions options{.stop = &stop};
+  options.on_progress = [&stop](const FuzzProgress& progress) {
+    if (progress.queries > 1000) stop = true;
+  };
+  const FuzzResult result = fuzz(find_method("certified"), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_GT(result.queries, 1000U);
+  EXPECT_LT(result.queries, 3000U);
+}
+
+TEST(Fuzz, EndsByTheClock) {
+  const FuzzResult result = fuzz(find_method("certified"), {.seconds = 0.2});
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_GE(result.seconds, 0.2);
+  EXPECT_NEAR(result.method_seconds + result.other_seconds, result.seconds, 1e-9);
+  EXPECT_GT(result.queries_per_second(), 0.0);
+  EXPECT_GT(result.judged_per_second(), result.queries_per_second());
+}
+
+/// Even within a block, of which a method may make minutes.
+TEST(Fuzz, EndsByTheClockWhileItWaits) {
+  const auto slow = [](Kind kind, const Query& query) {
+    std::this_thread::sleep_for(20ms);
+    return honest(kind, query);
+  };
+  const FuzzResult result =
+      fuzz(FunctionMethod(slow), {.seconds = 0.5, .query_limit_seconds = 30.0});
+  EXPECT_LT(result.seconds, 2.5);
+  EXPECT_GT(result.queries, 2U);
+  EXPECT_LT(result.queries, 100U);
+  EXPECT_EQ(result.all_findings, 0U);
+}
+
+TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
+  const fast::Method& method = find_method("certified");
+  const auto refused = [&method](const FuzzOptions& options) {
+    EXPECT_THROW(static_cast<void>(fuzz(method, options)), std::invalid_argument);
+  };
+  refused({});
+  refused({.seconds = -1.0});
+  refused({.seconds = std::nan("")});
+  refused({.most_queries = 1, .separation = {.distance = -1.0}});
+  refused({.most_queries = 1, .query_limit_seconds = -1.0});
+  refused({.most_queries = 1, .kinds = {}});
+  refused({.most_queries = 1, .oracle_share = 1.5});
+}
+
+TEST(StillFails, AsksAgainAboutAnyQuery) {
+  const FunctionMethod method(sometimes_wrong, Promise::none);
+  const FuzzOptions options{.most_queries = enough, .most_findings = 1};
+  const FuzzResult result = fuzz(method, options);
+  const Finding& finding = result.findings.at(0);
+  const auto fails = still_fails(method, finding, options);
+  EXPECT_TRUE(fails(finding.query));
+  // Raised first, the first point is never below what the method compares it with.
+  EXPECT_FALSE(fails(tests::over_triangle(8, 8, 1, -1).query));
+  Query infinite = finding.query;
+  infinite.coordinates.front() = HUGE_VAL;
+  EXPECT_FALSE(fails(infinite));
+}
+
+TEST(StillFails, KnowsCrashesHangsAndMissingBounds) {
+  const auto ill = [](Kind kind, const Query& query) {
+    const double word = query.at(0, 0, 0);
+    if (word == 1.0) std::abort();
+    if (word == 2.0) std::this_thread::sleep_for(1h);
+    Answer answer = honest(kind, query);
+    if (word == 0.5) answer.toi_lower = Answer::none;
+    return answer;
+  };
+  const FunctionMethod method(ill, Promise::none);
+  const FuzzOptions options{.query_limit_seconds = 0.1};
+  const auto query_at = [](double x) { return tests::over_triangle(x, 0.25, 1, -1).query; };
+  Finding finding;
+  finding.query = query_at(1.0);
+  finding.method = "function";
+  const std::array<FindingKind, 3> kinds{FindingKind::crash, FindingKind::hang,
+                                         FindingKind::not_finite};
+  const std::array<double, 3> words{1.0, 2.0, 0.5};
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    finding.what = kinds.at(i);
+    finding.answer = {.verdict = Verdict::yes, .toi_lower = Answer::none, .toi_upper = 0.5};
+    const auto fails = still_fails(method, finding, options);
+    for (std::size_t j = 0; j < words.size(); ++j) EXPECT_EQ(fails(query_at(words.at(j))), i == j);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,116 @@
+#include "verify/fuzz/generators.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "fast/certified.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/families/random.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using builtin::Random;
+
+constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
+const std::array<Separation, 3> separations{
+    {{}, {.distance = 1e-8, .norm = Norm::l2}, {.distance = 1e250, .norm = Norm::linf}}};
+
+bool is_finite(const Query& query) {
+  return std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); });
+}
+
+std::vector<Query> make_queries(const Generator& generator, Kind kind, const Separation& separation,
+                                int count) {
+  GeneratorContext context(separation);
+  Random random(7);
+  std::vector<Query> queries;
+  for (int i = 0; i < count; ++i) {
+    // Something to mutate, of each generator that needs nothing in turn.
+    const Generator& other = generators()[1 + static_cast<std::size_t>(i % 7)];
+    context.pool(kind).add(other.make(kind, context, random));
+    queries.push_back(generator.make(kind, context, random));
+  }
+  return queries;
+}
+
+TEST(Generators, HaveNamesOfTheirOwn) {
+  std::set<std::string_view> names;
+  for (const Generator& generator : generators()) {
+    EXPECT_TRUE(names.insert(generator.name).second) << generator.name;
+    EXPECT_FALSE(generator.about.empty());
+    EXPECT_GT(generator.work, 0.0);
+  }
+  EXPECT_EQ(generators({}).size() + 1, generators().size());
+  EXPECT_EQ(generators(separations[1]).size(), generators().size());
+}
+
+TEST(Generators, MakeFiniteQueriesTheSameEveryTime) {
+  for (const Separation& separation : separations) {
+    for (const Generator& generator : generators(separation)) {
+      for (const Kind kind : both_kinds) {
+        const auto queries = make_queries(generator, kind, separation, tests::trials(160));
+        EXPECT_TRUE(std::ranges::all_of(queries, is_finite)) << generator.name;
+        EXPECT_EQ(queries, make_queries(generator, kind, separation, tests::trials(160)))
+            << generator.name;
+      }
+    }
+  }
+}
+
+/// What they make is worth asking: both verdicts, and queries that are decided late.
+TEST(Generators, MakeCollisionsAndMissesThatAreHard) {
+  constexpr int count = 160;
+  for (const Separation& separation : separations) {
+    for (const Generator& generator : generators(separation)) {
+      for (const Kind kind : both_kinds) {
+        const auto queries = make_queries(generator, kind, separation, count);
+        std::vector<fast::CertifiedResult> results(queries.size());
+        fast::solve(kind, queries, results, {.separation = separation, .max_threads = 1});
+        const auto collisions =
+            std::ranges::count(results, fast::Verdict::yes, &fast::CertifiedResult::verdict);
+        const auto late = std::ranges::count_if(
+            results, [](const auto& result) { return result.stage >= fast::Stage::bisection; });
+        const std::string_view name = generator.name;
+        EXPECT_GT(collisions, 0) << name << ' ' << to_string(kind);
+        EXPECT_GT(late, 3) << name << ' ' << to_string(kind);
+        // A distance leaves few misses.
+        if (separation.distance > 0.0) continue;
+        EXPECT_LT(collisions, count) << name << ' ' << to_string(kind);
+      }
+    }
+  }
+}
+
+TEST(QueryPool, ForgetsTheOldestButNotWhatItKeeps) {
+  const auto numbered = [](double number) {
+    Query query{};
+    query.coordinates.fill(number);
+    return query;
+  };
+  QueryPool pool;
+  EXPECT_TRUE(pool.empty());
+  pool.keep(numbered(-1.0));
+  for (int i = 0; i < 5000; ++i) pool.add(numbered(i));
+  Random random(1);
+  int kept = 0;
+  double oldest = 5000.0;
+  for (int i = 0; i < 4000; ++i) {
+    const double number = pool.draw(random).coordinates.front();
+    kept += number < 0.0 ? 1 : 0;
+    if (number >= 0.0) oldest = std::min(oldest, number);
+  }
+  EXPECT_NEAR(kept, 2000, 200);
+  EXPECT_GE(oldest, 5000.0 - 1024.0);
+  EXPECT_LT(oldest, 5000.0 - 900.0);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

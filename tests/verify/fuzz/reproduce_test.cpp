@@ -1,0 +1,237 @@
+#include "verify/fuzz/reproduce.hpp"
+
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/support/methods.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "tests/verify/dataset/dataset_fixture.hpp"
+#include "verify/dataset/csv_dataset.hpp"
+#include "verify/methods/registry.hpp"
+
+// What the two golden files define.
+namespace touchstone::reproduction_of_miss {
+void expect_no_fault(const fast::Method& method);
+}
+namespace touchstone::reproduction_of_claim {
+void expect_no_fault(const fast::Method& method);
+}
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::Promise;
+using tests::FunctionMethod;
+
+/// A vertex that falls through a triangle: they touch at t = 1/3.
+Reproduction miss() {
+  return {.kind = Kind::vertex_face,
+          .query = tests::over_triangle(1, 1, 1, -2).query,
+          .separation = {},
+          .collides = true,
+          .method = "tight_inclusion",
+          .what = "false negative"};
+}
+
+/// Two edges that come within 0.1 of each other, and are asked for 0.09.
+Reproduction claim() {
+  return {.kind = Kind::edge_edge,
+          .query = tests::over_edge(1, 1, -1, -0.1).query,
+          .separation = {.distance = 0.09, .norm = Norm::l2},
+          .collides = false,
+          .method = "certified",
+          .what = "false positive"};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// ---- As points ----------------------------------------------------------------------------------
+
+TEST(AsPoints, names_the_points_of_the_kind) {
+  Query query{};
+  for (std::size_t i = 0; i < 24; ++i) query.coordinates[i] = static_cast<double>(i) / 4;
+  const auto lines = lines_of(as_points(Kind::vertex_face, query));
+  ASSERT_EQ(lines.size(), 8U);
+  EXPECT_EQ(lines[0], "v   at t=0  (0, 0.25, 0.5) = (0x0p+0, 0x1p-2, 0x1p-1)");
+  EXPECT_EQ(lines[3], "f2  at t=0  (2.25, 2.5, 2.75) = (0x1.2p+1, 0x1.4p+1, 0x1.6p+1)");
+  EXPECT_EQ(lines[5].substr(0, 10), "f0  at t=1");
+  const auto of_edges = lines_of(as_points(Kind::edge_edge, query));
+  EXPECT_EQ(of_edges[6], "eb0 at t=1  (4.5, 4.75, 5) = (0x1.2p+2, 0x1.3p+2, 0x1.4p+2)");
+}
+
+TEST(AsPoints, gives_the_very_doubles_twice) {
+  tests::Random random(1);
+  for (int i = 0; i < 50; ++i) {
+    Query query;
+    for (double& x : query.coordinates) x = random.finite_double();
+    const auto lines = lines_of(as_points(Kind::edge_edge, query));
+    for (std::size_t row = 0; row < 8; ++row) {
+      std::string numbers = lines[row].substr(lines[row].find('('));
+      for (char& c : numbers) {
+        if (c == '(' || c == ')' || c == ',' || c == '=') c = ' ';
+      }
+      const char* rest = numbers.c_str();
+      for (const std::size_t axis : {0U, 1U, 2U, 0U, 1U, 2U}) {
+        char* end = nullptr;
+        EXPECT_EQ(std::strtod(rest, &end), query.coordinates[3 * row + axis]) << lines[row];
+        rest = end;
+      }
+    }
+  }
+}
+
+// ---- As CSV -------------------------------------------------------------------------------------
+
+TEST(AsCsv, reads_back_as_it_was) {
+  const test::TemporaryFolder folder;
+  tests::Random random(2);
+  std::vector<Query> queries{tests::over_edge(1, 1, 1, -1).query};
+  for (int i = 0; i < 30; ++i) {
+    queries.push_back(tests::full_significand_query(random));
+    for (double& x : queries.emplace_back().coordinates) x = random.finite_double();
+  }
+  std::string text;
+  for (std::size_t i = 0; i < queries.size(); ++i) text += as_csv(queries[i], i % 2 == 0);
+  CsvDataset source(folder.file("ee.csv", text), {.kind = Kind::edge_edge});
+  const auto read = test::read_all(source);
+  ASSERT_EQ(read.size(), queries.size());
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    EXPECT_EQ(read[i].query, queries[i]);
+    EXPECT_EQ(read[i].collides, i % 2 == 0);
+  }
+}
+
+TEST(AsCsv, has_eight_rows_of_the_format) {
+  const auto lines = lines_of(as_csv(tests::over_triangle(0.5, 1, 1, -2).query, true));
+  ASSERT_EQ(lines.size(), 8U);
+  EXPECT_EQ(lines[0], "1,2,1,1,1,1,1");
+  EXPECT_EQ(lines[4], "1,2,1,1,-2,1,1");
+  EXPECT_EQ(lines_of(as_csv(miss().query))[4], "1,1,1,1,-2,1");
+  Query infinite{};
+  infinite.coordinates[3] = std::numeric_limits<double>::infinity();
+  EXPECT_THROW((void)as_csv(infinite), std::invalid_argument);
+}
+
+// ---- As a C++ test ------------------------------------------------------------------------------
+
+std::string golden(const std::string& name) {
+  return test::contents(std::string(TOUCHSTONE_SOURCE_DIR) + "/tests/verify/fuzz/" + name);
+}
+
+/// The text with a name for its fingerprint.
+std::string called(std::string text, const std::string& name) {
+  const std::string before = "touchstone::reproduction_";
+  const std::string fingerprint = text.substr(text.find(before) + before.size(), 8);
+  for (std::size_t place = text.find(fingerprint); place != std::string::npos;
+       place = text.find(fingerprint, place)) {
+    text.replace(place, fingerprint.size(), name);
+  }
+  return text;
+}
+
+TEST(AsCppTest, is_what_is_compiled_here) {
+  EXPECT_EQ(called(as_cpp_test(miss()), "of_miss"), golden("reproduction_of_miss.cpp"));
+  EXPECT_EQ(called(as_cpp_test(claim()), "of_claim"), golden("reproduction_of_claim.cpp"));
+}
+
+/// How many expectations fail for a method.
+int failures(void (*expect_no_fault)(const fast::Method&), const fast::Method& method) {
+  ::testing::TestPartResultArray results;
+  {
+    const ::testing::ScopedFakeTestPartResultReporter reporter(
+        ::testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &results);
+    expect_no_fault(method);
+  }
+  return results.size();
+}
+
+/// A method that always gives this answer.
+FunctionMethod always(const Answer& answer, Promise promise = Promise::conservative,
+                      const std::string& name = "function") {
+  return FunctionMethod([answer](Kind, const Query&) { return answer; }, promise, name);
+}
+
+constexpr Answer no{.verdict = fast::Verdict::no};
+constexpr Answer yes{.verdict = fast::Verdict::yes};
+
+Answer yes_between(double lower, double upper) {
+  return {.verdict = fast::Verdict::yes, .toi_lower = lower, .toi_upper = upper};
+}
+
+TEST(AsCppTest, passes_on_methods_that_are_right) {
+  for (const auto& method : methods()) {
+    EXPECT_EQ(failures(reproduction_of_miss::expect_no_fault, *method), 0) << method->name();
+    EXPECT_EQ(failures(reproduction_of_claim::expect_no_fault, *method), 0) << method->name();
+  }
+  EXPECT_EQ(failures(reproduction_of_miss::expect_no_fault, always(yes)), 0);
+  EXPECT_EQ(failures(reproduction_of_miss::expect_no_fault, always(yes_between(0.333, 0.334))), 0);
+  EXPECT_EQ(failures(reproduction_of_claim::expect_no_fault, always(yes)), 0);
+}
+
+TEST(AsCppTest, fails_on_methods_that_are_wrong) {
+  const auto of_miss = reproduction_of_miss::expect_no_fault;
+  EXPECT_EQ(failures(of_miss, always(no)), 1);
+  EXPECT_EQ(failures(of_miss, always(yes_between(0.34, 0.35))), 1);  // late
+  EXPECT_EQ(failures(of_miss, always(yes_between(0.32, 0.33))), 1);  // over too early
+  EXPECT_EQ(failures(of_miss, always({.verdict = fast::Verdict::error})), 1);
+  const auto of_claim = reproduction_of_claim::expect_no_fault;
+  EXPECT_EQ(failures(of_claim, always(yes, Promise::exact)), 1);
+  const Answer near{.verdict = fast::Verdict::yes, .tolerance = 1e-6};
+  EXPECT_EQ(failures(of_claim, always(near, Promise::conservative, "tight_inclusion")), 1);
+  EXPECT_EQ(failures(of_claim, always({.verdict = fast::Verdict::yes, .tolerance = 1.0},
+                                      Promise::conservative, "tight_inclusion")),
+            0);
+}
+
+TEST(AsCppTest, loads_plugins_and_makes_names_of_any_text) {
+  Reproduction found = miss();
+  found.method = "my \"solver\",\nversion 2";
+  found.plugin = "/tmp/a \"b\".so";
+  found.exact_plugin = true;
+  const std::string text = as_cpp_test(found);
+  EXPECT_NE(text.find(R"(expect_no_fault(*verify::load_plugin("/tmp/a \"b\".so", )"
+                      "{.promise = fast::Promise::exact}));"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("TEST(Reproduction, my_solver_version_2_false_negative_"), std::string::npos);
+  EXPECT_NE(text.find("// my \"solver\", version 2: false negative. The primitives collide.\n"),
+            std::string::npos);
+  found.exact_plugin = false;
+  EXPECT_NE(as_cpp_test(found).find(R"(load_plugin("/tmp/a \"b\".so"));)"), std::string::npos);
+}
+
+TEST(AsCppTest, tells_findings_apart) {
+  const auto name_of = [](const Reproduction& found) {
+    const std::string text = as_cpp_test(found);
+    const std::size_t begin = text.find("TEST(");
+    return text.substr(begin, text.find(')', begin) - begin);
+  };
+  Reproduction other = miss();
+  EXPECT_EQ(name_of(other), name_of(miss()));
+  other.query.coordinates[7] = 5.0;
+  EXPECT_NE(name_of(other), name_of(miss()));
+  other = miss();
+  other.separation.distance = 1e-3;
+  EXPECT_NE(name_of(other), name_of(miss()));
+  other = miss();
+  other.kind = Kind::edge_edge;
+  EXPECT_NE(name_of(other), name_of(miss()));
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,53 @@
+// Written by touchstone.
+// clang-format off
+#include <gtest/gtest.h>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/decision.hpp"
+#include "verify/methods/judge.hpp"
+#include "verify/methods/plugin.hpp"
+#include "verify/methods/registry.hpp"
+
+namespace touchstone::reproduction_of_claim {
+
+// certified: false positive. The primitives do not collide.
+constexpr Kind kind = Kind::edge_edge;
+constexpr Separation separation{.distance = 0x1.70a3d70a3d70ap-4, .norm = Norm::l2};
+constexpr bool collides = false;
+constexpr Query query{{
+      0x0p+0, 0x0p+0, 0x0p+0,  // ea0 at t=0: (0, 0, 0)
+      0x1p+2, 0x0p+0, 0x0p+0,  // ea1 at t=0: (4, 0, 0)
+      0x1p+0, -0x1p+0, -0x1p+0,  // eb0 at t=0: (1, -1, -1)
+      0x1p+0, 0x1.8p+1, -0x1p+0,  // eb1 at t=0: (1, 3, -1)
+      0x0p+0, 0x0p+0, 0x0p+0,  // ea0 at t=1: (0, 0, 0)
+      0x1p+2, 0x0p+0, 0x0p+0,  // ea1 at t=1: (4, 0, 0)
+      0x1p+0, -0x1p+0, -0x1.999999999999ap-4,  // eb0 at t=1: (1, -1, -0.1)
+      0x1p+0, 0x1.8p+1, -0x1.999999999999ap-4,  // eb1 at t=1: (1, 3, -0.1)
+}};
+
+/// Asks the method and holds its answer against the oracle, and against what the method promises.
+void expect_no_fault(const fast::Method& method) {
+  fast::Answer answer;
+  method.solve(kind, {&query, 1}, {&answer, 1},
+               {.min_separation = separation.distance, .norm = separation.norm});
+  const verify::Decision truth(kind, query, separation);
+  EXPECT_EQ(truth.collides(), collides);
+  verify::Judgement judgement;
+  judgement.add(verify::truth_of(0, truth), answer);
+  const verify::Reach reach = verify::reach_of(method.name());
+  if (reach && answer.verdict == fast::Verdict::yes) {
+    const Separation near{.distance = reach(kind, query, answer, separation), .norm = Norm::linf};
+    EXPECT_TRUE(!is_valid(near) || verify::Decision(kind, query, near).collides());
+  }
+  for (const verify::WrongAnswer& wrong : judgement.wrong_answers) {
+    EXPECT_FALSE(verify::breaks(wrong.fault, method.promise()))
+        << verify::to_string(wrong.fault) << ": " << wrong.answer << ", but " << wrong.truth;
+  }
+}
+
+TEST(Reproduction, certified_false_positive_of_claim) {
+  expect_no_fault(verify::find_method("certified"));
+}
+
+}  // namespace touchstone::reproduction_of_claim

@@ -1,0 +1,53 @@
+// Written by touchstone.
+// clang-format off
+#include <gtest/gtest.h>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/decision.hpp"
+#include "verify/methods/judge.hpp"
+#include "verify/methods/plugin.hpp"
+#include "verify/methods/registry.hpp"
+
+namespace touchstone::reproduction_of_miss {
+
+// tight_inclusion: false negative. The primitives collide.
+constexpr Kind kind = Kind::vertex_face;
+constexpr Separation separation{.distance = 0x0p+0, .norm = Norm::linf};
+constexpr bool collides = true;
+constexpr Query query{{
+      0x1p+0, 0x1p+0, 0x1p+0,  // v at t=0: (1, 1, 1)
+      0x0p+0, 0x0p+0, 0x0p+0,  // f0 at t=0: (0, 0, 0)
+      0x1p+2, 0x0p+0, 0x0p+0,  // f1 at t=0: (4, 0, 0)
+      0x0p+0, 0x1p+2, 0x0p+0,  // f2 at t=0: (0, 4, 0)
+      0x1p+0, 0x1p+0, -0x1p+1,  // v at t=1: (1, 1, -2)
+      0x0p+0, 0x0p+0, 0x0p+0,  // f0 at t=1: (0, 0, 0)
+      0x1p+2, 0x0p+0, 0x0p+0,  // f1 at t=1: (4, 0, 0)
+      0x0p+0, 0x1p+2, 0x0p+0,  // f2 at t=1: (0, 4, 0)
+}};
+
+/// Asks the method and holds its answer against the oracle, and against what the method promises.
+void expect_no_fault(const fast::Method& method) {
+  fast::Answer answer;
+  method.solve(kind, {&query, 1}, {&answer, 1},
+               {.min_separation = separation.distance, .norm = separation.norm});
+  const verify::Decision truth(kind, query, separation);
+  EXPECT_EQ(truth.collides(), collides);
+  verify::Judgement judgement;
+  judgement.add(verify::truth_of(0, truth), answer);
+  const verify::Reach reach = verify::reach_of(method.name());
+  if (reach && answer.verdict == fast::Verdict::yes) {
+    const Separation near{.distance = reach(kind, query, answer, separation), .norm = Norm::linf};
+    EXPECT_TRUE(!is_valid(near) || verify::Decision(kind, query, near).collides());
+  }
+  for (const verify::WrongAnswer& wrong : judgement.wrong_answers) {
+    EXPECT_FALSE(verify::breaks(wrong.fault, method.promise()))
+        << verify::to_string(wrong.fault) << ": " << wrong.answer << ", but " << wrong.truth;
+  }
+}
+
+TEST(Reproduction, tight_inclusion_false_negative_of_miss) {
+  expect_no_fault(verify::find_method("tight_inclusion"));
+}
+
+}  // namespace touchstone::reproduction_of_miss

@@ -1,0 +1,136 @@
+#include "verify/fuzz/symmetry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "exact/number.hpp"
+#include "exact/query.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/decision.hpp"
+#include "verify/families/random.hpp"
+#include "verify/fuzz/generators.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using builtin::Random;
+
+constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
+
+Query counting() {
+  Query query{};
+  for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
+    query.coordinates.at(i) = static_cast<double>(i);
+  }
+  return query;
+}
+
+TEST(Symmetry, IsWhatItSaysAndNothingElse) {
+  const Query query = counting();
+  EXPECT_EQ(image({}, query), query);
+  EXPECT_EQ(to_text(Symmetry{}), "none");
+
+  const Symmetry symmetry{.points = {0, 2, 1, 3},
+                          .axes = {1, 0, 2},
+                          .factors = {-1.0, 1.0, 4.0},
+                          .shifts = {0.0, 0.0, 1.0},
+                          .reversed = true};
+  const Query result = image(symmetry, query).value();
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      const std::size_t from = symmetry.points.at(point);
+      EXPECT_EQ(result.at(1 - end, point, 0), -query.at(end, from, 1));
+      EXPECT_EQ(result.at(1 - end, point, 1), query.at(end, from, 0));
+      EXPECT_EQ(result.at(1 - end, point, 2), 4.0 * query.at(end, from, 2) + 1.0);
+    }
+  }
+  EXPECT_EQ(to_text(symmetry),
+            "points 0213, axes yxz, factors -0x1p+0 0x1p+0 0x1p+2, shifts 0x0p+0 0x0p+0 0x1p+0, "
+            "reversed");
+}
+
+TEST(Symmetry, HasNoImageThatIsRounded) {
+  Query query = counting();
+  query.at(0, 0, 0) = 0.1;
+  EXPECT_FALSE(image({.shifts = {1.0, 0.0, 0.0}}, query));
+  EXPECT_TRUE(image({.shifts = {0.0, 1.0, 0.0}}, query));
+  EXPECT_TRUE(image({.factors = {0x1p-60, 1.0, 1.0}}, query));
+  query.at(0, 0, 0) = 3 * std::numeric_limits<double>::denorm_min();
+  EXPECT_FALSE(image({.factors = {0.5, 1.0, 1.0}}, query));
+  EXPECT_TRUE(image({.factors = {2.0, 1.0, 1.0}}, query));
+  query.at(0, 0, 0) = std::numeric_limits<double>::max();
+  EXPECT_FALSE(image({.factors = {2.0, 1.0, 1.0}}, query));
+  EXPECT_FALSE(image({.shifts = {std::numeric_limits<double>::max(), 0.0, 0.0}}, query));
+}
+
+TEST(Symmetry, DrawsEveryIngredientAndOnlyExactImages) {
+  Random random(1);
+  const GeneratorContext context({});
+  std::set<std::string> seen;
+  for (int i = 0; i < 2000; ++i) {
+    const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
+    const Query query = generators()[1].make(kind, context, random);
+    const Symmetry symmetry = draw_symmetry(kind, query, {}, random);
+    ASSERT_TRUE(image(symmetry, query)) << to_text(symmetry);
+    const std::string text = to_text(symmetry);
+    for (const std::string part : {"points", "axes", "factors", "shifts", "reversed", "p+3"}) {
+      if (text.find(part) != std::string::npos) seen.insert(part);
+    }
+  }
+  EXPECT_EQ(seen.size(), 6U);
+}
+
+/// Edges change places whole; a face keeps its vertex.
+TEST(Symmetry, KeepsPrimitivesTogether) {
+  Random random(2);
+  bool exchanged = false;
+  for (int i = 0; i < 500; ++i) {
+    const auto points = draw_symmetry(Kind::vertex_face, counting(), {}, random).points;
+    EXPECT_EQ(points[0], 0U);
+    const auto ends = draw_symmetry(Kind::edge_edge, counting(), {}, random).points;
+    EXPECT_EQ(ends[0] / 2, ends[1] / 2);
+    EXPECT_EQ(ends[2] / 2, ends[3] / 2);
+    exchanged = exchanged || ends[0] / 2 == 1;
+  }
+  EXPECT_TRUE(exchanged);
+}
+
+void expect_same_truth(Kind kind, const Query& query, const Separation& separation,
+                       const Symmetry& symmetry) {
+  const Decision truth(kind, query, separation);
+  const Decision of_image(kind, image(symmetry, query).value(), separation);
+  ASSERT_EQ(truth.collides(), of_image.collides()) << to_text(symmetry);
+  if (!truth.collides() || symmetry.reversed) return;
+  const exact::DoubleInterval toi = truth.toi().enclosure(), image_toi = of_image.toi().enclosure();
+  EXPECT_EQ(toi.lower, image_toi.lower) << to_text(symmetry);
+  EXPECT_EQ(toi.upper, image_toi.upper) << to_text(symmetry);
+}
+
+TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
+  const std::array<Separation, 3> separations{
+      {{}, {.distance = 0.25, .norm = Norm::linf}, {.distance = 0.25, .norm = Norm::l2}}};
+  Random random(3);
+  int collisions = 0, others = 0;
+  for (const Separation& separation : separations) {
+    const GeneratorContext context(separation);
+    for (int i = 0; i < tests::trials(160); ++i) {
+      const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
+      const auto& generator = generators()[1 + static_cast<std::size_t>(i % 7)];
+      const Query query = generator.make(kind, context, random);
+      const Symmetry symmetry = draw_symmetry(kind, query, separation, random);
+      expect_same_truth(kind, query, separation, symmetry);
+      ++(Decision(kind, query, separation).collides() ? collisions : others);
+    }
+  }
+  EXPECT_GT(collisions, tests::trials(80));
+  EXPECT_GT(others, tests::trials(80));
+}
+
+}  // namespace
+}  // namespace touchstone::verify

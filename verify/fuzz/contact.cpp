@@ -1,0 +1,370 @@
+#include "verify/fuzz/contact.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "verify/fuzz/draws.hpp"
+#include "verify/fuzz/symmetry.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using builtin::Random;
+using draws::below;
+using draws::one_in;
+using draws::real;
+
+using Vector = std::array<double, 3>;
+
+Vector operator+(const Vector& a, const Vector& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+Vector operator-(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vector operator*(double factor, const Vector& a) {
+  return {factor * a[0], factor * a[1], factor * a[2]};
+}
+
+void put(Query& query, std::size_t end, std::size_t point, const Vector& place) {
+  for (std::size_t axis = 0; axis < 3; ++axis) query.at(end, point, axis) = place.at(axis);
+}
+
+Vector place_of(const Query& query, std::size_t end, std::size_t point) {
+  return {query.at(end, point, 0), query.at(end, point, 1), query.at(end, point, 2)};
+}
+
+/// The query under a random symmetry that keeps distances and the time.
+Query turned(Kind kind, const Query& query, Random& random) {
+  // A distance that is none of 0 leaves out what does not keep distances.
+  Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0}, random);
+  symmetry.reversed = false;
+  return image(symmetry, query).value_or(query);
+}
+
+// ---- On a grid ----------------------------------------------------------------------------------
+
+/// Vectors of integers below 2^bits, with zeros now and then: not often, what lies in a plane takes the
+/// judge long.
+class Grid {
+ public:
+  Grid(Random& random, int bits) : random_(random), bound_(std::int64_t{1} << bits) {}
+
+  [[nodiscard]] Vector draw() {
+    Vector vector{};
+    for (double& x : vector) {
+      if (!one_in(random_, 24)) x = static_cast<double>(random_.between(-bound_, bound_));
+    }
+    return one_in(random_, 24) ? Vector{} : vector;
+  }
+
+ private:
+  Random& random_;
+  std::int64_t bound_;
+};
+
+int draw_bits(Random& random) {
+  static constexpr std::array<int, 8> bits{1, 2, 3, 5, 12, 24, 40, 47};
+  return bits.at(below(random, bits.size()));
+}
+
+/// The four points at the time of contact.
+std::array<Vector, moving_points> touching_points(Kind kind, Random& random) {
+  Grid places(random, draw_bits(random)), shapes(random, draw_bits(random));
+  const auto m = static_cast<std::int64_t>(1 + below(random, 6));
+  const Vector p = places.draw(), a = shapes.draw(), b = shapes.draw();
+  const std::int64_t i = random.between(0, m);
+  const std::int64_t j = random.between(0, kind == Kind::vertex_face ? m - i : m);
+  const auto times = [](std::int64_t factor, const Vector& vector) {
+    return static_cast<double>(factor) * vector;
+  };
+  if (kind == Kind::vertex_face) {
+    return {p + times(i, a) + times(j, b), p, p + times(m, a), p + times(m, b)};
+  }
+  return {p - times(i, a), p + times(m - i, a), p - times(j, b), p + times(m - j, b)};
+}
+
+std::array<Vector, moving_points> draw_velocities(Kind kind, Random& random) {
+  Grid velocities(random, draw_bits(random));
+  std::array<Vector, moving_points> result{};
+  for (Vector& velocity : result) velocity = velocities.draw();
+  if (one_in(random, 3)) {
+    const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      result.at(point) = result.at(point < second ? 0 : second);
+    }
+  }
+  return result;
+}
+
+// ---- Level --------------------------------------------------------------------------------------
+
+/// How the projections meet.
+enum class Spot : std::uint8_t { inside, side, corner };
+
+/// Takes a list in braces, whose draws have an order.
+void put_plane(Query& query, std::size_t end, std::size_t point, const std::array<double, 2>& xy) {
+  query.at(end, point, 0) = xy[0];
+  query.at(end, point, 1) = xy[1];
+}
+
+/// The vertex above the triangle: within x + y < 1 and right of and above its legs.
+void put_vertex_over_face(Query& query, std::size_t end, Spot spot, Random& random) {
+  const double left = real(random, -4.0, -2.0);
+  const bool level_side = spot != Spot::inside;
+  put_plane(query, end, 1, {left, real(random, -4.0, -2.0)});
+  put_plane(query, end, 2, {real(random, 5.0, 8.0), real(random, -4.0, -2.0)});
+  put_plane(query, end, 3, {level_side ? left : real(random, -4.0, -2.0), real(random, 5.0, 8.0)});
+  put_plane(query, end, 0, {level_side ? left : real(random, -0.4, 0.4), real(random, -0.4, 0.4)});
+  if (spot == Spot::corner) put_plane(query, end, 0, {left, query.at(end, 1, 1)});
+}
+
+/// Edge a along x across edge b along y.
+void put_edge_over_edge(Query& query, std::size_t end, Spot spot, Random& random) {
+  const double x = real(random, -0.4, 0.4);
+  const bool level_side = spot != Spot::inside;
+  put_plane(query, end, 0, {level_side ? x : real(random, -4.0, -1.0), real(random, -0.4, 0.4)});
+  put_plane(query, end, 1, {real(random, 1.0, 4.0), real(random, -0.4, 0.4)});
+  put_plane(query, end, 2, {x, real(random, -4.0, -1.0)});
+  put_plane(query, end, 3, {level_side ? x : real(random, -0.4, 0.4), real(random, 1.0, 4.0)});
+  if (spot == Spot::corner) put_plane(query, end, 0, {x, query.at(end, 2, 1)});
+}
+
+/// Projections that meet at all times, at height 0.
+Query draw_plan(Kind kind, Random& random) {
+  Query query{};
+  const auto spot = static_cast<Spot>(below(random, 3));
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (kind == Kind::vertex_face) {
+      put_vertex_over_face(query, end, spot, random);
+    } else {
+      put_edge_over_edge(query, end, spot, random);
+    }
+  }
+  return query;
+}
+
+/// Heights whose difference has a zero in [0,1]: inside, at an end, or everywhere.
+struct Heights {
+  std::array<double, 2> first;
+  std::array<double, 2> second;
+};
+
+Heights draw_heights(Random& random) {
+  const double middle = one_in(random, 2) ? 0.0 : real(random, -4.0, 4.0);
+  const auto off = [&] {
+    const double step = draws::power_of_two(-static_cast<int>(below(random, 40)));
+    return one_in(random, 5) ? 0.0 : real(random, 0.0, 1.0) * step;
+  };
+  const bool downward = random.coin();
+  const double sign = downward ? 1.0 : -1.0;
+  const double start = real(random, -1.0, 1.0), end = real(random, -1.0, 1.0);
+  return {.first = {middle + start + sign * off(), middle + end - sign * off()},
+          .second = {middle + start, middle + end}};
+}
+
+void put_heights(Kind kind, const Heights& heights, Query& query) {
+  const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      query.at(end, point, 2) = point < second ? heights.first.at(end) : heights.second.at(end);
+    }
+  }
+}
+
+// ---- Rounded, apart, sliding
+// ----------------------------------------------------------------------
+
+Vector linear(double s, const Vector& a, double t, const Vector& b) { return s * a + t * b; }
+
+/// Where point 0 has to be at the time whose places these are, for F = 0. \pre u < 1 for edges
+Vector aim(Kind kind, const std::array<Vector, moving_points>& at_t, double u, double v) {
+  if (kind == Kind::vertex_face) {
+    return (1.0 - u - v) * at_t[1] + (u * at_t[2] + v * at_t[3]);
+  }
+  const Vector on_b = linear(1.0 - v, at_t[2], v, at_t[3]);
+  return (1.0 / (1.0 - u)) * (on_b - u * at_t[1]);
+}
+
+/// A vector as long as the separation's distance in its norm, but for roundings.
+Vector draw_offset(const Separation& separation, Random& random) {
+  // (2,3,6) and (1,2,2) have lengths 7 and 3; (7,7,−2) is as long as 7 in L∞.
+  static constexpr std::array<Vector, 3> of_l2{{{2.0, 3.0, 6.0}, {1.0, 2.0, 2.0}, {0.0, 3.0, 4.0}}};
+  static constexpr std::array<double, 3> lengths{7.0, 3.0, 5.0};
+  const double d = separation.distance;
+  if (random.coin()) return {0.0, 0.0, random.coin() ? d : -d};
+  if (separation.norm == Norm::linf) {
+    return {real(random, -1.0, 1.0) * d, random.coin() ? d : real(random, -1.0, 1.0) * d, d};
+  }
+  const std::size_t choice = below(random, of_l2.size());
+  return (d / lengths.at(choice)) * of_l2.at(choice);
+}
+
+/// A random rotation, not quite orthogonal: the rows of a matrix.
+std::array<Vector, 3> draw_rotation(Random& random) {
+  std::array<double, 4> q{};
+  double length = 0.0;
+  for (double& x : q) {
+    x = real(random, -1.0, 1.0);
+    length += x * x;
+  }
+  const double f = 2.0 / length;
+  const auto [w, x, y, z] = q;
+  return {{{1.0 - f * (y * y + z * z), f * (x * y - w * z), f * (x * z + w * y)},
+           {f * (x * y + w * z), 1.0 - f * (x * x + z * z), f * (y * z - w * x)},
+           {f * (x * z - w * y), f * (y * z + w * x), 1.0 - f * (x * x + y * y)}}};
+}
+
+void rotate(Query& query, Random& random) {
+  const std::array<Vector, 3> rotation = draw_rotation(random);
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      const Vector p = place_of(query, end, point);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Vector& row = rotation.at(axis);
+        query.at(end, point, axis) = row[0] * p[0] + row[1] * p[1] + row[2] * p[2];
+      }
+    }
+  }
+}
+
+double draw_gap(Random& random) {
+  const double gap = draws::power_of_two(-static_cast<int>(random.between(10, 50)));
+  const double sign = one_in(random, 4) ? -1.0 : 1.0;
+  return sign * gap * real(random, 1.0, 2.0);
+}
+
+/// The vertex passes along the triangle, in the plane z = 0 but for the gap.
+void put_sliding_vertex(Query& query, Random& random) {
+  const double gap = draw_gap(random), end_gap = random.coin() ? gap : draw_gap(random);
+  for (std::size_t end = 0; end < 2; ++end) {
+    const double far = end == 0 ? -1.0 : 1.0;
+    put(query, end, 0,
+        {far * real(random, 0.0, 6.0), real(random, -1.0, 1.0), end == 0 ? gap : end_gap});
+    put(query, end, 1, {real(random, -3.0, -1.0), real(random, -3.0, -1.0), 0.0});
+    put(query, end, 2, {real(random, 1.0, 3.0), real(random, -3.0, -1.0), 0.0});
+    put(query, end, 3, {real(random, -1.0, 1.0), real(random, 1.0, 3.0), 0.0});
+  }
+}
+
+/// Two edges along x, at an angle of no more than the gap, that pass along each other.
+void put_sliding_edges(Query& query, Random& random) {
+  const double slope = draw_gap(random);
+  for (std::size_t end = 0; end < 2; ++end) {
+    const double far = end == 0 ? -1.0 : 1.0;
+    const double gap = draw_gap(random), travel = far * real(random, 0.0, 4.0);
+    put(query, end, 0, {travel - 2.0, 0.0, gap});
+    put(query, end, 1, {travel + 2.0, slope, gap});
+    put(query, end, 2, {real(random, -3.0, -1.0), one_in(random, 2) ? 0.0 : slope, 0.0});
+    put(query, end, 3, {real(random, 1.0, 3.0), 0.0, 0.0});
+  }
+}
+
+/// Level primitives that come as near as the distance at an end, or stay there.
+Query hovering(Kind kind, const Separation& separation, Random& random) {
+  Query query = draw_plan(kind, random);
+  const double d = separation.distance;
+  const double size = std::min(d, 0x1p1000) * static_cast<double>(1U << below(random, 12));
+  draws::multiply(query, {size, size, size});
+  // A third, so that the sum has to be rounded for a power of two too.
+  const double height = one_in(random, 2) ? 0.0 : real(random, -1.0, 4.0) / 3.0 * d;
+  std::array<double, 2> above{height + d, height + d};
+  const std::size_t end = below(random, 2);
+  if (!one_in(random, 4)) above.at(end) = height + d * real(random, 1.0, 2.0);
+  put_heights(kind, {.first = above, .second = {height, height}}, query);
+  return draws::is_finite(query) ? turned(kind, query, random) : level_contact(kind, random);
+}
+
+}  // namespace
+
+Query grid_contact(Kind kind, Random& random) {
+  const auto k = static_cast<int>(below(random, 4));
+  const auto denominator = static_cast<double>(1 << k);
+  const auto n = static_cast<double>(random.between(0, 1 << k));
+  const auto points = touching_points(kind, random);
+  const auto velocities = draw_velocities(kind, random);
+  Query query{};
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    put(query, 0, point, points.at(point) - n * velocities.at(point));
+    put(query, 1, point, points.at(point) + (denominator - n) * velocities.at(point));
+  }
+  const auto factor = [&random] {
+    return draws::power_of_two(static_cast<int>(random.between(-50, 10)));
+  };
+  const double common = factor();
+  const std::array<double, 3> factors = one_in(random, 3) ? std::array{factor(), factor(), factor()}
+                                                          : std::array{common, common, common};
+  draws::multiply(query, factors);
+  return query;
+}
+
+Query level_contact(Kind kind, Random& random) {
+  Query query = draw_plan(kind, random);
+  if (one_in(random, 6)) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      put(query, 1, point, place_of(query, 0, point));
+    }
+  }
+  put_heights(kind, draw_heights(random), query);
+  draws::multiply(query, draws::scales(random));
+  return turned(kind, query, random);
+}
+
+Query rounded_contact(Kind kind, Random& random) {
+  Query query{};
+  for (double& x : query.coordinates) x = real(random, -1.0, 1.0);
+  const double t = one_in(random, 4) ? 1.0 : real(random, 0.125, 1.0);
+  double u = one_in(random, 4) ? 0.0 : real(random, 0.0, 0.75);
+  double v = one_in(random, 4) ? 0.0 : real(random, 0.0, kind == Kind::vertex_face ? 1.0 - u : 1.0);
+  if (one_in(random, 8)) v = kind == Kind::vertex_face ? 1.0 - u : 1.0;
+  std::array<Vector, moving_points> at_t{};
+  for (std::size_t point = 1; point < moving_points; ++point) {
+    at_t.at(point) = linear(1.0 - t, place_of(query, 0, point), t, place_of(query, 1, point));
+  }
+  const Vector target = aim(kind, at_t, u, v);
+  put(query, 1, 0, (1.0 / t) * (target - (1.0 - t) * place_of(query, 0, 0)));
+  draws::multiply(query, draws::scales(random));
+  return turned(kind, query, random);
+}
+
+Query contact_apart(Kind kind, const Separation& separation, Random& random) {
+  if (random.coin()) return hovering(kind, separation, random);
+  Query query = random.coin() ? level_contact(kind, random) : grid_contact(kind, random);
+  // The size of the scene by that of the distance: from like it to a million times it.
+  double greatest = 0.0;
+  for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
+  if (greatest > 0.0 && !one_in(random, 4)) {
+    const int exponent = std::ilogb(separation.distance) - std::ilogb(greatest) +
+                         static_cast<int>(random.between(0, 20));
+    Query scaled = query;
+    for (double& x : scaled.coordinates) x = std::ldexp(x, exponent);
+    if (draws::is_finite(scaled)) query = scaled;
+  }
+  const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+  const Vector offset = draw_offset(separation, random);
+  Query moved = query;
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (one_in(random, 3)) continue;
+    for (std::size_t point = 0; point < second; ++point) {
+      put(moved, end, point, place_of(query, end, point) + offset);
+    }
+  }
+  return draws::is_finite(moved) ? moved : query;
+}
+
+Query sliding(Kind kind, Random& random) {
+  Query query{};
+  if (kind == Kind::vertex_face) {
+    put_sliding_vertex(query, random);
+  } else {
+    put_sliding_edges(query, random);
+  }
+  if (random.coin()) rotate(query, random);
+  const double scale = draws::scale(random);
+  draws::multiply(query, {scale, scale, scale});
+  return turned(kind, query, random);
+}
+
+}  // namespace touchstone::verify

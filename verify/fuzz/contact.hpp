@@ -1,0 +1,42 @@
+#pragma once
+
+/// \file
+/// Queries that touch, by construction: where solvers fail is beside them.
+///
+/// **On a grid.** All points are placed at a time n/2^k at integer positions: the vertex at an
+/// integer combination of the face, the edges through one point. With integer velocities e per 2^-k
+/// of time, x(0) = x − n·e and x(1) = x + (2^k − n)·e are integers below 2^53, and F vanishes at
+/// that time. Then each axis is multiplied by a power of two.
+///
+/// **Level.** The first primitive has the height p(t) in z at all of its points, the second q(t).
+/// The projections to x and y meet at all times (inside, on a side, or on a corner, where the same
+/// double stands in both), and p − q has a zero in [0,1]. Rounding keeps order and equality, so
+/// significands may be full, and the scale of each axis any number.
+///
+/// These are then turned by an exact symmetry (symmetry.hpp).
+
+#include "exact/query.hpp"
+#include "verify/families/random.hpp"
+
+namespace touchstone::verify {
+
+/// A query on a grid that collides.
+[[nodiscard]] Query grid_contact(Kind kind, builtin::Random& random);
+
+/// A level query that collides.
+[[nodiscard]] Query level_contact(Kind kind, builtin::Random& random);
+
+/// A query with full significands, one point of which is put where F = 0 and rounded: a hit or a
+/// miss by a hair.
+[[nodiscard]] Query rounded_contact(Kind kind, builtin::Random& random);
+
+/// Level primitives whose nearest heights differ by the distance of the separation, rounded; or a
+/// contact as above, one primitive of which is moved by as much, in a direction that is often one of
+/// few bits. \pre distance > 0
+[[nodiscard]] Query contact_apart(Kind kind, const Separation& separation, builtin::Random& random);
+
+/// Primitives that slide along each other, nearly parallel, in a common plane but for 2^-10 to
+/// 2^-50 of their size, which may change its sign.
+[[nodiscard]] Query sliding(Kind kind, builtin::Random& random);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,120 @@
+#pragma once
+
+/// \file
+/// The search for wrong answers of one solver.
+///
+/// Blocks of queries come from generators (generators.hpp) that the steering (steering.hpp) prefers
+/// by what they have brought so far. The solver answers them in a child process (examinee.hpp), the
+/// certified solver judges (referee.hpp), and the oracle judges a share again and everything that
+/// is suspect. Some queries are asked once more as an exact image (symmetry.hpp).
+///
+/// The same seed gives the same queries and findings on every machine, for any solver that answers
+/// the same: what steers is counted work, the clock only ends the run. (A query near the time limit
+/// may or may not hang.)
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/fuzz/finding.hpp"
+#include "verify/methods/reach.hpp"
+
+namespace touchstone::verify {
+
+/// A query with its kind.
+struct CorpusQuery {
+  Kind kind;
+  Query query;
+};
+
+/// How far a run has come.
+struct FuzzProgress {
+  double seconds = 0.0;       ///< wall clock
+  std::uint64_t queries = 0;  ///< asked
+  std::uint64_t findings = 0;
+};
+
+struct FuzzOptions {
+  /// Wall-clock seconds; 0: no limit.
+  double seconds = 0.0;
+  /// Queries asked, images included; 0: no limit. The run ends exactly there.
+  std::uint64_t most_queries = 0;
+  std::uint64_t seed = 2021;
+  /// What counts as contact.
+  Separation separation = {};
+  /// Passed on to the method, with the separation of above; t_max must be 1.
+  fast::MethodOptions method = {};
+  /// What the method is held to, if not to its own promise.
+  std::optional<fast::Promise> promise = std::nullopt;
+  /// What the method's tolerances claim; null: nothing is known of it.
+  Reach reach = nullptr;
+  /// Wall-clock seconds a query may take; 0: no limit.
+  double query_limit_seconds = 1.0;
+  /// Findings that are kept (one or a few of a class) after which the run ends; 0: never.
+  std::size_t most_findings = 0;
+  /// Queries to mutate.
+  std::vector<CorpusQuery> corpus = {};
+  /// Kinds of queries to ask; not empty.
+  std::vector<Kind> kinds = {Kind::vertex_face, Kind::edge_edge};
+  /// Share of the queries that the oracle judges again. Of the method `certified` it judges all.
+  double oracle_share = 0.01;
+  /// May be null. Once true, the run ends within a quarter of a second and the time of a block's
+  /// judging.
+  const std::atomic<bool>* stop = nullptr;
+  /// Called now and then.
+  std::function<void(const FuzzProgress&)> on_progress = nullptr;
+  /// Called with every finding that is kept, when it is found. Its time is none of the run's.
+  std::function<void(const Finding&)> on_finding = nullptr;
+};
+
+/// What one generator has brought.
+struct GeneratorStatistics {
+  std::string name;
+  std::uint64_t queries = 0;
+  std::uint64_t collisions = 0;  ///< of these, by the judge
+  std::uint64_t signatures = 0;  ///< queries of a new sort: see steering.hpp
+  std::uint64_t findings = 0;    ///< all, kept or not
+};
+
+struct FuzzResult {
+  std::uint64_t queries = 0;           ///< asked and judged, images included
+  std::uint64_t images = 0;            ///< of these
+  std::uint64_t collisions = 0;        ///< of these, by the judge
+  std::uint64_t judged_by_oracle = 0;  ///< its share, and what was suspect
+  double seconds = 0.0;                ///< wall clock
+  double method_seconds = 0.0;         ///< of these, waiting for the method
+  double other_seconds = 0.0;          ///< generating and judging: the rest
+  std::vector<Finding> findings;       ///< in order; the first of each class
+  std::uint64_t all_findings = 0;      ///< kept or not
+  /// Times the method ended its process at queries none of which does it alone.
+  std::uint64_t unplaced_crashes = 0;
+  std::vector<GeneratorStatistics> generators;
+  bool interrupted = false;
+
+  /// 0 if there are none or they took no time.
+  [[nodiscard]] double queries_per_second() const;
+  /// Without the method's time.
+  [[nodiscard]] double judged_per_second() const;
+};
+
+/// Looks for wrong answers of the method until the clock, the number of queries, the number of
+/// findings or `stop` ends it; at least one of the first three must be given or `stop` not null.
+/// \throws std::invalid_argument for options out of range; std::system_error if no process can be
+/// made.
+[[nodiscard]] FuzzResult fuzz(const fast::Method& method, const FuzzOptions& options);
+
+/// Does the method do the same wrong to another query? For shrinking: each call asks the method
+/// alone, in a child process, and the oracle. What was found by an image is wrong in any way. Of a
+/// finding against the judge, the judge is asked. The method must live as long as the function.
+/// \param options those of the run
+[[nodiscard]] std::function<bool(const Query&)> still_fails(const fast::Method& method,
+                                                            const Finding& finding,
+                                                            const FuzzOptions& options);
+
+}  // namespace touchstone::verify

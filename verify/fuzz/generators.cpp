@@ -1,0 +1,230 @@
+#include "verify/fuzz/generators.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "verify/fuzz/contact.hpp"
+#include "verify/fuzz/draws.hpp"
+#include "verify/fuzz/mutation.hpp"
+#include "verify/separation.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using builtin::Random;
+using draws::below;
+using draws::one_in;
+using draws::real;
+
+// ---- Structured coordinates
+// -----------------------------------------------------------------------
+
+/// Small integers times a power of two.
+Query few_bits(Kind /*kind*/, const GeneratorContext& /*context*/, Random& random) {
+  static constexpr std::array<std::int64_t, 5> bounds{1, 2, 3, 8, 60};
+  const std::int64_t bound = bounds.at(below(random, bounds.size()));
+  Query query{};
+  for (double& x : query.coordinates) x = static_cast<double>(random.between(-bound, bound));
+  const double scale = draws::power_of_two(static_cast<int>(random.between(-20, 20)));
+  if (random.coin()) draws::multiply(query, {scale, scale, scale});
+  return query;
+}
+
+/// A few numbers an axis, with full significands, for all coordinates: equal ones abound.
+Query grid(Kind /*kind*/, const GeneratorContext& /*context*/, Random& random) {
+  std::array<std::array<double, 4>, 3> palettes{};
+  const std::array<double, 3> scales = draws::scales(random);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (double& x : palettes.at(axis)) x = scales.at(axis) * real(random, -1.0, 1.0);
+    if (one_in(random, 3)) palettes.at(axis).front() = 0.0;
+  }
+  const std::array<std::size_t, 3> sizes{1 + below(random, 4), 2 + below(random, 3),
+                                         2 + below(random, 3)};
+  const std::size_t turn = below(random, 3);
+  Query query{};
+  for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
+    const std::size_t axis = i % 3;
+    query.coordinates.at(i) = palettes.at(axis).at(below(random, sizes.at((axis + turn) % 3)));
+  }
+  return query;
+}
+
+void force_degeneracy(Query& query, Random& random) {
+  const std::size_t end = below(random, 2), axis = below(random, 3);
+  const std::size_t point = below(random, moving_points), other = below(random, moving_points);
+  switch (below(random, 5)) {
+    case 0:  // shared all the time
+      for (const std::size_t e : {0U, 1U}) {
+        query.point(e, other) = Eigen::Vector3d(query.point(e, point));
+      }
+      break;
+    case 1:  // shared at one end
+      query.point(end, other) = Eigen::Vector3d(query.point(end, point));
+      break;
+    case 2:  // at rest
+      query.point(1, point) = Eigen::Vector3d(query.point(0, point));
+      break;
+    case 3:  // equal coordinates of two points
+      for (const std::size_t e : {0U, 1U}) query.at(e, other, axis) = query.at(e, point, axis);
+      break;
+    default:  // one coordinate for all points at an end
+      for (std::size_t p = 0; p < moving_points; ++p)
+        query.at(end, p, axis) = query.at(end, 0, axis);
+  }
+}
+
+/// Random points, some of them shared, at rest, or with equal coordinates.
+Query shared_vertices(Kind kind, const GeneratorContext& context, Random& random) {
+  Query query{};
+  if (random.coin()) {
+    query = few_bits(kind, context, random);
+  } else {
+    for (double& x : query.coordinates) x = real(random, -1.0, 1.0);
+    draws::multiply(query, draws::scales(random));
+  }
+  const std::size_t count = 1 + below(random, 4);
+  for (std::size_t i = 0; i < count; ++i) force_degeneracy(query, random);
+  return query;
+}
+
+// ---- Contact
+// ----------------------------------------------------------------------------------------
+
+Query contact_on_grid(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+  Query query = grid_contact(kind, random);
+  if (!one_in(random, 3)) nudge(query, random);
+  return query;
+}
+
+Query contact_at_level(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+  Query query = level_contact(kind, random);
+  if (random.coin()) nudge(query, random);
+  return query;
+}
+
+Query contact_rounded(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+  Query query = rounded_contact(kind, random);
+  if (random.coin()) nudge(query, random);
+  return query;
+}
+
+Query apart(Kind kind, const GeneratorContext& context, Random& random) {
+  Query query = contact_apart(kind, context.separation(), random);
+  if (random.coin()) nudge(query, random);
+  return query;
+}
+
+Query slide(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+  return sliding(kind, random);
+}
+
+// ---- From other queries
+// -------------------------------------------------------------------------------
+
+Query family(Kind kind, const GeneratorContext& context, Random& random) {
+  const std::vector<Family>& families = context.families(kind);
+  const Family& chosen = families.at(below(random, families.size()));
+  const std::uint64_t seed = random.bits();
+  return make_query(chosen, kind, seed, below(random, 1000), context.separation()).query;
+}
+
+Query from_pool(Kind kind, const GeneratorContext& context, Random& random) {
+  const QueryPool& pool = context.pool(kind);
+  if (pool.empty() || one_in(random, 16)) return contact_on_grid(kind, context, random);
+  return pool.draw(random);
+}
+
+Query mutate(Kind kind, const GeneratorContext& context, Random& random) {
+  return mutated(from_pool(kind, context, random), random);
+}
+
+/// What the exponent of a greatest coordinate may be. Most of the time not far from that of the
+/// distance, if there is one: it decides nothing among coordinates of quite another size.
+std::pair<int, int> draw_exponents(const Separation& separation, Random& random) {
+  constexpr int most = 1000, near = 30;
+  if (is_contact(separation) || one_in(random, 8)) return {-most, most};
+  const int middle = std::clamp(std::ilogb(separation.distance), near - most, most - near);
+  return {middle - near, middle + near};
+}
+
+/// Another query far from 1, its greatest coordinate from 2^-1000 to 2^1000; now and then each axis
+/// by itself.
+Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
+  const Query query = from_pool(kind, context, random);
+  std::array<double, 3> greatest{};
+  for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
+    double& most = greatest.at(i % 3);
+    most = std::max(most, std::abs(query.coordinates.at(i)));
+  }
+  const bool alike = !one_in(random, 3);
+  const double most = std::ranges::max(greatest);
+  const auto [least_exponent, greatest_exponent] = draw_exponents(context.separation(), random);
+  const auto draw = [&, low = least_exponent, high = greatest_exponent] {
+    return static_cast<int>(random.between(low, high));
+  };
+  const int common = draw();
+  Query result = query;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double size = alike ? most : greatest.at(axis);
+    if (size == 0.0) continue;
+    const int exponent = (alike ? common : draw()) - std::ilogb(size);
+    for (std::size_t i = axis; i < result.coordinates.size(); i += 3) {
+      result.coordinates.at(i) = std::ldexp(result.coordinates.at(i), exponent);
+    }
+  }
+  return result;
+}
+
+constexpr std::array<Generator, 11> all_generators{{
+    {"family", "a query of the built-in set (touchstone generate --list), any seed", 18.0, family},
+    {"few_bits", "small integers times a power of two", 1.0, few_bits},
+    {"grid", "a few numbers an axis with full significands", 3.5, grid},
+    {"shared_vertices", "points shared, at rest, or with equal coordinates", 2.0, shared_vertices},
+    {"contact_on_grid", "exact contact of integers, nudged", 20.0, contact_on_grid},
+    {"contact_at_level", "exact contact with full significands, nudged", 6.5, contact_at_level},
+    {"contact_rounded", "one point solved for contact and rounded, nudged", 6.0, contact_rounded},
+    {"sliding", "nearly parallel and nearly touching", 3.0, slide},
+    {"mutated", "a query of the corpus or a recent one, changed", 9.0, mutate},
+    {"scaled", "such a query times 2^-1000 to 2^1000", 8.0, scaled},
+    {"apart", "about as far apart as the separation", 10.0, apart, true},
+}};
+
+}  // namespace
+
+void QueryPool::add(const Query& query) {
+  if (latest_.size() < most_latest) {
+    latest_.push_back(query);
+    return;
+  }
+  latest_[oldest_] = query;
+  oldest_ = (oldest_ + 1) % most_latest;
+}
+
+const Query& QueryPool::draw(Random& random) const {
+  const bool from_kept = latest_.empty() || (!kept_.empty() && random.coin());
+  const std::vector<Query>& from = from_kept ? kept_ : latest_;
+  return from[below(random, from.size())];
+}
+
+GeneratorContext::GeneratorContext(const Separation& separation) : separation_(separation) {
+  for (const Family& family : verify::families(separation)) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (supports(family, kind)) families_.at(static_cast<std::size_t>(kind)).push_back(family);
+    }
+  }
+}
+
+std::span<const Generator> generators() { return all_generators; }
+
+std::vector<Generator> generators(const Separation& separation) {
+  std::vector<Generator> result;
+  std::ranges::copy_if(all_generators, std::back_inserter(result), [&](const Generator& generator) {
+    return !generator.needs_distance || !is_contact(separation);
+  });
+  return result;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,26 @@
+#pragma once
+
+/// \file Small changes to a query: to what a solver does well at, or has just been wrong at, the
+/// next thing.
+
+#include <cstdint>
+
+#include "exact/query.hpp"
+#include "verify/families/random.hpp"
+
+namespace touchstone::verify {
+
+/// The double that is so many doubles above x (below, if negative), at most the greatest finite one
+/// in magnitude. \pre x is finite
+[[nodiscard]] double stepped(double x, std::int64_t steps);
+
+/// Moves one to three coordinates by some units in the last place: mostly a few, now and then 2^k.
+/// All coordinates stay finite.
+void nudge(Query& query, builtin::Random& random);
+
+/// One to three changes: a bit flipped, coordinates or points copied or exchanged, a sign changed,
+/// a coordinate set to 0, rounded to few bits or multiplied by a power of two, units in the last
+/// place, a point at rest. All coordinates stay finite.
+[[nodiscard]] Query mutated(const Query& query, builtin::Random& random);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,171 @@
+#include "verify/fuzz/reproduce.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "verify/dataset/csv_dataset.hpp"
+#include "verify/families/random.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+std::string_view point_name(Kind kind, std::size_t point) {
+  static constexpr std::array<std::string_view, moving_points> of_face{"v", "f0", "f1", "f2"};
+  static constexpr std::array<std::string_view, moving_points> of_edges{"ea0", "ea1", "eb0", "eb1"};
+  return kind == Kind::vertex_face ? of_face.at(point) : of_edges.at(point);
+}
+
+/// As C++ reads it too.
+std::string hexadecimal(double x) { return fmt::format("{:a}", x); }
+
+/// As an identifier: what is not a letter or a digit becomes an underscore, several become one.
+std::string identifier(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    const bool is_word = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (is_word) {
+      result += c;
+    } else if (!result.empty() && result.back() != '_') {
+      result += '_';
+    }
+  }
+  return result;
+}
+
+/// What a comment holds of a text: one line of it.
+std::string one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  return text;
+}
+
+std::string literal(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : one_line(std::string(text))) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+/// Tells apart the reproductions of one method.
+std::string fingerprint(const Reproduction& found) {
+  std::uint64_t hash = static_cast<std::uint64_t>(found.kind);
+  const auto add = [&](std::uint64_t bits) {
+    hash = builtin::mix(hash + bits + 0x9e3779b97f4a7c15ULL);
+  };
+  for (const double x : found.query.coordinates) add(std::bit_cast<std::uint64_t>(x));
+  add(std::bit_cast<std::uint64_t>(found.separation.distance));
+  add(static_cast<std::uint64_t>(found.separation.norm));
+  return fmt::format("{:08x}", hash >> 32U);
+}
+
+std::string coordinates_as_code(Kind kind, const Query& query) {
+  std::string result;
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      result +=
+          fmt::format("      {}, {}, {},  // {} at t={}: ({}, {}, {})\n",
+                      hexadecimal(query.at(end, point, 0)), hexadecimal(query.at(end, point, 1)),
+                      hexadecimal(query.at(end, point, 2)), point_name(kind, point), end,
+                      query.at(end, point, 0), query.at(end, point, 1), query.at(end, point, 2));
+    }
+  }
+  return result;
+}
+
+std::string_view enumerator(Kind kind) {
+  return kind == Kind::vertex_face ? "Kind::vertex_face" : "Kind::edge_edge";
+}
+
+/// The test itself: what it asks, and whom.
+std::string call_as_code(const Reproduction& found) {
+  if (found.plugin.empty()) {
+    return fmt::format("expect_no_fault(verify::find_method({}));", literal(found.method));
+  }
+  const std::string_view options = found.exact_plugin ? ", {.promise = fast::Promise::exact}" : "";
+  return fmt::format("expect_no_fault(*verify::load_plugin({}{}));", literal(found.plugin.string()),
+                     options);
+}
+
+constexpr std::string_view includes = R"(// Written by touchstone.
+// clang-format off
+#include <gtest/gtest.h>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/decision.hpp"
+#include "verify/methods/judge.hpp"
+#include "verify/methods/plugin.hpp"
+#include "verify/methods/registry.hpp"
+)";
+
+constexpr std::string_view judging = R"(
+/// Asks the method and holds its answer against the oracle, and against what the method promises.
+void expect_no_fault(const fast::Method& method) {
+  fast::Answer answer;
+  method.solve(kind, {&query, 1}, {&answer, 1},
+               {.min_separation = separation.distance, .norm = separation.norm});
+  const verify::Decision truth(kind, query, separation);
+  EXPECT_EQ(truth.collides(), collides);
+  verify::Judgement judgement;
+  judgement.add(verify::truth_of(0, truth), answer);
+  const verify::Reach reach = verify::reach_of(method.name());
+  if (reach && answer.verdict == fast::Verdict::yes) {
+    const Separation near{.distance = reach(kind, query, answer, separation), .norm = Norm::linf};
+    EXPECT_TRUE(!is_valid(near) || verify::Decision(kind, query, near).collides());
+  }
+  for (const verify::WrongAnswer& wrong : judgement.wrong_answers) {
+    EXPECT_FALSE(verify::breaks(wrong.fault, method.promise()))
+        << verify::to_string(wrong.fault) << ": " << wrong.answer << ", but " << wrong.truth;
+  }
+}
+)";
+
+}  // namespace
+
+std::string as_points(Kind kind, const Query& query) {
+  std::string result;
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      const double x = query.at(end, point, 0), y = query.at(end, point, 1);
+      const double z = query.at(end, point, 2);
+      result += fmt::format("{:<3} at t={}  ({}, {}, {}) = ({}, {}, {})\n", point_name(kind, point),
+                            end, x, y, z, hexadecimal(x), hexadecimal(y), hexadecimal(z));
+    }
+  }
+  return result;
+}
+
+std::string as_csv(const Query& query, std::optional<bool> collides) {
+  return csv_rows(query, collides);
+}
+
+std::string as_cpp_test(const Reproduction& found) {
+  const std::string name =
+      identifier(fmt::format("{}_{}_{}", found.method, found.what, fingerprint(found)));
+  std::string result(includes);
+  const std::string space = fmt::format("touchstone::reproduction_{}", fingerprint(found));
+  result += fmt::format("\nnamespace {} {{\n\n", space);
+  result += fmt::format("// {}: {}. The primitives {}.\n", one_line(found.method),
+                        one_line(found.what), found.collides ? "collide" : "do not collide");
+  result += fmt::format("constexpr Kind kind = {};\n", enumerator(found.kind));
+  result += fmt::format("constexpr Separation separation{{.distance = {}, .norm = Norm::{}}};\n",
+                        hexadecimal(found.separation.distance), to_string(found.separation.norm));
+  result += fmt::format("constexpr bool collides = {};\n", found.collides);
+  result += fmt::format("constexpr Query query{{{{\n{}}}}};\n",
+                        coordinates_as_code(found.kind, found.query));
+  result += judging;
+  result += fmt::format("\nTEST(Reproduction, {}) {{\n  {}\n}}\n", name, call_as_code(found));
+  result += fmt::format("\n}}  // namespace {}\n", space);
+  return result;
+}
+
+}  // namespace touchstone::verify

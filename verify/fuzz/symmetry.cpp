@@ -1,0 +1,137 @@
+#include "verify/fuzz/symmetry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "verify/fuzz/draws.hpp"
+#include "verify/separation.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using builtin::Random;
+using draws::below;
+using draws::one_in;
+
+constexpr int greatest_exponent = 60;
+
+/// x · factor, if the factor, a power of two, loses nothing.
+std::optional<double> exact_product(double x, double factor) {
+  const double product = x * factor;
+  if (!std::isfinite(product) || product / factor != x) return std::nullopt;
+  return product;
+}
+
+/// a + b, if it is a double: the error of the rounded sum, itself a double, is 0. (Knuth's
+/// two-sum.)
+std::optional<double> exact_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  const double error = (a - (sum - b_part)) + (b - b_part);
+  // Written so that NaN, the error of an overflow, fails too.
+  if (!(error == 0.0) || !std::isfinite(sum)) return std::nullopt;
+  return sum;
+}
+
+template <std::size_t Size>
+void shuffle(std::array<std::size_t, Size>& items, std::size_t first, std::size_t last,
+             Random& random) {
+  for (std::size_t i = first; i + 1 < last; ++i) {
+    std::swap(items.at(i), items.at(i + below(random, last - i)));
+  }
+}
+
+void renumber(Kind kind, Random& random, Symmetry& symmetry) {
+  if (kind == Kind::vertex_face) {
+    shuffle(symmetry.points, 1, moving_points, random);
+    return;
+  }
+  shuffle(symmetry.points, 0, 2, random);
+  shuffle(symmetry.points, 2, moving_points, random);
+  if (random.coin()) std::ranges::rotate(symmetry.points, symmetry.points.begin() + 2);
+}
+
+void multiply(Random& random, Symmetry& symmetry) {
+  const auto draw = [&random] {
+    return std::ldexp(1.0, static_cast<int>(random.between(-greatest_exponent, greatest_exponent)));
+  };
+  const bool uniform = random.coin();
+  const double common = draw();
+  for (double& factor : symmetry.factors) factor *= uniform ? common : draw();
+}
+
+/// By what brings some coordinate to 0, or by a power of two of the size of one: there sums are
+/// exact now and then.
+void shift(const Query& query, Random& random, Symmetry& symmetry) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (random.coin()) continue;
+    const std::size_t end = below(random, 2), point = below(random, moving_points);
+    const double x = symmetry.factors.at(axis) * query.at(end, point, symmetry.axes.at(axis));
+    if (x == 0.0) continue;
+    symmetry.shifts.at(axis) =
+        random.coin() ? -x : std::ldexp(random.coin() ? 1.0 : -1.0, std::ilogb(x));
+  }
+}
+
+std::string list(const std::array<double, 3>& numbers) {
+  return fmt::format("{:a} {:a} {:a}", numbers[0], numbers[1], numbers[2]);
+}
+
+}  // namespace
+
+std::optional<Query> image(const Symmetry& symmetry, const Query& query) {
+  Query result{};
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double x = query.at(end, symmetry.points.at(point), symmetry.axes.at(axis));
+        const auto product = exact_product(x, symmetry.factors.at(axis));
+        if (!product) return std::nullopt;
+        const auto sum = exact_sum(*product, symmetry.shifts.at(axis));
+        if (!sum) return std::nullopt;
+        result.at(symmetry.reversed ? 1 - end : end, point, axis) = *sum;
+      }
+    }
+  }
+  return result;
+}
+
+Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separation,
+                       Random& random) {
+  Symmetry symmetry;
+  if (random.coin()) renumber(kind, random, symmetry);
+  if (random.coin()) shuffle(symmetry.axes, 0, 3, random);
+  for (double& factor : symmetry.factors) factor = random.coin() ? 1.0 : -1.0;
+  symmetry.reversed = one_in(random, 4);
+  const Symmetry isometry = symmetry;
+  if (is_contact(separation) && one_in(random, 3)) multiply(random, symmetry);
+  if (one_in(random, 3)) shift(query, random, symmetry);
+  return image(symmetry, query) ? symmetry : isometry;
+}
+
+std::string to_text(const Symmetry& symmetry) {
+  static constexpr std::string_view axis_names = "xyz";
+  const Symmetry identity;
+  std::string text;
+  const auto add = [&text](const std::string& part) {
+    text += text.empty() ? "" : ", ";
+    text += part;
+  };
+  if (symmetry.points != identity.points) {
+    const auto& points = symmetry.points;
+    add(fmt::format("points {}{}{}{}", points[0], points[1], points[2], points[3]));
+  }
+  if (symmetry.axes != identity.axes) {
+    const auto& axes = symmetry.axes;
+    add(fmt::format("axes {}{}{}", axis_names[axes[0]], axis_names[axes[1]], axis_names[axes[2]]));
+  }
+  if (symmetry.factors != identity.factors) add("factors " + list(symmetry.factors));
+  if (symmetry.shifts != identity.shifts) add("shifts " + list(symmetry.shifts));
+  if (symmetry.reversed) add("reversed");
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,49 @@
+#pragma once
+
+/// \file
+/// Exact symmetries: maps of queries that change neither the verdict nor the time of impact.
+///
+/// - The points of a primitive may be renumbered, edges exchanged: the same sets of points.
+/// - Axes may be permuted and mirrored: an isometry in both norms, without a rounding.
+/// - Each axis may be multiplied by a power of two where nothing is lost: a linear map of full rank
+///   maps F
+///   to F = 0. It changes distances, so it needs separation 0.
+/// - Everything may be shifted by one vector where all sums are exact: F does not change.
+/// - Time may run backwards: the same set of places, so the same verdict, but another time of
+///   impact.
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "exact/query.hpp"
+#include "verify/families/random.hpp"
+
+namespace touchstone::verify {
+
+/// A map of queries: points renumbered, axes permuted, then each axis multiplied and shifted, then
+/// time reversed.
+struct Symmetry {
+  std::array<std::size_t, moving_points> points{0, 1, 2, 3};  ///< image point i is point points[i]
+  std::array<std::size_t, 3> axes{0, 1, 2};                   ///< image axis i is axis axes[i]
+  std::array<double, 3> factors{1.0, 1.0, 1.0};  ///< of the image's axes: ± a power of two
+  std::array<double, 3> shifts{};                ///< of the image's axes, after the factors
+  bool reversed = false;                         ///< Do start and end change places?
+
+  friend bool operator==(const Symmetry&, const Symmetry&) = default;
+};
+
+/// The image of a query, or nothing if some coordinate of it would not be exact.
+[[nodiscard]] std::optional<Query> image(const Symmetry& symmetry, const Query& query);
+
+/// A random symmetry with an exact image of this query. Without powers of two if there is a
+/// separation.
+[[nodiscard]] Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separation,
+                                     builtin::Random& random);
+
+/// "points 0213, axes yxz, factors -1 1 0x1p+3, shifts 0 0 1, reversed": what it changes; "none" if
+/// nothing.
+[[nodiscard]] std::string to_text(const Symmetry& symmetry);
+
+}  // namespace touchstone::verify
