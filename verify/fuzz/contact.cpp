@@ -46,7 +46,8 @@ Query turned(Kind kind, const Query& query, Random& random) {
 
 // ---- On a grid ----------------------------------------------------------------------------------
 
-/// Vectors of integers below 2^bits, with zeros now and then.
+/// Vectors of integers below 2^bits, with zeros now and then: not often, what lies in a plane takes the
+/// judge long.
 class Grid {
  public:
   Grid(Random& random, int bits) : random_(random), bound_(std::int64_t{1} << bits) {}
@@ -54,9 +55,9 @@ class Grid {
   [[nodiscard]] Vector draw() {
     Vector vector{};
     for (double& x : vector) {
-      if (!one_in(random_, 6)) x = static_cast<double>(random_.between(-bound_, bound_));
+      if (!one_in(random_, 24)) x = static_cast<double>(random_.between(-bound_, bound_));
     }
-    return one_in(random_, 12) ? Vector{} : vector;
+    return one_in(random_, 24) ? Vector{} : vector;
   }
 
  private:

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <csignal>
 #include <new>
+#include <optional>
 #include <system_error>
 #include <type_traits>
 
@@ -187,7 +188,12 @@ class Examinee::Impl {
   Impl(const fast::Method& method, const ExamineeOptions& options)
       : method_(method), options_(options) {}
 
-  Sitting answer(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers) {
+  Sitting answer(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+                 double seconds) {
+    deadline_.reset();
+    if (seconds > 0.0) {
+      deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
+    }
     Sitting sitting;
     while (sitting.answered < queries.size() && !is_stopped() &&
            sitting.incidents.size() < options_.most_incidents) {
@@ -201,7 +207,8 @@ class Examinee::Impl {
 
  private:
   [[nodiscard]] bool is_stopped() const {
-    return options_.stop != nullptr && options_.stop->load();
+    return (options_.stop != nullptr && options_.stop->load()) ||
+           (deadline_ && Clock::now() >= *deadline_);
   }
 
   /// Answers what fits into the shared memory, which begins at number `offset` of all.
@@ -215,6 +222,7 @@ class Examinee::Impl {
     searching_ = false;
     for (std::size_t first = 0; first < queries.size();) {
       const bool done = run_child(first);
+      if (!done) child_.reset();
       // The solver may have written where it should not.
       const std::size_t begin =
           done ? queries.size() : std::clamp(shared.begin.load(), first, queries.size() - 1);
@@ -226,7 +234,6 @@ class Examinee::Impl {
       if (is_stopped()) return;
       if (searching_ && begin >= shared.careful_until) give_up_search(sitting);
       if (done) return;
-      child_.reset();
       first = begin;
       if (end - begin > 1) {
         shared.careful_until = end;
@@ -265,7 +272,6 @@ class Examinee::Impl {
       watched = current;
       if (limited && now - since > limit) return false;
     }
-    child_.reset();
     return false;
   }
 
@@ -291,6 +297,7 @@ class Examinee::Impl {
   ExamineeOptions options_;
   SharedMemory memory_;
   std::unique_ptr<Child> child_;
+  std::optional<Clock::time_point> deadline_;
   /// Is a step solved one by one since it ended the child?
   bool searching_ = false;
 };
@@ -300,9 +307,9 @@ Examinee::Examinee(const fast::Method& method, const ExamineeOptions& options)
 
 Examinee::~Examinee() = default;
 
-Sitting Examinee::answer(Kind kind, std::span<const Query> queries,
-                         std::span<fast::Answer> answers) {
-  return impl_->answer(kind, queries, answers);
+Sitting Examinee::answer(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+                         double seconds) {
+  return impl_->answer(kind, queries, answers, seconds);
 }
 
 }  // namespace touchstone::verify

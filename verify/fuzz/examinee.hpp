@@ -60,10 +60,12 @@ class Examinee {
   ~Examinee();
 
   /// Answers query i in answers[i]; fewer if stopped, or at the limit of incidents.
+  /// \param seconds after this much wall-clock time, or a quarter of a second more, it stops; 0: no
+  /// limit
   /// \pre both spans have the same length.
   /// \throws std::system_error if the system has no memory or no process left to give.
   [[nodiscard]] Sitting answer(Kind kind, std::span<const Query> queries,
-                               std::span<fast::Answer> answers);
+                               std::span<fast::Answer> answers, double seconds = 0.0);
 
  private:
   class Impl;

@@ -47,8 +47,6 @@ constexpr std::size_t queries_an_image = 8;
 /// Of a class of findings so many are kept.
 constexpr std::uint64_t kept_of_class = 2;
 
-/// About the microseconds of the judge, by the stage that decided.
-constexpr std::array<double, fast::stages> stage_work{0.2, 0.3, 0.5, 2.0, 15.0};
 constexpr double oracle_work = 40.0;
 /// About the microseconds of a solver that gave up before it came near its tolerance.
 constexpr double exhausted_work = 2000.0;
@@ -247,8 +245,12 @@ class Run {
           std::min<std::uint64_t>(block_.queries.size(), options_.most_queries - result_.queries));
     }
     answers_.assign(block_.queries.size(), Answer{});
+    // A block of a slow method may take minutes.
+    constexpr double least = 1e-3;
+    const double left =
+        options_.seconds > 0.0 ? std::max(least, options_.seconds - seconds()) : 0.0;
     const Clock::time_point asked = Clock::now();
-    const Sitting sitting = examinee_.answer(block_.kind, block_.queries, answers_);
+    const Sitting sitting = examinee_.answer(block_.kind, block_.queries, answers_, left);
     result_.method_seconds += seconds_since(asked);
     result_.unplaced_crashes += sitting.unplaced;
     judge(sitting);
@@ -281,7 +283,7 @@ class Run {
       ++result_.collisions;
       ++statistics.collisions;
     }
-    double work = stage_work.at(static_cast<std::size_t>(judged_[i].stage));
+    double work = 0.0;
     double reward = 0.0;
     if (incident != nullptr) {
       reward += report_incident(i, incident->hang);

@@ -166,17 +166,17 @@ Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
 }
 
 constexpr std::array<Generator, 11> all_generators{{
-    {"family", "a query of the built-in set (touchstone generate --list), any seed", 12.0, family},
-    {"few_bits", "small integers times a power of two", 0.3, few_bits},
-    {"grid", "a few numbers an axis with full significands", 0.3, grid},
-    {"shared_vertices", "points shared, at rest, or with equal coordinates", 0.3, shared_vertices},
-    {"contact_on_grid", "exact contact of integers, nudged", 0.5, contact_on_grid},
-    {"contact_at_level", "exact contact with full significands, nudged", 0.5, contact_at_level},
-    {"contact_rounded", "one point solved for contact and rounded, nudged", 0.4, contact_rounded},
-    {"sliding", "nearly parallel and nearly touching", 0.5, slide},
-    {"mutated", "a query of the corpus or a recent one, changed", 0.3, mutate},
-    {"scaled", "such a query times 2^-1000 to 2^1000", 0.6, scaled},
-    {"apart", "about as far apart as the separation", 0.8, apart, true},
+    {"family", "a query of the built-in set (touchstone generate --list), any seed", 18.0, family},
+    {"few_bits", "small integers times a power of two", 1.0, few_bits},
+    {"grid", "a few numbers an axis with full significands", 3.5, grid},
+    {"shared_vertices", "points shared, at rest, or with equal coordinates", 2.0, shared_vertices},
+    {"contact_on_grid", "exact contact of integers, nudged", 20.0, contact_on_grid},
+    {"contact_at_level", "exact contact with full significands, nudged", 6.5, contact_at_level},
+    {"contact_rounded", "one point solved for contact and rounded, nudged", 6.0, contact_rounded},
+    {"sliding", "nearly parallel and nearly touching", 3.0, slide},
+    {"mutated", "a query of the corpus or a recent one, changed", 9.0, mutate},
+    {"scaled", "such a query times 2^-1000 to 2^1000", 8.0, scaled},
+    {"apart", "about as far apart as the separation", 10.0, apart, true},
 }};
 
 }  // namespace

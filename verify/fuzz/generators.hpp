@@ -66,7 +66,7 @@ struct Generator {
   std::string_view name;
   /// What its queries are.
   std::string_view about;
-  /// The work of a query, about the microseconds it takes.
+  /// The work of a query: about the microseconds that making and judging it takes.
   double work;
   /// Makes a query of finite coordinates: a function of the arguments and nothing else.
   Query (*make)(Kind kind, const GeneratorContext& context, builtin::Random& random);

@@ -168,6 +168,19 @@ TEST(Examinee, StopsWhenTold) {
   EXPECT_TRUE(sitting.incidents.empty());
 }
 
+TEST(Examinee, StopsAtItsTime) {
+  const FunctionMethod method(obey);
+  Examinee examinee(method);
+  std::vector<Query> queries = numbered(10);
+  queries[5].coordinates.front() = sleeps;
+  std::vector<Answer> answers(queries.size());
+  const Sitting sitting = examinee.answer(Kind::vertex_face, queries, answers, 0.1);
+  EXPECT_LE(sitting.answered, 5U);
+  EXPECT_TRUE(sitting.incidents.empty());
+  // The next call has all the time.
+  EXPECT_EQ(examinee.answer(Kind::vertex_face, numbered(10), answers).answered, 10U);
+}
+
 TEST(Examinee, PassesTheOptionsOn) {
   class Echo final : public fast::Method {
    public:

@@ -282,7 +282,7 @@ TEST(Fuzz, AsksOnlyTheKindsOfItsOptions) {
 
 /// Wrong at one coordinate that no generator makes but from the corpus.
 TEST(Fuzz, MutatesTheCorpus) {
-  constexpr double rare = 0x1.23456789abcdep+5;
+  static constexpr double rare = 0x1.23456789abcdep+5;
   const auto wrong = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);
     const auto& x = query.coordinates;
@@ -316,6 +316,20 @@ TEST(Fuzz, EndsByTheClock) {
   EXPECT_NEAR(result.method_seconds + result.other_seconds, result.seconds, 1e-9);
   EXPECT_GT(result.queries_per_second(), 0.0);
   EXPECT_GT(result.judged_per_second(), result.queries_per_second());
+}
+
+/// Even within a block, of which a method may make minutes.
+TEST(Fuzz, EndsByTheClockWhileItWaits) {
+  const auto slow = [](Kind kind, const Query& query) {
+    std::this_thread::sleep_for(20ms);
+    return honest(kind, query);
+  };
+  const FuzzResult result =
+      fuzz(FunctionMethod(slow), {.seconds = 0.5, .query_limit_seconds = 30.0});
+  EXPECT_LT(result.seconds, 2.5);
+  EXPECT_GT(result.queries, 2U);
+  EXPECT_LT(result.queries, 100U);
+  EXPECT_EQ(result.all_findings, 0U);
 }
 
 TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
@@ -358,7 +372,9 @@ TEST(StillFails, KnowsCrashesHangsAndMissingBounds) {
   const FunctionMethod method(ill, Promise::none);
   const FuzzOptions options{.query_limit_seconds = 0.1};
   const auto query_at = [](double x) { return tests::over_triangle(x, 0.25, 1, -1).query; };
-  Finding finding{.query = query_at(1.0), .method = "function"};
+  Finding finding;
+  finding.query = query_at(1.0);
+  finding.method = "function";
   const std::array<FindingKind, 3> kinds{FindingKind::crash, FindingKind::hang,
                                          FindingKind::not_finite};
   const std::array<double, 3> words{1.0, 2.0, 0.5};

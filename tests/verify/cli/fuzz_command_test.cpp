@@ -1,0 +1,184 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/folder_test.hpp"
+
+// `touchstone fuzz` as users meet it: by running the tool. The plugin is the example, which compares
+// swept boxes and is conservative, but nothing near exact.
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using tests::read_file;
+
+struct Outcome {
+  int status;
+  std::string out;
+  std::string err;
+};
+
+class FuzzTool : public tests::FolderTest {
+ protected:
+  /// Starts the tool with its output in files of the test's folder.
+  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> words{TOUCHSTONE_TOOL};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions{};
+    posix_spawn_file_actions_init(&actions);
+    static constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
+    pid_t process = 0;
+    EXPECT_EQ(posix_spawn(&process, TOUCHSTONE_TOOL, &actions, nullptr, pointers.data(), environ),
+              0);
+    posix_spawn_file_actions_destroy(&actions);
+    return process;
+  }
+
+  [[nodiscard]] Outcome finish(pid_t process) const {
+    int status = 0;
+    waitpid(process, &status, 0);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return {code, read_file(path("stdout")), read_file(path("stderr"))};
+  }
+
+  [[nodiscard]] Outcome run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "fuzz");
+    return finish(start(arguments));
+  }
+
+  [[nodiscard]] nlohmann::json json(const std::string& name) const {
+    return nlohmann::json::parse(read_file(path(name)));
+  }
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(FuzzTool, FindsNothingInTheCertifiedSolver) {
+  const Outcome outcome = run({"--method", "certified", "--queries", "3000", "--json", path("j")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "no findings")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "3000 queries")) << outcome.out;
+  EXPECT_EQ(json("j").at("queries"), 3000);
+  EXPECT_EQ(json("j").at("judged_by_oracle"), 3000);
+  EXPECT_TRUE(json("j").at("findings").empty());
+  EXPECT_EQ(json("j").at("generators").size(), 10U);
+}
+
+TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
+  const Outcome outcome =
+      run({"--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--queries", "5000", "--most-findings",
+           "3", "--out", path("found.csv"), "--json", path("j")});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  for (const std::string part : {"beyond_promise of box_overlap", "truth: no collision", "TEST(",
+                                 "As rows of a dataset", "3 findings"}) {
+    EXPECT_TRUE(contains(outcome.out, part)) << part << '\n' << outcome.out;
+  }
+  const nlohmann::json report = json("j");
+  ASSERT_EQ(report.at("findings").size(), 3U);
+  for (const nlohmann::json& finding : report.at("findings")) {
+    EXPECT_EQ(finding.at("what"), "beyond_promise");
+    EXPECT_TRUE(contains(finding.at("certificate"), "no_collision"));
+    EXPECT_EQ(finding.at("shrunk").at("collides"), false);
+    EXPECT_EQ(finding.at("shrunk").at("coordinates").size(), 24U);
+  }
+  // The dataset holds them with their truth: its labels are right and the plugin's answers are not.
+  const auto certify = [&](const std::string& exact) {
+    std::vector<std::string> arguments{"certify"};
+    for (const auto& entry : fs::directory_iterator(folder())) {
+      if (entry.path().extension() == ".csv") arguments.push_back(entry.path().string());
+    }
+    EXPECT_GT(arguments.size(), 1U);
+    arguments.insert(arguments.end(), {"--plugin", TOUCHSTONE_BOX_OVERLAP, "--json", path("c")});
+    if (!exact.empty()) arguments.push_back(exact);
+    return finish(start(arguments));
+  };
+  EXPECT_EQ(certify("").status, 0);
+  EXPECT_GE(json("c").at("total").at("labels"), 3);
+  EXPECT_EQ(certify("--exact").status, 1);
+}
+
+TEST_F(FuzzTool, FindsTheSameForTheSameSeed) {
+  std::vector<std::string> reports;
+  for (const std::string seed : {"4", "4", "5"}) {
+    static_cast<void>(run({"--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--queries", "2000",
+                           "--most-findings", "1", "--seed", seed, "--json", path("j")}));
+    const nlohmann::json report = json("j");
+    reports.push_back(report.at("findings").at(0).at("coordinates").dump() +
+                      report.at("findings").at(0).at("shrunk").dump() +
+                      report.at("queries").dump());
+  }
+  EXPECT_EQ(reports[0], reports[1]);
+  EXPECT_NE(reports[0], reports[2]);
+}
+
+/// The dataset says the distance that its truth is about.
+TEST_F(FuzzTool, SearchesAtASeparation) {
+  const std::string out = path("near-vertex-face.csv");
+  const Outcome outcome = run({"--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--min-separation",
+                               "0.25", "--norm", "l2", "--kind", "vertex-face", "--queries", "3000",
+                               "--most-findings", "1", "--out", out});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "at minimum separation 0.25 (l2)")) << outcome.out;
+  EXPECT_TRUE(fs::exists(path("separation.json")));
+  const Outcome certified = finish(start({"certify", out}));
+  EXPECT_EQ(certified.status, 0) << certified.out;
+  EXPECT_TRUE(contains(certified.out, "0.25 (l2)")) << certified.out;
+  // Another truth does not go beside it.
+  const Outcome other = run({"--method", "certified", "--queries", "10", "--out",
+                             path("contact-vertex-face.csv"), "--kind", "vertex-face"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "choose another")) << other.err;
+}
+
+TEST_F(FuzzTool, MutatesACorpus) {
+  std::ofstream(path("corpus_vf.csv")) << "1,1,1,1,1,1\n0,1,0,1,0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n"
+                                          "1,1,1,1,-1,1\n0,1,0,1,0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
+  const Outcome outcome =
+      run({"--method", "certified", "--queries", "500", "--corpus", path("corpus_vf.csv")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(run({"--method", "certified", "--queries", "500", "--corpus", path("none")}).status, 2);
+}
+
+TEST_F(FuzzTool, RefusesWhatMakesNoSense) {
+  EXPECT_EQ(run({"--queries", "10"}).status, 2);
+  EXPECT_EQ(run({"--method", "nobody", "--queries", "10"}).status, 2);
+  EXPECT_EQ(run({"--method", "certified", "--plugin", TOUCHSTONE_BOX_OVERLAP}).status, 2);
+  EXPECT_EQ(run({"--method", "certified", "--seconds", "-1"}).status, 2);
+  EXPECT_EQ(run({"--method", "certified", "--queries", "0"}).status, 2);
+  EXPECT_EQ(run({"--method", "certified", "--queries", "10", "--kind", "face-face"}).status, 2);
+  EXPECT_EQ(run({"--method", "certified", "--queries", "10", "--out", path("x.npy")}).status, 2);
+  EXPECT_EQ(run({"--method", "certified", "--queries", "10", "--out", path("x_vf.csv")}).status, 2);
+  EXPECT_TRUE(contains(run({"--help"}).out, "Example: touchstone fuzz"));
+}
+
+TEST_F(FuzzTool, ReportsWhatWasDoneWhenInterrupted) {
+  const pid_t process = start({"fuzz", "--method", "certified", "--seconds", "600"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  kill(process, SIGINT);
+  const Outcome outcome = finish(process);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "no findings")) << outcome.out;
+}
+
+}  // namespace
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,387 @@
+// touchstone fuzz: a search for wrong answers of one solver.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "verify/cli/commands.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/cli/respondents.hpp"
+#include "verify/dataset/csv_dataset.hpp"
+#include "verify/dataset/dataset.hpp"
+#include "verify/dataset/separation_file.hpp"
+#include "verify/decision.hpp"
+#include "verify/fuzz/fuzz.hpp"
+#include "verify/fuzz/fuzz_report.hpp"
+#include "verify/fuzz/reproduce.hpp"
+#include "verify/fuzz/shrink.hpp"
+#include "verify/methods/plugin.hpp"
+#include "verify/methods/registry.hpp"
+#include "verify/separation.hpp"
+#include "verify/terminal.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double default_seconds = 60.0;
+constexpr double longest_run = 1e7;
+/// Seconds for making a finding simpler.
+constexpr double shrink_seconds = 5.0;
+
+struct Arguments {
+  RespondentArguments solver;
+  SeparationArguments separation;
+  double seconds = 0.0;
+  std::uint64_t queries = 0;
+  std::uint64_t seed = default_seed;
+  std::uint64_t most_findings = 20;
+  std::string kind;
+  std::vector<fs::path> corpus;
+  std::string out_file;
+  std::string json_file;
+
+  [[nodiscard]] std::vector<Kind> kinds() const {
+    if (kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
+    return {kind_from_string(kind)};
+  }
+};
+
+// ---- The corpus
+// -----------------------------------------------------------------------------------
+
+/// The kind of a file: what its path says, or else the only one that is asked for.
+Kind kind_of(const fs::path& file, const Arguments& arguments) {
+  try {
+    return kind_from_path(file);
+  } catch (const DatasetError&) {
+    if (arguments.kind.empty()) throw;
+    return kind_from_string(arguments.kind);
+  }
+}
+
+std::vector<CorpusQuery> read_corpus(const Arguments& arguments) {
+  std::vector<CorpusQuery> corpus;
+  if (arguments.corpus.empty()) return corpus;
+  for (const fs::path& file : find_datasets(arguments.corpus)) {
+    const Kind kind = kind_of(file, arguments);
+    const auto source = open_dataset(file, {.kind = kind});
+    for (auto query = source->next(); query && !interrupted(); query = source->next()) {
+      corpus.push_back({kind, query->query});
+    }
+  }
+  return corpus;
+}
+
+// ---- The dataset that is written
+// --------------------------------------------------------------------
+
+/// FILE itself where its path says the kind, else with the kind in its name.
+fs::path dataset_path(const fs::path& file, Kind kind) {
+  try {
+    if (kind_from_path(file) == kind) return file;
+  } catch (const DatasetError&) {
+    fs::path result = file;
+    result.replace_filename(
+        fmt::format("{}-{}.csv", file.stem().string(), std::string(to_string(kind))));
+    return result;
+  }
+  throw std::runtime_error(fmt::format("{}: its name says that it has no {} queries; add --kind",
+                                       file.string(), to_string(kind)));
+}
+
+/// The queries found, with their truth, as datasets. They appear when they are complete, and only
+/// if there are queries.
+class FoundQueries {
+ public:
+  FoundQueries(const Arguments& arguments, const Separation& separation)
+      : folder_(fs::path(arguments.out_file).parent_path()), separation_(separation) {
+    if (arguments.out_file.empty()) return;
+    if (fs::path(arguments.out_file).extension() != ".csv") {
+      throw std::runtime_error(arguments.out_file + ": the name must end in .csv");
+    }
+    require_same_separation(arguments.out_file);
+    for (const Kind kind : arguments.kinds()) {
+      files_.at(static_cast<std::size_t>(kind)).emplace(dataset_path(arguments.out_file, kind));
+    }
+  }
+
+  void write(Kind kind, const Query& query, bool collides) {
+    auto& file = files_.at(static_cast<std::size_t>(kind));
+    if (!file) return;
+    file->writer.write(query, collides);
+    ++file->queries;
+  }
+
+  /// The files written.
+  [[nodiscard]] std::vector<fs::path> close() {
+    std::vector<fs::path> written;
+    for (auto& file : files_) {
+      if (!file || file->queries == 0) continue;
+      file->writer.close();
+      written.push_back(file->path);
+    }
+    if (!written.empty() && !is_contact(separation_)) {
+      write_separation(folder_.empty() ? "." : folder_, separation_);
+    }
+    return written;
+  }
+
+ private:
+  struct File {
+    explicit File(const fs::path& name) : path(name), writer(name) {}
+    fs::path path;
+    CsvWriter writer;
+    std::uint64_t queries = 0;
+  };
+
+  /// \throws std::runtime_error if a folder has queries about another separation.
+  void require_same_separation(const fs::path& file) const {
+    const Separation recorded = recorded_separation(file);
+    if (same_question(recorded, separation_)) return;
+    if (is_contact(recorded) && is_without_datasets()) return;
+    throw std::runtime_error(
+        fmt::format("{}: its folder is about a minimum separation of {}, not {}; choose another",
+                    file.string(), to_text(recorded), to_text(separation_)));
+  }
+
+  [[nodiscard]] bool is_without_datasets() const {
+    const fs::path folder = folder_.empty() ? fs::path(".") : folder_;
+    if (!fs::exists(folder)) return true;
+    return std::ranges::none_of(fs::directory_iterator(folder), [](const auto& entry) {
+      const fs::path extension = entry.path().extension();
+      return entry.is_directory() || extension == ".csv" || extension == ".npy";
+    });
+  }
+
+  fs::path folder_;
+  Separation separation_;
+  std::array<std::optional<File>, 2> files_;
+};
+
+// ---- The run
+// ----------------------------------------------------------------------------------------
+
+/// One run: the search, its findings as they come, then its reports.
+class FuzzRun {
+ public:
+  explicit FuzzRun(const Arguments& arguments)
+      : arguments_(arguments),
+        json_(arguments.json_file),
+        found_(arguments, arguments.separation.given()),
+        bar_("fuzz") {
+    load_method();
+    options_.seconds = arguments.seconds;
+    if (arguments.seconds == 0.0 && arguments.queries == 0) options_.seconds = default_seconds;
+    options_.most_queries = arguments.queries;
+    options_.seed = arguments.seed;
+    options_.separation = arguments.separation.given();
+    options_.method = arguments.solver.options;
+    if (arguments.solver.exact) options_.promise = fast::Promise::exact;
+    options_.query_limit_seconds = arguments.solver.query_limit;
+    options_.most_findings = arguments.most_findings;
+    options_.corpus = read_corpus(arguments);
+    options_.kinds = arguments.kinds();
+    options_.stop = &interrupted();
+    options_.on_progress = [this](const FuzzProgress& progress) { show(progress); };
+    options_.on_finding = [this](const Finding& finding) { add(finding); };
+  }
+
+  Status run() {
+    const FuzzReport report{.method = std::string(method_->name()),
+                            .promise = options_.promise.value_or(method_->promise()),
+                            .seed = options_.seed,
+                            .separation = options_.separation,
+                            .result = fuzz(*method_, options_)};
+    bar_.clear();
+    report_unplaced_crashes(report.method, report.result.unplaced_crashes);
+    const std::vector<fs::path> written = found_.close();
+    if (json_) {
+      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
+      json_.write(with_shrunk(to_json(report)).dump(2, ' ', false, replace_bad_utf8) + "\n");
+    }
+    json_.close();
+    fmt::print(out(), "{}", to_text(report));
+    for (const fs::path& file : written) fmt::print(out(), "written: {}\n", file.string());
+    return status(report.result);
+  }
+
+ private:
+  void load_method() {
+    const RespondentArguments& solver = arguments_.solver;
+    if (solver.methods.size() + solver.plugins.size() != 1) {
+      throw std::invalid_argument("fuzz asks one solver: name one with --method or --plugin");
+    }
+    if (!solver.methods.empty()) {
+      method_ = &find_method(solver.methods.front());
+      options_.reach = reach_of(method_->name());
+      return;
+    }
+    plugin_ = load_plugin(solver.plugins.front());
+    method_ = plugin_.get();
+  }
+
+  [[nodiscard]] std::FILE* out() const { return json_.is_standard_output() ? stderr : stdout; }
+
+  void show(const FuzzProgress& progress) {
+    double fraction = 0.0;
+    if (options_.seconds > 0.0) fraction = progress.seconds / options_.seconds;
+    if (options_.most_queries != 0) {
+      fraction = std::max(fraction, static_cast<double>(progress.queries) /
+                                        static_cast<double>(options_.most_queries));
+    }
+    bar_.update(fraction);
+  }
+
+  /// Makes a finding simpler, if it is wrong alone too, and prints it.
+  void add(const Finding& finding) {
+    bar_.clear();
+    fmt::print(out(), "{}", to_text(finding));
+    const auto fails = still_fails(*method_, finding, options_);
+    const auto fails_uninterrupted = [&fails](const Query& query) {
+      return !interrupted() && fails(query);
+    };
+    Finding shrunk = finding;
+    if (fails_uninterrupted(finding.query)) {
+      shrunk.query =
+          shrink(finding.kind, finding.query, fails_uninterrupted, {.seconds = shrink_seconds});
+      shrunk.collides = Decision(finding.kind, shrunk.query, finding.separation).collides();
+    } else {
+      fmt::print(out(), "  asked alone, it is not wrong\n");
+    }
+    print_query(shrunk);
+    std::fflush(out());
+    found_.write(shrunk.kind, shrunk.query, shrunk.collides);
+    if (shrunk.query != finding.query) found_.write(finding.kind, finding.query, finding.collides);
+    shrunk_.push_back(shrunk);
+  }
+
+  void print_query(const Finding& shrunk) const {
+    const auto& plugins = arguments_.solver.plugins;
+    const Reproduction reproduction{.kind = shrunk.kind,
+                                    .query = shrunk.query,
+                                    .separation = shrunk.separation,
+                                    .collides = shrunk.collides,
+                                    .method = shrunk.method,
+                                    .what = std::string(to_string(shrunk.what)),
+                                    .plugin = plugins.empty() ? fs::path() : plugins.front(),
+                                    .exact_plugin = arguments_.solver.exact};
+    fmt::print(out(), "\n{}\nAs rows of a dataset, {} {}:\n{}\nAs a test:\n{}\n",
+               as_points(shrunk.kind, shrunk.query), to_string(shrunk.kind),
+               shrunk.collides ? "that collides" : "that does not collide",
+               as_csv(shrunk.query, shrunk.collides), as_cpp_test(reproduction));
+  }
+
+  /// Adds to each finding the simplest query, as `shrunk`.
+  [[nodiscard]] nlohmann::json with_shrunk(nlohmann::json report) const {
+    for (std::size_t i = 0; i < shrunk_.size(); ++i) {
+      const nlohmann::json shrunk = to_json(shrunk_[i]);
+      report.at("findings").at(i)["shrunk"] = {{"coordinates", shrunk.at("coordinates")},
+                                               {"collides", shrunk_[i].collides}};
+    }
+    return report;
+  }
+
+  [[nodiscard]] Status status(const FuzzResult& result) const {
+    if (result.all_findings != 0 || result.unplaced_crashes != 0) return Status::wrong_answers;
+    if (json_.failed()) return Status::bad_input;
+    return result.interrupted ? Status::interrupted : Status::all_well;
+  }
+
+  const Arguments& arguments_;
+  ReportedOutput json_;
+  FoundQueries found_;
+  ProgressBar bar_;
+  std::unique_ptr<fast::Method> plugin_;
+  const fast::Method* method_ = nullptr;
+  FuzzOptions options_;
+  std::vector<Finding> shrunk_;
+};
+
+void add_search_options(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option(
+          "--seconds", arguments.seconds,
+          fmt::format("Seconds to search (default {} unless --queries is given)", default_seconds))
+      ->check(real_number(1e-3, longest_run));
+  command.add_option("--queries", arguments.queries, "Queries to ask")
+      ->check(whole_number(1, UINT64_MAX));
+  command.add_option("--seed", arguments.seed, "Seed of all queries")
+      ->capture_default_str()
+      ->check(whole_number(0, UINT64_MAX));
+  command
+      .add_option("--most-findings", arguments.most_findings,
+                  "End after so many findings that are not alike (0: never)")
+      ->capture_default_str()
+      ->check(whole_number(0, UINT32_MAX));
+  command.add_option("--kind", arguments.kind, "Only queries of this kind")
+      ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
+  command
+      .add_option("--corpus", arguments.corpus,
+                  "Dataset files (.csv, .npy) or folders, whose queries are mutated")
+      ->type_name("PATH");
+}
+
+void add_output_options(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option(
+          "--out", arguments.out_file,
+          "Write the queries found, with their truth, as a dataset: FILE where its name says "
+          "vertex-face or edge-edge, else FILE-vertex-face.csv and FILE-edge-edge.csv")
+      ->type_name("FILE.csv");
+  command.add_option("--json", arguments.json_file, "Write the result as JSON")->type_name("FILE");
+}
+
+}  // namespace
+
+void add_fuzz_command(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
+  arguments->solver.query_limit = 1.0;
+  add_solver_options(*command, arguments->solver);
+  command->add_flag("--exact", arguments->solver.exact,
+                    "Hold the solver to exactness: false positives are findings too");
+  add_search_options(*command, *arguments);
+  add_separation_options(*command, arguments->separation);
+  add_output_options(*command, *arguments);
+  command->footer(
+      "The solver (one --method or --plugin) runs in a child process. Sought are false negatives, "
+      "times\n"
+      "of impact that exclude the true one, crashes, hangs, numbers that are none, a yes that "
+      "claims "
+      "more\n"
+      "nearness than there is, and of what calls itself exact false positives and other answers to "
+      "exact\n"
+      "images of a query. The certified solver judges, the oracle one answer in a hundred again "
+      "and "
+      "every\n"
+      "finding; of method certified the oracle judges all. Findings are made as simple as they go, "
+      "and\n"
+      "printed as points, as rows of a dataset and as a C++ test. A seed and --queries determine "
+      "them.\n"
+      "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, 130 interrupted with "
+      "nothing "
+      "found.\n"
+      "Example: touchstone fuzz --method tight_inclusion --seconds 600 --json result.json\n"
+      "Example: touchstone fuzz --plugin ./libsolver.so --exact --out found.csv --corpus "
+      "data/handcrafted");
+  command->callback([arguments, command, &status] {
+    settle_solver_options(*command, true, arguments->solver);
+    status = FuzzRun(*arguments).run();
+  });
+}
+
+}  // namespace touchstone::verify::cli
