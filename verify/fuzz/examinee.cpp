@@ -221,7 +221,8 @@ class Examinee::Impl {
     shared.careful_until = 0;
     searching_ = false;
     for (std::size_t first = 0; first < queries.size();) {
-      const bool done = run_child(first);
+      const Child::News news = run_child(first);
+      const bool done = news == Child::News::done;
       if (!done) child_.reset();
       // The solver may have written where it should not.
       const std::size_t begin =
@@ -237,10 +238,14 @@ class Examinee::Impl {
       first = begin;
       if (end - begin > 1) {
         shared.careful_until = end;
-        searching_ = true;
+        searching_ = news == Child::News::dead;
         continue;
       }
       if (!confirm(kind, queries.subspan(begin, 1), answers.subspan(begin, 1), sitting)) return;
+      if (news == Child::News::dead && !is_last_incident(sitting, offset + begin)) {
+        ++sitting.unplaced;
+      }
+      if (sitting.incidents.size() >= options_.most_incidents) return;
       ++first;
     }
   }
@@ -251,8 +256,13 @@ class Examinee::Impl {
     searching_ = false;
   }
 
-  /// Has the child, a new one if need be, solve from `first` on. True if it got to the end.
-  bool run_child(std::size_t first) {
+  [[nodiscard]] static bool is_last_incident(const Sitting& sitting, std::size_t position) {
+    return !sitting.incidents.empty() && sitting.incidents.back().position == position;
+  }
+
+  /// Has the child, a new one if need be, solve from `first` on. No news: it takes too long, or is to
+  /// stop.
+  Child::News run_child(std::size_t first) {
     Shared& shared = *memory_;
     shared.first = first;
     shared.begin = first;
@@ -265,32 +275,35 @@ class Examinee::Impl {
     Clock::time_point since = Clock::now();
     while (!is_stopped()) {
       const auto news = child_->wait(limited ? std::min(longest_sleep, limit / 10) : longest_sleep);
-      if (news != Child::News::none) return news == Child::News::done;
+      if (news != Child::News::none) return news;
       const std::size_t current = shared.begin;
       const Clock::time_point now = Clock::now();
       if (current != watched) since = now;
       watched = current;
-      if (limited && now - since > limit) return false;
+      if (limited && now - since > limit) break;
     }
-    return false;
+    return Child::News::none;
   }
 
-  /// Solves a query that ended or held up the child once more, alone. False if no more is to be
-  /// asked.
+  /// Solves a query that ended or held up the child once more, alone. On a busy machine what gets
+  /// little processor time gets more time. False if stopped.
   bool confirm(Kind kind, std::span<const Query> query, std::span<fast::Answer> answer,
                Sitting& sitting) {
-    const IsolatedSolve solved = solve_isolated(
-        method_, kind, query, answer, options_.method,
-        {.query_limit_seconds = options_.query_limit_seconds, .stop = options_.stop});
-    if (solved.stopped) return false;
+    constexpr double longer = 5.0;
+    IsolatedSolve solved;
+    for (const double factor : {1.0, longer}) {
+      const double limit = factor * options_.query_limit_seconds;
+      solved = solve_isolated(method_, kind, query, answer, options_.method,
+                              {.query_limit_seconds = limit, .stop = options_.stop});
+      if (solved.stopped) return false;
+      if (solved.limit_hits == 0 || solved.processor_seconds > 0.5 * limit) break;
+    }
     if (solved.crashes + solved.limit_hits != 0) {
       sitting.incidents.push_back({.position = sitting.answered, .hang = solved.limit_hits != 0});
-    } else {
-      ++sitting.unplaced;
     }
     searching_ = false;
     ++sitting.answered;
-    return sitting.incidents.size() < options_.most_incidents;
+    return true;
   }
 
   const fast::Method& method_;
@@ -298,7 +311,7 @@ class Examinee::Impl {
   SharedMemory memory_;
   std::unique_ptr<Child> child_;
   std::optional<Clock::time_point> deadline_;
-  /// Is a step solved one by one since it ended the child?
+  /// Is a step solved one by one since the child died in it?
   bool searching_ = false;
 };
 

@@ -24,7 +24,8 @@ namespace touchstone::verify {
 
 struct ExamineeOptions {
   fast::MethodOptions method = {};
-  /// Wall-clock seconds that a query may take; 0: no limit. Not negative.
+  /// Wall-clock seconds that a query may take, or five times as many where it gets little processor
+  /// time; 0: no limit. Not negative.
   double query_limit_seconds = 0.0;
   /// Of these in one call the rest is left unanswered. At least 1.
   std::size_t most_incidents = 4;
@@ -44,7 +45,7 @@ struct Sitting {
   std::size_t answered = 0;
   /// Ascending positions. What is answered there has no meaning.
   std::vector<Incident> incidents = {};
-  /// Times it ended its process, or took too long, at queries none of which does it alone.
+  /// Times it ended its process at queries none of which does it alone.
   std::uint64_t unplaced = 0;
 };
 

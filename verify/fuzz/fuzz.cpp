@@ -436,6 +436,7 @@ void check(const FuzzOptions& options) {
   if (!(options.oracle_share >= 0.0 && options.oracle_share <= 1.0)) {
     throw std::invalid_argument("fuzz: oracle_share must be in [0,1]");
   }
+  if (options.method.t_max != 1.0) throw std::invalid_argument("fuzz: t_max must be 1");
   if (options.kinds.empty()) throw std::invalid_argument("fuzz: no kind of queries");
   if (!is_valid(options.separation)) {
     throw std::invalid_argument("fuzz: the separation must be finite and not negative");

@@ -48,7 +48,7 @@ struct FuzzOptions {
   std::uint64_t seed = 2021;
   /// What counts as contact.
   Separation separation = {};
-  /// Passed on to the method, with the separation of above.
+  /// Passed on to the method, with the separation of above; t_max must be 1.
   fast::MethodOptions method = {};
   /// What the method is held to, if not to its own promise.
   std::optional<fast::Promise> promise = std::nullopt;

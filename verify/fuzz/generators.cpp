@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "verify/fuzz/contact.hpp"
 #include "verify/fuzz/draws.hpp"
@@ -140,6 +141,15 @@ Query mutate(Kind kind, const GeneratorContext& context, Random& random) {
   return mutated(from_pool(kind, context, random), random);
 }
 
+/// What the exponent of a greatest coordinate may be. Most of the time not far from that of the
+/// distance, if there is one: it decides nothing among coordinates of quite another size.
+std::pair<int, int> draw_exponents(const Separation& separation, Random& random) {
+  constexpr int most = 1000, near = 30;
+  if (is_contact(separation) || one_in(random, 8)) return {-most, most};
+  const int middle = std::clamp(std::ilogb(separation.distance), near - most, most - near);
+  return {middle - near, middle + near};
+}
+
 /// Another query far from 1, its greatest coordinate from 2^-1000 to 2^1000; now and then each axis
 /// by itself.
 Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
@@ -151,13 +161,16 @@ Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
   }
   const bool alike = !one_in(random, 3);
   const double most = std::ranges::max(greatest);
-  const auto common = static_cast<int>(random.between(-1000, 1000));
+  const auto [least_exponent, greatest_exponent] = draw_exponents(context.separation(), random);
+  const auto draw = [&, low = least_exponent, high = greatest_exponent] {
+    return static_cast<int>(random.between(low, high));
+  };
+  const int common = draw();
   Query result = query;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double size = alike ? most : greatest.at(axis);
     if (size == 0.0) continue;
-    const int wanted = alike ? common : static_cast<int>(random.between(-1000, 1000));
-    const int exponent = wanted - std::ilogb(size);
+    const int exponent = (alike ? common : draw()) - std::ilogb(size);
     for (std::size_t i = axis; i < result.coordinates.size(); i += 3) {
       result.coordinates.at(i) = std::ldexp(result.coordinates.at(i), exponent);
     }

@@ -60,7 +60,7 @@ TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
 /// A rounding decides, so both verdicts abound.
 TEST(Contact, RoundedIsAHitOrAMissByAHair) {
   int hits = 0;
-  for_each_query(rounded_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
+  for_each_query(rounded_contact, tests::trials(800), [&](Kind kind, const Query& query) {
     const bool collides = Decision(kind, query, {}).collides();
     hits += collides ? 1 : 0;
     if (collides) return;
@@ -69,8 +69,8 @@ TEST(Contact, RoundedIsAHitOrAMissByAHair) {
     const Separation near{.distance = 1e-13 * greatest, .norm = Norm::l2};
     EXPECT_TRUE(Decision(kind, query, near).collides());
   });
-  EXPECT_GT(hits, tests::trials(500));
-  EXPECT_LT(hits, tests::trials(1900));
+  EXPECT_GT(hits, tests::trials(200));
+  EXPECT_LT(hits, tests::trials(760));
 }
 
 TEST(Contact, ApartIsAboutAtTheDistance) {
@@ -79,7 +79,7 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
       const Separation separation{.distance = distance, .norm = norm};
       Random random(2);
       int hits = 0, near = 0;
-      const int count = tests::trials(400);
+      const int count = tests::trials(80);
       for (int i = 0; i < count; ++i) {
         const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
         const Query query = contact_apart(kind, separation, random);
@@ -96,14 +96,14 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
 
 TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
   int hits = 0, near = 0;
-  for_each_query(sliding, tests::trials(2000), [&](Kind kind, const Query& query) {
+  for_each_query(sliding, tests::trials(400), [&](Kind kind, const Query& query) {
     double greatest = 0.0;
     for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
     hits += Decision(kind, query, {}).collides() ? 1 : 0;
     near += Decision(kind, query, {.distance = greatest * 0x1p-9, .norm = Norm::l2}).collides();
   });
-  EXPECT_GT(hits, tests::trials(100));
-  EXPECT_GT(near, hits + tests::trials(500));
+  EXPECT_GT(hits, tests::trials(16));
+  EXPECT_GT(near, hits + tests::trials(80));
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
   int collisions = 0, others = 0;
   for (const Separation& separation : separations) {
     const GeneratorContext context(separation);
-    for (int i = 0; i < tests::trials(400); ++i) {
+    for (int i = 0; i < tests::trials(160); ++i) {
       const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
       const auto& generator = generators()[1 + static_cast<std::size_t>(i % 7)];
       const Query query = generator.make(kind, context, random);
@@ -128,8 +128,8 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
       ++(Decision(kind, query, separation).collides() ? collisions : others);
     }
   }
-  EXPECT_GT(collisions, tests::trials(200));
-  EXPECT_GT(others, tests::trials(200));
+  EXPECT_GT(collisions, tests::trials(80));
+  EXPECT_GT(others, tests::trials(80));
 }
 
 }  // namespace
