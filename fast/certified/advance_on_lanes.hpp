@@ -177,6 +177,9 @@ class PreciseProof {
                double distance)
       : magnitude_(max(magnitude, Value(distance))), points_(points), distance_(distance) {}
 
+  /// D.
+  [[nodiscard]] Value distance() const { return Value(distance_); }
+
   /// The least c·w − D n of all corners at a time, less its bound.
   [[nodiscard]] Value least_gap(const Vector& c, const Value& time) const {
     const Value bound = magnitude_ * Value(unit_length * gap_bound.rounding()) +

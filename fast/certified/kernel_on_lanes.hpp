@@ -33,14 +33,17 @@
 ///
 /// **With a minimum separation** D, contact is a point of the polygon within D of the origin, and "no
 /// contact" has to be proved of the polygon shifted by any x with ‖x‖ ≤ D: r becomes r − x, and so does
-/// what is in its place in an orientation. That changes det by at most D ‖N‖₁ ≤ 6 D |p| |q| (components'
-/// greatest magnitudes), x·(d × y) by at most 6 D |d| |y|. The bounds are so much wider, and 3. to 5. hold
-/// as they are: a contact at a zero of det is one at distance 0, and as det keeps the bound's distance
-/// from 0 before the enclosure, there is none before. (det, det + b and det − b, b the bound, cross zero
-/// once each on an interval on which det's coefficients are seen to.) But the zero of det is later than
-/// the time of impact. Where D is beyond rounding, the enclosure would be too wide; then what the whole
-/// interval and the one around det's only zero do not reject goes to another stage:
-/// fast/certified/advance_on_lanes.hpp.
+/// what is in its place in an orientation. That changes det by at most D ‖N‖₁ ≤ 4 D |p| |q| = b
+/// (components' greatest magnitudes: a determinant of three vectors of ±1 is at most 4), and x·(d × y) by
+/// at most 4 D |d| |y|; the middle coefficients, as they are computed, by thrice and twice that. The
+/// coefficients' bounds are wider by thrice, and 3. to 5. hold as they are: a contact at a zero of det is
+/// one at distance 0, and det, det + b and det − b cross zero once each on an interval on which det's
+/// coefficients are seen to, so that there is no contact up to a time at which det is still more than b
+/// away from 0.
+///
+/// But the zero of det is later than the time of impact. Where that is more than an enclosure's width,
+/// det only tells of a time up to which there is no contact, and what follows is the other stage's:
+/// fast/certified/advance_on_lanes.hpp. To it goes, too, all of which the shift leaves too little to tell.
 ///
 /// Queries that no stage ends, or whose coordinates are so large, or not numbers, that the bounds do
 /// not hold, are undecided here.
@@ -67,8 +70,9 @@ inline constexpr double greatest_distance = 0x1p100;
 /// with room for rounding.
 inline constexpr double greatest_difference = 0x1p102;
 inline constexpr double greatest_direction = 0x1p210;
-/// Where the distance times this exceeds the sizes of a query, it is beyond rounding.
-inline constexpr double far_beyond_rounding = 0x1p50;
+/// Where the distance times this exceeds the sizes of a query, shifts by it leave polynomials too little
+/// to tell.
+inline constexpr double greatest_shift = 0x1p16;
 
 // What underflow adds to an error, at most: so small that no scene needs it smaller.
 inline constexpr double gap_underflow =
@@ -147,8 +151,9 @@ class CertifiedStages {
     zero_stage<kind, Source>(input, zeros, contacts, undecided, far, output);
     Moving<kind> moving;
     load_moving<kind, Source>(input, undecided, moving);
-    Bisection<kind>(input, moving, contacts, output).run();
-    refine<kind, Source>(input, contacts, output);
+    Indices& hopeless = separated ? far : output.undecided;
+    Bisection<kind>(input, moving, contacts, output.rejected, hopeless).run();
+    refine<kind, Source>(input, contacts, hopeless, output);
     if constexpr (separated) advance_stage<kind, Source>(input, far, output);
   }
 
@@ -484,16 +489,20 @@ class CertifiedStages {
   }
 
   /// The magnitude of r, or of what is in its place, that makes the bounds of polynomials cover a shift
-  /// of the polygon by the distance too. `rounding` is the factor of the magnitudes in the bound.
-  static Value widened(const Value& magnitude, double rounding, const Value& distance) {
-    if constexpr (separated) return magnitude + distance * Value(6.001 / rounding);
+  /// of the polygon by the distance too. `rounding` is the factor of the magnitudes in the bound, `shift`
+  /// that of the distance.
+  static Value widened(const Value& magnitude, double rounding, const Value& distance,
+                       double shift) {
+    if constexpr (separated) return magnitude + distance * Value(shift / rounding);
     return magnitude;
   }
+  static constexpr double shift_of_value = 4.001;
+  static constexpr double shift_of_coefficients = 12.001;
 
   static Value determinant_bound(const Ends& unit, const Value& distance) {
     constexpr double rounding = filters::measured_determinant_middle_double.rounding();
-    return widened(magnitude(unit[r]), rounding, distance) * magnitude(unit[p]) *
-               magnitude(unit[q]) * Value(rounding) +
+    return widened(magnitude(unit[r]), rounding, distance, shift_of_coefficients) *
+               magnitude(unit[p]) * magnitude(unit[q]) * Value(rounding) +
            Value(determinant_underflow);
   }
 
@@ -505,7 +514,8 @@ class CertifiedStages {
     for (std::size_t i = 0; i < all_orientations.size(); ++i) {
       const auto [x, y, is_negative] = all_orientations[i];
       bounds.orientation_scale[i] =
-          widened(magnitude(unit[x]), rounding, distance) * magnitude(unit[y]);
+          widened(magnitude(unit[x]), rounding, distance, shift_of_coefficients) *
+          magnitude(unit[y]);
     }
     return bounds;
   }
@@ -723,11 +733,11 @@ class CertifiedStages {
     append_marked(far, mixed, of_far);
   }
 
-  /// The lanes whose distance is beyond rounding: there a contact at distance 0 is too late.
+  /// The lanes whose distance is too great a shift.
   static unsigned far_lanes(const KernelInput& input, const Ends& unit) {
     if constexpr (!separated) return 0;
     const Value size = max(max(magnitude(unit[r]), magnitude(unit[p])), magnitude(unit[q]));
-    return (Value(input.separation.distance * far_beyond_rounding) > size).bits();
+    return (Value(input.separation.distance * greatest_shift) > size).bits();
   }
 
   // ---- 4b. Around the only zero of det ----------------------------------------------------------
@@ -846,8 +856,12 @@ class CertifiedStages {
   class Bisection {
    public:
     Bisection(const KernelInput& input, const Moving<kind>& moving, Crossings& contacts,
-              KernelOutput& output)
-        : input_(input), moving_(moving), contacts_(contacts), output_(output) {}
+              Indices& rejected, Indices& hopeless)
+        : input_(input),
+          moving_(moving),
+          contacts_(contacts),
+          rejected_(rejected),
+          hopeless_(hopeless) {}
 
     void run() {
       for (std::size_t lane = 0; lane < width; ++lane) take(lane);
@@ -908,8 +922,8 @@ class CertifiedStages {
       steps.store(steps_.data());
       for (unsigned rest = over | contact | hopeless; rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
-        if ((over >> lane & 1U) != 0) append(output_.rejected, index_[lane]);
-        if ((hopeless >> lane & 1U) != 0) append(output_.undecided, index_[lane]);
+        if ((over >> lane & 1U) != 0) append(rejected_, index_[lane]);
+        if ((hopeless >> lane & 1U) != 0) append(hopeless_, index_[lane]);
         take(lane);
       }
     }
@@ -934,7 +948,8 @@ class CertifiedStages {
     const KernelInput& input_;
     const Moving<kind>& moving_;
     Crossings& contacts_;
-    KernelOutput& output_;
+    Indices& rejected_;
+    Indices& hopeless_;
   };
 
   // ---- 5. Refinement ----------------------------------------------------------------------------
@@ -960,9 +975,13 @@ class CertifiedStages {
         }
       }
       constexpr double rounding = filters::determinant_end_double_double.rounding();
-      result.bound_ = widened(magnitude[0], rounding, distance) * magnitude[1] * magnitude[2] *
-                          Value(rounding) +
+      result.bound_ = widened(magnitude[0], rounding, distance, shift_of_value) * magnitude[1] *
+                          magnitude[2] * Value(rounding) +
                       Value(double_double_underflow);
+      constexpr double rough_rounding = filters::measured_determinant_middle_double.rounding();
+      result.rough_bound_ = widened(magnitude[0], rough_rounding, distance, shift_of_value) *
+                                magnitude[1] * magnitude[2] * Value(rough_rounding) +
+                            Value(determinant_underflow);
       return result;
     }
 
@@ -975,10 +994,13 @@ class CertifiedStages {
     }
 
     [[nodiscard]] const Value& bound() const { return bound_; }
+    /// Of det from the coefficients in double, on any interval.
+    [[nodiscard]] const Value& rough_bound() const { return rough_bound_; }
 
    private:
     std::array<Precise, filters::DeterminantEnd::coordinates> coordinates_;
     Value bound_{0.0};
+    Value rough_bound_{0.0};
   };
 
   /// det on an interval as a rising cubic of s ∈ [0,1].
@@ -993,6 +1015,10 @@ class CertifiedStages {
       const Value m = Value(1.0) - s, three(3.0);
       const Value first = c[1] - three * c[0], second = c[2] - c[1], third = three * c[3] - c[2];
       return m * m * first + (m * s + m * s) * second + s * s * third;
+    }
+
+    [[nodiscard]] Value magnitude() const {
+      return max(max(abs(c[0]), abs(c[1])), max(abs(c[2]), abs(c[3])));
     }
 
     /// Its zero, by Newton's method, bisection where that leads away. A lane stops when it has moved
@@ -1017,11 +1043,29 @@ class CertifiedStages {
     }
   };
 
+  /// No contact in [0, begin], and one near `time`, or before.
+  struct Approach {
+    std::uint32_t index;
+    double begin;
+    double time;
+  };
+  using Approaches = List<Approach>;
+
   template <Kind kind, class Source>
-  static void refine(const KernelInput& input, const Crossings& crossings, KernelOutput& output) {
+  static void refine(const KernelInput& input, const Crossings& crossings, Indices& unproved,
+                     KernelOutput& output) {
+    Approaches approaches;
+    approaches.count = 0;
     for (std::size_t first = 0; first < crossings.count; first += width) {
       refine_lanes<kind, Source>(input, crossings.items.data() + first,
-                                 taken(first, crossings.count), output);
+                                 taken(first, crossings.count), approaches, unproved, output);
+    }
+    if constexpr (separated) {
+      if (input.separation.norm == Norm::linf) {
+        arrive<kind, Source, Norm::linf>(input, approaches, unproved, output);
+      } else {
+        arrive<kind, Source, Norm::l2>(input, approaches, unproved, output);
+      }
     }
   }
 
@@ -1052,19 +1096,53 @@ class CertifiedStages {
 
   template <Kind kind, class Source>
   static void refine_lanes(const KernelInput& input, const Crossing* crossings, std::size_t count,
-                           KernelOutput& output) {
+                           Approaches& approaches, Indices& unproved, KernelOutput& output) {
     const CrossingLanes lanes(crossings, count);
     const auto points = load<Source>(input, lanes.indices.data(), width);
     const PreciseDeterminant determinant =
         PreciseDeterminant::template of<kind>(points, Value(input.separation.distance));
     const Value half_width(0.4 * input.toi_tolerance);
-    const Value newton = lanes.begin + lanes.length * lanes.cubic.zero(0x1p-26);
+    const Value zero = lanes.cubic.zero(0x1p-26);
+    const Value newton = lanes.begin + lanes.length * zero;
+    if constexpr (separated) {
+      const Mask can_do =
+          lanes.cubic.slope(zero) * newton * half_width > determinant.bound() * lanes.length;
+      if (valid_bits(can_do, count) == 0) {
+        keep_approaches(lanes, determinant, zero, first_lanes(count), approaches);
+        return;
+      }
+    }
     Enclosure found(determinant, lanes, newton, half_width);
     if (valid_bits(found.proved, count) != first_lanes(count)) {
       found = found.or_else(Enclosure(determinant, lanes, found.corrected(), half_width));
     }
-    store_hits(output, lanes.indices, count, found.proved.bits(), {found.lower, found.upper},
+    const unsigned proved = valid_bits(found.proved, count);
+    store_hits(output, lanes.indices, proved, {found.lower, found.upper},
                contact<kind>(points, found.toi));
+    if constexpr (separated) {
+      keep_approaches(lanes, determinant, zero, first_lanes(count) & ~proved, approaches);
+    } else {
+      append_lanes(unproved, lanes.indices, first_lanes(count) & ~proved);
+    }
+  }
+
+  /// Up to where det proves that there is no contact, as its value there is less than −b: by more than
+  /// the bound of its coefficients and what their sum is wrong by. The weights of the sum add up to 1,
+  /// of 12 u of which rounding takes less than 2^-48; and the time is wrong by up to 3 · 2^-53, over
+  /// which det moves by 18 · 2^-53 coefficients for an interval of length 1.
+  static void keep_approaches(const CrossingLanes& lanes, const PreciseDeterminant& determinant,
+                              const Value& zero, unsigned bits, Approaches& approaches) {
+    const Value bound = determinant.rough_bound() +
+                        lanes.cubic.magnitude() * (Value(0x1p-48) + Value(0x1p-48) / lanes.length);
+    const Value s = zero - Value(2.0) * bound / lanes.cubic.slope(zero);
+    const Mask proved = (s > Value(0.0)) & (lanes.cubic.at(s) < Value(0.0) - bound);
+    const Value begin = select(proved, to_exact(lanes.begin + lanes.length * s), lanes.begin);
+    alignas(width * sizeof(double)) std::array<double, width> begins;
+    begin.store(begins.data());
+    for (; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+      append(approaches, Approach{lanes.indices[lane], begins[lane], begins[lane]});
+    }
   }
 
   /// Around what should be the zero, with the signs of det at its ends.
@@ -1128,14 +1206,6 @@ class CertifiedStages {
     }
   }
 
-  /// No contact in [0, begin], and one near `time`, or before.
-  struct Approach {
-    std::uint32_t index;
-    double begin;
-    double time;
-  };
-  using Approaches = List<Approach>;
-
   template <Kind kind, class Source, Norm norm>
   static void advance_in(const KernelInput& input, const Indices& far, KernelOutput& output) {
     PolygonLanes<kind> polygons;
@@ -1147,10 +1217,7 @@ class CertifiedStages {
     Approaches approaches;
     approaches.count = 0;
     Advance<kind, norm>(input, far, polygons, approaches, output).run();
-    for (std::size_t first = 0; first < approaches.count; first += width) {
-      arrive<kind, Source, norm>(input, approaches.items.data() + first,
-                                 taken(first, approaches.count), output);
-    }
+    arrive<kind, Source, norm>(input, approaches, output.undecided, output);
   }
 
   /// The polygons of `width` queries as they lie in memory.
@@ -1221,7 +1288,7 @@ class CertifiedStages {
     static constexpr double part_of_way = 1.0 - 0x1p-10;
     /// The contact is near where the rest of the way is this part of the time, or the gap is so many
     /// bounds.
-    static constexpr double near_in_time = 0x1p-20;
+    static constexpr double near_in_time = 0x1p-12;
     static constexpr double near_in_bounds = 0x1p12;
 
     void take(std::size_t lane) {
@@ -1337,10 +1404,19 @@ class CertifiedStages {
     return {inside_u, kind == Kind::vertex_face ? min(inside_v, one - inside_u) : inside_v};
   }
 
-  /// Encloses the times of impact of `count` queries.
+  /// Encloses the times of impact.
   template <Kind kind, class Source, Norm norm>
-  static void arrive(const KernelInput& input, const Approach* approaches, std::size_t count,
+  static void arrive(const KernelInput& input, const Approaches& approaches, Indices& unproved,
                      KernelOutput& output) {
+    for (std::size_t first = 0; first < approaches.count; first += width) {
+      arrive_lanes<kind, Source, norm>(input, approaches.items.data() + first,
+                                       taken(first, approaches.count), unproved, output);
+    }
+  }
+
+  template <Kind kind, class Source, Norm norm>
+  static void arrive_lanes(const KernelInput& input, const Approach* approaches, std::size_t count,
+                           Indices& unproved, KernelOutput& output) {
     std::array<std::uint32_t, width> indices;
     alignas(width * sizeof(double)) std::array<std::array<double, width>, 2> rows;
     for (std::size_t lane = 0; lane < width; ++lane) {
@@ -1361,8 +1437,9 @@ class CertifiedStages {
       // In L∞ other points may be as near as the nearest one, and easier to find.
       found = found.or_else(arrival.template around<Norm::l2>(found.corrected));
     }
-    store_hits(output, indices, count, found.proved.bits(), {found.lower, found.upper},
-               {found.u, found.v});
+    const unsigned proved = valid_bits(found.proved, count);
+    store_hits(output, indices, proved, {found.lower, found.upper}, {found.u, found.v});
+    append_lanes(unproved, indices, first_lanes(count) & ~proved);
   }
 
   /// The enclosure of a time of impact, as it is searched for in the lanes.
@@ -1412,20 +1489,25 @@ class CertifiedStages {
     template <Norm norm_of_witness>
     [[nodiscard]] Found around(const Value& time) const {
       const Value margin = time * half_width_;
-      const Value lower = max(time - margin, begin_), upper = min(time + margin, Value(1.0));
+      const Value lower = max(time - margin, begin_);
       const Nearest at_begin(polygon_.corners_at(begin_)), at_lower(polygon_.corners_at(lower));
       const auto of_begin = polygon_.project(at_begin.direction);
       const auto of_lower = polygon_.project(at_lower.direction);
       const Value gap = precise_.least_gap(at_lower.direction, lower);
+      const Value start = Polygon::Projections::at_point(of_lower.start, at_lower.u, at_lower.v);
+      const Value end = Polygon::Projections::at_point(of_lower.end, at_lower.u, at_lower.v);
+      const Value rate = start - end;
+      // Contact may be over again within the margin: half a distance farther it is not.
+      const Value through = precise_.distance() * Value(0.5) / rate;
+      const Value upper =
+          min(time + select(rate > Value(0.0), min(margin, through), margin), Value(1.0));
       const Mask is_start = upper == Value(0.0);
       const Mask is_free =
           is_start |
           (polygon_.begins_apart(of_begin, of_lower, begin_, lower, 2.0) & (gap > Value(0.0)));
       const NearestPoint<Lanes, kind, norm_of_witness> at_upper(polygon_.corners_at(upper));
       const auto [u, v] = in_domain<kind>(at_upper.u, at_upper.v);
-      const Value start = Polygon::Projections::at_point(of_lower.start, at_lower.u, at_lower.v);
-      const Value end = Polygon::Projections::at_point(of_lower.end, at_lower.u, at_lower.v);
-      const Value seen = min(max(lower + gap / (start - end), begin_), Value(1.0));
+      const Value seen = min(max(lower + gap / rate, begin_), Value(1.0));
       return {lower,
               upper,
               u,
@@ -1472,22 +1554,24 @@ class CertifiedStages {
   }
 
   static void store_hits(KernelOutput& output, const std::array<std::uint32_t, width>& indices,
-                         std::size_t count, unsigned proved, const std::array<Value, 2>& enclosure,
+                         unsigned lanes, const std::array<Value, 2>& enclosure,
                          const std::array<Value, 2>& uv) {
     alignas(64) std::array<std::array<double, width>, 4> rows;
     enclosure[0].store(rows[0].data());
     enclosure[1].store(rows[1].data());
     uv[0].store(rows[2].data());
     uv[1].store(rows[3].data());
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      const bool is_proved = (proved >> lane & 1U) != 0;
-      const std::uint32_t index = indices[lane];
-      if (is_proved) {
-        append(output.hits,
-               KernelHit{index, rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]});
-      } else {
-        append(output.undecided, index);
-      }
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
+      append(output.hits,
+             KernelHit{indices[lane], rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]});
+    }
+  }
+
+  static void append_lanes(Indices& list, const std::array<std::uint32_t, width>& indices,
+                           unsigned lanes) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      append(list, indices[static_cast<std::size_t>(__builtin_ctz(lanes))]);
     }
   }
 };

@@ -39,6 +39,7 @@ extern const CertifiedKernel fault_in_zero;
 extern const CertifiedKernel fault_in_refinement;
 extern const CertifiedKernel fault_in_axis_distance;
 extern const CertifiedKernel fault_in_widening;
+extern const CertifiedKernel fault_in_shift;
 extern const CertifiedKernel fault_in_step;
 extern const CertifiedKernel fault_in_witness;
 
@@ -223,6 +224,13 @@ TEST(CertifiedKernels, FamiliesFindAFaultInEachStage) {
 
 // ---- With a separation --------------------------------------------------------------------------
 
+/// Nothing moves by more than the points' distances here and there; or hardly at all.
+Query query_near(Random& random, Kind kind, double distance, int i) {
+  if (i % 5 == 0) return tests::tilting_query(random, kind, distance);
+  return i % 3 == 0 ? tests::full_significand_query(random)
+                    : tests::near_contact_query(random, kind);
+}
+
 /// At how many of the distances some answer is wrong.
 int distances_that_find(const CertifiedKernel& kernel) {
   int found = 0;
@@ -234,9 +242,7 @@ int distances_that_find(const CertifiedKernel& kernel) {
         const Norm norm = i % 2 == 0 ? Norm::linf : Norm::l2;
         const CertifiedOptions options{.separation = {.distance = distance, .norm = norm},
                                        .kernel = &kernel};
-        // Nothing moves by more than the points' distances here and there.
-        Query query = tests::near_contact_query(random, kind);
-        if (i % 3 == 0) query = tests::full_significand_query(random);
+        const Query query = query_near(random, kind, distance, i);
         is_found = tests::fault(kind, query, certified(kind, query, options), options).has_value();
       }
     }
@@ -255,6 +261,7 @@ TEST(CertifiedKernels, DistancesFindAFaultInEachStage) {
   const std::map<std::string, const CertifiedKernel*> faults{
       {"axis with a distance", &fault_in_axis_distance},
       {"widening", &fault_in_widening},
+      {"shift", &fault_in_shift},
       {"step", &fault_in_step},
       {"witness", &fault_in_witness}};
   for (const auto& [fault, kernel] : faults) {
