@@ -26,7 +26,7 @@ extern const BoxKernel box_of_wrong_sign, box_in_float, box_of_squared_width, bo
 extern const CertifiedKernel kernel_with_factors, kernel_without_product_error;
 extern const CertifiedKernel fault_in_axis, fault_in_direction, fault_in_determinant,
     fault_in_bound, fault_in_rejection, fault_in_agreement, fault_in_zero, fault_in_refinement,
-    fault_in_axis_distance, fault_in_widening, fault_in_step, fault_in_witness;
+    fault_in_axis_distance, fault_in_widening, fault_in_shift, fault_in_step, fault_in_witness;
 
 using MakeSearch = std::unique_ptr<Method>(const TightInclusionOptions&);
 MakeSearch search_without_domain_edge, search_in_part_of_triangle, search_of_edges_as_triangle,
@@ -372,6 +372,9 @@ std::vector<Mutant> kernels_of_certified() {
        with_kernel(fast::fault_in_axis_distance), near},
       {"bounds_not_widened", certified, "bounds are not widened by the distance",
        with_kernel(fast::fault_in_widening), near},
+      {"bounds_widened_too_little", certified,
+       "bounds are widened for the ends' coefficients, not the middle ones",
+       with_kernel(fast::fault_in_shift), near},
       {"step_of_one_end", certified, "a step is free if it begins so",
        with_kernel(fast::fault_in_step), near},
       {"witness_unproved", certified, "a time of impact that is too early is not noticed",
