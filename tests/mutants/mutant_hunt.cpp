@@ -91,6 +91,7 @@ class Corpus {
 int run(const std::vector<std::string>& names, const HuntOptions& options,
         const std::filesystem::path& folder) {
   std::vector<const Mutant*> chosen;
+  chosen.reserve(mutants().size() + names.size());
   for (const std::string& name : names) chosen.push_back(&find_mutant(name));
   if (names.empty()) {
     for (const Mutant& mutant : mutants()) chosen.push_back(&mutant);
