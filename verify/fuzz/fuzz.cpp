@@ -58,6 +58,13 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Far from overflow and underflow: what is made from it is not a query of zeros.
+bool is_moderate(const Query& query) {
+  return std::ranges::all_of(query.coordinates, [](double x) {
+    return x == 0.0 || (std::abs(x) > 0x1p-300 && std::abs(x) < 0x1p300);
+  });
+}
+
 // ---- A block ------------------------------------------------------------------------------------
 
 /// A query that is an exact image of another one in the block.
@@ -295,7 +302,7 @@ class Run {
     reward += 1.0 / (1.0 + before);
     if (before == 0) {
       ++statistics.signatures;
-      maker_.remember(block_.kind, block_.queries[i]);
+      if (is_moderate(block_.queries[i])) maker_.remember(block_.kind, block_.queries[i]);
     }
     if (answers_[i].tolerance > 2.0 * options_.method.tolerance) work += exhausted_work;
     maker_.learn(block_.arms[i], reward, work);

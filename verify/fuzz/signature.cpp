@@ -12,11 +12,15 @@ namespace {
 /// The exponent field of a double, 0 (zeros, subnormals) to 2047 (infinities, NaN).
 std::uint64_t exponent_field(double x) { return (std::bit_cast<std::uint64_t>(x) >> 52U) & 0x7ffU; }
 
-/// The exponent in pairs, of numbers up to 1: all below 2^-64 are one.
+/// The exponent of numbers up to 1, from 0 to 64: all below 2^-64 are one.
 std::uint64_t small_exponent(double x) {
   static constexpr std::uint64_t bias = 1023, least = bias - 64;
-  const std::uint64_t field = exponent_field(x);
-  return (std::max(field, least) - least) / 2;
+  return std::max(exponent_field(x), least) - least;
+}
+
+/// Where in [0,1] a time is: how near to the nearer end.
+std::uint64_t time_place(double t) {
+  return t < 0.5 ? small_exponent(t) / 8 : 16 + small_exponent(1.0 - t) / 8;
 }
 
 std::uint64_t boundary_place(Kind kind, double u, double v) {
@@ -53,9 +57,8 @@ std::uint64_t signature(Kind kind, const Query& query, const fast::CertifiedResu
            64 * static_cast<std::uint64_t>(answer.verdict) + 256 * (zeros / 4) +
            4096 * (exponent_field(greatest) / 256));
   if (judged.verdict == fast::Verdict::yes) {
-    hash.add(small_exponent(judged.toi_upper) + 64 * small_exponent(1.0 - judged.toi_upper) +
-             4096 * boundary_place(kind, judged.u, judged.v));
-    hash.add(small_exponent(judged.toi_upper - answer.toi_lower));
+    hash.add(time_place(judged.toi_upper) + 64 * boundary_place(kind, judged.u, judged.v));
+    hash.add(small_exponent(judged.toi_upper - answer.toi_lower) / 2);
   }
   hash.add(answer.verdict == fast::Verdict::yes ? exponent_field(answer.tolerance) / 2 : 0);
   return hash.value();

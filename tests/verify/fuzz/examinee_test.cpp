@@ -132,12 +132,13 @@ TEST(Examinee, CountsADeathThatNoQueryCausesAlone) {
   };
   const Crowded method;
   Examinee examinee(method);
-  std::vector<Answer> answers(20);
-  const Sitting sitting = examinee.answer(Kind::vertex_face, numbered(20), answers);
-  EXPECT_EQ(sitting.answered, 20U);
+  std::vector<Answer> answers(60);
+  const Sitting sitting = examinee.answer(Kind::vertex_face, numbered(60), answers);
+  EXPECT_EQ(sitting.answered, 60U);
   EXPECT_TRUE(sitting.incidents.empty());
-  EXPECT_EQ(sitting.unplaced, 1U);
-  expect_right(answers, 0, 20);
+  // Steps of 1, 2, 4, 8, 16, of which the last one dies; then of all that is left behind it.
+  EXPECT_EQ(sitting.unplaced, 2U);
+  expect_right(answers, 0, 60);
 }
 
 TEST(Examinee, LeavesTheRestAfterManyIncidents) {

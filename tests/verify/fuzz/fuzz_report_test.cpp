@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <string_view>
 
 #include "tests/support/queries.hpp"
 
@@ -11,7 +13,10 @@ namespace touchstone::verify {
 namespace {
 
 FuzzReport sample() {
-  FuzzReport report{.method = "mine", .promise = fast::Promise::exact, .seed = 7};
+  FuzzReport report;
+  report.method = "mine";
+  report.promise = fast::Promise::exact;
+  report.seed = 7;
   report.separation = {.distance = 0.5, .norm = Norm::l2};
   report.result.queries = 3000;
   report.result.images = 300;
