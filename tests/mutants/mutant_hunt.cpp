@@ -1,6 +1,6 @@
 /// \file
 /// The table of mutants: each hunted by the fuzzer, with the time and the queries it took. Exit status 1 if one is
-/// not found, or one that should be harmless is.
+/// not found that should be, or one that should be harmless is.
 
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@ std::string outcome(const Mutant& mutant, const Hunt& hunt) {
     return fmt::format("{} by {}{}", verify::to_string(hunt.finding->what), hunt.finding->generator,
                        mutant.harmless.empty() ? "" : " (SHOULD BE HARMLESS)");
   }
+  if (!mutant.rare.empty()) return "not found (rare)";
   return mutant.harmless.empty() ? "NOT FOUND" : "harmless";
 }
 
@@ -37,9 +39,11 @@ std::string outcome(const Mutant& mutant, const Hunt& hunt) {
 bool print(const Mutant& mutant, const Hunt& hunt) {
   fmt::print("{:<30} {:<16} {:>8.2f} {:>10}  {:<46} {}\n", mutant.name, mutant.of, hunt.seconds,
              hunt.queries, outcome(mutant, hunt), mutant.fault);
-  if (!hunt.finding && !mutant.harmless.empty()) fmt::print("    {}\n", mutant.harmless);
+  const std::string_view why = mutant.harmless.empty() ? mutant.rare : mutant.harmless;
+  if (!hunt.finding && !why.empty()) fmt::print("    {}\n", why);
   (void)std::fflush(stdout);
-  return hunt.finding.has_value() == mutant.harmless.empty();
+  if (hunt.finding) return mutant.harmless.empty();
+  return !why.empty();
 }
 
 /// Findings as datasets: a folder for each separation, in it a file for each kind.
@@ -87,6 +91,7 @@ class Corpus {
 int run(const std::vector<std::string>& names, const HuntOptions& options,
         const std::filesystem::path& folder) {
   std::vector<const Mutant*> chosen;
+  chosen.reserve(mutants().size() + names.size());
   for (const std::string& name : names) chosen.push_back(&find_mutant(name));
   if (names.empty()) {
     for (const Mutant& mutant : mutants()) chosen.push_back(&mutant);

@@ -26,6 +26,9 @@ struct Mutant {
   Separation separation = {};
   /// Why it is no fault; empty if it is one.
   std::string_view harmless = {};
+  /// What a query must be like to show the fault, where that is so rare that the fuzzer is not expected to
+  /// find it: a gap in what it generates, or slack in the original's bound.
+  std::string_view rare = {};
 };
 
 /// All of them, always in the same order.

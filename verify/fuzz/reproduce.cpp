@@ -57,7 +57,7 @@ std::string literal(std::string_view text) {
 
 /// Tells apart the reproductions of one method.
 std::string fingerprint(const Reproduction& found) {
-  std::uint64_t hash = static_cast<std::uint64_t>(found.kind);
+  auto hash = static_cast<std::uint64_t>(found.kind);
   const auto add = [&](std::uint64_t bits) {
     hash = builtin::mix(hash + bits + 0x9e3779b97f4a7c15ULL);
   };

@@ -394,7 +394,9 @@ Complexity complexity(Kind kind, const Query& query) {
     if (std::signbit(x)) ++result.length;
     if (i < to_other_end && x != query.coordinates[i + to_other_end]) ++result.length;
   }
-  for (const PointPair& pair : exchangeable(kind)) result.disorder += is_greater(query, pair);
+  for (const PointPair& pair : exchangeable(kind)) {
+    if (is_greater(query, pair)) ++result.disorder;
+  }
   return result;
 }
 

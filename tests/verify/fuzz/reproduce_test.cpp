@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <functional>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
