@@ -31,6 +31,9 @@ void add_generate_command(CLI::App& app, Status& status);
 /// `touchstone bench`
 void add_bench_command(CLI::App& app, Status& status);
 
+/// `touchstone stability`
+void add_stability_command(CLI::App& app, Status& status);
+
 /// `touchstone candidates`
 void add_candidates_command(CLI::App& app, Status& status);
 
