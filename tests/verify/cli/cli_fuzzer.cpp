@@ -5,6 +5,7 @@
 /// The words are the lines of the input. The commands themselves are not run.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
