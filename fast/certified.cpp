@@ -311,6 +311,9 @@ std::optional<EarliestImpact> earliest(const MovingVertices& vertices, const Can
 
 namespace {
 
+/// How many stages a query goes through that this one decides.
+constexpr std::uint32_t stages_up_to(Stage stage) { return static_cast<std::uint32_t>(stage) + 1; }
+
 class CertifiedMethod : public Method {
  public:
   explicit CertifiedMethod(const CertifiedOptions& base) : base_(base) { check(base); }
@@ -332,10 +335,12 @@ class CertifiedMethod : public Method {
     const Batch batch = batch_of(kind, queries);
     for_each_block(batch.size, of_call.max_threads, [&](std::size_t first) {
       const std::size_t count = std::min(kernel_block, batch.size - first);
-      std::ranges::fill(answers.subspan(first, count), Answer{.verdict = Verdict::no});
+      std::ranges::fill(answers.subspan(first, count),
+                        Answer{.verdict = Verdict::no, .checks = stages_up_to(Stage::axis)});
       decide_block(batch, first, of_call.t_max, of_call,
                    [&](std::size_t number, const CertifiedResult& result) {
                      answers[number] = {.verdict = result.verdict,
+                                        .checks = stages_up_to(result.stage),
                                         .toi_lower = result.toi_lower,
                                         .toi_upper = result.toi_upper,
                                         .tolerance = Answer::none};

@@ -316,6 +316,12 @@ Workspace& workspace_of_this_thread() {
   return workspace;
 }
 
+/// As many as an answer can say.
+std::uint32_t to_answer_checks(std::int64_t checks) {
+  return static_cast<std::uint32_t>(
+      std::min<std::int64_t>(checks, std::numeric_limits<std::uint32_t>::max()));
+}
+
 class TightInclusionMethod final : public Method {
  public:
   explicit TightInclusionMethod(const TightInclusionOptions& base) : base_(base) {}
@@ -339,6 +345,7 @@ class TightInclusionMethod final : public Method {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const TightInclusionResult result = tight_inclusion(kind, queries[i], all);
       answers[i] = {.verdict = result.verdict,
+                    .checks = to_answer_checks(result.checks),
                     .toi_lower = result.toi,
                     .toi_upper = Answer::none,
                     .tolerance = result.tolerance};

@@ -534,6 +534,7 @@ TEST(CertifiedMethod, AnswersWhatTheSolverFinds) {
     EXPECT_EQ(answers[i].verdict, results[i].verdict);
     EXPECT_TRUE(same(answers[i].toi_lower, results[i].toi_lower));
     EXPECT_TRUE(same(answers[i].toi_upper, results[i].toi_upper));
+    EXPECT_EQ(answers[i].checks, static_cast<std::uint32_t>(results[i].stage) + 1);
   }
 }
 

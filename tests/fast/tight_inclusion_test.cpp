@@ -851,6 +851,9 @@ TEST(Method, AnswersASpanAsQueryByQuery) {
   EXPECT_EQ(answers[2].toi_lower,
             solve(over_triangle(1, 1, 1, -2), {.tolerance = 1e-3, .t_max = 0.75}).toi);
   EXPECT_EQ(answers[2].tolerance, 1e-3);
+  EXPECT_EQ(answers[2].checks,
+            solve(over_triangle(1, 1, 1, -2), {.tolerance = 1e-3, .t_max = 0.75}).checks);
+  EXPECT_GT(answers[2].checks, 1U);
   EXPECT_TRUE(std::isnan(answers[2].toi_upper));
   EXPECT_EQ(answers[3].verdict, Verdict::error);
 }

@@ -34,6 +34,9 @@ void add_bench_command(CLI::App& app, Status& status);
 /// `touchstone fuzz`
 void add_fuzz_command(CLI::App& app, Status& status);
 
+/// `touchstone stability`
+void add_stability_command(CLI::App& app, Status& status);
+
 /// `touchstone candidates`
 void add_candidates_command(CLI::App& app, Status& status);
 

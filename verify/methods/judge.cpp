@@ -101,6 +101,7 @@ double Judgement::nanoseconds_per_query() const {
 void Judgement::add(const Truth& truth, const fast::Answer& answer) {
   using fast::Verdict;
   ++queries;
+  checks += answer.checks;
   if (answer.verdict == Verdict::error) {
     add_fault(Fault::error, truth, answer);
     return;
@@ -157,6 +158,7 @@ Judgement& Judgement::operator+=(const Judgement& next) {
   if (!first_missing) first_missing = next.first_missing;
   unplaced_crashes += next.unplaced_crashes;
   undecided += next.undecided;
+  checks += next.checks;
   nanoseconds += next.nanoseconds;
   toi_errors += next.toi_errors;
   return *this;

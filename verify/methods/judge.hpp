@@ -98,6 +98,7 @@ struct Judgement {
   /// Of the errors, processes that the method ended at no particular query: see isolation.hpp.
   std::uint64_t unplaced_crashes = 0;
   std::uint64_t undecided = 0;
+  std::uint64_t checks = 0;  ///< steps of the method, summed over the queries, where it counts them
   double nanoseconds = 0.0;  ///< processor time of the method, summed over the queries
   ToiErrors toi_errors;
   /// In the order of the queries.

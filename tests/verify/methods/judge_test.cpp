@@ -211,9 +211,9 @@ TEST(ToiErrors, AddUp) {
 }
 
 TEST(Judgement, AddsUpInOrder) {
-  Judgement sum = judge(hit(0.5, 0.5), {.verdict = Verdict::no});
+  Judgement sum = judge(hit(0.5, 0.5), {.verdict = Verdict::no, .checks = 3});
   sum.nanoseconds = 10;
-  Judgement next = judge(miss(), {.verdict = Verdict::undecided});
+  Judgement next = judge(miss(), {.verdict = Verdict::undecided, .checks = 4});
   next.nanoseconds = 30;
   next.add_missing(11);
   next.add_missing(12);
@@ -222,6 +222,7 @@ TEST(Judgement, AddsUpInOrder) {
   EXPECT_EQ(sum.undecided, 1U);
   EXPECT_EQ(sum.missing, 2U);
   EXPECT_EQ(sum.first_missing, 11U);
+  EXPECT_EQ(sum.checks, 7U);
   EXPECT_EQ(sum.nanoseconds_per_query(), 20.0);
   ASSERT_EQ(sum.wrong_answers.size(), 2U);
   EXPECT_EQ(sum.wrong_answers[0].fault, Fault::false_negative);

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/folder_test.hpp"
+
+// `touchstone stability` as users meet it: by running the tool.
+
+namespace touchstone::verify::cli {
+namespace {
+
+class Stability : public tests::FolderTest {
+ protected:
+  /// Runs the tool, after shell words such as a limit of time; its exit status.
+  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = before + " '" TOUCHSTONE_TOOL "' stability " + arguments + " >'" +
+                                path("out") + "' 2>'" + path("err") + "'";
+    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
+  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
+};
+
+const std::string quick = " --count 2 --hardness angle ";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(Stability, HelpHasAnExampleAndTheLevels) {
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_TRUE(contains(read("out"), "Example: touchstone stability ")) << read("out");
+  EXPECT_TRUE(contains(read("out"), "distance to contact, in sizes: 2^-1 to 2^-50"));
+}
+
+TEST_F(Stability, WritesTableJsonAndPicture) {
+  ASSERT_EQ(run(quick + "--method certified --seed 9 --json " + quoted("json") + " --picture " +
+                quoted("map.svg")),
+            0)
+      << read("err");
+  EXPECT_EQ(read("err"), "");
+  EXPECT_TRUE(contains(read("out"), "certified (exact): keeps its promise\n")) << read("out");
+  EXPECT_TRUE(contains(read("out"), "vertex-face  ...........       22  "));
+  const nlohmann::json result = json();
+  EXPECT_EQ(result.at("seed"), 9);
+  EXPECT_EQ(result.at("count"), 2);
+  ASSERT_EQ(result.at("methods").size(), 1U);
+  const nlohmann::json cells = result.at("methods")[0].at("cells");
+  ASSERT_EQ(cells.size(), 22U);
+  EXPECT_EQ(cells[0].at("hardness"), "angle");
+  EXPECT_EQ(cells[0].at("collisions"), 1);
+  EXPECT_GE(cells[0].at("checks_per_query"), 1.0) << "stages";
+  EXPECT_TRUE(read("map.svg").starts_with("<?xml"));
+  EXPECT_TRUE(contains(read("map.svg"), "certified — promises: exact; kept"));
+}
+
+TEST_F(Stability, WithoutAMethodAllOfOursAreJudged) {
+  ASSERT_EQ(run("--count 1 --hardness offset --max-checks 1000 --json " + quoted("json")), 0)
+      << read("out") << read("err");
+  std::string names;
+  const nlohmann::json methods = json().at("methods");
+  for (const nlohmann::json& method : methods) names += method.at("name").get<std::string>() + " ";
+  EXPECT_EQ(names, "certified tight_inclusion tight_inclusion_published ");
+}
+
+TEST_F(Stability, RatesAreTheSameForAnyNumberOfThreads) {
+  const auto rates = [&](const std::string& threads) {
+    EXPECT_EQ(run(quick + "--plugin '" TOUCHSTONE_BOX_OVERLAP "' --threads " + threads +
+                  " --json " + quoted("json")),
+              0);
+    nlohmann::json result = json();
+    for (nlohmann::json& cell : result.at("methods")[0].at("cells")) cell.erase("ns_per_query");
+    return result;
+  };
+  EXPECT_EQ(rates("1"), rates("3"));
+}
+
+TEST_F(Stability, ABrokenPromiseExitsWithOne) {
+  EXPECT_EQ(run(quick + "--plugin '" TOUCHSTONE_MISBEHAVING "' --json " + quoted("json")), 1);
+  EXPECT_EQ(json().at("methods")[0].at("keeps_promise"), false);
+  EXPECT_EQ(run(quick + "--plugin '" TOUCHSTONE_BOX_OVERLAP "'"), 0);
+  EXPECT_EQ(run(quick + "--exact --plugin '" TOUCHSTONE_BOX_OVERLAP "'"), 1) << read("out");
+}
+
+TEST_F(Stability, TakesASeparation) {
+  ASSERT_EQ(
+      run(quick + "--method certified --min-separation 0x1p-7 --norm l2 --json " + quoted("json")),
+      0)
+      << read("out") << read("err");
+  EXPECT_TRUE(contains(read("out"), "minimum separation 0.0078125 (l2)\n")) << read("out");
+  EXPECT_EQ(json().at("separation").at("norm"), "l2");
+}
+
+TEST_F(Stability, BadUsageExitsWithTwo) {
+  for (const std::string arguments :
+       {"--hardness easy", "--method nonsense", "--count 0", "--min-separation 1e9", "--norm l3",
+        "--picture '/nonexistent/map.svg'", "paths"}) {
+    EXPECT_EQ(run(arguments), 2) << arguments;
+    EXPECT_FALSE(read("err").empty());
+  }
+  EXPECT_EQ(run(quick + "--json " + quoted("one") + " --picture " + quoted("one")), 2);
+  EXPECT_TRUE(contains(read("err"), "named for two outputs"));
+}
+
+TEST_F(Stability, AnInterruptLeavesWhatIsDone) {
+  EXPECT_EQ(run("--count 1000000 --method certified --json " + quoted("json"),
+                "timeout --preserve-status -s INT 1"),
+            130)
+      << read("err");
+  EXPECT_EQ(json().at("interrupted"), true);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,332 @@
+#include "verify/stability/hardness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "exact/distance_oracle.hpp"
+#include "exact/number.hpp"
+#include "exact/oracle.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/decision.hpp"
+#include "verify/families/random.hpp"
+#include "verify/families/recipe.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using exact::Rational;
+using tests::trials;
+
+constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::uint64_t seed = 7;
+/// The size of every scene that is not scaled, in its coordinates.
+constexpr double size = 3.0;
+
+/// Calls use(exponent, kind, query, collides) for some queries of every level.
+template <class Use>
+void for_each_query(std::string_view name, std::uint64_t count, const Use& use) {
+  const Hardness& hardness = hardness_from_name(name);
+  for (const int exponent : hardness.exponents) {
+    for (const Kind kind : kinds) {
+      SCOPED_TRACE(::testing::Message() << name << " 2^" << exponent << " " << to_string(kind));
+      for (std::uint64_t index = 0; index < trials(count); ++index) {
+        const HardQuery made = make_hard_query(
+            {.hardness = &hardness, .exponent = exponent, .kind = kind}, seed, index);
+        use(exponent, kind, made.query, made.collides);
+      }
+    }
+  }
+}
+
+void expect_between(double value, double low, double high) {
+  EXPECT_GE(value, low);
+  EXPECT_LE(value, high);
+}
+
+/// Points of the second primitive begin here.
+std::size_t second(Kind kind) { return kind == Kind::vertex_face ? 1 : 2; }
+
+/// Motion of the first primitive relative to the second one's first point.
+Eigen::Vector3d relative_motion(Kind kind, const Query& query) {
+  const std::size_t other = second(kind);
+  return (query.point(1, 0) - query.point(0, 0)) - (query.point(1, other) - query.point(0, other));
+}
+
+using Vector = std::array<Rational, 3>;
+
+Vector vector(const Query& query, std::size_t end, std::size_t from, std::size_t to) {
+  Vector result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result[axis] = Rational(query.at(end, to, axis)) - Rational(query.at(end, from, axis));
+  }
+  return result;
+}
+
+Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The square of the length of `a` along a direction.
+Rational square_along(const Vector& a, const Vector& direction) {
+  const Rational product = dot(a, direction);
+  return product * product / dot(direction, direction);
+}
+
+Vector normal(Kind kind, const Query& query, std::size_t end) {
+  return kind == Kind::vertex_face ? cross(vector(query, end, 1, 2), vector(query, end, 1, 3))
+                                   : cross(vector(query, end, 0, 1), vector(query, end, 2, 3));
+}
+
+TEST(Hardness, HasUniqueNamesAndLevelsInOrder) {
+  std::set<std::string_view> names;
+  for (const Hardness& hardness : hardnesses()) {
+    EXPECT_TRUE(names.insert(hardness.name).second);
+    EXPECT_EQ(&hardness_from_name(hardness.name), &hardness);
+    EXPECT_FALSE(hardness.reason.empty());
+    const auto& levels = hardness.exponents;
+    EXPECT_TRUE(std::ranges::is_sorted(levels) ||
+                std::ranges::is_sorted(levels, std::ranges::greater{}));
+    EXPECT_EQ(std::set<int>(levels.begin(), levels.end()).size(), levels.size());
+  }
+  EXPECT_EQ(names.size(), 6U);
+  EXPECT_THROW(static_cast<void>(hardness_from_name("difficulty")), std::invalid_argument);
+}
+
+TEST(HardQueries, CollideIfTheirNumberIsEvenSaysTheOracle) {
+  for (const Hardness& hardness : hardnesses()) {
+    for (const int exponent : hardness.exponents) {
+      for (const Kind kind : kinds) {
+        for (std::uint64_t index = 0; index < trials(16U); ++index) {
+          const HardQuery made = make_hard_query(
+              {.hardness = &hardness, .exponent = exponent, .kind = kind}, seed, index);
+          ASSERT_EQ(made.collides, index % 2 == 0);
+          ASSERT_EQ(exact::decide(kind, made.query).collides(), made.collides)
+              << hardness.name << " 2^" << exponent << " " << to_string(kind) << " " << index;
+        }
+      }
+    }
+  }
+}
+
+/// What misses comes as near as the level says, to the last bit.
+TEST(HardQueries, MissByExactlyTheDistance) {
+  for_each_query("distance", 16, [](int exponent, Kind kind, const Query& query, bool collides) {
+    if (collides) return;
+    const double distance = size * std::ldexp(1.0, exponent);
+    const double less = std::nextafter(distance, 0.0);
+    EXPECT_TRUE(exact::decide(kind, query, {.distance = distance, .norm = Norm::l2}).collides());
+    EXPECT_FALSE(exact::decide(kind, query, {.distance = less, .norm = Norm::l2}).collides());
+  });
+}
+
+/// What collides overlaps by as much: across the plane at the end, or across a side within the plane.
+TEST(HardQueries, OverlapByExactlyTheDistance) {
+  for_each_query("distance", 16, [](int exponent, Kind kind, const Query& query, bool collides) {
+    if (!collides) return;
+    const Rational distance = Rational(size) * exact::power_of_two(exponent);
+    const Rational square = distance * distance;
+    std::vector<Rational> overlaps{
+        square_along(vector(query, 1, second(kind), 0), normal(kind, query, 1))};
+    const Vector up = normal(kind, query, 0);
+    for (std::size_t edge = 0; edge < 12; ++edge) {
+      const std::size_t from = edge / 4, to = edge % 4;
+      if (from == to || (from < second(kind)) != (to < second(kind))) continue;
+      const Vector across = cross(vector(query, 0, from, to), up);
+      for (std::size_t point = 0; point < 4; ++point) {
+        if ((point < second(kind)) == (from < second(kind))) continue;
+        overlaps.push_back(square_along(vector(query, 0, from, point), across));
+      }
+    }
+    EXPECT_NE(std::ranges::find(overlaps, square), overlaps.end());
+  });
+}
+
+TEST(HardQueries, HaveTheAspect) {
+  for_each_query("aspect", 16, [](int exponent, Kind kind, const Query& query, bool) {
+    const auto side = [&](std::size_t a, std::size_t b) {
+      return Eigen::Vector3d(query.point(0, b) - query.point(0, a));
+    };
+    const double level = std::ldexp(1.0, exponent);
+    if (kind == Kind::edge_edge) {
+      const double a = side(0, 1).norm(), b = side(2, 3).norm();
+      // Which of the edges is the shorter one is the symmetry's choice; at level 1 they are alike.
+      expect_between(std::min(a, b) / std::max(a, b) / level, 0.65, 1.5);
+      return;
+    }
+    const double longest = std::max({side(1, 2).norm(), side(1, 3).norm(), side(2, 3).norm()});
+    const double height =
+        std::sqrt(mpq_class(dot(normal(kind, query, 0), normal(kind, query, 0))).get_d()) / longest;
+    expect_between(height / longest / level, 0.65, 1.2);
+  });
+}
+
+TEST(HardQueries, HaveTheAngle) {
+  for_each_query("angle", 16, [](int exponent, Kind kind, const Query& query, bool) {
+    const Vector up = normal(kind, query, 0);
+    const double level = std::ldexp(1.0, exponent);
+    if (kind == Kind::edge_edge) {
+      const Rational along = dot(vector(query, 0, 0, 1), vector(query, 0, 2, 3));
+      expect_between(std::sqrt(Rational(dot(up, up) / (along * along)).get_d()) / level, 0.85, 1.2);
+      return;
+    }
+    Vector motion = vector(query, 1, 1, 0);
+    const Vector before = vector(query, 0, 1, 0);
+    for (std::size_t axis = 0; axis < 3; ++axis) motion[axis] -= before[axis];
+    const Rational down = square_along(motion, up);
+    expect_between(std::sqrt(Rational(down / (dot(motion, motion) - down)).get_d()) / level, 0.85,
+                   1.2);
+  });
+}
+
+TEST(HardQueries, HaveTheSpeed) {
+  for_each_query("speed", 16, [](int exponent, Kind kind, const Query& query, bool) {
+    const double motion = relative_motion(kind, query).norm() / size;
+    expect_between(motion / std::ldexp(1.0, exponent), 0.7, 1.1);
+  });
+}
+
+TEST(HardQueries, HaveTheOffset) {
+  for_each_query("offset", 16, [](int exponent, Kind, const Query& query, bool) {
+    if (exponent == 0) return;
+    expect_between(query.point(0, 0).norm() / size / std::ldexp(1.0, exponent), 0.7, 1.9);
+  });
+}
+
+TEST(HardQueries, HaveTheScale) {
+  for_each_query("scale", 16, [](int exponent, Kind, const Query& query, bool) {
+    double greatest = 0.0;
+    for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
+    expect_between(std::ldexp(greatest, -exponent) / size, 0.3, 3.0);
+  });
+}
+
+/// A filter is tested only by what is rounded.
+TEST(HardQueries, HaveFullSignificands) {
+  for (const std::string_view name : {"distance", "aspect", "angle", "scale"}) {
+    for_each_query(name, 8, [](int, Kind, const Query& query, bool) {
+      EXPECT_TRUE(builtin::uses_full_significands(query));
+    });
+  }
+}
+
+std::uint64_t hash(const Query& query) {
+  std::uint64_t value = 0;
+  for (const double x : query.coordinates) {
+    value = builtin::mix(value ^ std::bit_cast<std::uint64_t>(x));
+  }
+  return value;
+}
+
+TEST(HardQueries, AreTheSameEverywhereAndDifferByEveryArgument) {
+  const HardSort sort{.hardness = &hardness_from_name("distance"), .exponent = -20};
+  HardSort other_level = sort, other_kind = sort, other_hardness = sort;
+  other_level.exponent = -25;
+  other_kind.kind = Kind::edge_edge;
+  other_hardness.hardness = &hardness_from_name("angle");
+  const std::uint64_t here = hash(make_hard_query(sort, seed, 3).query);
+  EXPECT_EQ(here, hash(make_hard_query(sort, seed, 3).query));
+  const std::set<std::uint64_t> all{here,
+                                    hash(make_hard_query(sort, seed, 4).query),
+                                    hash(make_hard_query(sort, seed + 1, 3).query),
+                                    hash(make_hard_query(other_level, seed, 3).query),
+                                    hash(make_hard_query(other_kind, seed, 3).query),
+                                    hash(make_hard_query(other_hardness, seed, 3).query)};
+  EXPECT_EQ(all.size(), 6U);
+  EXPECT_EQ(here, 10027675287850289189U);
+}
+
+TEST(HardQueries, AreOfTheLevelsThereAre) {
+  const Hardness& distance = hardness_from_name("distance");
+  EXPECT_THROW(static_cast<void>(make_hard_query({.hardness = &distance, .exponent = -2}, seed, 0)),
+               std::invalid_argument);
+  EXPECT_THROW(
+      static_cast<void>(open_hard_queries({.hardness = &distance, .exponent = 0}, seed, 1)),
+      std::invalid_argument);
+}
+
+TEST(SeparationAt, IsScaledWithTheCoordinates) {
+  const Separation asked{.distance = 1e-3, .norm = Norm::l2};
+  EXPECT_EQ(separation_at(hardness_from_name("distance"), -50, asked), asked);
+  EXPECT_EQ(separation_at(hardness_from_name("scale"), 200, asked),
+            (Separation{.distance = std::ldexp(1e-3, 200), .norm = Norm::l2}));
+}
+
+TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
+  for (const Separation& asked : {Separation{.distance = 1e-3, .norm = Norm::l2},
+                                  Separation{.distance = 0.7, .norm = Norm::linf},
+                                  Separation{.distance = 300.0, .norm = Norm::l2}}) {
+    for (const Hardness& hardness : hardnesses()) {
+      for (const int exponent : {hardness.exponents.front(), hardness.exponents.back()}) {
+        for (const Kind kind : kinds) {
+          std::uint64_t collisions = 0;
+          for (std::uint64_t index = 0; index < trials(16U); ++index) {
+            const HardQuery made = make_hard_query(
+                {.hardness = &hardness, .exponent = exponent, .kind = kind, .separation = asked},
+                seed, index);
+            collisions += made.collides ? 1U : 0U;
+            const Decision truth(kind, made.query, separation_at(hardness, exponent, asked));
+            ASSERT_EQ(truth.collides(), made.collides);
+          }
+          EXPECT_EQ(collisions, trials(16U) / 2) << hardness.name << " 2^" << exponent << " "
+                                                 << to_string(kind) << " " << asked.distance;
+        }
+      }
+    }
+  }
+}
+
+TEST(HardQueriesAboutASeparation, AreLimitedInDistance) {
+  EXPECT_TRUE(has_hard_queries({}));
+  EXPECT_TRUE(has_hard_queries({.distance = 0x1p14, .norm = Norm::linf}));
+  EXPECT_FALSE(has_hard_queries({.distance = 0x1.1p14, .norm = Norm::linf}));
+  EXPECT_FALSE(has_hard_queries({.distance = -1.0, .norm = Norm::linf}));
+  const HardSort sort{.hardness = &hardness_from_name("scale"),
+                      .exponent = 1000,
+                      .separation = {.distance = 0x1p14, .norm = Norm::l2}};
+  EXPECT_TRUE(std::ranges::all_of(make_hard_query(sort, seed, 0).query.coordinates,
+                                  [](double x) { return std::isfinite(x); }));
+  HardSort beyond = sort;
+  beyond.separation.distance = 1e5;
+  EXPECT_THROW(static_cast<void>(make_hard_query(beyond, seed, 0)), std::invalid_argument);
+}
+
+TEST(OpenHardQueries, StreamsThemWithTheirLabels) {
+  const HardSort sort{.hardness = &hardness_from_name("scale"),
+                      .exponent = -200,
+                      .kind = Kind::edge_edge,
+                      .separation = {.distance = 0.5, .norm = Norm::l2}};
+  const auto source = open_hard_queries(sort, seed, 3);
+  EXPECT_EQ(source->name(), "scale 2^-200");
+  EXPECT_EQ(source->kind(), Kind::edge_edge);
+  EXPECT_EQ(source->recorded_separation(),
+            (Separation{.distance = std::ldexp(0.5, -200), .norm = Norm::l2}));
+  for (std::uint64_t index = 0; index < 3; ++index) {
+    const auto recorded = source->next();
+    ASSERT_TRUE(recorded);
+    const HardQuery made = make_hard_query(sort, seed, index);
+    EXPECT_EQ(recorded->query, made.query);
+    EXPECT_EQ(recorded->index, index);
+    EXPECT_EQ(recorded->collides, made.collides);
+    EXPECT_FALSE(recorded->toi);
+  }
+  EXPECT_EQ(source->progress(), 1.0);
+  EXPECT_FALSE(source->next());
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,343 @@
+#include "verify/stability/hardness.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "fast/certified.hpp"
+#include "verify/families/grid.hpp"
+#include "verify/families/random.hpp"
+#include "verify/families/recipe.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using builtin::operator+;
+using builtin::Random;
+using builtin::Vector;
+
+/// The frame's size is 2^this at most, and its coordinates up to 1.6 times 2^this.
+constexpr int log_frame = 50;
+constexpr double greatest_distance = 0x1p14;
+constexpr int most_attempts = 16;
+
+enum Index : std::size_t { distance, aspect, angle, speed, offset, scale };
+
+constexpr std::array<Hardness, 6> all{{
+    {"distance",
+     "distance to contact, in sizes",
+     "At the nearest they are so far apart, or overlap by so little: the motion ends there, or one "
+     "passes beside the other's border.",
+     {-1, -5, -10, -15, -20, -25, -30, -35, -40, -45, -50}},
+    {"aspect",
+     "triangle: height by longest side; edges: shorter by longer",
+     "Needles, and edges of very different length.",
+     {0, -4, -8, -12, -16, -20, -24, -28, -32, -36, -40}},
+    {"angle",
+     "tangent of the angle to parallel",
+     "Edges that are nearly parallel; a vertex that moves nearly along the plane of the triangle.",
+     {-1, -4, -8, -12, -16, -20, -24, -28, -32, -36, -40}},
+    {"speed",
+     "relative motion, in sizes",
+     "Slow and fast motion, of the first primitive.",
+     {-40, -32, -24, -16, -8, 0, 8, 16, 24, 32, 40}},
+    {"offset",
+     "distance from the origin, in sizes",
+     "Few bits of the coordinates are left for the shape.",
+     {0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40}},
+    {"scale",
+     "factor of all coordinates, and of the separation",
+     "From near the smallest doubles to near the greatest.",
+     {-1000, -800, -600, -400, -200, 0, 200, 400, 600, 800, 1000}},
+}};
+
+/// What a sort of queries is like, in the units of the frame.
+struct Setup {
+  explicit Setup(const HardSort& sort);
+
+  bool near = false;         ///< Do collisions overlap by the gap only?
+  std::int64_t size = 0;     ///< of the scene
+  std::int64_t gap = 0;      ///< of misses, and overlap of near collisions
+  std::int64_t breadth = 0;  ///< height of the triangle, length of edge b
+  std::int64_t descent = 0;  ///< the first primitive goes down by so much at most
+  std::int64_t least_descent = 0;
+  std::int64_t drift = 0;       ///< how far other motion goes
+  std::int64_t offset = 0;      ///< from the origin
+  int log_angle = 0;            ///< of the angle's tangent; 0: far from parallel
+  std::int64_t separation = 0;  ///< along z, rounded
+  bool passes_beside = true;    ///< May a scene be decided beside the border?
+  int exponent = 0;             ///< of the factor from the frame to the world
+};
+
+/// So much must the scene be enlarged to be at least 16 times the separation.
+int enlargement(double distance) {
+  if (distance == 0.0) return 0;
+  return std::max(0, std::ilogb(distance) + 5);
+}
+
+Setup::Setup(const HardSort& sort) {
+  const auto same = [&](const Hardness& other) { return other.name == sort.hardness->name; };
+  const auto index = static_cast<std::size_t>(std::ranges::find_if(all, same) - all.begin());
+  const int level = sort.exponent;
+  // The frame has room for what is longer than the size.
+  const int log_size = index == Index::speed    ? log_frame - std::max(level, 0)
+                       : index == Index::offset ? log_frame - level - 1
+                                                : log_frame;
+  const auto by_level = [&](std::size_t of) {
+    return static_cast<std::int64_t>(
+        std::ldexp(static_cast<double>(size), of == index ? level : 0));
+  };
+  size = std::int64_t{1} << log_size;
+  near = index == Index::distance;
+  gap = near ? by_level(Index::distance) : size / 8;
+  breadth = by_level(Index::aspect);
+  log_angle = index == Index::angle ? level : 0;
+  descent = index == Index::speed ? by_level(Index::speed) : size * 5 / 8;
+  least_descent = descent - descent / 4;
+  drift = std::min(size, descent) / 20;
+  offset = index == Index::offset ? by_level(Index::offset) : size / 4;
+  const int larger = enlargement(sort.separation.distance);
+  // 1 in the frame is 3 along z in the world, or 9/5 by the greatest component: z is (1, 2, 2)/3.
+  const double per_unit = sort.separation.norm == Norm::l2 ? 3.0 : 1.8;
+  separation = std::llround(std::ldexp(sort.separation.distance / per_unit, log_size - larger));
+  passes_beside = separation == 0 || sort.separation.norm == Norm::l2;
+  exponent = larger - log_size + (index == Index::scale ? level : 0);
+}
+
+/// Makes one scene.
+class Scene {
+ public:
+  Scene(const Setup& setup, Kind kind, bool collides, Random& random)
+      : setup_(setup), random_(random), collides_(collides) {
+    const bool beside = setup.passes_beside && random.coin() && (!collides || may_graze());
+    if (kind == Kind::vertex_face) {
+      place_triangle();
+      place_vertex(beside);
+    } else {
+      place_edges(beside);
+    }
+    let_down(kind, beside);
+    move_all();
+  }
+
+  /// In the world, but for the exact symmetry.
+  [[nodiscard]] Query query() const {
+    Query result{};
+    for (std::size_t end = 0; end < 2; ++end) {
+      for (std::size_t point = 0; point < moving_points; ++point) {
+        const auto& [x, y, z] = points_.at(end).at(point);
+        const Vector turned{2 * x - 2 * y + z, x + 2 * y + 2 * z, 2 * x + y - 2 * z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          result.at(end, point, axis) =
+              std::ldexp(static_cast<double>(turned.at(axis)), setup_.exponent);
+        }
+      }
+    }
+    return result;
+  }
+
+ private:
+  /// Collisions at the border are for the near ones, while the triangle is wide enough.
+  [[nodiscard]] bool may_graze() const { return setup_.near && setup_.gap <= setup_.size / 8; }
+
+  /// Between two fractions of a length.
+  std::int64_t draw(double low, double high, std::int64_t length) {
+    const auto part = [&](double fraction) {
+      return std::llround(fraction * static_cast<double>(length));
+    };
+    return random_.between(part(low), part(high));
+  }
+
+  /// Puts a point, with x drifting by up to `drift`.
+  void put(std::size_t point, std::int64_t x, std::int64_t y, std::int64_t drift) {
+    points_[0].at(point) = {x, y, 0};
+    points_[1].at(point) = {x + draw(-1.0, 1.0, drift), y, 0};
+  }
+
+  void place_triangle() {
+    const std::int64_t base = -draw(0.4, 0.4, setup_.breadth);
+    put(1, draw(-0.55, -0.45, setup_.size), base, setup_.drift);
+    put(2, draw(0.45, 0.55, setup_.size), base, setup_.drift);
+    put(3, draw(-0.05, 0.05, setup_.size), base + setup_.breadth, setup_.drift);
+  }
+
+  /// Over the interior, or beside the side along x; nearly parallel it goes along x from one side of
+  /// the triangle to the other.
+  void place_vertex(bool beside) {
+    const std::int64_t base = points_[0][1][1];
+    const std::int64_t inside =
+        collides_ ? setup_.gap - setup_.separation : -setup_.gap - setup_.separation;
+    const std::int64_t y = base + (beside ? inside : draw(0.3, 0.5, setup_.breadth));
+    put(0, draw(-0.05, 0.05, setup_.size), y, setup_.drift);
+    if (setup_.log_angle == 0) return;
+    const std::int64_t reach = slide() / 2;
+    points_[0][0][0] = -reach;
+    points_[1][0][0] = reach;
+  }
+
+  /// Across the interior, or with one end beside it.
+  void place_edges(bool beside) {
+    const std::int64_t drift = std::min(setup_.drift, setup_.breadth / 20);
+    put(2, draw(-0.55, -0.45, setup_.breadth), 0, drift);
+    put(3, draw(0.45, 0.55, setup_.breadth), 0, drift);
+    const bool parallel = setup_.log_angle != 0;
+    const std::int64_t along = draw(parallel ? 0.8 : -0.4, parallel ? 0.8 : 0.4, setup_.size);
+    const std::int64_t across =
+        parallel ? std::llround(std::ldexp(static_cast<double>(along), setup_.log_angle))
+                 : std::min(setup_.size / 5 * 4, setup_.size - setup_.gap);
+    const std::int64_t crossing = draw(-0.15, 0.15, setup_.breadth);
+    const double part = 0.35 + 0.3 * random_.unit();
+    const std::int64_t inside =
+        collides_ ? -setup_.gap + setup_.separation : setup_.gap + setup_.separation;
+    const std::int64_t x = beside ? crossing : crossing - draw(part, part, along);
+    const std::int64_t y = beside ? inside : -draw(part, part, across);
+    put(0, x, y, drift);
+    put(1, x + along, y + across, drift);
+  }
+
+  /// How far a vertex slides along the plane.
+  [[nodiscard]] std::int64_t slide() const { return setup_.size / 5 * 6; }
+
+  /// Gives the first primitive its heights over the second.
+  void let_down(Kind kind, bool beside) {
+    const bool slides = setup_.log_angle != 0 && kind == Kind::vertex_face;
+    const std::int64_t down =
+        slides ? std::llround(std::ldexp(static_cast<double>(slide()), setup_.log_angle))
+               : random_.between(setup_.least_descent, setup_.descent);
+    const bool stops_short = !collides_ && !beside;
+    const bool just_arrives = collides_ && setup_.near && !beside;
+    // What is left above contact at the end.
+    const std::int64_t rest = stops_short    ? setup_.gap
+                              : just_arrives ? -setup_.gap
+                              : slides       ? -draw(0.45, 0.55, down)
+                                             : -draw(0.3, 0.7, down);
+    const std::int64_t start = just_arrives ? down : rest + down;
+    for (std::size_t point = 0; point < (kind == Kind::vertex_face ? 1U : 2U); ++point) {
+      points_[0].at(point)[2] = setup_.separation + start;
+      points_[1].at(point)[2] = setup_.separation + rest;
+    }
+  }
+
+  /// Everything away from the origin, and along.
+  void move_all() {
+    const auto away = [&] {
+      const std::int64_t length = draw(0.5, 1.0, setup_.offset);
+      return random_.coin() ? length : -length;
+    };
+    const Vector start{away(), away(), away()};
+    Vector end = start;
+    for (std::int64_t& component : end) component += 2 * draw(-1.0, 1.0, setup_.drift);
+    for (Vector& point : points_[0]) point = point + start;
+    for (Vector& point : points_[1]) point = point + end;
+  }
+
+  const Setup& setup_;
+  Random& random_;
+  bool collides_;
+  /// At both ends of the motion.
+  std::array<std::array<Vector, moving_points>, 2> points_{};
+};
+
+void check(const HardSort& sort) {
+  const auto& exponents = sort.hardness->exponents;
+  if (std::ranges::find(exponents, sort.exponent) == exponents.end()) {
+    throw std::invalid_argument(
+        fmt::format("{} has no level 2^{}", sort.hardness->name, sort.exponent));
+  }
+  if (!has_hard_queries(sort.separation)) {
+    throw std::invalid_argument("hard queries are about separations up to 16384");
+  }
+}
+
+/// One number for all that tells the sorts apart.
+std::uint64_t key_of(const HardSort& sort, std::uint64_t seed, std::uint64_t index) {
+  std::uint64_t key = builtin::mix(seed ^ builtin::hash(sort.hardness->name));
+  key = builtin::mix(key + static_cast<std::uint64_t>(sort.exponent));
+  key = builtin::mix(key + static_cast<std::uint64_t>(sort.kind));
+  return builtin::mix(key + index);
+}
+
+class HardSource final : public QuerySource {
+ public:
+  HardSource(const HardSort& sort, std::uint64_t seed, std::uint64_t count)
+      : sort_(sort),
+        seed_(seed),
+        count_(count),
+        name_(fmt::format("{} 2^{}", sort.hardness->name, sort.exponent)) {}
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Kind kind() const override { return sort_.kind; }
+  [[nodiscard]] Separation recorded_separation() const override {
+    return separation_at(*sort_.hardness, sort_.exponent, sort_.separation);
+  }
+  [[nodiscard]] std::optional<RecordedQuery> next() override {
+    if (done_ == count_) return std::nullopt;
+    const HardQuery made = make_hard_query(sort_, seed_, done_);
+    return RecordedQuery{
+        .query = made.query, .index = done_++, .collides = made.collides, .toi = std::nullopt};
+  }
+  [[nodiscard]] double progress() const override {
+    return static_cast<double>(done_) / static_cast<double>(count_);
+  }
+
+ private:
+  HardSort sort_;
+  std::uint64_t seed_;
+  std::uint64_t count_;
+  std::string name_;
+  std::uint64_t done_ = 0;
+};
+
+}  // namespace
+
+std::span<const Hardness> hardnesses() { return all; }
+
+const Hardness& hardness_from_name(std::string_view name) {
+  std::string known;
+  for (const Hardness& hardness : all) {
+    if (hardness.name == name) return hardness;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", hardness.name);
+  }
+  throw std::invalid_argument(fmt::format("no hardness is called {} (there are: {})", name, known));
+}
+
+bool has_hard_queries(const Separation& separation) {
+  return is_valid(separation) && separation.distance <= greatest_distance;
+}
+
+Separation separation_at(const Hardness& hardness, int exponent, const Separation& separation) {
+  if (hardness.name != all[Index::scale].name) return separation;
+  return {.distance = std::ldexp(separation.distance, exponent), .norm = separation.norm};
+}
+
+HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed, std::uint64_t index) {
+  check(sort);
+  const Setup setup(sort);
+  const Separation separation = separation_at(*sort.hardness, sort.exponent, sort.separation);
+  const bool wanted = index % 2 == 0;
+  Random random(key_of(sort, seed, index));
+  HardQuery made;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    KnownQuery known;
+    known.query = Scene(setup, sort.kind, wanted, random).query();
+    builtin::apply_random_symmetry(sort.kind, random, known);
+    const fast::CertifiedResult truth =
+        fast::certified(sort.kind, known.query, {.separation = separation});
+    made = {.query = known.query, .collides = truth.verdict == fast::Verdict::yes};
+    if (made.collides == wanted) break;
+  }
+  return made;
+}
+
+std::unique_ptr<QuerySource> open_hard_queries(const HardSort& sort, std::uint64_t seed,
+                                               std::uint64_t count) {
+  check(sort);
+  return std::make_unique<HardSource>(sort, seed, count);
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,91 @@
+#pragma once
+
+/// \file
+/// How methods bear hardness: each is judged on the hard queries (hardness.hpp) of every sort, level
+/// and kind, one cell of a map each.
+///
+/// The truth of a query comes twice: from the certified solver as its label, and from the oracle,
+/// which judges; where they differ, that is counted as a mislabelled query (CertifyResult). All but
+/// the times is a function of options and methods, the same for any number of threads.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "verify/certify.hpp"
+#include "verify/methods/judge.hpp"
+#include "verify/methods/respondent.hpp"
+#include "verify/stability/hardness.hpp"
+
+namespace touchstone::verify {
+
+struct StabilityOptions {
+  /// What counts as contact, where the level does not scale it. \pre has_hard_queries()
+  Separation separation = {};
+  std::uint64_t seed = 0;
+  /// Queries a cell, half of them collisions.
+  std::uint64_t count = 200;
+  /// Cores to use; 0: all of them.
+  unsigned threads = 0;
+  /// Judged on every query; not null.
+  std::vector<const Respondent*> respondents = {};
+  /// Called now and then with the fraction that is done; never from two threads at once.
+  std::function<void(double)> on_progress = nullptr;
+  /// May be null. Once true, the result is that of what was judged so far.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// The judgement on the queries of one sort.
+struct StabilityCell {
+  const Hardness* hardness = nullptr;
+  int exponent = 0;
+  Kind kind = Kind::vertex_face;
+  CertifyResult judged;
+};
+
+struct StabilityResult {
+  Separation separation = {};
+  std::uint64_t seed = 0;
+  std::uint64_t count = 0;
+  /// Methods with what they were held to, judged on all cells.
+  CertifyResult total;
+  /// By hardness, then kind, then level, each in its order.
+  std::vector<StabilityCell> cells;
+};
+
+/// Judges the respondents on the hard queries of the given sorts.
+/// \throws std::invalid_argument if there are no hard queries about the separation.
+[[nodiscard]] StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
+                                                const StabilityOptions& options);
+
+/// What a method got wrong in some queries.
+struct Outcome {
+  /// The worst of it, nothing if nothing is wrong: a false negative is worse than a time of impact that
+  /// excludes the true one, that than an error, that than a claim of too much nearness, that than a
+  /// false positive.
+  std::optional<Fault> worst = std::nullopt;
+  /// How often, as a fraction of the queries that it can happen to: of those that collide (false
+  /// negatives, times of impact), of those that do not (false positives, nearness), or of all.
+  double rate = 0.0;
+};
+
+/// The outcome of method number `method` of a result.
+[[nodiscard]] Outcome outcome_of(const CertifyResult& judged, std::size_t method);
+
+/// How often that happened, as a fraction as above; 0 if there was no query that it can happen to.
+[[nodiscard]] double rate_of(Fault fault, const CertifyResult& judged, std::size_t method);
+
+/// Mean number of checks, where the method counts them.
+[[nodiscard]] std::optional<double> checks_per_query(const MethodResult& method);
+
+/// Mean processor time, where it is known.
+[[nodiscard]] std::optional<double> nanoseconds_per_query(const MethodResult& method);
+
+/// Has a method broken its promise, or do certified solver and oracle differ on a query?
+[[nodiscard]] bool has_wrong_answers(const StabilityResult& result);
+
+}  // namespace touchstone::verify

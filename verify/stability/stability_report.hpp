@@ -1,0 +1,33 @@
+#pragma once
+
+/// \file
+/// A map of stability for people (tables) and for machines (JSON). The picture is heat_map.hpp.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "verify/stability/stability.hpp"
+
+namespace touchstone::verify {
+
+/// A table for each method: a line for each hardness and kind, with a character for each level (what
+/// they mean stands below the last table), the sums of all levels, the mean time, the mean number of
+/// checks where the method counts them, and the error of the time of impact: how far toi_lower is from
+/// the exact one, in units of the motion's duration. Above it whether the method keeps its promise.
+/// Queries on which certified solver and oracle differ are named at the end.
+[[nodiscard]] std::string to_text(const StabilityResult& result);
+
+/// `seed`, `count` (queries a cell), `separation` (null, or `min_separation` and `norm`),
+/// `interrupted`, `disagreements` (queries on which certified solver and oracle differ); `hardnesses`,
+/// a list of `name`, `measure`, `reason` and `exponents`; `methods`, a list of `name`, `promise`,
+/// `keeps_promise` and `cells`.
+///
+/// A cell has `hardness`, `exponent`, `level` (the power of two), `kind`, `queries`, `collisions`, the
+/// counts `false_negatives`, `false_positives`, `late_toi`, `early_toi_upper`, `beyond_tolerance`,
+/// `errors` and `undecided`, the rates `false_negative_rate` (of the collisions) and
+/// `false_positive_rate` (of the others), `worst` (null, or the name of the worst fault) with its
+/// `worst_rate`, `toi_error` (null, or `count`, `p50` and `max`, in units of the motion's duration),
+/// `ns_per_query` and `checks_per_query` (null where unknown).
+[[nodiscard]] nlohmann::json to_json(const StabilityResult& result);
+
+}  // namespace touchstone::verify
