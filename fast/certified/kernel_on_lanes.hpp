@@ -1135,7 +1135,8 @@ class CertifiedStages {
     const Value bound = determinant.rough_bound() +
                         lanes.cubic.magnitude() * (Value(0x1p-48) + Value(0x1p-48) / lanes.length);
     const Value s = zero - Value(2.0) * bound / lanes.cubic.slope(zero);
-    const Mask proved = (s > Value(0.0)) & (lanes.cubic.at(s) < Value(0.0) - bound);
+    const Mask proved =
+        (s > Value(0.0)) & (s <= Value(1.0)) & (lanes.cubic.at(s) < Value(0.0) - bound);
     const Value begin = select(proved, to_exact(lanes.begin + lanes.length * s), lanes.begin);
     alignas(width * sizeof(double)) std::array<double, width> begins;
     begin.store(begins.data());
@@ -1166,7 +1167,8 @@ class CertifiedStages {
 
     /// Where the line through det's values at the ends is zero.
     [[nodiscard]] Value corrected() const {
-      return lower - at_lower * (upper - lower) / (at_upper - at_lower);
+      const Value rise = at_upper - at_lower;
+      return select(rise > Value(0.0), lower - at_lower * (upper - lower) / rise, toi);
     }
 
     /// This where it is proved, the other elsewhere.

@@ -101,13 +101,15 @@ class NearestPoint {
           {abs(direction[0]), abs(direction[1]), abs(direction[2])}, {});
       length = sum + (greatest * Value(bound.rounding()) + Value(bound.underflow(greatest_length)));
     }
-    // What is too long for the bound, or no number, becomes 0, and separates nothing.
-    const Value factor =
-        select(greatest <= Value(greatest_length), Value(1.0) / length, Value(0.0));
+    // What is too long for the bound, too short to divide by, or no number, becomes 0, and separates
+    // nothing.
+    const Mask is_sound = (greatest <= Value(greatest_length)) & (length >= Value(least_length));
+    const Value factor = select(is_sound, Value(1.0) / length, Value(0.0));
     for (Value& x : direction) x = x * factor;
   }
   /// Directions are products of at most two differences of coordinates.
   static constexpr double greatest_length = 0x1p210;
+  static constexpr double least_length = 0x1p-1000;
 
   // ---- L2 ----
 

@@ -318,7 +318,8 @@ using End = std::optional<Instant>;
 
 /// Makes `end` the first root of the form between `from` and the horizon, if that is earlier.
 void shorten(End& end, Instant& from, const Dyadic& horizon, const AnyForm& form) {
-  if (end && is_positive_between(form, from.upper(), end->lower()) && end->sign_of(form) > 0)
+  // The sign first: to find it narrows the end, and up to there the form is looked at.
+  if (end && end->sign_of(form) > 0 && is_positive_between(form, from.upper(), end->lower()))
     return;
   End root = first_root_after(from, horizon, form);
   if (root) root->narrow();

@@ -30,6 +30,7 @@ std::optional<ExactImpact> fault_in_vertex(Kind, const Query&, const Separation&
 std::optional<ExactImpact> fault_in_face(Kind, const Query&, const Separation&, double, double);
 std::optional<ExactImpact> fault_in_cube(Kind, const Query&, const Separation&, double, double);
 std::optional<ExactImpact> fault_in_horizon(Kind, const Query&, const Separation&, double, double);
+std::optional<ExactImpact> fault_in_dip(Kind, const Query&, const Separation&, double, double);
 
 }  // namespace touchstone::fast
 
@@ -293,6 +294,24 @@ TEST(SeparatedDecision, AtDistanceZeroItIsThePlainDecision) {
   }
 }
 
+/// A separator's first form has a root just before t=1; a later one is negative for a while before it.
+PosedQuery dipping_query() {
+  return tests::edge_edge({0, 3, -3, -8, 7, 9, 0, 0, 0, 1, -1, -5},
+                          {1.5000000000000207, -1.5000000000000622, -7.000000000000055,
+                           -12.000000000000055, 9.500000000000036, 6.9999999999999725, 0, 0, 0, 1,
+                           -2.5000000000000204, -2.9999999999999725});
+}
+
+TEST(SeparatedDecision, DipsBeforeASeparatorsEndCount) {
+  const PosedQuery dipping = dipping_query();
+  const Separation separation{2.0, Norm::linf};
+  const auto truth = exact::decide(dipping.kind, dipping.query, separation);
+  ASSERT_TRUE(truth.collides());
+  const auto impact = decide(dipping, separation);
+  ASSERT_TRUE(impact.has_value());
+  expect_impact(dipping, *impact, *truth.toi);
+}
+
 // ---- Planted faults -----------------------------------------------------------------------------
 
 using Decide = std::optional<ExactImpact>(Kind, const Query&, const Separation&, double, double);
@@ -327,6 +346,8 @@ TEST(SeparatedDecision, PlantedFaultsAreFoundAndNoOthers) {
     std::printf("fault %s: %d wrong answers\n", fault.c_str(), found);
     EXPECT_GT(found, 0) << fault;
   }
+  const PosedQuery dipping = dipping_query();
+  EXPECT_FALSE(fault_in_dip(dipping.kind, dipping.query, {2.0, Norm::linf}, 0.0, 1.0).has_value());
 #endif
 }
 
