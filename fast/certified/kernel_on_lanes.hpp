@@ -154,7 +154,10 @@ class CertifiedStages {
     Indices& hopeless = separated ? far : output.undecided;
     Bisection<kind>(input, moving, contacts, output.rejected, hopeless).run();
     refine<kind, Source>(input, contacts, hopeless, output);
-    if constexpr (separated) advance_stage<kind, Source>(input, far, output);
+    if constexpr (separated) {
+      with_norm(input.separation.norm,
+                [&]<Norm norm>() { advance_stage<kind, Source, norm>(input, far, output); });
+    }
   }
 
   // ---- Lists of queries -------------------------------------------------------------------------
@@ -200,6 +203,13 @@ class CertifiedStages {
 
   /// The first `count` lanes.
   static unsigned first_lanes(std::size_t count) { return (1U << count) - 1U; }
+
+  template <class Function>
+  static void for_each_lane(unsigned lanes, const Function& function) {
+    for (unsigned rest = lanes; rest != 0; rest &= rest - 1) {
+      function(static_cast<std::size_t>(__builtin_ctz(rest)));
+    }
+  }
 
   /// What of the first `count` lanes is in the mask.
   static unsigned valid_bits(const Mask& mask, std::size_t count) {
@@ -499,11 +509,21 @@ class CertifiedStages {
   static constexpr double shift_of_value = 4.001;
   static constexpr double shift_of_coefficients = 12.001;
 
+  /// By the magnitudes of r, p and q; of coefficients or of a value, as `shift` says.
+  static Value determinant_bound(const std::array<Value, 3>& magnitudes, double rounding,
+                                 double underflow, const Value& distance, double shift) {
+    return widened(magnitudes[0], rounding, distance, shift) * magnitudes[1] * magnitudes[2] *
+               Value(rounding) +
+           Value(underflow);
+  }
+  static Value determinant_bound(const std::array<Value, 3>& magnitudes, const Value& distance,
+                                 double shift) {
+    return determinant_bound(magnitudes, filters::measured_determinant_middle_double.rounding(),
+                             determinant_underflow, distance, shift);
+  }
   static Value determinant_bound(const Ends& unit, const Value& distance) {
-    constexpr double rounding = filters::measured_determinant_middle_double.rounding();
-    return widened(magnitude(unit[r]), rounding, distance, shift_of_coefficients) *
-               magnitude(unit[p]) * magnitude(unit[q]) * Value(rounding) +
-           Value(determinant_underflow);
+    return determinant_bound({magnitude(unit[r]), magnitude(unit[p]), magnitude(unit[q])}, distance,
+                             shift_of_coefficients);
   }
 
   template <Kind kind>
@@ -920,22 +940,20 @@ class CertifiedStages {
       select(rejected, end, begin).store(begin_.data());
       next_length.store(length_.data());
       steps.store(steps_.data());
-      for (unsigned rest = over | contact | hopeless; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+      for_each_lane(over | contact | hopeless, [&](std::size_t lane) {
         if ((over >> lane & 1U) != 0) append(rejected_, index_[lane]);
         if ((hopeless >> lane & 1U) != 0) append(hopeless_, index_[lane]);
         take(lane);
-      }
+      });
     }
 
     void keep_contacts(unsigned lanes, const Value& begin, const Value& length,
                        const std::array<Value, 4>& coefficients) {
       Intervals intervals;
       intervals.store(0, begin, length, coefficients);
-      for (unsigned rest = lanes; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+      for_each_lane(lanes, [&](std::size_t lane) {
         append(contacts_, intervals.crossing(lane, index_[lane]));
-      }
+      });
     }
 
     MovingLanes<kind> lanes_{};
@@ -963,25 +981,20 @@ class CertifiedStages {
     static PreciseDeterminant of(const std::array<Vector, query_points>& x, const Value& distance) {
       constexpr auto ends = ends_of_vectors<kind>();
       PreciseDeterminant result;
-      std::array<Value, 3> magnitude{Value(0.0), Value(0.0), Value(0.0)};
+      result.distance_ = distance;
       for (std::size_t end = 0; end < 2; ++end) {
         for (std::size_t i = 0; i < 3; ++i) {
           for (std::size_t k = 0; k < 3; ++k) {
             const Precise difference =
                 filters::exact_difference(x[4 * end + ends[i][0]][k], x[4 * end + ends[i][1]][k]);
             result.coordinates_[9 * end + 3 * i + k] = difference;
-            magnitude[i] = max(magnitude[i], abs(difference.high));
+            result.magnitudes_[i] = max(result.magnitudes_[i], abs(difference.high));
           }
         }
       }
-      constexpr double rounding = filters::determinant_end_double_double.rounding();
-      result.bound_ = widened(magnitude[0], rounding, distance, shift_of_value) * magnitude[1] *
-                          magnitude[2] * Value(rounding) +
-                      Value(double_double_underflow);
-      constexpr double rough_rounding = filters::measured_determinant_middle_double.rounding();
-      result.rough_bound_ = widened(magnitude[0], rough_rounding, distance, shift_of_value) *
-                                magnitude[1] * magnitude[2] * Value(rough_rounding) +
-                            Value(determinant_underflow);
+      result.bound_ =
+          determinant_bound(result.magnitudes_, filters::determinant_end_double_double.rounding(),
+                            double_double_underflow, distance, shift_of_value);
       return result;
     }
 
@@ -995,12 +1008,15 @@ class CertifiedStages {
 
     [[nodiscard]] const Value& bound() const { return bound_; }
     /// Of det from the coefficients in double, on any interval.
-    [[nodiscard]] const Value& rough_bound() const { return rough_bound_; }
+    [[nodiscard]] Value rough_bound() const {
+      return determinant_bound(magnitudes_, distance_, shift_of_value);
+    }
 
    private:
     std::array<Precise, filters::DeterminantEnd::coordinates> coordinates_;
+    std::array<Value, 3> magnitudes_{Value(0.0), Value(0.0), Value(0.0)};
+    Value distance_{0.0};
     Value bound_{0.0};
-    Value rough_bound_{0.0};
   };
 
   /// det on an interval as a rising cubic of s ∈ [0,1].
@@ -1061,11 +1077,9 @@ class CertifiedStages {
                                  taken(first, crossings.count), approaches, unproved, output);
     }
     if constexpr (separated) {
-      if (input.separation.norm == Norm::linf) {
-        arrive<kind, Source, Norm::linf>(input, approaches, unproved, output);
-      } else {
-        arrive<kind, Source, Norm::l2>(input, approaches, unproved, output);
-      }
+      with_norm(input.separation.norm, [&]<Norm norm>() {
+        arrive<kind, Source, norm>(input, approaches, unproved, output);
+      });
     }
   }
 
@@ -1140,10 +1154,9 @@ class CertifiedStages {
     const Value begin = select(proved, to_exact(lanes.begin + lanes.length * s), lanes.begin);
     alignas(width * sizeof(double)) std::array<double, width> begins;
     begin.store(begins.data());
-    for (; bits != 0; bits &= bits - 1) {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+    for_each_lane(bits, [&](std::size_t lane) {
       append(approaches, Approach{lanes.indices[lane], begins[lane], begins[lane]});
-    }
+    });
   }
 
   /// Around what should be the zero, with the signs of det at its ends.
@@ -1199,17 +1212,18 @@ class CertifiedStages {
     }
   };
 
-  template <Kind kind, class Source>
-  static void advance_stage(const KernelInput& input, const Indices& far, KernelOutput& output) {
-    if (input.separation.norm == Norm::linf) {
-      advance_in<kind, Source, Norm::linf>(input, far, output);
+  /// Calls the function with the norm as its template argument.
+  template <class Function>
+  static void with_norm(Norm norm, const Function& function) {
+    if (norm == Norm::linf) {
+      function.template operator()<Norm::linf>();
     } else {
-      advance_in<kind, Source, Norm::l2>(input, far, output);
+      function.template operator()<Norm::l2>();
     }
   }
 
   template <Kind kind, class Source, Norm norm>
-  static void advance_in(const KernelInput& input, const Indices& far, KernelOutput& output) {
+  static void advance_stage(const KernelInput& input, const Indices& far, KernelOutput& output) {
     PolygonLanes<kind> polygons;
     for (std::size_t first = 0; first < far.count; first += width) {
       const std::size_t count = taken(first, far.count);
@@ -1372,8 +1386,7 @@ class CertifiedStages {
     void finish(unsigned over, unsigned arrived, unsigned hopeless, const Value& time) {
       alignas(width * sizeof(double)) Row times;
       time.store(times.data());
-      for (unsigned rest = over | arrived | hopeless; rest != 0; rest &= rest - 1) {
-        const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+      for_each_lane(over | arrived | hopeless, [&](std::size_t lane) {
         if ((over >> lane & 1U) != 0) {
           append(output_.rejected, index_[lane]);
         } else if ((arrived >> lane & 1U) != 0) {
@@ -1382,7 +1395,7 @@ class CertifiedStages {
           append(output_.undecided, index_[lane]);
         }
         take(lane);
-      }
+      });
     }
 
     PolygonRows lanes_{};
@@ -1563,18 +1576,15 @@ class CertifiedStages {
     enclosure[1].store(rows[1].data());
     uv[0].store(rows[2].data());
     uv[1].store(rows[3].data());
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
+    for_each_lane(lanes, [&](std::size_t lane) {
       append(output.hits,
              KernelHit{indices[lane], rows[0][lane], rows[1][lane], rows[2][lane], rows[3][lane]});
-    }
+    });
   }
 
   static void append_lanes(Indices& list, const std::array<std::uint32_t, width>& indices,
                            unsigned lanes) {
-    for (; lanes != 0; lanes &= lanes - 1) {
-      append(list, indices[static_cast<std::size_t>(__builtin_ctz(lanes))]);
-    }
+    for_each_lane(lanes, [&](std::size_t lane) { append(list, indices[lane]); });
   }
 };
 

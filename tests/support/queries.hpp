@@ -229,11 +229,10 @@ inline void degenerate(Random& random, Query& query) {
   for (const std::size_t end : {0U, 1U}) {
     const double angle = end == 0 ? turn : -turn;
     const Vector side_p = p + angle * a, side_q = q + angle * b;
+    query.point(end, 0) = r;
     if (kind == Kind::vertex_face) {
-      query.point(end, 0) = r;
       query.point(end, 2) = side_p;
     } else {
-      query.point(end, 0) = r;
       query.point(end, 1) = r - side_p;
     }
     query.point(end, 3) = side_q;
