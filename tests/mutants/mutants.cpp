@@ -37,7 +37,7 @@ using DecideExactly = std::optional<ExactImpact>(Kind, const Query&, const Separ
                                                  double);
 DecideExactly exact_without_last_bound, exact_without_parallel_case, fault_on_boundary,
     fault_on_line, fault_in_enclosure, fault_in_general, fault_in_side, fault_in_vertex,
-    fault_in_face, fault_in_cube, fault_in_horizon;
+    fault_in_face, fault_in_cube, fault_in_dip, fault_in_horizon;
 
 }  // namespace touchstone::fast
 
@@ -404,6 +404,8 @@ std::vector<Mutant> last_stages_of_certified() {
        with_exact_stage(fast::fault_in_face), near_in_l2},
       {"exact_cube_of_size_zero", certified, "the cube of L∞ has no size",
        with_exact_stage(fast::fault_in_cube), near},
+      {"exact_form_cut_late", certified, "a form is looked at up to an end that has moved since",
+       with_exact_stage(fast::fault_in_dip), near},
       {"exact_horizon", certified, "what is near from the first contact on only is none",
        with_exact_stage(fast::fault_in_horizon), near},
       {"root_at_start_missing", certified, "contact at t=0 is none",
