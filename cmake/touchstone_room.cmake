@@ -20,11 +20,12 @@ if(TOUCHSTONE_SANITIZE)
   target_link_options(touchstone_build_options INTERFACE -fsanitize=address,undefined)
 endif()
 
-# touchstone_room(NAME [INTERFACE] HEADERS ... SOURCES ... PUBLIC ... PRIVATE ...): the library
+# touchstone_room(NAME [INTERFACE] HEADERS ... SOURCES ... PUBLIC ... PRIVATE ... PRECOMPILED ...): the library
 # touchstone_NAME, alias touchstone::NAME, with the packages and rooms it may use and no others.
-# HEADERS are what a user of the library includes; they are installed.
+# HEADERS are what a user of the library includes; they are installed. PRECOMPILED are headers of others that most
+# sources read; a source still includes what it uses.
 function(touchstone_room name)
-  cmake_parse_arguments(ROOM "INTERFACE" "" "HEADERS;SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "INTERFACE" "" "HEADERS;SOURCES;PUBLIC;PRIVATE;PRECOMPILED" ${ARGN})
   set(target touchstone_${name})
   if(ROOM_INTERFACE)
     add_library(${target} INTERFACE)
@@ -40,6 +41,7 @@ function(touchstone_room name)
   target_include_directories(${target} ${scope}
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/touchstone>)
   target_link_libraries(${target} ${scope} ${ROOM_PUBLIC})
+  target_precompile_headers(${target} PRIVATE ${ROOM_PRECOMPILED})
   if(ROOM_HEADERS)
     get_filename_component(room ${CMAKE_CURRENT_SOURCE_DIR} NAME)
     foreach(header ${ROOM_HEADERS})

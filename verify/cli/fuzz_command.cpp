@@ -59,8 +59,7 @@ struct Arguments {
   }
 };
 
-// ---- The corpus
-// -----------------------------------------------------------------------------------
+// ---- The corpus ---------------------------------------------------------------------------------
 
 /// The kind of a file: what its path says, or else the only one that is asked for.
 Kind kind_of(const fs::path& file, const Arguments& arguments) {
@@ -85,8 +84,7 @@ std::vector<CorpusQuery> read_corpus(const Arguments& arguments) {
   return corpus;
 }
 
-// ---- The dataset that is written
-// --------------------------------------------------------------------
+// ---- The dataset that is written ----------------------------------------------------------------
 
 /// FILE itself where its path says the kind, else with the kind in its name.
 fs::path dataset_path(const fs::path& file, Kind kind) {
@@ -171,8 +169,7 @@ class FoundQueries {
   std::array<std::optional<File>, 2> files_;
 };
 
-// ---- The run
-// ----------------------------------------------------------------------------------------
+// ---- The run ------------------------------------------------------------------------------------
 
 /// One run: the search, its findings as they come, then its reports.
 class FuzzRun {
@@ -358,26 +355,25 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   add_separation_options(*command, arguments->separation);
   add_output_options(*command, *arguments);
   command->footer(
-      "The solver (one --method or --plugin) runs in a child process. Sought are false negatives, "
-      "times\n"
-      "of impact that exclude the true one, crashes, hangs, numbers that are none, a yes that "
-      "claims "
-      "more\n"
-      "nearness than there is, and of what calls itself exact false positives and other answers to "
-      "exact\n"
-      "images of a query. The certified solver judges, the oracle one answer in a hundred again "
-      "and "
-      "every\n"
-      "finding; of method certified the oracle judges all. Findings are made as simple as they go, "
-      "and\n"
-      "printed as points, as rows of a dataset and as a C++ test. A seed and --queries determine "
-      "them.\n"
-      "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, 130 interrupted with "
-      "nothing "
+      "The solver (one --method or --plugin) runs in a child "
+      "process. Sought are false negatives,\n"
+      "times of impact that exclude the true one, crashes, hangs, "
+      "numbers that are none, a yes that\n"
+      "claims more nearness than there is, and of what calls "
+      "itself exact false positives and other\n"
+      "answers to exact images of a query. The certified solver "
+      "judges, the oracle one answer in a\n"
+      "hundred again and every finding; of method certified the "
+      "oracle judges all. Findings are made\n"
+      "as simple as they go, and printed as points, as rows of a "
+      "dataset and as a C++ test. A seed\n"
+      "and --queries determine them.\n"
+      "Exit status: 0 nothing found, 1 findings, 2 bad input or "
+      "usage, 130 interrupted with nothing\n"
       "found.\n"
       "Example: touchstone fuzz --method tight_inclusion --seconds 600 --json result.json\n"
-      "Example: touchstone fuzz --plugin ./libsolver.so --exact --out found.csv --corpus "
-      "data/handcrafted");
+      "Example: touchstone fuzz --plugin ./libsolver.so --exact "
+      "--out found.csv --corpus data/handcrafted");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);
     status = FuzzRun(*arguments).run();

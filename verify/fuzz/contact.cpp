@@ -174,8 +174,7 @@ void put_heights(Kind kind, const Heights& heights, Query& query) {
   }
 }
 
-// ---- Rounded, apart, sliding
-// ----------------------------------------------------------------------
+// ---- Rounded, apart, sliding --------------------------------------------------------------------
 
 Vector linear(double s, const Vector& a, double t, const Vector& b) { return s * a + t * b; }
 

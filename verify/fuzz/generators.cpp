@@ -19,8 +19,7 @@ using draws::below;
 using draws::one_in;
 using draws::real;
 
-// ---- Structured coordinates
-// -----------------------------------------------------------------------
+// ---- Structured coordinates ---------------------------------------------------------------------
 
 /// Small integers times a power of two.
 Query few_bits(Kind /*kind*/, const GeneratorContext& /*context*/, Random& random) {
@@ -90,8 +89,7 @@ Query shared_vertices(Kind kind, const GeneratorContext& context, Random& random
   return query;
 }
 
-// ---- Contact
-// ----------------------------------------------------------------------------------------
+// ---- Contact ------------------------------------------------------------------------------------
 
 Query contact_on_grid(Kind kind, const GeneratorContext& /*context*/, Random& random) {
   Query query = grid_contact(kind, random);
@@ -121,8 +119,7 @@ Query slide(Kind kind, const GeneratorContext& /*context*/, Random& random) {
   return sliding(kind, random);
 }
 
-// ---- From other queries
-// -------------------------------------------------------------------------------
+// ---- From other queries -------------------------------------------------------------------------
 
 Query family(Kind kind, const GeneratorContext& context, Random& random) {
   const std::vector<Family>& families = context.families(kind);

@@ -58,7 +58,7 @@ void expect_same(const std::optional<Answer>& a, const Answer& b) {
 
 TEST(AnswerRow, IsWrittenAsDocumented) {
   EXPECT_EQ(answers_header(), header);
-  EXPECT_EQ(answer_row("a.csv", 3, vf, {Verdict::yes, 0.1, 0.25, 1e-6}),
+  EXPECT_EQ(answer_row("a.csv", 3, vf, {Verdict::yes, 0, 0.1, 0.25, 1e-6}),
             "a.csv,3,vertex-face,yes,0.1,0.25,1e-06\n");
   EXPECT_EQ(answer_row("a.csv", 0, ee, {.verdict = Verdict::no}), "a.csv,0,edge-edge,no,,,\n");
   EXPECT_EQ(answer_row("a.csv", 1, ee, {.verdict = Verdict::undecided, .tolerance = 0.5}),
@@ -87,9 +87,9 @@ TEST(Answers, ReadAsTheyWereWritten) {
                               {Verdict::undecided},
                               {Verdict::error},
                               {Verdict::yes},
-                              {Verdict::yes, -0.0, std::numeric_limits<double>::denorm_min(), 0.0}};
+                              {Verdict::yes, 0, -0.0, std::numeric_limits<double>::denorm_min(), 0.0}};
   for (int i = 0; i < 2000; ++i) {
-    written.push_back({Verdict::yes, finite(), finite(), std::abs(finite())});
+    written.push_back({Verdict::yes, 0, finite(), finite(), std::abs(finite())});
   }
   std::string text;
   for (std::size_t i = 0; i < written.size(); ++i) text += answer_row("n,\n\"", i, ee, written[i]);
@@ -110,7 +110,7 @@ TEST(LoadAnswers, ReadsEveryVerdict) {
       "a,3,vertex-face,error,,,\n"
       "a,4,vertex-face,yes,,,\n");
   expect_same(answers.answer_to("a", vf, 0), {.verdict = Verdict::no});
-  expect_same(answers.answer_to("a", vf, 1), {Verdict::yes, 0.25, 0.5, 1e-3});
+  expect_same(answers.answer_to("a", vf, 1), {Verdict::yes, 0, 0.25, 0.5, 1e-3});
   expect_same(answers.answer_to("a", vf, 2), {.verdict = Verdict::undecided});
   expect_same(answers.answer_to("a", vf, 3), {.verdict = Verdict::error});
   expect_same(answers.answer_to("a", vf, 4), {.verdict = Verdict::yes});
@@ -135,7 +135,7 @@ TEST(LoadAnswers, TimesWithoutAYesMayBeAnyNumber) {
 }
 
 TEST(LoadAnswers, AnInfiniteToleranceClaimsNothingAndIsReadBack) {
-  const Answer answer{Verdict::yes, 0.25, 0.5, std::numeric_limits<double>::infinity()};
+  const Answer answer{Verdict::yes, 0, 0.25, 0.5, std::numeric_limits<double>::infinity()};
   expect_same(load_rows(answer_row("a", 0, vf, answer)).answer_to("a", vf, 0), answer);
 }
 

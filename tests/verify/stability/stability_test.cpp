@@ -175,7 +175,9 @@ TEST(MeasureStability, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(a.faults, b.faults);
     EXPECT_EQ(a.undecided, b.undecided);
     ASSERT_EQ(a.toi_errors.count(), b.toi_errors.count());
-    if (a.toi_errors.count() != 0) EXPECT_EQ(a.toi_errors.max(), b.toi_errors.max());
+    if (a.toi_errors.count() != 0) {
+      EXPECT_EQ(a.toi_errors.max(), b.toi_errors.max());
+    }
   }
 }
 
