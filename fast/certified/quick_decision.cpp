@@ -618,23 +618,24 @@ class Decision {
       return at_irrational<FineTime>(event, root, lower, upper);
     }
     if (too_late) return Outcome::decided;
-    // The cell may reach beyond the interval, where other roots may be.
+    // The cell may reach beyond the interval, where other roots may be; there may be one at `upper`.
     const AnyTime low = compare(*first, lower) < 0 ? as<AnyTime>(lower) : *first;
-    const AnyTime high = compare(*last, upper) > 0 ? as<AnyTime>(upper) : *last;
-    const Outcome outcome = in_cell(event, cell, low, high);
+    const bool is_within = compare(*last, upper) < 0;
+    const AnyTime high = is_within ? *last : as<AnyTime>(upper);
+    const bool is_high = is_within && sign_at(event.b, high) == 0;
+    const Outcome outcome = in_cell(event, cell, low, high, is_high);
     if constexpr (std::is_same_v<AnyTime, Time>) {
       if (outcome == Outcome::unknown) return in_narrow_cell(event, cell, low, high);
     }
     return outcome;
   }
 
-  /// A root of this event in a cell of doubles, not below `low`: the only one of any event strictly
-  /// between `low` and `high`, or `high` itself if the event is 0 there.
+  /// A root of this event in a cell of doubles: the only one of any event strictly between `low` and
+  /// `high`, or `high` itself.
   template <class AnyTime, class AnyEvent>
   Outcome in_cell(const AnyEvent& event, const BitInterval& cell, const AnyTime& low,
-                  const AnyTime& high) {
+                  const AnyTime& high, bool is_high) {
     constexpr double accuracy = 0x1p-44;
-    const bool is_high = compare(high, end_time) < 0 && sign_at(event.b, high) == 0;
     bool unsure = false;
     const auto sign_of = [&](const Quadratic& form) {
       const auto b = bernstein(form);
@@ -682,7 +683,7 @@ class Decision {
     const FineTime first = mixed(std::max(weight - slack, std::int64_t{0}));
     const FineTime last = mixed(std::min(weight + slack, whole));
     if (!changes_sign(event.b, first, last)) return Outcome::unknown;
-    const Outcome outcome = in_cell(event, cell, first, last);
+    const Outcome outcome = in_cell(event, cell, first, last, false);
     if constexpr (again) {
       if (outcome == Outcome::unknown) return in_narrow_cell(event, cell, first, last);
     }

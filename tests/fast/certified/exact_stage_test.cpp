@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
@@ -25,6 +26,7 @@ namespace touchstone::fast {
 std::optional<ExactImpact> fault_on_boundary(Kind, const Query&, double, double);
 std::optional<ExactImpact> fault_on_line(Kind, const Query&, double, double);
 std::optional<ExactImpact> fault_in_enclosure(Kind, const Query&, double, double);
+std::optional<ExactImpact> fault_in_neighbour(Kind, const Query&, double, double);
 std::optional<ExactImpact> fault_in_general(Kind, const Query&, double, double);
 
 namespace {
@@ -283,23 +285,60 @@ TEST(ExactStage, DoesNotDependOnFlushedSubnormals) {
 
 using Decide = std::optional<ExactImpact>(Kind, const Query&, double, double);
 
+bool is_wrong(Decide* decide, Kind kind, const Query& query) {
+  const auto impact = decide(kind, query, 1e-12, 1.0);
+  const exact::Verdict truth = exact::decide(kind, query);
+  if (impact.has_value() != truth.collides()) return true;
+  if (!impact) return false;
+  const exact::AlgebraicNumber& toi = truth.impact->toi;
+  return toi > Rational(impact->toi_upper) ||
+         (impact->toi_upper != 0 && toi <= Rational(impact->toi_lower));
+}
+
+/// The determinant has a root at t=1/2 or 3/4, outside the domain, and another one just before it, nearer
+/// with each of these nudges. Found by the fuzzer.
+std::vector<PosedQuery> neighbouring_roots() {
+  const Query edges{{0.0,    0.0,    -0.875, 0.125,  -1.125, 0.0,    -1.125, -2.375,
+                     -0.875, 3.4375, 5.25,   2.375,  0.125,  0.0,    0.875,  0.0,
+                     1.125,  0.0,    -1.0,   -1.125, -0.875, 3.4375, 5.25,   2.875}};
+  const Query face{{-0.75,     0.0,       0.0,  -2.25,     0.046875, -2.25,    0.0, -0.1171875,
+                    2.25,      0.0078125, 2.25, 0.0,       0.25,     -0.03125, 0.0, 0.75,
+                    -0.046875, 0.75,      0.0,  0.0078125, -0.75,    0.0,      0.0, 0.0}};
+  std::vector<PosedQuery> result;
+  for (int nudge = 1; nudge <= 64; ++nudge) {
+    result.push_back({Kind::edge_edge, edges});
+    result.back().query.coordinates[23] -= nudge * 0x1p-48;
+    result.push_back({Kind::vertex_face, face});
+    result.back().query.coordinates[13] += nudge * 0x1p-48;
+  }
+  return result;
+}
+
+TEST(ExactStage, SeparatesARootFromOneBesideIt) {
+  std::size_t collisions = 0;
+  [[maybe_unused]] std::size_t found = 0;
+  for (const PosedQuery& posed : neighbouring_roots()) {
+    for (const double tolerance : tolerances) expect_truth(posed, tolerance);
+    if (HasFailure()) return;
+    if (exact::decide(posed.kind, posed.query).collides()) ++collisions;
+#ifndef TOUCHSTONE_SANITIZED  // there the faulty one is not built
+    if (is_wrong(&fault_in_neighbour, posed.kind, posed.query)) ++found;
+#endif
+  }
+  EXPECT_GT(collisions, 64U);
+#ifndef TOUCHSTONE_SANITIZED
+  EXPECT_GT(found, 32U);
+#endif
+}
+
 /// How many families have an answer that is wrong.
 std::size_t families_that_find(Decide* decide) {
-  const auto is_wrong = [decide](Kind kind, const Query& query) {
-    const auto impact = decide(kind, query, 1e-12, 1.0);
-    const exact::Verdict truth = exact::decide(kind, query);
-    if (impact.has_value() != truth.collides()) return true;
-    if (!impact) return false;
-    const exact::AlgebraicNumber& toi = truth.impact->toi;
-    return toi > Rational(impact->toi_upper) ||
-           (impact->toi_upper != 0 && toi <= Rational(impact->toi_lower));
-  };
   return static_cast<std::size_t>(
       std::ranges::count_if(verify::families(), [&](const verify::Family& family) {
         for (const Kind kind : kinds) {
           if (!verify::supports(family, kind)) continue;
           for (std::uint64_t i = 0; i < 50; ++i) {
-            if (is_wrong(kind, verify::make_query(family, kind, 5, i).query)) return true;
+            if (is_wrong(decide, kind, verify::make_query(family, kind, 5, i).query)) return true;
           }
         }
         return false;
