@@ -1,5 +1,6 @@
 #include "verify/fuzz/contact.hpp"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -351,6 +352,34 @@ Query contact_apart(Kind kind, const Separation& separation, Random& random) {
     }
   }
   return draws::is_finite(moved) ? moved : query;
+}
+
+Query tilting(Kind kind, const Separation& separation, Random& random) {
+  using Eigen::Vector3d;
+  // Sides of about 1 first, and a distance beside them.
+  const int ratio = static_cast<int>(random.between(2, 40));
+  const double distance = draws::power_of_two(-ratio);
+  const Vector3d p(1, 1, 1), q(1, -1, 0), normal = p.cross(q).normalized();
+  const double ends = real(random, 5.0, 13.0) * distance, middle = real(random, 0.4, 1.0) * ends;
+  // det = r·(p × q), and p × q = (1, 1, −2) is 4 times as long as a shift along (1, 1, −1) uses of it.
+  const Vector3d r = real(random, 0.1, 0.45) * (p + q) + middle / 4.0 * Vector3d(1, 1, -1);
+  // det grows by r·(a × b) from the middle to the ends, and not with the time itself.
+  const Vector3d along = 0.5 * r.cross(normal);
+  const double sign = r.dot((normal + along).cross(along - normal)) > 0.0 ? 1.0 : -1.0;
+  const Vector3d a = normal + sign * along, b = sign * along - normal;
+  const double turn = std::sqrt((ends - middle) / r.dot(a.cross(b)));
+  Query query{};
+  for (const std::size_t end : {0U, 1U}) {
+    const double angle = end == 0 ? turn : -turn;
+    const Vector3d side_p = p + angle * a, side_q = q + angle * b;
+    query.point(end, 0) = r;
+    query.point(end, kind == Kind::vertex_face ? 2 : 1) =
+        kind == Kind::vertex_face ? side_p : Vector3d(r - side_p);
+    query.point(end, 3) = side_q;
+  }
+  Query sized = query;
+  for (double& x : sized.coordinates) x *= std::ldexp(separation.distance, ratio);
+  return turned(kind, draws::is_finite(sized) ? sized : query, random);
 }
 
 Query sliding(Kind kind, Random& random) {

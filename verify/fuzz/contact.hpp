@@ -35,6 +35,13 @@ namespace touchstone::verify {
 /// few bits. \pre distance > 0
 [[nodiscard]] Query contact_apart(Kind kind, const Separation& separation, builtin::Random& random);
 
+/// A polygon r − u p − v q that tilts: it begins and ends some distances d from the origin, and comes
+/// nearest in the middle of the step, to a point inside; or not so near. Its normal is about as long
+/// as its sides allow. So bounds of what a shift by d changes, by the sides' coordinates, have no slack,
+/// and the determinant's Bernstein coefficients in the middle are far below its values.
+/// \pre distance > 0
+[[nodiscard]] Query tilting(Kind kind, const Separation& separation, builtin::Random& random);
+
 /// Primitives that slide along each other, nearly parallel, in a common plane but for 2^-10 to
 /// 2^-50 of their size, which may change its sign.
 [[nodiscard]] Query sliding(Kind kind, builtin::Random& random);

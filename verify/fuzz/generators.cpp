@@ -93,6 +93,7 @@ Query shared_vertices(Kind kind, const GeneratorContext& context, Random& random
 
 Query contact_on_grid(Kind kind, const GeneratorContext& /*context*/, Random& random) {
   Query query = grid_contact(kind, random);
+  if (one_in(random, 6)) overshoot(kind, query, random);
   if (!one_in(random, 3)) nudge(query, random);
   return query;
 }
@@ -111,8 +112,24 @@ Query contact_rounded(Kind kind, const GeneratorContext& /*context*/, Random& ra
 
 Query apart(Kind kind, const GeneratorContext& context, Random& random) {
   Query query = contact_apart(kind, context.separation(), random);
+  if (one_in(random, 4)) overshoot(kind, query, random);
   if (random.coin()) nudge(query, random);
   return query;
+}
+
+/// Small multiples of the distance or of a part of it: many things happen at the same time, such as at
+/// an end, and then a moment after each other.
+Query multiples(Kind kind, const GeneratorContext& context, Random& random) {
+  const int exponent = -static_cast<int>(below(random, 3));
+  const double unit = std::ldexp(std::min(context.separation().distance, 0x1p1000), exponent);
+  Query query{};
+  for (double& x : query.coordinates) x = unit * static_cast<double>(random.between(-9, 9));
+  overshoot(kind, query, random);
+  return query;
+}
+
+Query tilt(Kind kind, const GeneratorContext& context, Random& random) {
+  return tilting(kind, context.separation(), random);
 }
 
 Query slide(Kind kind, const GeneratorContext& /*context*/, Random& random) {
@@ -175,7 +192,7 @@ Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
   return result;
 }
 
-constexpr std::array<Generator, 11> all_generators{{
+constexpr std::array<Generator, 13> all_generators{{
     {"family", "a query of the built-in set (touchstone generate --list), any seed", 18.0, family},
     {"few_bits", "small integers times a power of two", 1.0, few_bits},
     {"grid", "a few numbers an axis with full significands", 3.5, grid},
@@ -187,6 +204,8 @@ constexpr std::array<Generator, 11> all_generators{{
     {"mutated", "a query of the corpus or a recent one, changed", 9.0, mutate},
     {"scaled", "such a query times 2^-1000 to 2^1000", 8.0, scaled},
     {"apart", "about as far apart as the separation", 10.0, apart, true},
+    {"multiples", "small multiples of the separation, an end of them moved", 20.0, multiples, true},
+    {"tilting", "a polygon that tilts within the separation", 10.0, tilt, true},
 }};
 
 }  // namespace

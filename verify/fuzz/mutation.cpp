@@ -111,6 +111,19 @@ void nudge(Query& query, Random& random) {
   }
 }
 
+void overshoot(Kind kind, Query& query, Random& random) {
+  const std::size_t end = below(random, 2);
+  const std::size_t first_primitive = kind == Kind::vertex_face ? 1 : 2;
+  const std::size_t count = random.coin() ? moving_points : first_primitive;
+  const double part =
+      std::ldexp(random.coin() ? 1.0 : -1.0, -static_cast<int>(random.between(20, 52)));
+  Query moved = query;
+  for (std::size_t point = 0; point < count; ++point) {
+    moved.point(end, point) += part * (query.point(end, point) - query.point(1 - end, point));
+  }
+  if (draws::is_finite(moved)) query = moved;
+}
+
 Query mutated(const Query& query, Random& random) {
   Query result = query;
   const std::size_t count = 1 + below(random, 3);

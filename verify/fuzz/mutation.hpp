@@ -18,6 +18,10 @@ namespace touchstone::verify {
 /// All coordinates stay finite.
 void nudge(Query& query, builtin::Random& random);
 
+/// Moves the points at one end by up to 2^-20 of their way, on or back: what happened at that end happens
+/// a moment earlier or not at all. All points, or the first primitive's. All coordinates stay finite.
+void overshoot(Kind kind, Query& query, builtin::Random& random);
+
 /// One to three changes: a bit flipped, coordinates or points copied or exchanged, a sign changed,
 /// a coordinate set to 0, rounded to few bits or multiplied by a power of two, units in the last
 /// place, a point at rest. All coordinates stay finite.

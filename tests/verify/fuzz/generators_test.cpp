@@ -48,7 +48,7 @@ TEST(Generators, HaveNamesOfTheirOwn) {
     EXPECT_FALSE(generator.about.empty());
     EXPECT_GT(generator.work, 0.0);
   }
-  EXPECT_EQ(generators({}).size() + 1, generators().size());
+  EXPECT_EQ(generators({}).size() + 3, generators().size());
   EXPECT_EQ(generators(separations[1]).size(), generators().size());
 }
 
