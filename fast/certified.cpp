@@ -167,9 +167,16 @@ void for_each_block(std::size_t size, int max_threads, const Body& body) {
   });
 }
 
-void mark(std::span<CertifiedResult> results, const KernelOutput::List<std::uint32_t>& list,
-          Stage stage) {
-  for (std::size_t i = 0; i < list.count; ++i) results[list.items[i]].stage = stage;
+/// Calls mark(index, stage) for every query of the block without contact that a later stage than the first
+/// has decided.
+template <class Mark>
+void mark_stages(const KernelOutput& output, const Mark& mark) {
+  const auto mark_all = [&](const KernelOutput::List<std::uint32_t>& list, Stage stage) {
+    for (std::size_t i = 0; i < list.count; ++i) mark(list.items[i], stage);
+  };
+  mark_all(output.separated_in_direction, Stage::direction);
+  mark_all(output.one_sided, Stage::determinant);
+  mark_all(output.rejected, Stage::bisection);
 }
 
 void solve(const Batch& batch, std::span<CertifiedResult> results,
@@ -185,9 +192,7 @@ void solve(const Batch& batch, std::span<CertifiedResult> results,
     const KernelOutput& output = decide_block(
         batch, first, options.t_max, options,
         [&](std::size_t number, const CertifiedResult& result) { results[number] = result; });
-    mark(of_block, output.separated_in_direction, Stage::direction);
-    mark(of_block, output.one_sided, Stage::determinant);
-    mark(of_block, output.rejected, Stage::bisection);
+    mark_stages(output, [&](std::size_t index, Stage stage) { of_block[index].stage = stage; });
   });
 }
 
@@ -335,16 +340,19 @@ class CertifiedMethod : public Method {
     const Batch batch = batch_of(kind, queries);
     for_each_block(batch.size, of_call.max_threads, [&](std::size_t first) {
       const std::size_t count = std::min(kernel_block, batch.size - first);
-      std::ranges::fill(answers.subspan(first, count),
+      const std::span<Answer> of_block = answers.subspan(first, count);
+      std::ranges::fill(of_block,
                         Answer{.verdict = Verdict::no, .checks = stages_up_to(Stage::axis)});
-      decide_block(batch, first, of_call.t_max, of_call,
-                   [&](std::size_t number, const CertifiedResult& result) {
-                     answers[number] = {.verdict = result.verdict,
-                                        .checks = stages_up_to(result.stage),
-                                        .toi_lower = result.toi_lower,
-                                        .toi_upper = result.toi_upper,
-                                        .tolerance = Answer::none};
-                   });
+      const auto take = [&](std::size_t number, const CertifiedResult& result) {
+        answers[number] = {.verdict = result.verdict,
+                           .checks = stages_up_to(result.stage),
+                           .toi_lower = result.toi_lower,
+                           .toi_upper = result.toi_upper,
+                           .tolerance = Answer::none};
+      };
+      mark_stages(
+          decide_block(batch, first, of_call.t_max, of_call, take),
+          [&](std::size_t index, Stage stage) { of_block[index].checks = stages_up_to(stage); });
     });
   }
 

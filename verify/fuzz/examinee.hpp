@@ -1,7 +1,8 @@
 #pragma once
 
-/// \file A solver in a child process that lives on: asked block after block, at the price of a
-/// message each.
+/// \file
+/// A solver in a child process that lives on: asked block after block, at the price of a message
+/// each.
 ///
 /// The child is a copy of this process made by fork(). Queries and answers lie in memory shared
 /// with it, along with the number of the query that it is at. It works in steps, of one query at

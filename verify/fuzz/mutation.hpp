@@ -1,7 +1,8 @@
 #pragma once
 
-/// \file Small changes to a query: to what a solver does well at, or has just been wrong at, the
-/// next thing.
+/// \file
+/// Small changes to a query: to what a solver does well at, or has just been wrong at, the next
+/// thing.
 
 #include <cstdint>
 

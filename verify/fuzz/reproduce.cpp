@@ -95,10 +95,9 @@ std::string call_as_code(const Reproduction& found) {
                      options);
 }
 
-constexpr std::string_view includes = R"(// Written by touchstone.
-// clang-format off
-#include <gtest/gtest.h>
-
+constexpr std::string_view includes =
+    "// Written by touchstone.\n// clang-format off\n#include <gtest/gtest.h>\n"
+    R"(
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/decision.hpp"
