@@ -15,7 +15,7 @@ namespace {
 using tests::expect_property;
 using Numbers = std::vector<std::int64_t>;
 
-Integer integer(std::int64_t number) { return Integer(static_cast<long>(number)); }
+Integer integer(std::int64_t number) { return {static_cast<long>(number)}; }
 
 /// The first of the numbers as coefficients; every third one is squared, so that sizes differ.
 Polynomial polynomial(const Numbers& numbers, std::size_t most = 6) {

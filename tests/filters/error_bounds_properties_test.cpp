@@ -25,7 +25,8 @@ int sign(double x) { return static_cast<int>(x > 0.0) - static_cast<int>(x < 0.0
 
 /// Bits as a coordinate: any finite double, brought into range by its exponent; or a small integer.
 double coordinate(std::uint64_t bits, double greatest) {
-  if (bits % 8 == 0) return static_cast<double>(static_cast<std::int64_t>(bits % 2048) / 8 - 128);
+  const auto integer = static_cast<std::int64_t>(bits / 8 % 256) - 128;
+  if (bits % 8 == 0) return static_cast<double>(integer);
   double x = std::bit_cast<double>(bits);
   if (!std::isfinite(x)) x = std::copysign(0x1p1000, x);
   return std::clamp(x, -greatest, greatest);

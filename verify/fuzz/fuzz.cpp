@@ -241,6 +241,13 @@ class Run {
            has_found_enough();
   }
 
+  /// Is it over, and has what is answered had its time to be judged?
+  [[nodiscard]] bool must_end() const {
+    constexpr double time_to_judge = 1.0;
+    return is_stopped() || has_found_enough() ||
+           (options_.seconds > 0.0 && seconds() >= options_.seconds + time_to_judge);
+  }
+
   [[nodiscard]] bool has_found_enough() const {
     return options_.most_findings != 0 && result_.findings.size() >= options_.most_findings;
   }
@@ -270,15 +277,23 @@ class Run {
   void judge(const Sitting& sitting) {
     const std::span<const Query> queries = std::span(block_.queries).first(sitting.answered);
     judged_.assign(queries.size(), CertifiedResult{});
-    fast::solve(block_.kind, queries, judged_,
-                {.separation = options_.separation, .max_threads = 1});
     incidents_ = sitting.incidents;
-    auto incident = sitting.incidents.begin();
-    for (std::size_t i = 0; i < queries.size() && !has_found_enough(); ++i) {
-      const bool has_incident = incident != sitting.incidents.end() && incident->position == i;
-      judge_query(i, has_incident ? &*incident : nullptr);
-      if (has_incident) ++incident;
+    // In parts: with a distance and extreme coordinates a query may take a second.
+    for (std::size_t first = 0; first < queries.size() && !must_end(); first += slice_queries) {
+      const std::size_t count = std::min(slice_queries, queries.size() - first);
+      fast::solve(block_.kind, queries.subspan(first, count),
+                  std::span(judged_).subspan(first, count),
+                  {.separation = options_.separation, .max_threads = 1});
+      for (std::size_t i = first; i < first + count && !has_found_enough(); ++i) {
+        judge_query(i, incident_at(i));
+      }
     }
+  }
+
+  /// What happened at a query, or null.
+  [[nodiscard]] const Incident* incident_at(std::size_t i) const {
+    const auto found = std::ranges::lower_bound(incidents_, i, {}, &Incident::position);
+    return found != incidents_.end() && found->position == i ? &*found : nullptr;
   }
 
   void judge_query(std::size_t i, const Incident* incident) {

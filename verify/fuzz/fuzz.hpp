@@ -41,7 +41,7 @@ struct FuzzProgress {
 };
 
 struct FuzzOptions {
-  /// Wall-clock seconds; 0: no limit.
+  /// Wall-clock seconds; 0: no limit. What is answered by then is judged for a second more.
   double seconds = 0.0;
   /// Queries asked, images included; 0: no limit. The run ends exactly there.
   std::uint64_t most_queries = 0;
@@ -64,8 +64,8 @@ struct FuzzOptions {
   std::vector<Kind> kinds = {Kind::vertex_face, Kind::edge_edge};
   /// Share of the queries that the oracle judges again. Of the method `certified` it judges all.
   double oracle_share = 0.01;
-  /// May be null. Once true, the run ends within a quarter of a second and the time of a block's
-  /// judging.
+  /// May be null. Once true, the run ends within a quarter of a second and the time of judging a few
+  /// queries; what is answered by then is not all judged.
   const std::atomic<bool>* stop = nullptr;
   /// Called now and then.
   std::function<void(const FuzzProgress&)> on_progress = nullptr;

@@ -50,7 +50,7 @@ class MemoryFile {
  public:
   MemoryFile() : descriptor_(memfd_create("fuzzed", 0)) { require(descriptor_ >= 0); }
 
-  fs::path holding(const std::uint8_t* data, std::size_t size) {
+  [[nodiscard]] fs::path holding(const std::uint8_t* data, std::size_t size) const {
     require(ftruncate(descriptor_, 0) == 0);
     require(pwrite(descriptor_, data, size, 0) == static_cast<ssize_t>(size));
     return "/proc/self/fd/" + std::to_string(descriptor_);
