@@ -38,6 +38,8 @@ namespace fs = std::filesystem;
 
 constexpr double default_seconds = 60.0;
 constexpr double longest_run = 1e7;
+/// Seconds: exact arithmetic takes one where coordinates from 2^-1074 to 2^1023 meet a distance in L2.
+constexpr double default_query_limit = 10.0;
 /// Seconds for making a finding simpler.
 constexpr double shrink_seconds = 5.0;
 
@@ -347,7 +349,7 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
-  arguments->solver.query_limit = 1.0;
+  arguments->solver.query_limit = default_query_limit;
   add_solver_options(*command, arguments->solver);
   command->add_flag("--exact", arguments->solver.exact,
                     "Hold the solver to exactness: false positives are findings too");

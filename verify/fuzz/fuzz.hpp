@@ -55,7 +55,7 @@ struct FuzzOptions {
   /// What the method's tolerances claim; null: nothing is known of it.
   Reach reach = nullptr;
   /// Wall-clock seconds a query may take; 0: no limit.
-  double query_limit_seconds = 1.0;
+  double query_limit_seconds = 10.0;
   /// Findings that are kept (one or a few of a class) after which the run ends; 0: never.
   std::size_t most_findings = 0;
   /// Queries to mutate.
