@@ -407,8 +407,15 @@ std::vector<Mutant> last_stages_of_certified() {
        with_exact_stage(fast::fault_in_face), near_in_l2},
       {"exact_cube_of_size_zero", certified, "the cube of L∞ has no size",
        with_exact_stage(fast::fault_in_cube), near},
-      {"exact_form_cut_late", certified, "a form is looked at up to an end that has moved since",
-       with_exact_stage(fast::fault_in_dip), near},
+      {"exact_form_cut_late",
+       certified,
+       "a form is looked at up to an end that has moved since",
+       with_exact_stage(fast::fault_in_dip),
+       near,
+       {},
+       "A form of a separator must be negative for a moment only, of 2^-40 of the step or less, "
+       "just "
+       "before the root of another form that ends the separator."},
       {"exact_horizon", certified, "what is near from the first contact on only is none",
        with_exact_stage(fast::fault_in_horizon), near},
       {"root_at_start_missing", certified, "contact at t=0 is none",

@@ -29,7 +29,7 @@ std::uint32_t SignatureTable::add(std::uint64_t signature) {
 Steering::Steering(std::size_t arms, std::uint64_t seed, const SteeringOptions& options)
     : random_(builtin::mix(seed)), options_(options), arms_(arms) {}
 
-double Steering::rate(const Arm& arm) const {
+double Steering::rate(const Arm& arm) {
   return (arm.reward + first_reward) / (arm.work + first_work);
 }
 

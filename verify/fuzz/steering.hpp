@@ -63,7 +63,7 @@ class Steering {
     double work = 0.0;
   };
 
-  [[nodiscard]] double rate(const Arm& arm) const;
+  [[nodiscard]] static double rate(const Arm& arm);
 
   builtin::Random random_;
   SteeringOptions options_;

@@ -51,7 +51,9 @@ void renumber(Kind kind, Random& random, Symmetry& symmetry) {
   }
   shuffle(symmetry.points, 0, 2, random);
   shuffle(symmetry.points, 2, moving_points, random);
-  if (random.coin()) std::ranges::rotate(symmetry.points, symmetry.points.begin() + 2);
+  if (random.coin()) {
+    std::rotate(symmetry.points.begin(), symmetry.points.begin() + 2, symmetry.points.end());
+  }
 }
 
 void multiply(Random& random, Symmetry& symmetry) {
