@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -243,63 +244,79 @@ void reduce(Residues& a, const Residues& b) {
 
 // ---- Guesses ------------------------------------------------------------------------------------
 
-/// The coefficients as doubles of one scale.
-std::vector<double> approximate(const Polynomial& c) {
-  std::vector<Approximation> terms;
-  long top = 0;
-  for (const BigInteger& x : c) {
-    terms.push_back(x.approximation());
-    if (x.sign() != 0)
-      top = terms.size() == 1 ? terms.back().exponent : std::max(top, terms.back().exponent);
-  }
-  std::vector<double> result;
-  for (const Approximation& term : terms) {
-    const long exponent = std::max(term.exponent - top, -3000L);
-    result.push_back(std::ldexp(term.significand, static_cast<int>(exponent)));
-  }
-  return result;
-}
+/// A form on an interval, roughly. Its coefficients may be further apart than doubles reach: beside two
+/// roots that are hardly apart, the first ones are next to nothing.
+using Guess = std::vector<Approximation>;
 
-/// The form on an interval as doubles of one scale.
-std::vector<double> local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
+Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
   constexpr std::int64_t accurate = std::int64_t{1} << 54;
+  Guess result;
   if (const auto form = rough_form(f, lower, upper)) {
     const auto b = form->coefficients();
     const bool is_accurate =
         std::ranges::any_of(b, [](std::int64_t x) { return x > accurate || x < -accurate; });
-    std::vector<double> result;
     double binomial = 0x1p-60;
     for (std::size_t k = 0; is_accurate && k < b.size(); ++k) {
-      result.push_back(static_cast<double>(b[k]) * binomial);
+      result.push_back({static_cast<double>(b[k]) * binomial, 0});
       binomial *= static_cast<double>(b.size() - 1 - k) / static_cast<double>(k + 1);
     }
     if (is_accurate) return result;
   }
-  return approximate(restricted(f, lower, upper));
+  for (const BigInteger& x : restricted(f, lower, upper)) result.push_back(x.approximation());
+  return result;
+}
+
+/// significand · 2^exponent; 0 far below what a double holds.
+double scaled(double significand, long exponent) {
+  return std::ldexp(significand, static_cast<int>(std::clamp(exponent, -3000L, 3000L)));
+}
+
+/// a/a_divisor − b/b_divisor.
+Approximation difference(const Approximation& a, double a_divisor, const Approximation& b,
+                         double b_divisor) {
+  const long top = std::max(a.exponent, b.exponent);
+  return {scaled(a.significand, a.exponent - top) / a_divisor -
+              scaled(b.significand, b.exponent - top) / b_divisor,
+          top};
+}
+
+/// The form at y in (0,1), x = 1 − y, times a power of two that brings it near 1.
+double value_at(const Guess& c, double y) {
+  int y_exponent = 0;
+  const double significand = std::frexp(y, &y_exponent), x = 1.0 - y;
+  const auto exponent_of = [&](std::size_t k) {
+    return c[k].exponent + static_cast<long>(k) * y_exponent;
+  };
+  long top = std::numeric_limits<long>::min();
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c[k].significand != 0.0) top = std::max(top, exponent_of(k));
+  }
+  double value = 0.0, power = 1.0;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const bool counts = c[k].significand != 0.0;
+    value = value * x + (counts ? scaled(c[k].significand * power, exponent_of(k) - top) : 0.0);
+    power *= significand;
+  }
+  return value;
 }
 
 /// Where in (0,1) the form changes its sign, by bisection over the doubles.
-std::uint64_t guess_root(const std::vector<double>& c, int sign_below) {
+std::uint64_t guess_root(const Guess& c, int sign_below) {
   const auto is_below_root = [&](std::uint64_t bits) {
-    const double y = std::bit_cast<double>(bits), x = 1.0 - y;
-    double value = c[0], power = 1.0;
-    for (std::size_t k = 1; k < c.size(); ++k) {
-      power *= y;
-      value = value * x + c[k] * power;
-    }
-    return value * sign_below > 0.0;
+    return value_at(c, std::bit_cast<double>(bits)) * sign_below > 0.0;
   };
   return enclose(0.5, 1, is_below_root).upper;
 }
 
 /// Where in (0,1) a form that is positive at 0 is least, if it has one extremum. With Bernstein's
 /// coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
-std::uint64_t guess_minimum(const std::vector<double>& c) {
+std::uint64_t guess_minimum(const Guess& c) {
   const auto degree = static_cast<double>(c.size() - 1);
-  std::vector<double> derivative;
+  Guess derivative;
   double here = 1.0, next = degree, lower = 1.0;  // binomials of n over k, k + 1; of n − 1 over k
   for (std::size_t k = 0; k + 1 < c.size(); ++k) {
-    derivative.push_back((c[k + 1] / next - c[k] / here) * lower);
+    derivative.push_back(difference(c[k + 1], next, c[k], here));
+    derivative.back().significand *= lower;
     const auto i = static_cast<double>(k);
     here = next;
     next *= (degree - i - 1.0) / (i + 2.0);
@@ -467,12 +484,18 @@ bool Instant::cut(const Dyadic& t) {
 
 bool Instant::narrow_by_guess() {
   constexpr std::uint64_t slack = std::uint64_t{1} << 8U;  // in spacings of doubles
+  Guess local = local_guess(f_, lower_, upper_);
+  // From the nearer end: doubles are dense near 0 only.
+  const bool from_upper = value_at(local, 0.5) * sign_below_ > 0.0;
+  if (from_upper) std::ranges::reverse(local);
   const std::uint64_t root =
-      guess_root(local_guess(f_, lower_, upper_), sign_below_) & ~(slack - 1);
+      guess_root(local, from_upper ? -sign_below_ : sign_below_) & ~(slack - 1);
   if (root <= slack || root + 2 * slack >= bits_of_one) return false;
-  const Dyadic lower = between(lower_, upper_, dyadic_of(root - slack));
-  const Dyadic upper = between(lower_, upper_, dyadic_of(root + 2 * slack));
-  return cut(lower) && !cut(upper);
+  const Dyadic &from = from_upper ? upper_ : lower_, &to = from_upper ? lower_ : upper_;
+  Dyadic before = between(from, to, dyadic_of(root - slack));
+  Dyadic after = between(from, to, dyadic_of(root + 2 * slack));
+  if (from_upper) std::swap(before, after);
+  return cut(before) && !cut(after);
 }
 
 void Instant::narrow() {

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "fast/certified/double_search.hpp"
@@ -196,6 +198,25 @@ TEST(AlgebraicInstant, TellsRootsThatAreHardlyApart) {
   ASSERT_TRUE(second.has_value());
   EXPECT_EQ(compare(*second, third), 1);
   expect_roots(Polynomial(square.begin(), square.end()), {1.0 / 3.0});
+}
+
+/// Found by the fuzzer: what doubles cannot reach was guessed as 0, and narrowing took minutes.
+TEST(AlgebraicInstant, NarrowsQuicklyBesideAnEnd) {
+  // (2t − 1)² = 2^-1080: roots 2^-541 from 1/2.
+  const BigInteger large = BigInteger(1) << 1080;
+  const Polynomial pair{large - 1, BigInteger(-2) * (large + 1), large - 1};
+  const Dyadic half{1, 1};
+  for (const auto& [lower, upper] :
+       {std::pair{Dyadic{0, 0}, half}, std::pair{half, Dyadic{1, 0}}}) {
+    Instant root(pair, lower, upper);
+    for (int i = 0; i < 3; ++i) root.narrow();
+    const long exponent = std::max(root.lower().exponent, root.upper().exponent);
+    const BigInteger width = (root.upper().numerator << (exponent - root.upper().exponent)) -
+                             (root.lower().numerator << (exponent - root.lower().exponent));
+    EXPECT_EQ(width.sign(), 1);
+    EXPECT_LT(width.bit_length() - exponent, -600);
+    EXPECT_LT(exponent, 1500);
+  }
 }
 
 TEST(AlgebraicInstant, ComparesInstants) {

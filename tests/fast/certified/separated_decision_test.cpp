@@ -297,9 +297,9 @@ TEST(SeparatedDecision, AtDistanceZeroItIsThePlainDecision) {
 /// A separator's first form has a root just before t=1; a later one is negative for a while before it.
 PosedQuery dipping_query() {
   return tests::edge_edge({0, 3, -3, -8, 7, 9, 0, 0, 0, 1, -1, -5},
-                          {1.5000000000000207, -1.5000000000000622, -7.000000000000055,
-                           -12.000000000000055, 9.500000000000036, 6.9999999999999725, 0, 0, 0, 1,
-                           -2.5000000000000204, -2.9999999999999725});
+                          {0x1.8000000002316p+0, -0x1.800000000694p+0, -0x1.c000000001764p+2,
+                           -0x1.8000000000bb2p+3, 0x1.300000000074fp+3, 0x1.bfffffffff44ep+2, 0, 0,
+                           0, 1, -0x1.400000000118bp+1, -0x1.7ffffffffe89cp+1});
 }
 
 TEST(SeparatedDecision, DipsBeforeASeparatorsEndCount) {
