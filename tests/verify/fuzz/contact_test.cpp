@@ -79,7 +79,7 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
       const Separation separation{.distance = distance, .norm = norm};
       Random random(2);
       int hits = 0, near = 0;
-      const int count = tests::trials(80);
+      const int count = tests::trials(400);
       for (int i = 0; i < count; ++i) {
         const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
         const Query query = contact_apart(kind, separation, random);
