@@ -8,7 +8,7 @@
 /// shared points, points at rest, motion in a plane or on a line, contacts built to lie on an edge
 /// of a primitive up to rounding.
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -205,38 +205,6 @@ inline void degenerate(Random& random, Query& query) {
                                   ? Eigen::Vector3d((1.0 - u - v) * a + u * b + v * c)
                                   : Eigen::Vector3d(((1.0 - v) * b + v * c - u * a) / (1.0 - u));
   query.point(1, 0) = (aim - (1.0 - t) * query.point(0, 0)) / t;
-  return query;
-}
-
-/// A polygon that tilts: it begins and ends some distances D from the origin, and comes nearest in the
-/// middle of the step, to a point inside. Its normal is as long as its sides allow, so that a bound of
-/// what a shift by D changes, by their coordinates, has no slack: det's Bernstein coefficients in the
-/// middle are far below its values.
-[[nodiscard]] inline Query tilting_query(Random& random, Kind kind, double distance) {
-  using Vector = Eigen::Vector3d;
-  const Vector p(1, 1, 1), q(1, -1, 0), normal = p.cross(q).normalized();
-  const double ends = random.uniform(5.0, 13.0) * distance;
-  const double middle = random.uniform(0.4, 1.0) * ends;
-  const double part = random.uniform(0.1, 0.45);
-  // det = r·(p × q), and p × q = (1, 1, −2) is 4 times as long as a shift along (1, 1, −1) uses of it.
-  const Vector r = part * (p + q) + middle / 4.0 * Vector(1, 1, -1);
-  // det grows by r·(a × b) from the middle to the ends, and not with the time itself.
-  const Vector along = 0.5 * r.cross(normal);
-  const double sign = r.dot((normal + along).cross(along - normal)) > 0.0 ? 1.0 : -1.0;
-  const Vector a = normal + sign * along, b = sign * along - normal;
-  const double turn = std::sqrt((ends - middle) / r.dot(a.cross(b)));
-  Query query{};
-  for (const std::size_t end : {0U, 1U}) {
-    const double angle = end == 0 ? turn : -turn;
-    const Vector side_p = p + angle * a, side_q = q + angle * b;
-    query.point(end, 0) = r;
-    if (kind == Kind::vertex_face) {
-      query.point(end, 2) = side_p;
-    } else {
-      query.point(end, 1) = r - side_p;
-    }
-    query.point(end, 3) = side_q;
-  }
   return query;
 }
 

@@ -23,6 +23,8 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "verify/families/families.hpp"
+#include "verify/families/random.hpp"
+#include "verify/fuzz/contact.hpp"
 
 namespace touchstone::fast {
 
@@ -226,7 +228,10 @@ TEST(CertifiedKernels, FamiliesFindAFaultInEachStage) {
 
 /// Nothing moves by more than the points' distances here and there; or hardly at all.
 Query query_near(Random& random, Kind kind, double distance, int i) {
-  if (i % 5 == 0) return tests::tilting_query(random, kind, distance);
+  if (i % 5 == 0) {
+    verify::builtin::Random drawn(random.bits());
+    return verify::tilting(kind, {.distance = distance}, drawn);
+  }
   return i % 3 == 0 ? tests::full_significand_query(random)
                     : tests::near_contact_query(random, kind);
 }

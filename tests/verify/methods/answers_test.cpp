@@ -83,11 +83,12 @@ TEST(Answers, ReadAsTheyWereWritten) {
     } while (!std::isfinite(x));
     return x;
   };
-  std::vector<Answer> written{{Verdict::no},
-                              {Verdict::undecided},
-                              {Verdict::error},
-                              {Verdict::yes},
-                              {Verdict::yes, 0, -0.0, std::numeric_limits<double>::denorm_min(), 0.0}};
+  std::vector<Answer> written{
+      {Verdict::no},
+      {Verdict::undecided},
+      {Verdict::error},
+      {Verdict::yes},
+      {Verdict::yes, 0, -0.0, std::numeric_limits<double>::denorm_min(), 0.0}};
   for (int i = 0; i < 2000; ++i) {
     written.push_back({Verdict::yes, 0, finite(), finite(), std::abs(finite())});
   }
