@@ -42,6 +42,8 @@ constexpr std::string_view judge_name = "certified";
 constexpr std::size_t block_queries = 256;
 /// Queries that one draw of the steering stands for.
 constexpr std::size_t slice_queries = 16;
+/// Queries that are judged together: enough for the kernel, and few enough to end in time.
+constexpr std::size_t judged_together = 64;
 /// One in so many queries is asked again as an image.
 constexpr std::size_t queries_an_image = 8;
 /// Of a class of findings so many are kept.
@@ -279,8 +281,8 @@ class Run {
     judged_.assign(queries.size(), CertifiedResult{});
     incidents_ = sitting.incidents;
     // In parts: with a distance and extreme coordinates a query may take a second.
-    for (std::size_t first = 0; first < queries.size() && !must_end(); first += slice_queries) {
-      const std::size_t count = std::min(slice_queries, queries.size() - first);
+    for (std::size_t first = 0; first < queries.size() && !must_end(); first += judged_together) {
+      const std::size_t count = std::min(judged_together, queries.size() - first);
       fast::solve(block_.kind, queries.subspan(first, count),
                   std::span(judged_).subspan(first, count),
                   {.separation = options_.separation, .max_threads = 1});
