@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "verify/certify.hpp"
@@ -19,8 +18,7 @@ namespace touchstone::verify {
 namespace {
 
 std::vector<std::filesystem::path> corpus() {
-  const std::filesystem::path folder = std::string(TOUCHSTONE_SOURCE_DIR) + "/tests/corpus";
-  return find_datasets({{folder}});
+  return find_datasets({{std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "tests" / "corpus"}});
 }
 
 std::vector<std::unique_ptr<Respondent>> respondents() {
