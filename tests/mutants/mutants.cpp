@@ -414,8 +414,7 @@ std::vector<Mutant> last_stages_of_certified() {
        near,
        {},
        "A form of a separator must be negative for a moment only, of 2^-40 of the step or less, "
-       "just "
-       "before the root of another form that ends the separator."},
+       "just before the root of another form that ends the separator."},
       {"exact_horizon", certified, "what is near from the first contact on only is none",
        with_exact_stage(fast::fault_in_horizon), near},
       {"root_at_start_missing", certified, "contact at t=0 is none",

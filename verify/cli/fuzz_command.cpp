@@ -38,8 +38,6 @@ namespace fs = std::filesystem;
 
 constexpr double default_seconds = 60.0;
 constexpr double longest_run = 1e7;
-/// Seconds: exact arithmetic takes one where coordinates from 2^-1074 to 2^1023 meet a distance in L2.
-constexpr double default_query_limit = 10.0;
 /// Seconds for making a finding simpler.
 constexpr double shrink_seconds = 5.0;
 
@@ -349,7 +347,7 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
-  arguments->solver.query_limit = default_query_limit;
+  arguments->solver.query_limit = FuzzOptions{}.query_limit_seconds;
   add_solver_options(*command, arguments->solver);
   command->add_flag("--exact", arguments->solver.exact,
                     "Hold the solver to exactness: false positives are findings too");
@@ -357,25 +355,17 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   add_separation_options(*command, arguments->separation);
   add_output_options(*command, *arguments);
   command->footer(
-      "The solver (one --method or --plugin) runs in a child "
-      "process. Sought are false negatives,\n"
-      "times of impact that exclude the true one, crashes, hangs, "
-      "numbers that are none, a yes that\n"
-      "claims more nearness than there is, and of what calls "
-      "itself exact false positives and other\n"
-      "answers to exact images of a query. The certified solver "
-      "judges, the oracle one answer in a\n"
-      "hundred again and every finding; of method certified the "
-      "oracle judges all. Findings are made\n"
-      "as simple as they go, and printed as points, as rows of a "
-      "dataset and as a C++ test. A seed\n"
-      "and --queries determine them.\n"
-      "Exit status: 0 nothing found, 1 findings, 2 bad input or "
-      "usage, 130 interrupted with nothing\n"
-      "found.\n"
+      "The solver (one --method or --plugin) runs in a child process. Sought are false\n"
+      "negatives, times of impact that exclude the true one, crashes, hangs, numbers that are\n"
+      "none, a yes that claims more nearness than there is, and of what calls itself exact\n"
+      "false positives and other answers to exact images of a query. The certified solver\n"
+      "judges, the oracle one answer in a hundred again and every finding; of method certified\n"
+      "the oracle judges all. Findings are made as simple as they go, and printed as points, as\n"
+      "rows of a dataset and as a C++ test. A seed and --queries determine them.\n"
+      "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, 130 interrupted with\n"
+      "nothing found.\n"
       "Example: touchstone fuzz --method tight_inclusion --seconds 600 --json result.json\n"
-      "Example: touchstone fuzz --plugin ./libsolver.so --exact "
-      "--out found.csv --corpus data/handcrafted");
+      "Example: touchstone fuzz --plugin ./libsolver.so --exact --out found.csv --corpus data");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);
     status = FuzzRun(*arguments).run();

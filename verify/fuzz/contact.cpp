@@ -373,12 +373,16 @@ Query tilting(Kind kind, const Separation& separation, Random& random) {
     const double angle = end == 0 ? turn : -turn;
     const Vector3d side_p = p + angle * a, side_q = q + angle * b;
     query.point(end, 0) = r;
-    query.point(end, kind == Kind::vertex_face ? 2 : 1) =
-        kind == Kind::vertex_face ? side_p : Vector3d(r - side_p);
+    if (kind == Kind::vertex_face) {
+      query.point(end, 2) = side_p;
+    } else {
+      query.point(end, 1) = r - side_p;
+    }
     query.point(end, 3) = side_q;
   }
+  const double size = std::ldexp(separation.distance, ratio);
   Query sized = query;
-  for (double& x : sized.coordinates) x *= std::ldexp(separation.distance, ratio);
+  draws::multiply(sized, {size, size, size});
   return turned(kind, draws::is_finite(sized) ? sized : query, random);
 }
 

@@ -44,6 +44,8 @@ constexpr std::size_t block_queries = 256;
 constexpr std::size_t slice_queries = 16;
 /// Queries that are judged together: enough for the kernel, and few enough to end in time.
 constexpr std::size_t judged_together = 64;
+/// What is answered when the time is over has so long to be judged.
+constexpr double seconds_to_judge = 1.0;
 /// One in so many queries is asked again as an image.
 constexpr std::size_t queries_an_image = 8;
 /// Of a class of findings so many are kept.
@@ -238,16 +240,14 @@ class Run {
   [[nodiscard]] double seconds() const { return seconds_since(start_) - called_back_; }
 
   [[nodiscard]] bool is_over() const {
-    return is_stopped() || (options_.seconds > 0.0 && seconds() >= options_.seconds) ||
-           (options_.most_queries != 0 && result_.queries >= options_.most_queries) ||
-           has_found_enough();
+    return must_end(0.0) ||
+           (options_.most_queries != 0 && result_.queries >= options_.most_queries);
   }
 
-  /// Is it over, and has what is answered had its time to be judged?
-  [[nodiscard]] bool must_end() const {
-    constexpr double time_to_judge = 1.0;
+  /// Must it end, even in the middle of a block, if it may take so many seconds more than given?
+  [[nodiscard]] bool must_end(double more_seconds) const {
     return is_stopped() || has_found_enough() ||
-           (options_.seconds > 0.0 && seconds() >= options_.seconds + time_to_judge);
+           (options_.seconds > 0.0 && seconds() >= options_.seconds + more_seconds);
   }
 
   [[nodiscard]] bool has_found_enough() const {
@@ -281,7 +281,8 @@ class Run {
     judged_.assign(queries.size(), CertifiedResult{});
     incidents_ = sitting.incidents;
     // In parts: with a distance and extreme coordinates a query may take a second.
-    for (std::size_t first = 0; first < queries.size() && !must_end(); first += judged_together) {
+    for (std::size_t first = 0; first < queries.size() && !must_end(seconds_to_judge);
+         first += judged_together) {
       const std::size_t count = std::min(judged_together, queries.size() - first);
       fast::solve(block_.kind, queries.subspan(first, count),
                   std::span(judged_).subspan(first, count),

@@ -54,7 +54,8 @@ struct FuzzOptions {
   std::optional<fast::Promise> promise = std::nullopt;
   /// What the method's tolerances claim; null: nothing is known of it.
   Reach reach = nullptr;
-  /// Wall-clock seconds a query may take; 0: no limit.
+  /// Wall-clock seconds a query may take; 0: no limit. Exact arithmetic takes one where coordinates from
+  /// 2^-1074 to 2^1023 meet a distance in L2.
   double query_limit_seconds = 10.0;
   /// Findings that are kept (one or a few of a class) after which the run ends; 0: never.
   std::size_t most_findings = 0;
