@@ -50,6 +50,7 @@ constexpr auto quick = std::to_array<std::string_view>({
     "search_claims_its_tolerance",
     "search_forgets_the_remembered",
     // Of the certified solver: bounds, stages, the last one.
+    "gap_bound_none",
     "determinant_bound_1000",
     "orientation_bound_1000",
     "kernel_without_product_error",

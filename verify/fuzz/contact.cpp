@@ -262,6 +262,10 @@ void put_sliding_edges(Query& query, Random& random) {
   }
 }
 
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 /// Level primitives that come as near as the distance at an end, or stay there.
 Query hovering(Kind kind, const Separation& separation, Random& random) {
   Query query = draw_plan(kind, random);
@@ -297,6 +301,34 @@ Query grid_contact(Kind kind, Random& random) {
   const std::array<double, 3> factors = one_in(random, 3) ? std::array{factor(), factor(), factor()}
                                                           : std::array{common, common, common};
   draws::multiply(query, factors);
+  return query;
+}
+
+Query central_contact(Kind kind, Random& random) {
+  // Their products have more bits than a significand, their sums with the normal do not.
+  const int bits = static_cast<int>(random.between(8, 19));
+  Grid places(random, bits), shapes(random, bits);
+  const Vector p = places.draw(), a = shapes.draw(), b = shapes.draw();
+  const Vector normal = draws::power_of_two(-bits) * cross(a, b);
+  const std::size_t end = below(random, 2);
+  const double way = random.coin() ? 1.0 : -1.0;
+  Query query{};
+  for (std::size_t e = 0; e < 2; ++e) {
+    const Vector first = e == end ? p : p + way * normal;
+    if (kind == Kind::vertex_face) {
+      put(query, e, 0, first);
+      put(query, e, 1, p - a);
+      put(query, e, 2, p - b);
+      put(query, e, 3, p + (a + b));
+    } else {
+      put(query, e, 0, first - a);
+      put(query, e, 1, first + a);
+      put(query, e, 2, p - b);
+      put(query, e, 3, p + b);
+    }
+  }
+  const double scale = draws::power_of_two(static_cast<int>(random.between(-50, 10)));
+  draws::multiply(query, {scale, scale, scale});
   return query;
 }
 

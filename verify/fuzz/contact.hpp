@@ -23,6 +23,10 @@ namespace touchstone::verify {
 /// A query on a grid that collides.
 [[nodiscard]] Query grid_contact(Kind kind, builtin::Random& random);
 
+/// The centres of two edges, or of a triangle and a vertex, meet at an end of the step, exactly, and
+/// move along the normal, exactly too: what a direction's products tell apart is rounding alone.
+[[nodiscard]] Query central_contact(Kind kind, builtin::Random& random);
+
 /// A level query that collides.
 [[nodiscard]] Query level_contact(Kind kind, builtin::Random& random);
 

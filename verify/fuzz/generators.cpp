@@ -104,6 +104,12 @@ Query contact_at_level(Kind kind, const GeneratorContext& /*context*/, Random& r
   return query;
 }
 
+Query contact_central(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+  Query query = central_contact(kind, random);
+  if (one_in(random, 4)) nudge(query, random);
+  return query;
+}
+
 Query contact_rounded(Kind kind, const GeneratorContext& /*context*/, Random& random) {
   Query query = rounded_contact(kind, random);
   if (random.coin()) nudge(query, random);
@@ -192,13 +198,14 @@ Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
   return result;
 }
 
-constexpr std::array<Generator, 13> all_generators{{
+constexpr std::array<Generator, 14> all_generators{{
     {"family", "a query of the built-in set (touchstone generate --list), any seed", 18.0, family},
     {"few_bits", "small integers times a power of two", 1.0, few_bits},
     {"grid", "a few numbers an axis with full significands", 3.5, grid},
     {"shared_vertices", "points shared, at rest, or with equal coordinates", 2.0, shared_vertices},
     {"contact_on_grid", "exact contact of integers, nudged", 20.0, contact_on_grid},
     {"contact_at_level", "exact contact with full significands, nudged", 6.5, contact_at_level},
+    {"contact_central", "the centres meet at an end, along the normal", 2.0, contact_central},
     {"contact_rounded", "one point solved for contact and rounded, nudged", 6.0, contact_rounded},
     {"sliding", "nearly parallel and nearly touching", 3.0, slide},
     {"mutated", "a query of the corpus or a recent one, changed", 9.0, mutate},

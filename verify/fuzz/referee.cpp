@@ -65,7 +65,7 @@ bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judge
     if (standard.promise == Promise::exact) return false;
     if (!is_yes) return true;
     const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
-    return !claimed ||
+    return !claimed || is_seen_within(kind, query, answer.toi_lower, claimed->distance) ||
            fast::certified(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
   }
   if (answer.verdict == Verdict::no) return false;

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "fast/certified/nearest_parameters.hpp"
+#include "filters/expressions.hpp"
+
 namespace touchstone::verify {
 namespace {
 
@@ -21,6 +24,20 @@ std::array<double, 3> greatest_coordinates(const Query& query) {
   return greatest;
 }
 
+/// A weight near x, such that 1 − x is exact, and sums of two are: a multiple of 2^-52 in [0,1].
+double weight(double x) { return std::clamp((x + 1.0) - 1.0, 0.0, 1.0); }
+
+/// F on one axis, up to the filter. \pre all are weights, and u + v ≤ 1 if need be.
+double value_on_axis(Kind kind, const Query& query, std::size_t axis, double t, double u,
+                     double v) {
+  std::array<double, query_points> x{};
+  for (std::size_t i = 0; i < x.size(); ++i) x.at(i) = query.coordinates.at(3 * i + axis);
+  if (kind == Kind::vertex_face) {
+    return filters::VertexFace::evaluate<double>(x, {1.0 - t, t, 1.0 - u - v, u, v});
+  }
+  return filters::EdgeEdge::evaluate<double>(x, {1.0 - t, t, 1.0 - u, u, 1.0 - v, v});
+}
+
 }  // namespace
 
 double tight_inclusion_reach(Kind kind, const Query& query, const fast::Answer& answer,
@@ -32,6 +49,22 @@ double tight_inclusion_reach(Kind kind, const Query& query, const fast::Answer& 
   }
   const double filter = std::ranges::max(fast::error_filter(kind, x_max, d, model));
   return up(up(up(answer.tolerance) + d) + 2.0 * filter);
+}
+
+bool is_seen_within(Kind kind, const Query& query, double t, double distance) {
+  if (!(t >= 0.0 && t <= 1.0)) return false;
+  const std::array<double, 3> x_max = greatest_coordinates(query);
+  if (std::ranges::max(x_max) > greatest_unscaled) return false;
+  const std::array<double, 3> filter = fast::error_filter(kind, x_max, 0.0);
+  const double time = weight(t);
+  const auto nearest = fast::exact_stage::nearest_parameters(kind, query, time, Norm::l2);
+  const double u = weight(nearest.u), free = kind == Kind::vertex_face ? 1.0 - u : 1.0;
+  const double v = std::min(weight(nearest.v), free);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double value = std::abs(value_on_axis(kind, query, axis, time, u, v));
+    if (!(up(value + filter.at(axis)) <= distance)) return false;
+  }
+  return true;
 }
 
 }  // namespace touchstone::verify

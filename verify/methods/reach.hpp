@@ -29,4 +29,8 @@ using Reach = std::function<double(Kind, const Query&, const fast::Answer&, cons
                                            const fast::Answer& answer, const Separation& separation,
                                            fast::ErrorModel model);
 
+/// Is it seen at a glance, in floating point with proved bounds, that the primitives are within the
+/// distance in L∞ at time t? False says nothing.
+[[nodiscard]] bool is_seen_within(Kind kind, const Query& query, double t, double distance);
+
 }  // namespace touchstone::verify

@@ -42,6 +42,19 @@ TEST(Contact, OnAGridIsContactAlways) {
   for (const double eighth : {0.0, 0.125, 0.5, 0.875, 1.0}) EXPECT_TRUE(tois.contains(eighth));
 }
 
+TEST(Contact, OfCentresIsAtAnEnd) {
+  int at_start = 0, at_end = 0;
+  for_each_query(central_contact, tests::trials(400), [&](Kind kind, const Query& query) {
+    const Decision decision(kind, query, {});
+    ASSERT_TRUE(decision.collides());
+    const double toi = decision.toi().enclosure().lower;
+    ASSERT_TRUE(toi == 0.0 || toi == 1.0) << toi;
+    (toi == 0.0 ? at_start : at_end) += 1;
+  });
+  EXPECT_GT(at_start, tests::trials(100));
+  EXPECT_GT(at_end, tests::trials(100));
+}
+
 TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
   int full = 0, inside = 0, at_one = 0;
   for_each_query(level_contact, tests::trials(2000), [&](Kind kind, const Query& query) {

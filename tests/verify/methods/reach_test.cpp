@@ -73,5 +73,41 @@ TEST(Reach, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
   EXPECT_GT(claims, 300U);
 }
 
+/// The vertex comes down from 2 to 1 over the triangle.
+TEST(Reach, NearnessIsSeenWhereTheBoundsLeaveRoom) {
+  const auto is_seen = [](double t, double distance) {
+    return is_seen_within(Kind::vertex_face, falling, t, distance);
+  };
+  EXPECT_TRUE(is_seen(1.0, 1.0 + 1e-12));
+  EXPECT_FALSE(is_seen(1.0, 1.0)) << "right, but within the bounds";
+  EXPECT_FALSE(is_seen(1.0, 1.0 - 1e-12));
+  EXPECT_TRUE(is_seen(0.75, 1.25 + 1e-12));
+  EXPECT_FALSE(is_seen(0.75, 1.25 - 1e-12));
+  EXPECT_FALSE(is_seen(Answer::none, 10.0));
+  EXPECT_FALSE(is_seen(1.5, 10.0));
+}
+
+TEST(Reach, WhatIsSeenIsTrue) {
+  std::size_t seen = 0, near = 0;
+  for (const Family& family : families({})) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (!supports(family, kind)) continue;
+      for (std::uint64_t index = 0; index < 6; ++index) {
+        const Query query = make_query(family, kind, 11, index, {}).query;
+        const double size = std::abs(query.at(0, 0, 0)) + std::abs(query.at(1, 3, 1));
+        for (const double distance : {1e-12 * size, 1e-3 * size, 0.3 * size}) {
+          if (!is_valid({.distance = distance})) continue;
+          const bool is_seen = is_seen_within(kind, query, 0.375, distance);
+          const bool is_near = exact::decide(kind, query, {.distance = distance}).collides();
+          EXPECT_TRUE(is_near || !is_seen) << family.name << " " << index;
+          seen += is_seen ? 1U : 0U;
+          near += is_near ? 1U : 0U;
+        }
+      }
+    }
+  }
+  EXPECT_GT(4 * seen, near);
+}
+
 }  // namespace
 }  // namespace touchstone::verify
