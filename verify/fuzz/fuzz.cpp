@@ -52,8 +52,8 @@ constexpr std::size_t queries_an_image = 8;
 constexpr std::uint64_t kept_of_class = 2;
 
 constexpr double oracle_work = 40.0;
-/// About the microseconds of a solver that gave up before it came near its tolerance.
-constexpr double exhausted_work = 2000.0;
+/// About the microseconds of a step that a solver says it took, such as a box.
+constexpr double check_work = 0.05;
 
 /// What a finding is worth beside a query of a new signature.
 constexpr double finding_reward = 50.0;
@@ -322,7 +322,7 @@ class Run {
       ++statistics.signatures;
       if (is_moderate(block_.queries[i])) maker_.remember(block_.kind, block_.queries[i]);
     }
-    if (answers_[i].tolerance > 2.0 * options_.method.tolerance) work += exhausted_work;
+    work += check_work * static_cast<double>(answers_[i].checks);
     maker_.learn(block_.arms[i], reward, work);
   }
 
