@@ -246,6 +246,7 @@ std::vector<Mutant> filters_of_tight_inclusion() {
       {"filter_none", tight_inclusion, "no filter at all", with_filter_times(0.0)},
       {"filter_1000", tight_inclusion, "the filter is too small by 1000", with_filter_times(1e-3)},
       {"filter_10", tight_inclusion, "the filter is too small by 10", with_filter_times(0.1)},
+      {"filter_3", tight_inclusion, "the filter is too small by 3", with_filter_times(1.0 / 3.0)},
       {"filter_2",
        tight_inclusion,
        "the filter is too small by 2",
@@ -253,8 +254,8 @@ std::vector<Mutant> filters_of_tight_inclusion() {
        {},
        {},
        "All corner values of a box with a contact must err by more than half the bound, to one "
-       "side. The worst "
-       "errors observed are 9.0 u of 10 u and 10.8 u of 20 u, of one corner (touchstone derive)."},
+       "side. Those of contact_aligned err by 4 u x, of two edges' bound of 10 u x; values near it "
+       "are multiples of 2 u x, and none of 6 u x was met."},
       {"filter_min_for_max", tight_inclusion, "the filter has min(x_max, 1) for max(x_max, 1)",
        with_filter(filter_of_min)},
       {"filter_of_start", tight_inclusion, "the filter looks at the points at t=0 only",

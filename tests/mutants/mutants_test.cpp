@@ -37,6 +37,7 @@ constexpr auto quick = std::to_array<std::string_view>({
     "filter_none",
     "filter_1000",
     "filter_10",
+    "filter_3",
     "filter_min_for_max",
     "box_of_wrong_sign",
     "box_in_float",

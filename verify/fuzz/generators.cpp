@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "verify/fuzz/aligned.hpp"
 #include "verify/fuzz/contact.hpp"
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/mutation.hpp"
@@ -116,6 +117,11 @@ Query contact_rounded(Kind kind, const GeneratorContext& /*context*/, Random& ra
   return query;
 }
 
+/// Of edges; of a vertex and a triangle what is next to it.
+Query contact_aligned(Kind kind, const GeneratorContext& context, Random& random) {
+  return kind == Kind::edge_edge ? aligned_contact(random) : contact_rounded(kind, context, random);
+}
+
 Query apart(Kind kind, const GeneratorContext& context, Random& random) {
   Query query = contact_apart(kind, context.separation(), random);
   if (one_in(random, 4)) overshoot(kind, query, random);
@@ -198,18 +204,19 @@ Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
   return result;
 }
 
-constexpr std::array<Generator, 14> all_generators{{
-    {"family", "a query of the built-in set (touchstone generate --list), any seed", 18.0, family},
+constexpr std::array<Generator, 15> all_generators{{
+    {"family", "a query of the built-in set (touchstone generate --list), any seed", 20.0, family},
     {"few_bits", "small integers times a power of two", 1.0, few_bits},
-    {"grid", "a few numbers an axis with full significands", 3.5, grid},
+    {"grid", "a few numbers an axis with full significands", 3.0, grid},
     {"shared_vertices", "points shared, at rest, or with equal coordinates", 2.0, shared_vertices},
-    {"contact_on_grid", "exact contact of integers, nudged", 20.0, contact_on_grid},
+    {"contact_on_grid", "exact contact of integers, nudged", 31.0, contact_on_grid},
     {"contact_at_level", "exact contact with full significands, nudged", 6.5, contact_at_level},
-    {"contact_central", "the centres meet at an end, along the normal", 2.0, contact_central},
+    {"contact_central", "the centres meet at an end, along the normal", 3.5, contact_central},
     {"contact_rounded", "one point solved for contact and rounded, nudged", 6.0, contact_rounded},
-    {"sliding", "nearly parallel and nearly touching", 3.0, slide},
+    {"contact_aligned", "contact of edges whose roundings add up", 38.0, contact_aligned},
+    {"sliding", "nearly parallel and nearly touching", 2.5, slide},
     {"mutated", "a query of the corpus or a recent one, changed", 9.0, mutate},
-    {"scaled", "such a query times 2^-1000 to 2^1000", 8.0, scaled},
+    {"scaled", "such a query times 2^-1000 to 2^1000", 15.0, scaled},
     {"apart", "about as far apart as the separation", 10.0, apart, true},
     {"multiples", "small multiples of the separation, an end of them moved", 20.0, multiples, true},
     {"tilting", "a polygon that tilts within the separation", 10.0, tilt, true},
