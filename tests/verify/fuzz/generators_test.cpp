@@ -81,8 +81,8 @@ TEST(Generators, MakeCollisionsAndMissesThatAreHard) {
         const std::string_view name = generator.name;
         EXPECT_GT(collisions, 0) << name << ' ' << to_string(kind);
         EXPECT_GT(late, 3) << name << ' ' << to_string(kind);
-        // A distance leaves few misses.
-        if (separation.distance > 0.0) continue;
+        // A distance leaves few misses, and what is aligned crosses far from any end.
+        if (separation.distance > 0.0 || name == "contact_aligned") continue;
         EXPECT_LT(collisions, count) << name << ' ' << to_string(kind);
       }
     }
