@@ -73,6 +73,13 @@ constexpr auto permissions = std::to_array<Permission>({
     {"fast/", "xmmintrin.h"},
     {"fast/", "oneapi/tbb/"},
 
+    // What the known methods are made of, simulators need not have.
+    {"fast/baselines/", "fast/"},
+    {"fast/baselines/", "filters/"},
+    {"fast/baselines/", "exact/query.hpp"},
+    {"fast/baselines/", "Eigen/"},
+    {"fast/baselines/", "boost/numeric/interval.hpp"},
+
     {"verify/", "exact/"},
     {"verify/", "exact/checker/"},
     {"verify/", "filters/"},
@@ -395,6 +402,9 @@ TEST(PlantedFault, EachForbiddenIncludeIsFound) {
       {"verify/plugin.h", "#include <math.h>\n"},
       {"verify/plugin.h", "#include \"exact/query.hpp\"\n"},
       {"verify/plugin.h", "#include \"verify/query_source.hpp\"\n"},
+      {"fast/solver.cpp", "#include <boost/numeric/interval.hpp>\n"},
+      {"fast/baselines/solver.cpp", "#include <boost/multiprecision/cpp_int.hpp>\n"},
+      {"fast/baselines/solver.cpp", "#include \"exact/oracle.hpp\"\n"},
       {"fast/solver.cpp", "#include <dlfcn.h>\n"},
       {"fast/solver.cpp", "#include \"verify/plugin.h\"\n"},
       {"verify/dataset.cpp", "#include \"tests/support/random.hpp\"\n"},
@@ -439,6 +449,8 @@ TEST(PlantedFault, PermittedIncludesAreNone) {
       {"verify/cli/derive.cpp", "#include \"filters/derivation/model.hpp\"\n"},
       {"fast/solver.cpp", "#include \"exact/query.hpp\"\n#include <hwy/highway.h>\n"},
       {"fast/solver.cpp", "#include \"filters/bound.hpp\"\n#include <oneapi/tbb/info.h>\n"},
+      {"fast/baselines/solver.cpp",
+       "#include \"fast/method.hpp\"\n#include <boost/numeric/interval.hpp>\n"},
       {"verify/dataset.cpp", "#include \"fast/solver.hpp\"\n#include \"exact/oracle.hpp\"\n"},
       {"verify/dataset.cpp", "#include <fmt/format.h>\n#include <sys/mman.h>\n#include <vector>\n"},
       {"verify/plugin.h", "#include <stdint.h>\n"},

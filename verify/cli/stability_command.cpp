@@ -47,11 +47,13 @@ std::vector<const Hardness*> chosen(const std::vector<std::string>& names) {
   return result;
 }
 
-/// Without a word on it all methods are judged.
+/// Without a word on it all methods are judged but the baselines.
 RespondentArguments judged_by(const Arguments& arguments) {
   RespondentArguments judged = arguments.judged;
   if (!judged.empty()) return judged;
-  for (const auto& method : methods()) judged.methods.emplace_back(method->name());
+  for (const auto& method : methods()) {
+    if (!is_baseline(method->name())) judged.methods.emplace_back(method->name());
+  }
   return judged;
 }
 
@@ -145,7 +147,7 @@ void add_stability_command(CLI::App& app, Status& status) {
       "Queries that are hard in one way, at eleven levels each, and mild in all others:\n" + list +
       "Half of them collide. The truth is that of the certified solver, checked by the oracle on "
       "all.\n"
-      "Without --method or --plugin all our methods are judged.\n"
+      "Without --method or --plugin all our methods are judged but the baselines.\n"
       "Exit status: 0 all solvers keep their promise, 1 some do not, 2 bad usage, 130 interrupted\n"
       "(what is done by then is reported and written).\n"
       "Example: touchstone stability --method tight_inclusion --picture stability.svg");

@@ -4,11 +4,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
+#include "fast/baselines/accd.hpp"
+#include "fast/baselines/bsc.hpp"
+#include "fast/baselines/fprf.hpp"
+#include "fast/baselines/irf.hpp"
+#include "fast/baselines/msrf.hpp"
+#include "fast/baselines/rp.hpp"
+#include "fast/baselines/tccd.hpp"
+#include "fast/baselines/uirf.hpp"
 #include "fast/certified.hpp"
 #include "fast/tight_inclusion.hpp"
+#include "verify/baselines/rrp.hpp"
 
 namespace touchstone::verify {
 
@@ -16,11 +26,26 @@ namespace {
 
 using Methods = std::vector<std::unique_ptr<const fast::Method>>;
 
+/// The known methods, which are here to be compared with.
+constexpr auto baselines = std::to_array<std::unique_ptr<fast::Method> (*)()>({
+    fast::irf_method,
+    fast::uirf_method,
+    fast::fprf_method,
+    fast::tccd_method,
+    fast::rp_method,
+    rrp_method,
+    fast::bsc_method,
+    fast::msrf_method,
+    fast::accd_method,
+});
+
+/// Ours, then the baselines.
 Methods make_methods() {
   Methods all;
   all.push_back(fast::certified_method());
   all.push_back(fast::tight_inclusion_method());
   all.push_back(fast::tight_inclusion_method({.error_model = fast::ErrorModel::published}));
+  for (const auto make : baselines) all.push_back(make());
   return all;
 }
 
@@ -34,11 +59,20 @@ const std::vector<std::unique_ptr<const fast::Method>>& methods() {
   return all;
 }
 
+bool is_baseline(std::string_view name) {
+  // They stand behind all others.
+  const auto first = methods().end() - static_cast<std::ptrdiff_t>(baselines.size());
+  return std::any_of(first, methods().end(),
+                     [&](const auto& method) { return method->name() == name; });
+}
+
 std::vector<std::string_view> default_methods() {
   std::vector<std::string_view> names;
   for (const auto& method : methods()) {
-    const bool is_variant = std::ranges::find(variants, method->name()) != variants.end();
-    if (method->promise() != fast::Promise::none && !is_variant) names.push_back(method->name());
+    const std::string_view name = method->name();
+    const bool is_variant = std::ranges::find(variants, name) != variants.end();
+    const bool promises = method->promise() != fast::Promise::none;
+    if (promises && !is_variant && !is_baseline(name)) names.push_back(name);
   }
   return names;
 }

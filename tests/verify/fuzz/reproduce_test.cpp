@@ -175,6 +175,7 @@ Answer yes_between(double lower, double upper) {
 
 TEST(AsCppTest, passes_on_methods_that_are_right) {
   for (const auto& method : methods()) {
+    if (is_baseline(method->name())) continue;
     EXPECT_EQ(failures(reproduction_of_miss::expect_no_fault, *method), 0) << method->name();
     EXPECT_EQ(failures(reproduction_of_claim::expect_no_fault, *method), 0) << method->name();
   }

@@ -55,6 +55,20 @@ TEST(Registry, JudgesUnaskedWhatPromisesSomethingInItsDefaultSetting) {
   EXPECT_EQ(default_methods(), (std::vector<std::string_view>{"certified", "tight_inclusion"}));
 }
 
+TEST(Registry, BaselinesStandBehindOurOwn) {
+  std::vector<std::string_view> ours;
+  std::vector<std::string_view> baselines;
+  for (const auto& method : methods()) {
+    (is_baseline(method->name()) ? baselines : ours).push_back(method->name());
+    EXPECT_EQ(is_baseline(method->name()), !baselines.empty()) << method->name();
+  }
+  EXPECT_EQ(ours, (std::vector<std::string_view>{"certified", "tight_inclusion",
+                                                 "tight_inclusion_published"}));
+  EXPECT_EQ(baselines, (std::vector<std::string_view>{"irf", "uirf", "fprf", "tccd", "rp", "rrp",
+                                                      "bsc", "msrf", "accd"}));
+  EXPECT_FALSE(is_baseline("nonsense"));
+}
+
 TEST(Registry, PromisesHaveNames) {
   EXPECT_EQ(to_string(fast::Promise::none), "none");
   EXPECT_EQ(to_string(fast::Promise::conservative), "conservative");

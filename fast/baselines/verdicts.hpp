@@ -1,0 +1,52 @@
+#pragma once
+
+/// \file
+/// Verdicts of methods that say yes or no and nothing else: the same answer to bad input, and to an
+/// exception inside the method, for all of them.
+///
+/// The published comparison wraps every method and turns whatever it throws into "collision". That
+/// decides most answers of some methods (bsc.hpp), so it is reproduced here.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <new>
+#include <span>
+
+#include "exact/query.hpp"
+#include "fast/floating_point_state.hpp"
+#include "fast/method.hpp"
+
+namespace touchstone::fast::baselines {
+
+/// Is no coordinate infinite or NaN?
+[[nodiscard]] inline bool is_finite(const Query& query) {
+  return std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); });
+}
+
+/// The verdict of `collides(kind, query)`: error where a coordinate is not finite, yes where it throws.
+/// \throws std::bad_alloc if that is what it throws.
+template <class Collides>
+[[nodiscard]] Verdict verdict_of(Kind kind, const Query& query, const Collides& collides) {
+  if (!is_finite(query)) return Verdict::error;
+  try {
+    return collides(kind, query) ? Verdict::yes : Verdict::no;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+    return Verdict::yes;
+  }
+}
+
+/// Answers query i in answers[i] with its verdict alone, rounding to nearest whatever the caller does.
+/// \pre both spans have the same length. \throws std::bad_alloc
+template <class Collides>
+void answer_each(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
+                 const Collides& collides) {
+  const StrictFloatingPoint strict;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    answers[i] = {.verdict = verdict_of(kind, queries[i], collides)};
+  }
+}
+
+}  // namespace touchstone::fast::baselines

@@ -1,0 +1,174 @@
+#pragma once
+
+/// \file
+/// What the tests of the baselines share: the printed queries that set the methods apart,
+/// random queries that are hit in the middle, and a count of wrong answers on whatever the truth is
+/// known of.
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "exact/number.hpp"
+#include "exact/oracle.hpp"
+#include "fast/method.hpp"
+#include "tests/support/public_data.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "verify/dataset/dataset.hpp"
+#include "verify/families/families.hpp"
+
+namespace touchstone::tests {
+
+/// H, the hourglass: two vertices of a sinking face exchange places. Contact at 0.9 (up to the
+/// rounding of 0.1), and at 0.5 the face is degenerate. (Wang et al. 2021, appendix.)
+[[nodiscard]] inline PosedQuery printed_hourglass() {
+  return vertex_face({0.1, 0.1, 0.1, 0, 0, 1, 1, 0, 1, 0, 1, 1},
+                     {0.1, 0.1, 0.1, 0, 0, 0, 0, 1, 0, 1, 0, 0});
+}
+
+/// I, the inflection: coplanar twice, never in contact. (Ibid.)
+[[nodiscard]] inline PosedQuery printed_inflection() {
+  return vertex_face({1, 1, 0, 0, 0, 5, 2, 0, 2, 0, 1, 0}, {1, 1, 0, 0, 0, -1, 0, 0, -2, 0, 7, 0});
+}
+
+/// C: motion in a plane; the vertex meets a corner of the face at 7/29 (about). (Ibid.)
+[[nodiscard]] inline PosedQuery printed_coplanar() {
+  return vertex_face({1, 0.5, 1, 0, 0.57, 1, 1, 0.57, 1, 1, 1.57, 1},
+                     {1, 0.5, 1, 0, 0.28, 1, 1, 0.28, 1, 1, 1.28, 1});
+}
+
+[[nodiscard]] inline fast::Answer answer_to(const fast::Method& method, const PosedQuery& posed,
+                                            const fast::MethodOptions& options = {}) {
+  fast::Answer answer;
+  method.solve(posed.kind, std::span(&posed.query, 1), std::span(&answer, 1), options);
+  return answer;
+}
+
+enum class Motion { independent, translation };
+
+/// Random points in (−1,1), but that at t=1/2 the vertex is in the middle of the face, or the
+/// edges' middles meet: contact in the interior, whatever the rounding. Points move independently,
+/// or each primitive translates.
+[[nodiscard]] inline PosedQuery centre_hit(Random& random, Kind kind, Motion motion) {
+  Query query{};
+  for (double& x : query.coordinates) x = random.uniform(-1.0, 1.0);
+  const bool is_face = kind == Kind::vertex_face;
+  if (motion == Motion::translation) {
+    for (const std::size_t point : {is_face ? 2U : 3U, 3U}) {
+      query.point(1, point) = query.point(1, point == 3 && !is_face ? 2 : 1) +
+                              (query.point(0, point) - query.point(0, is_face ? 1 : 2));
+    }
+  }
+  const auto middle = [&](std::size_t point) -> Eigen::Vector3d {
+    return (query.point(0, point) + query.point(1, point)) / 2.0;
+  };
+  if (is_face) {
+    const Eigen::Vector3d aim = (middle(1) + middle(2) + middle(3)) / 3.0;
+    query.point(1, 0) = 2.0 * aim - query.point(0, 0);
+    return {kind, query};
+  }
+  const Eigen::Vector3d step = middle(2) + middle(3) - (middle(0) + middle(1));
+  for (const std::size_t point : {0U, 1U}) query.point(1, point) += step;
+  return {kind, query};
+}
+
+/// How many of so many centre hits a method denies.
+[[nodiscard]] inline int missed_centre_hits(const fast::Method& method, Kind kind, Motion motion,
+                                            const fast::MethodOptions& options, int count) {
+  Random random(11);
+  int missed = 0;
+  for (int i = 0; i < count; ++i) {
+    const fast::Answer answer = answer_to(method, centre_hit(random, kind, motion), options);
+    missed += answer.verdict == fast::Verdict::no ? 1 : 0;
+  }
+  return missed;
+}
+
+/// Wrong answers of a method, and right ones.
+struct Score {
+  int hits = 0;             ///< queries that collide
+  int misses = 0;           ///< queries that do not
+  int false_negatives = 0;  ///< no, but they collide
+  int false_positives = 0;  ///< yes, but they do not collide
+  int late = 0;             ///< toi_lower above the exact time of impact
+  int denied = 0;           ///< no
+  int undecided = 0;
+  int errors = 0;
+
+  void add(const exact::Verdict& truth, const fast::Answer& answer) {
+    (truth.collides() ? hits : misses) += 1;
+    if (answer.verdict == fast::Verdict::error) ++errors;
+    if (answer.verdict == fast::Verdict::undecided) ++undecided;
+    if (answer.verdict == fast::Verdict::no) {
+      ++denied;
+      false_negatives += truth.collides() ? 1 : 0;
+    }
+    if (answer.verdict != fast::Verdict::yes) return;
+    if (!truth.collides()) ++false_positives;
+    if (truth.collides() && answer.toi_lower <= 1.0 &&
+        truth.impact->toi < exact::Rational(answer.toi_lower)) {
+      ++late;
+    }
+  }
+};
+
+/// On the built-in families, so many queries of each and kind.
+[[nodiscard]] inline Score score_on_families(const fast::Method& method,
+                                             const fast::MethodOptions& options,
+                                             std::uint64_t count) {
+  constexpr std::uint64_t seed = 5;
+  Score score;
+  for (const verify::Family& family : verify::families()) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (!verify::supports(family, kind)) continue;
+      for (std::uint64_t index = 0; index < count; ++index) {
+        const Query query = verify::make_query(family, kind, seed, index).query;
+        score.add(exact::decide(kind, query), answer_to(method, {kind, query}, options));
+      }
+    }
+  }
+  return score;
+}
+
+/// On random queries, so many of each family (queries.hpp) and kind.
+[[nodiscard]] inline Score score_on_random(const fast::Method& method,
+                                           const fast::MethodOptions& options, int count) {
+  Random random(7);
+  Score score;
+  for (const Family family : all_families) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      for (int i = 0; i < count; ++i) {
+        const PosedQuery posed = random_query(random, kind, family);
+        score.add(exact::decide(kind, posed.query), answer_to(method, posed, options));
+      }
+    }
+  }
+  return score;
+}
+
+/// On public data below a folder of theirs, every `stride`-th query of a kind. Nothing where they
+/// are missing.
+[[nodiscard]] inline Score score_on_public_data(const fast::Method& method,
+                                                const fast::MethodOptions& options,
+                                                const std::string& folder, Kind kind,
+                                                std::uint64_t stride) {
+  Score score;
+  for (const auto& file : public_datasets()) {
+    if (file.string().find("/" + folder + "/") == std::string::npos) continue;
+    const auto source = verify::open_dataset(file);
+    if (source->kind() != kind) continue;
+    while (const auto recorded = source->next()) {
+      if (recorded->index % stride != 0) continue;
+      score.add(exact::decide(kind, recorded->query),
+                answer_to(method, {kind, recorded->query}, options));
+    }
+  }
+  return score;
+}
+
+}  // namespace touchstone::tests

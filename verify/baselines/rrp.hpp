@@ -1,0 +1,41 @@
+#pragma once
+
+/// \file
+/// RRP: rational root parity, after Brochu 2012 with degenerate patches handled (Wang et al. 2021;
+/// shared/methods.md, section 6). In verify/ because its numbers are GMP's.
+///
+/// **Algorithm.** As RP (fast/baselines/rp.hpp), the crossings of a ray from 0 with the image of the
+/// domain's boundary are counted, everything in rationals. A flat patch is replaced by the triangles
+/// that it covers. In front of a patch that is not flat stand two faces of its corners' tetrahedron,
+/// chosen by the side of the patch that 0 is on. A ray that is parallel to a triangle or meets its
+/// boundary is bad luck; eight more directions are tried, then that is an error, and an error is
+/// answered with no.
+///
+/// **What it gives.** A verdict. No time of impact (a yes does not look at t_max), no separation.
+///
+/// **Known to be wrong**:
+///   - *False negatives*: even numbers of roots, as for RP.
+///   - If nothing moves, or all four points move by the same vector, it says no before it looks:
+///     contact at rest or under a common translation is missed.
+///   - A triangle that is degenerate at t=0 or t=1 makes a cap without area, to which every ray is
+///     parallel: nine directions, an error, no. Contact with it at any time is missed.
+///   - *False positives*: none on published data. But the two triangles in place of a flat patch are
+///     hit if either is, and together they are more than the patch where its outline has a reflex
+///     corner: the parity may be wrong either way, and 0 be "on" what is not there. The test has one.
+///
+/// It promises nothing. The directions are drawn from a generator seeded with the query.
+
+#include <memory>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+
+namespace touchstone::verify {
+
+/// RRP's verdict. \pre all coordinates are finite.
+[[nodiscard]] bool rrp_collides(Kind kind, const Query& query);
+
+/// As a method: its name is `rrp`. It heeds no options.
+[[nodiscard]] std::unique_ptr<fast::Method> rrp_method();
+
+}  // namespace touchstone::verify
