@@ -22,7 +22,8 @@
 ///     queries apart by their number of roots: even ones are missed, odd ones found.
 ///   - *False positives*: a flat patch that folds over itself ("hourglass"), in whose plane 0 lies
 ///     within the hull of the corners but not on the patch; and what is still spoiled after ten
-///     segments. All segments lie in the plane z = 0, so corners on an axis in it spoil them all.
+///     segments. All segments lie in the plane z = 0, so what
+///     lies in it can spoil them all.
 ///   - *False positives* where all coordinates are below about 1e-15: the segment is at least 10 long,
 ///     so a crossing with a face at t=0 or t=1 has its weight rounded to that of 0 itself, which
 ///     passes for contact there.

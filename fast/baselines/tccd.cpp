@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string_view>
 
 #include "fast/baselines/bernstein.hpp"
@@ -17,7 +18,7 @@ using baselines::Course;
 using baselines::Decomposition;
 using Number = baselines::ErrorBounded;
 using Cubic = Bernstein<Number, 3>;
-using Quartics = std::array<Bernstein<Number, 4>, 3>;
+using Quartic = Bernstein<Number, 4>;
 
 bool certainly_opposite(const Number& a, const Number& b) { return a.sign() * b.sign() < 0; }
 
@@ -95,7 +96,7 @@ std::array<int, 2> signs_at_roots(const Bernstein<Number, 1>& linear, const Cubi
 }
 
 /// At which roots of Y is G certainly negative?
-std::array<bool, 2> violations(const Cubic& k, const Bernstein<Number, 4>& g, const Roots& roots) {
+std::array<bool, 2> violations(const Cubic& k, const Quartic& g, const Roots& roots) {
   const auto j = reduce(k, g);
   const Decomposition<Number> parts = decompose(k, j);
   const bool is_linear = parts.t.value == 0.0 || (j[0] + j[2] - Number(2) * j[1]).value == 0.0;
@@ -112,12 +113,14 @@ std::array<bool, 2> violations(const Cubic& k, const Bernstein<Number, 4>& g, co
 }
 
 /// Has the cubic, which has no inflection, a root where no quartic is certainly negative?
-bool has_contact(const Cubic& k, const Quartics& inside, Course course) {
+/// \param inside the quartic of that index; asked for only where there is a root.
+template <class Inside>
+bool has_contact(const Cubic& k, const Inside& inside, Course course) {
   const Roots roots = roots_of(k, course);
   if (roots.count == 0) return false;
   std::array<bool, 2> alive{true, roots.count == 2};
-  for (const auto& g : inside) {
-    const auto violated = violations(k, g, roots);
+  for (std::size_t index = 0; index < 3; ++index) {
+    const auto violated = violations(k, inside(index), roots);
     for (std::size_t i = 0; i < 2; ++i) alive[i] = alive[i] && !violated[i];
     if (!alive[0] && !alive[1]) return false;
   }
@@ -152,29 +155,22 @@ Parts<degree> subdivided(Bernstein<Number, degree> row, const Number& n, const N
   return parts;
 }
 
-bool has_contact_beside_inflection(const Cubic& k, const Quartics& inside) {
+template <class Inside>
+bool has_contact_beside_inflection(const Cubic& k, const Inside& inside) {
   const Number two(2), three(3);
   const Number n = k[0] - two * k[1] + k[2];
   const Number q = k[0] - three * k[1] + three * k[2] - k[3];
   if (q.sign() == 0) return true;
   Parts<3> cubics = subdivided<3>(k, n, q);
-  std::array<Quartics, 2> quartics;
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    const Parts<4> parts = subdivided<4>(inside[i], n, q);
-    quartics[0][i] = parts.before;
-    quartics[1][i] = parts.after;
-  }
-  bool touches = false;
-  for (const bool is_later : {false, true}) {
-    Cubic& part = is_later ? cubics.after : cubics.before;
-    if (q.sign() < 0)
-      std::ranges::transform(part, part.begin(), [](const Number& x) { return -x; });
+  const auto touches = [&](Cubic& part, auto pick) {
+    if (q.sign() < 0) std::ranges::transform(part, part.begin(), std::negate<>());
     const Course course = baselines::has_lone_end(part, certainly_opposite)
                               ? Course::monotone
                               : course_without_inflection(part, possibly_opposite);
-    touches = touches || has_contact(part, quartics[is_later ? 1 : 0], course);
-  }
-  return touches;
+    const auto inside_part = [&](std::size_t i) { return subdivided<4>(inside(i), n, q).*pick; };
+    return has_contact(part, inside_part, course);
+  };
+  return touches(cubics.before, &Parts<4>::before) || touches(cubics.after, &Parts<4>::after);
 }
 
 class TccdMethod final : public Method {
@@ -198,10 +194,9 @@ bool tccd_collides(Kind kind, const Query& query) {
   };
   if (all_have(1) || all_have(-1)) return false;
   const Course course = course_of(k, certainly_opposite, possibly_opposite);
-  Quartics inside;
-  for (std::size_t i = 0; i < inside.size(); ++i) {
-    inside[i] = baselines::inside(kind, points, normal, i);
-  }
+  const auto inside = [&](std::size_t i) -> Quartic {
+    return baselines::inside(kind, points, normal, i);
+  };
   return course == Course::inflection ? has_contact_beside_inflection(k, inside)
                                       : has_contact(k, inside, course);
 }

@@ -19,24 +19,25 @@
 ///     a collision without any inside test. A vertex that falls through the plane of a triangle five
 ///     edges away is reported at every crossing time from 0.34 to 0.66. In the outer thirds the
 ///     decomposition degenerates and often rejects nothing.
-///   - *False negatives by underflow*. Published as free of them; but after an inflection the
+///   - *False negatives at unknown signs*. Published as free of them. But where both Y and its
+///     derivative have unknown signs at the place where a linear form vanishes, the published rule
+///     takes the form's signs at the ends for those at the two roots. The place may as well be before
+///     both or after both; and if it is a double root of Y, a constraint that is 0 there kills the first
+///     root and another one the second. The test has such a grazing contact of few-bit coordinates.
+///   - *False negatives by underflow*, which is what makes signs unknown. After an inflection the
 ///     coefficients of both parts are multiplied through by powers of its denominator: cubics have
 ///     degree 12 in the coordinates' scale, quartics 16, J 40, T 80, K 92, and Y where K vanishes 288.
-///     Differences of 1e-2 make 1e-576 of it. The bounds vanish before the values do, so what was
-///     unknown is taken for known: a value is certain with a bound of 0, T is "exactly 0" and J
-///     linear when it is not, and roots are given up. The test scales hits with an inflection down by
-///     powers of two, under which every answer should stay the same, until some are missed; when all
-///     coefficients are 0 at last, everything collides.
-///   - *False negatives at two roots that are hard to tell apart*. Where both Y and its derivative
-///     have unknown signs at the place where a linear form vanishes, the published rule takes the
-///     form's end signs for those at the two roots. That place may be before both, after both or, if
-///     Y has a double root, at both: then a constraint that is 0 there kills the first root, another
-///     the second. The test has a grazing contact of few-bit coordinates.
+///     Differences of 1e-2 make 1e-576 of that: Y and its derivative are 0 with a bound of 0, and the
+///     rule above takes it from there. At other scales bounds vanish before their values and make them
+///     certain, or T is "exactly 0" and J linear when it is not. The test scales hits down by powers of
+///     two, under which every answer should stay the same: a tenth of them are missed at 2^-8, all of
+///     those with an inflection (without one the highest degree is 72). When all numbers are 0 at last,
+///     everything collides.
 ///
-/// Of all true contacts of armadillo-rollers, 4,650 vertex-face and 19,308 edge-edge, it misses 23 and
-/// 171: 2.3 and 6.7 in 200,000 candidates, where the released code was seen to miss 3 and 4. With
-/// the exponents of long double all 23 and all but 3 are found, with the second rule undone those 3
-/// too. So underflow beside an inflection is the reason for the most, and nothing else is for any.
+/// Of the true contacts of armadillo-rollers, 4,650 vertex-face and 19,308 edge-edge, it misses 23 and
+/// 171: 2.3 and 6.7 in 200,000 candidates, where the released code was seen to miss 3 and 4. With all
+/// coordinates times 16 it misses 0 and 3: all others are underflow. With two unknown signs left
+/// unknown (tried, not kept) it misses none of them at either scale.
 ///
 /// It promises nothing for these reasons. The reading of an uninitialised sign (both ends of the
 /// derivative unknown) is not reproduced: the signs there follow from the curvature.

@@ -37,6 +37,9 @@ void add_fuzz_command(CLI::App& app, Status& status);
 /// `touchstone stability`
 void add_stability_command(CLI::App& app, Status& status);
 
+/// `touchstone report`
+void add_report_command(CLI::App& app, Status& status);
+
 /// `touchstone candidates`
 void add_candidates_command(CLI::App& app, Status& status);
 

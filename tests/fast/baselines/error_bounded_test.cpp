@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <limits>
 
 #include "exact/number.hpp"
 #include "tests/support/random.hpp"
@@ -65,7 +65,7 @@ TEST(ErrorBounded, SignIsZeroWhereItIsNotCertain) {
   EXPECT_EQ(ErrorBounded(1.0, 1.0).sign(), 0);
   EXPECT_EQ(ErrorBounded(-1.0, 1.0).sign(), 0);
   EXPECT_EQ(ErrorBounded(0.0).sign(), 0);
-  EXPECT_EQ(ErrorBounded(0.1, NAN).sign(), 0);
+  EXPECT_EQ(ErrorBounded(0.1, std::numeric_limits<double>::quiet_NaN()).sign(), 0);
 }
 
 TEST(ErrorBounded, ExactInputHasNoBoundAndAnOperationHas) {

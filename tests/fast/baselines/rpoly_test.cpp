@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <stdexcept>
@@ -23,8 +24,8 @@ std::vector<double> with_zeros(const std::vector<Complex>& zeros, double c = 1.0
     product.emplace_back(0.0);
     for (std::size_t i = product.size() - 1; i > 0; --i) product[i] -= zero * product[i - 1];
   }
-  std::vector<double> result;
-  for (const Complex& x : product) result.push_back(x.real());
+  std::vector<double> result(product.size());
+  std::ranges::transform(product, result.begin(), [](const Complex& x) { return x.real(); });
   return result;
 }
 
@@ -130,8 +131,8 @@ TEST(Rpoly, HasNoZerosToGiveForNoPolynomial) {
 TEST(Rpoly, EndsOnCoefficientsOfAllMagnitudes) {
   Random random(5);
   for (int i = 0; i < 3000; ++i) {
-    std::vector<double> coefficients;
-    for (int k = 0; k < 7; ++k) coefficients.push_back(random.finite_double());
+    std::array<double, 7> coefficients{};
+    std::ranges::generate(coefficients, [&] { return random.finite_double(); });
     EXPECT_LE(zeros_of(coefficients).count, 6U);
   }
 }

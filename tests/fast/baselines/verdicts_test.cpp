@@ -11,8 +11,8 @@
 #include <new>
 #include <stdexcept>
 
-#include "tests/support/verdict_scores.hpp"
 #include "tests/support/queries.hpp"
+#include "tests/support/verdict_scores.hpp"
 
 namespace touchstone::fast::baselines {
 namespace {

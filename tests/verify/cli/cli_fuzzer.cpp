@@ -56,9 +56,9 @@ void parse_commands(const std::vector<std::string>& words) {
   CLI::App app{"fuzzed"};
   app.require_subcommand(1);
   Status status = Status::all_well;
-  for (const auto add :
-       {add_certify_command, add_solve_command, add_prove_command, add_generate_command,
-        add_candidates_command, add_bench_command, add_stability_command, add_derive_command}) {
+  for (const auto add : {add_certify_command, add_solve_command, add_prove_command,
+                         add_generate_command, add_candidates_command, add_bench_command,
+                         add_stability_command, add_report_command, add_derive_command}) {
     add(app, status);
   }
   for (CLI::App* const command : app.get_subcommands({})) command->callback({});

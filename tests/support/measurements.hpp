@@ -1,0 +1,90 @@
+#pragma once
+
+/// \file
+/// Measurements for tests of reports: few, of plain numbers, as if someone had made them.
+
+#include <cstdint>
+#include <string>
+
+#include "verify/report/measurement.hpp"
+
+namespace touchstone::tests {
+
+/// A method that was asked 100 of 200 queries, of which 20 collide.
+[[nodiscard]] inline verify::Measurement measured(const std::string& group,
+                                                  const std::string& method, double nanoseconds,
+                                                  std::uint64_t false_positives = 0,
+                                                  std::uint64_t false_negatives = 0) {
+  verify::Measurement m;
+  m.group = group;
+  m.method = method;
+  m.tolerance = 1e-6;
+  m.max_checks = 1'000'000;
+  m.group_queries = 200;
+  m.asked = 100;
+  m.collisions = 20;
+  m.false_positives = false_positives;
+  m.false_negatives = false_negatives;
+  m.nanoseconds = nanoseconds;
+  m.repetitions = 5;
+  m.certified_nanoseconds = 10.0;
+  m.hit_times.bins = {{8, 15}, {16, 5}};
+  m.miss_times.bins = {{0, 80}};
+  return m;
+}
+
+/// The same over a parameter of an experiment.
+[[nodiscard]] inline verify::Measurement measured_in(verify::Experiment experiment,
+                                                     const std::string& method,
+                                                     double nanoseconds) {
+  verify::Measurement m = measured("handcrafted", method, nanoseconds);
+  m.experiment = experiment;
+  return m;
+}
+
+/// A report with something of everything: on "handcrafted", vertex-face, certified, tight_inclusion and
+/// msrf; certified is exact, tight_inclusion has 8 false positives, msrf 1 and 2 false negatives.
+[[nodiscard]] inline verify::Measurements small_report() {
+  using verify::Experiment;
+  verify::Measurements report;
+  report.command = "touchstone report handcrafted --out 'a <page>.html'";
+  report.machine = "a machine";
+  verify::Measurement certified = measured("handcrafted", "certified", 10.0);
+  certified.toi_error = verify::Spread{.count = 20, .median = 0.0, .max = 1e-13};
+  certified.stages = {{"axis", 75}, {"exact", 25}};
+  verify::Measurement inclusion = measured("handcrafted", "tight_inclusion", 2500.0, 8);
+  inclusion.toi_error = verify::Spread{.count = 20, .median = 1e-7, .max = 0.5};
+  report.all = {certified, inclusion, measured("handcrafted", "msrf", 400.0, 1, 2)};
+  for (const double tolerance : {1e-8, 1.0}) {
+    verify::Measurement m = measured_in(Experiment::tolerance, "tight_inclusion", 1.0 / tolerance);
+    m.tolerance = tolerance;
+    m.false_positives = tolerance == 1.0 ? 40 : 0;
+    report.all.push_back(m);
+  }
+  for (const char* const method : {"certified", "tight_inclusion", "msrf"}) {
+    verify::Measurement m = measured_in(Experiment::separation, method, 30.0);
+    m.separation = {.distance = 1e-8,
+                    .norm = std::string(method) == "msrf" ? Norm::l2 : Norm::linf};
+    report.all.push_back(m);
+  }
+  verify::Measurement limited = measured_in(Experiment::checks, "tight_inclusion", 50.0);
+  limited.max_checks = 10;
+  limited.at_limit = 25;
+  limited.achieved_tolerance = verify::Spread{.count = 45, .median = 0.25, .max = 0.5};
+  report.all.push_back(limited);
+  report.stability.push_back({.method = "msrf",
+                              .hardness = "angle",
+                              .measure = "angle to parallel",
+                              .exponent = -5,
+                              .kind = Kind::edge_edge,
+                              .queries = 20,
+                              .collisions = 10,
+                              .false_positives = 0,
+                              .false_negatives = 4,
+                              .worst = "false negative",
+                              .worst_rate = 0.4,
+                              .nanoseconds = 7.0});
+  return report;
+}
+
+}  // namespace touchstone::tests

@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "tests/support/folder_test.hpp"
+
+// `touchstone report` as users meet it: by running the tool.
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Report : public tests::FolderTest {
+ protected:
+  /// Runs the tool, after shell words such as a limit of time; its exit status.
+  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = before + " '" TOUCHSTONE_TOOL "' report " + arguments + " >'" +
+                                path("out") + "' 2>'" + path("err") + "'";
+    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
+  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
+
+  /// Two queries of a vertex over a resting triangle: one falls through it, one to half its height.
+  [[nodiscard]] std::string data() const {
+    const auto rows = [](const std::string& height) {
+      return "1,1,1,1," + height + ",1\n0,1,0,1,0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
+    };
+    fs::create_directories(path("handcrafted"));
+    std::ofstream(path("handcrafted/a_vf.csv"), std::ios::binary)
+        << rows("1") + rows("-3") + rows("2") + rows("1");
+    return quoted("handcrafted");
+  }
+};
+
+/// Short: tests ask what is done, not how fast.
+const std::string quick =
+    " --method certified --method tight_inclusion --repetitions 1 --seconds 0.01 --stability 0 ";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(Report, HelpHasAnExample) {
+  EXPECT_EQ(run("--help"), 0);
+  EXPECT_TRUE(contains(read("out"), "Example: touchstone report ")) << read("out");
+  EXPECT_FALSE(contains(read("out"), "--norm"));
+}
+
+TEST_F(Report, WritesPageMeasurementsAndTablesOfTheGivenQueries) {
+  ASSERT_EQ(run(data() + quick + "--out " + quoted("page.html") + " --json " + quoted("json") +
+                " --results " + quoted("results.md")),
+            0)
+      << read("err");
+  EXPECT_EQ(read("err"), "");
+  EXPECT_EQ(read("out"), path("page.html") + "\n");
+  const nlohmann::json result = json();
+  EXPECT_EQ(result.at("interrupted"), false);
+  std::set<std::string> experiments;
+  for (const nlohmann::json& m : result.at("measurements")) {
+    experiments.insert(m.at("experiment").get<std::string>());
+    EXPECT_EQ(m.at("group"), "handcrafted");
+    EXPECT_EQ(m.at("asked"), 2);
+    if (m.at("experiment") == "field") {
+      EXPECT_EQ(m.at("collisions"), 1);
+    }
+    EXPECT_EQ(m.at("false_negatives"), 0);
+  }
+  EXPECT_EQ(experiments, (std::set<std::string>{"checks", "field", "separation", "tolerance"}));
+  EXPECT_TRUE(read("page.html").starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(contains(read("page.html"), "id=\"speed_false_positives\""));
+  EXPECT_TRUE(contains(read("results.md"), "### handcrafted, vertex-face"));
+  EXPECT_TRUE(contains(read("results.md"), "touchstone report " + path("handcrafted")));
+}
+
+TEST_F(Report, MakesTheSamePageFromAnEarlierRunsMeasurements) {
+  ASSERT_EQ(run(data() + quick + "--out " + quoted("one.html") + " --json " + quoted("json")), 0);
+  ASSERT_EQ(run("--from " + quoted("json") + " --out " + quoted("two.html")), 0) << read("err");
+  EXPECT_EQ(read("one.html"), read("two.html"));
+  EXPECT_GT(read("two.html").size(), 100'000U);
+}
+
+TEST_F(Report, WithoutAPathTheQueriesAreTheBuiltInOnes) {
+  ASSERT_EQ(run(" --method certified --repetitions 1 --seconds 0.01 --stability 2 --count 50 "
+                "--experiment field --json " +
+                quoted("json")),
+            0)
+      << read("err");
+  std::set<std::string> groups;
+  const nlohmann::json result = json();
+  for (const nlohmann::json& m : result.at("measurements")) {
+    groups.insert(m.at("group").get<std::string>() + " " + m.at("kind").get<std::string>());
+    EXPECT_EQ(m.at("false_negatives"), 0);
+    EXPECT_EQ(m.at("false_positives"), 0);
+    EXPECT_LE(m.at("asked"), 50);
+  }
+  EXPECT_EQ(groups, (std::set<std::string>{"hard set edge-edge", "hard set vertex-face",
+                                           "patches edge-edge", "patches vertex-face"}));
+  EXPECT_EQ(result.at("stability").size(), 6U * 11U * 2U);
+}
+
+TEST_F(Report, ABrokenPromiseExitsWithOne) {
+  ASSERT_EQ(run(data() + quick + "--json " + quoted("json")), 0);
+  nlohmann::json measurements = json();
+  measurements["measurements"][0]["keeps_promise"] = false;
+  measurements["measurements"][0]["false_negatives"] = 1;
+  std::ofstream(path("json")) << measurements;
+  EXPECT_EQ(run("--from " + quoted("json") + " --out " + quoted("page.html")), 1);
+  EXPECT_TRUE(contains(read("err"),
+                       "certified (exact) breaks its promise on handcrafted "
+                       "vertex-face, field: false negatives 1"))
+      << read("err");
+}
+
+TEST_F(Report, BadUsageExitsWithTwo) {
+  const std::string out = " --out " + quoted("page.html");
+  for (const std::string& arguments :
+       {data(), data() + quick + " --out '/nonexistent/page.html'",
+        data() + out + " --method nonsense", data() + out + " --count 0",
+        data() + out + " --seconds 0", data() + out + " --experiment guess",
+        quoted("missing") + out, "--from " + quoted("missing") + out,
+        data() + " --from " + quoted("json") + out, data() + out + " --json " + quoted("page.html"),
+        data() + " --json " + quoted("handcrafted/a_vf.csv")}) {
+    EXPECT_EQ(run(arguments), 2) << arguments;
+    EXPECT_FALSE(read("err").empty()) << arguments;
+  }
+  std::ofstream(path("json")) << "{}";
+  EXPECT_EQ(run("--from " + quoted("json") + out), 2);
+  EXPECT_TRUE(contains(read("err"), path("json") + ": not the measurements of a report"));
+  EXPECT_FALSE(fs::exists(path("page.html")));
+}
+
+TEST_F(Report, AnInterruptLeavesWhatIsMeasured) {
+  EXPECT_EQ(run(data() + " --seconds 100 --repetitions 1000000 --json " + quoted("json") +
+                    " --out " + quoted("page.html"),
+                "timeout --preserve-status -s INT 2"),
+            130)
+      << read("err");
+  EXPECT_EQ(json().at("interrupted"), true);
+  EXPECT_TRUE(contains(read("page.html"), "Interrupted: not all"));
+}
+
+}  // namespace
+}  // namespace touchstone::verify::cli

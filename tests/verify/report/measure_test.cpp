@@ -1,0 +1,264 @@
+#include "verify/report/measure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fast/certified.hpp"
+#include "tests/support/methods.hpp"
+#include "tests/support/queries.hpp"
+#include "verify/thread_clock.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::Promise;
+using fast::Verdict;
+using tests::FunctionMethod;
+
+/// Every tenth vertex falls through the triangle, at ½, the others to half their height.
+QueryGroup falling(std::size_t count) {
+  std::vector<Query> queries;
+  for (std::size_t i = 0; i < count; ++i) {
+    queries.push_back(tests::over_triangle(1, 1, 1, i % 10 == 0 ? -1.0 : 0.5).query);
+  }
+  return {"falling", Kind::vertex_face, std::move(queries)};
+}
+
+bool truly_collides(const Query& query) { return query.at(1, 0, 2) < 0.0; }
+
+Answer yes_at(double toi, double tolerance = Answer::none, std::uint32_t checks = 0) {
+  return {.verdict = Verdict::yes, .checks = checks, .toi_lower = toi, .tolerance = tolerance};
+}
+
+/// Methods as subjects, and what they need to live.
+class Field {
+ public:
+  void add(FunctionMethod::Function function, Promise promise, const std::string& name,
+           const fast::MethodOptions& options = {}) {
+    methods_.push_back(std::make_unique<FunctionMethod>(std::move(function), promise, name));
+    subjects_.push_back({contend(*methods_.back(), options), options});
+  }
+  void add(Subject subject) { subjects_.push_back(std::move(subject)); }
+
+  [[nodiscard]] std::vector<Measurement> run(const QueryGroup& group,
+                                             const MeasureOptions& options = {}) {
+    Truths truths(group);
+    const auto reference = [](const fast::MethodOptions& about) {
+      return contend_certified(about);
+    };
+    return measure(group, truths, subjects_, reference, options);
+  }
+
+ private:
+  std::vector<std::unique_ptr<fast::Method>> methods_;
+  std::vector<Subject> subjects_;
+};
+
+TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
+  const QueryGroup group = falling(200);
+  Field field;
+  field.add([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; },
+            Promise::conservative, "no");
+  field.add([](Kind, const Query&) { return yes_at(0.375, 0.25, 7); }, Promise::conservative,
+            "early yes", {.tolerance = 0.125, .max_checks = 7});
+  field.add(
+      [](Kind, const Query& query) {
+        return truly_collides(query) ? yes_at(0.75) : Answer{.verdict = Verdict::undecided};
+      },
+      Promise::none, "late");
+  field.add([](Kind, const Query&) { return Answer{.verdict = Verdict::error}; }, Promise::none,
+            "error");
+  const std::vector<Measurement> all = field.run(group);
+  ASSERT_EQ(all.size(), 4U);
+  for (const Measurement& measurement : all) {
+    EXPECT_EQ(measurement.group, "falling");
+    EXPECT_EQ(measurement.kind, Kind::vertex_face);
+    EXPECT_EQ(measurement.experiment, Experiment::field);
+    EXPECT_EQ(measurement.group_queries, 200U);
+    EXPECT_EQ(measurement.asked, 200U);
+    EXPECT_EQ(measurement.collisions, 20U);
+    EXPECT_EQ(measurement.hit_times.count(), 20U);
+    EXPECT_EQ(measurement.miss_times.count(), 180U);
+    EXPECT_EQ(measurement.repetitions, 5U);
+    EXPECT_GT(measurement.nanoseconds, 0.0);
+    EXPECT_GT(measurement.certified_nanoseconds, 0.0);
+    EXPECT_TRUE(measurement.stages.empty());
+  }
+  const Measurement& no = all[0];
+  EXPECT_EQ(no.method, "no");
+  EXPECT_EQ(no.promise, Promise::conservative);
+  EXPECT_EQ(no.false_negatives, 20U);
+  EXPECT_EQ(no.false_positives, 0U);
+  EXPECT_EQ(no.at_limit, 0U);
+  EXPECT_FALSE(no.keeps_promise);
+  EXPECT_FALSE(no.toi_error.has_value());
+  EXPECT_FALSE(no.achieved_tolerance.has_value());
+  const Measurement& early = all[1];
+  EXPECT_EQ(early.false_negatives, 0U);
+  EXPECT_EQ(early.false_positives, 180U);
+  EXPECT_EQ(early.late_tois, 0U);
+  EXPECT_EQ(early.at_limit, 200U);
+  EXPECT_EQ(early.max_checks, 7);
+  EXPECT_EQ(early.tolerance, 0.125);
+  EXPECT_TRUE(early.keeps_promise);
+  EXPECT_EQ(early.toi_error, (Spread{.count = 20, .median = 0.125, .max = 0.125}));
+  EXPECT_EQ(early.achieved_tolerance, (Spread{.count = 200, .median = 0.25, .max = 0.25}));
+  const Measurement& late = all[2];
+  EXPECT_EQ(late.late_tois, 20U);
+  EXPECT_EQ(late.undecided, 180U);
+  EXPECT_EQ(late.false_positives, 180U);
+  EXPECT_EQ(late.at_limit, 180U) << "an undecided query was given up";
+  EXPECT_EQ(late.toi_error, (Spread{.count = 20, .median = 0.25, .max = 0.25}));
+  EXPECT_TRUE(late.keeps_promise) << "it promised nothing";
+  EXPECT_EQ(all[3].errors, 200U);
+  EXPECT_EQ(all[3].false_negatives, 0U);
+}
+
+TEST(Measure, TheCertifiedSolverIsRightAndTellsItsStages) {
+  const QueryGroup group = falling(100);
+  Field field;
+  field.add(Subject{contend_certified({}), {}});
+  const std::vector<Measurement> all = field.run(group);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].false_negatives + all[0].false_positives + all[0].late_tois, 0U);
+  ASSERT_EQ(all[0].stages.size(), fast::stages);
+  EXPECT_EQ(all[0].stages.front(), (StageShare{.stage = "axis", .queries = 90}));
+}
+
+TEST(Measure, LargerGroupsAreSampledAndItIsSaid) {
+  const QueryGroup group = falling(1000);
+  Field field;
+  field.add(tests::true_answer, Promise::exact, "truth");
+  MeasureOptions options;
+  options.count = 100;
+  options.experiment = Experiment::checks;
+  const std::vector<Measurement> all = field.run(group, options);
+  EXPECT_EQ(all.at(0).group_queries, 1000U);
+  EXPECT_EQ(all.at(0).asked, 100U);
+  EXPECT_EQ(all.at(0).experiment, Experiment::checks);
+}
+
+/// Burns so much processor time.
+Answer slow_no(Kind, const Query&) {
+  const double start = thread_nanoseconds();
+  while (thread_nanoseconds() - start < 1e6) continue;
+  return {.verdict = Verdict::no};
+}
+
+TEST(Measure, SlowMethodsGetASmallerSampleAndTheirOwnReference) {
+  const QueryGroup group = falling(1000);
+  Field field;
+  field.add(slow_no, Promise::none, "slow");
+  field.add(tests::true_answer, Promise::exact, "fast");
+  MeasureOptions options;
+  options.seconds = 0.05;
+  const std::vector<Measurement> all = field.run(group, options);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_GE(all[0].asked, 16U);
+  EXPECT_LE(all[0].asked, 64U) << "a millisecond each";
+  EXPECT_LT(all[0].repetitions, 5U);
+  EXPECT_GE(all[0].repetitions, 1U);
+  EXPECT_GE(all[0].nanoseconds, 1e6);
+  EXPECT_LT(all[0].nanoseconds, 1e7);
+  EXPECT_LT(all[0].certified_nanoseconds, 1e5);
+  EXPECT_GT(all[1].asked, all[0].asked);
+}
+
+TEST(Measure, TheTruthIsAboutTheSeparation) {
+  const QueryGroup group = falling(10);
+  Field field;
+  field.add(tests::true_answer, Promise::none, "contact only",
+            {.min_separation = 0.5, .norm = Norm::l2});
+  field.add(tests::true_answer, Promise::none, "contact");
+  const std::vector<Measurement> all = field.run(group);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].collisions, 10U);
+  EXPECT_EQ(all[0].false_negatives, 9U);
+  EXPECT_EQ(all[0].separation, (Separation{.distance = 0.5, .norm = Norm::l2}));
+  EXPECT_EQ(all[1].collisions, 1U);
+  EXPECT_EQ(all[1].false_negatives, 0U);
+}
+
+TEST(Measure, SettingsOfAMethodMayShareTheSmallestSample) {
+  const QueryGroup group = falling(1000);
+  Field field;
+  field.add(slow_no, Promise::none, "method", {.tolerance = 1e-8});
+  field.add([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; }, Promise::none,
+            "method", {.tolerance = 1.0});
+  field.add([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; }, Promise::none,
+            "other");
+  MeasureOptions options;
+  options.seconds = 0.05;
+  options.same_sample = true;
+  const std::vector<Measurement> all = field.run(group, options);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_LE(all[0].asked, 64U);
+  EXPECT_EQ(all[1].asked, all[0].asked);
+  EXPECT_EQ(all[1].collisions, all[0].collisions);
+  EXPECT_EQ(all[1].hit_times.count() + all[1].miss_times.count(), all[0].asked);
+  EXPECT_EQ(all[2].asked, 1000U);
+}
+
+TEST(Measure, StoppedItHasNoResult) {
+  const QueryGroup group = falling(10);
+  Field field;
+  field.add(tests::true_answer, Promise::exact, "truth");
+  const std::atomic<bool> stop = true;
+  MeasureOptions options;
+  options.stop = &stop;
+  EXPECT_TRUE(field.run(group, options).empty());
+}
+
+TEST(Measure, StoppedBetweenRepetitionsItKeepsThoseThatAreDone) {
+  const QueryGroup group = falling(10);
+  Field field;
+  field.add(tests::true_answer, Promise::exact, "truth");
+  std::atomic<bool> stop = false;
+  MeasureOptions options;
+  options.stop = &stop;
+  options.on_progress = [&](double fraction) { stop = fraction > 0.5; };
+  const std::vector<Measurement> all = field.run(group, options);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].repetitions, 1U);
+  EXPECT_EQ(all[0].collisions, 1U);
+}
+
+TEST(Measure, TellsItsProgressUpToTheEnd) {
+  const QueryGroup group = falling(10);
+  Field field;
+  field.add(tests::true_answer, Promise::exact, "truth");
+  std::vector<double> told;
+  MeasureOptions options;
+  options.on_progress = [&](double fraction) { told.push_back(fraction); };
+  static_cast<void>(field.run(group, options));
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_EQ(told.back(), 1.0);
+}
+
+TEST(Measure, OptionsOutOfRangeAreRefused) {
+  Field field;
+  const QueryGroup empty("empty", Kind::vertex_face);
+  EXPECT_THROW(static_cast<void>(field.run(empty)), std::invalid_argument);
+  const QueryGroup group = falling(1);
+  for (const auto& spoil : std::vector<void (*)(MeasureOptions&)>{
+           [](MeasureOptions& options) { options.count = 0; },
+           [](MeasureOptions& options) { options.repetitions = 0; },
+           [](MeasureOptions& options) { options.seconds = std::nan(""); }}) {
+    MeasureOptions options;
+    spoil(options);
+    EXPECT_THROW(static_cast<void>(field.run(group, options)), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,110 @@
+#include "verify/report/measurement_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace touchstone::verify {
+namespace {
+
+Measurement with_all_fields() {
+  Measurement m;
+  m.experiment = Experiment::separation;
+  m.group = "group \"quoted\"";
+  m.kind = Kind::edge_edge;
+  m.method = "msrf";
+  m.promise = fast::Promise::conservative;
+  m.tolerance = 1e-6;
+  m.max_checks = 7;
+  m.separation = {.distance = 1e-100, .norm = Norm::l2};
+  m.group_queries = 1000;
+  m.asked = 100;
+  m.collisions = 40;
+  m.false_positives = 1;
+  m.false_negatives = 2;
+  m.late_tois = 3;
+  m.early_upper_tois = 4;
+  m.errors = 5;
+  m.undecided = 6;
+  m.at_limit = 8;
+  m.keeps_promise = false;
+  m.nanoseconds = 0.1;
+  m.repetitions = 9;
+  m.certified_nanoseconds = 1.0 / 3.0;
+  m.toi_error = Spread{.count = 38, .median = 1e-300, .max = 0.7};
+  m.stages = {{"axis", 99}, {"exact", 1}};
+  m.hit_times.bins = {{-1, 2}, {40, 38}};
+  m.miss_times.bins = {{8, 60}};
+  return m;
+}
+
+Measurements example() {
+  Measurements measurements;
+  measurements.command = "touchstone report 'a b'";
+  measurements.machine = "a machine";
+  measurements.interrupted = true;
+  measurements.all = {with_all_fields(), Measurement{}};
+  measurements.stability.push_back({.method = "certified",
+                                    .hardness = "angle",
+                                    .measure = "angle to parallel",
+                                    .exponent = -50,
+                                    .kind = Kind::edge_edge,
+                                    .queries = 20,
+                                    .collisions = 10,
+                                    .false_positives = 1,
+                                    .false_negatives = 2,
+                                    .worst = "false negative",
+                                    .worst_rate = 0.2,
+                                    .nanoseconds = 1e3});
+  return measurements;
+}
+
+TEST(MeasurementJson, ComesBackWithoutLoss) {
+  const nlohmann::json written = to_json(example());
+  const Measurements read = measurements_from_json(nlohmann::json::parse(written.dump()));
+  EXPECT_EQ(read.command, "touchstone report 'a b'");
+  EXPECT_TRUE(read.interrupted);
+  ASSERT_EQ(read.all.size(), 2U);
+  const Measurement& m = read.all[0];
+  EXPECT_EQ(m.experiment, Experiment::separation);
+  EXPECT_EQ(m.separation, (Separation{.distance = 1e-100, .norm = Norm::l2}));
+  EXPECT_EQ(m.promise, fast::Promise::conservative);
+  EXPECT_EQ(m.certified_nanoseconds, 1.0 / 3.0);
+  EXPECT_EQ(m.toi_error, (Spread{.count = 38, .median = 1e-300, .max = 0.7}));
+  EXPECT_FALSE(m.achieved_tolerance.has_value());
+  EXPECT_EQ(m.stages, with_all_fields().stages);
+  EXPECT_EQ(m.hit_times, with_all_fields().hit_times);
+  EXPECT_TRUE(std::isnan(read.all[1].nanoseconds));
+  EXPECT_EQ(read.stability, example().stability);
+  EXPECT_EQ(to_json(read), written) << "every field that is written is read";
+}
+
+TEST(MeasurementJson, WritesTheDocumentedFields) {
+  const nlohmann::json json = to_json(example()).at("measurements")[0];
+  EXPECT_EQ(json.size(), 27U);
+  EXPECT_EQ(json.at("experiment"), "separation");
+  EXPECT_EQ(json.at("kind"), "edge-edge");
+  EXPECT_EQ(json.at("separation").at("norm"), "l2");
+  EXPECT_EQ(json.at("false_negatives"), 2);
+  EXPECT_EQ(json.at("hit_times"), nlohmann::json::parse("[[-1, 2], [40, 38]]"));
+  EXPECT_EQ(json.at("stages"), nlohmann::json::parse(R"([["axis", 99], ["exact", 1]])"));
+}
+
+TEST(MeasurementJson, WhatIsNoneIsRefused) {
+  nlohmann::json other_version = to_json(example());
+  other_version["format"] = "touchstone measurements 0";
+  nlohmann::json without_asked = to_json(example());
+  without_asked["measurements"][0].erase("asked");
+  nlohmann::json unknown_kind = to_json(example());
+  unknown_kind["measurements"][0]["kind"] = "face-face";
+  for (const nlohmann::json& bad :
+       {nlohmann::json(3), nlohmann::json::object(), other_version, without_asked, unknown_kind}) {
+    EXPECT_THROW(static_cast<void>(measurements_from_json(bad)), std::runtime_error)
+        << bad.dump().substr(0, 80);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify

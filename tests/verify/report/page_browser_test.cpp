@@ -1,0 +1,142 @@
+/// \file
+/// The page of a report in a real browser: headless Chromium loads it from a file, runs its script and
+/// hands back what became of it.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "tests/support/folder_test.hpp"
+#include "tests/support/measurements.hpp"
+#include "verify/report/figures.hpp"
+#include "verify/report/page.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+bool runs(const std::string& command) {
+  const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+class Browser : public tests::FolderTest {
+ protected:
+  void SetUp() override {
+    if (runs("command -v chromium >/dev/null 2>&1")) return;
+    std::printf("MISSING chromium: no page was looked at (apt-get install chromium)\n");
+    GTEST_SKIP() << "chromium is not installed";
+  }
+
+  /// The document after the script has run; what the browser says goes to "err".
+  [[nodiscard]] std::string load(const std::string& page, int width = 1200) const {
+    std::ofstream(path("page.html"), std::ios::binary) << page;
+    // The proxy leads nowhere: whatever the page asks of a network shows as an error.
+    EXPECT_TRUE(
+        runs("timeout 120 chromium --headless --no-sandbox --disable-gpu "
+             "--disable-dev-shm-usage --proxy-server=127.0.0.1:9 --enable-logging=stderr "
+             "--window-size=" +
+             std::to_string(width) + ",900 --virtual-time-budget=10000 --user-data-dir='" +
+             path("profile") + "' --dump-dom 'file://" + path("page.html") + "' >'" + path("dom") +
+             "' 2>'" + path("err") + "'"))
+        << read("err");
+    return read("dom");
+  }
+
+  /// What the page's scripts and policy complained of.
+  [[nodiscard]] std::string complaints() const {
+    std::ifstream file(path("err"));
+    std::string found;
+    for (std::string line; std::getline(file, line);) {
+      if (line.find(":CONSOLE") != std::string::npos) found += line + "\n";
+    }
+    return found;
+  }
+};
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t result = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++result;
+  }
+  return result;
+}
+
+/// The section of a figure in a document.
+std::string section(const std::string& dom, const std::string& id) {
+  const std::size_t start = dom.find("<section class=\"figure\" id=\"" + id + "\">");
+  if (start == std::string::npos) return {};
+  return dom.substr(start, dom.find("</section>", start) - start);
+}
+
+TEST_F(Browser, DrawsEveryFigureWithoutAComplaint) {
+  const Measurements measurements = tests::small_report();
+  const std::string dom = load(report_page(measurements));
+  EXPECT_EQ(complaints(), "");
+  const std::vector<Figure> figures = figures_of(measurements);
+  ASSERT_EQ(figures.size(), 11U);
+  for (const Figure& figure : figures) {
+    const std::string drawn = section(dom, figure.id);
+    EXPECT_EQ(count(drawn, "role=\"img\""), figure.panels.size()) << figure.id;
+    EXPECT_EQ(count(drawn, "<desc id="), figure.panels.size()) << figure.id;
+    EXPECT_GE(count(drawn, "<title id="), figure.panels.size()) << figure.id;
+    EXPECT_GE(count(drawn, "<rect") + count(drawn, "<path"), 1U) << figure.id;
+    EXPECT_EQ(count(drawn, "class=\"csv\""), 1U) << figure.id;
+    EXPECT_EQ(count(drawn, "NaN"), 0U) << figure.id;
+    EXPECT_EQ(count(drawn, "undefined"), 0U) << figure.id;
+  }
+}
+
+TEST_F(Browser, DrawsThePointsTheFrontAndTheNames) {
+  const std::string dom = load(report_page(tests::small_report()));
+  const std::string speed = section(dom, "speed_false_positives");
+  EXPECT_EQ(count(speed, "class=\"front\""), 1U);
+  for (const std::string name : {"certified", "tight_inclusion", "msrf"}) {
+    EXPECT_TRUE(std::regex_search(speed, std::regex("class=\"name\"[^>]*>" + name + "<"))) << name;
+  }
+  const std::string stability = section(dom, "stability");
+  EXPECT_TRUE(std::regex_search(stability, std::regex(">N</text>")));
+}
+
+TEST_F(Browser, FitsATelephone) {
+  const std::string dom = load(report_page(tests::small_report()), 500);
+  EXPECT_EQ(complaints(), "");
+  const std::string speed = section(dom, "speed_false_positives");
+  std::smatch size;
+  ASSERT_TRUE(std::regex_search(speed, size, std::regex("viewBox=\"0 0 ([0-9.]+) ")));
+  EXPECT_LE(std::stod(size[1]), 500.0) << "drawn for the width there is, not shrunk";
+  EXPECT_GE(std::stod(size[1]), 280.0);
+}
+
+TEST_F(Browser, DrawsNumbersAtTheEndsOfTheRange) {
+  Measurements measurements = tests::small_report();
+  measurements.all.back().achieved_tolerance =
+      Spread{.count = 2, .median = 4.9e-324, .max = 1.7e308};
+  const std::string drawn = section(load(report_page(measurements)), "checks_tolerance");
+  EXPECT_EQ(complaints(), "");
+  EXPECT_EQ(count(drawn, "NaN"), 0U);
+  EXPECT_EQ(count(drawn, "Infinity"), 0U);
+  EXPECT_NE(drawn.find(">10³⁰⁰</text>"), std::string::npos) << drawn;
+}
+
+/// The test sees a page that does load something, or fails.
+TEST_F(Browser, APlantedFaultIsSeen) {
+  const auto planted = [](const std::string& fault) {
+    std::string page = report_page(tests::small_report());
+    return page.insert(page.find("</main>"), fault);
+  };
+  static_cast<void>(load(planted("<script>missing_function();</script>")));
+  EXPECT_NE(complaints().find("missing_function"), std::string::npos) << read("err");
+  static_cast<void>(load(planted("<img src=\"https://example.org/picture.png\">")));
+  EXPECT_NE(complaints().find("Content Security Policy"), std::string::npos) << read("err");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

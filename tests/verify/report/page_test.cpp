@@ -1,0 +1,103 @@
+#include "verify/report/page.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+
+#include "tests/support/measurements.hpp"
+#include "verify/report/figures.hpp"
+#include "verify/report/page_texts.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// What stands between two texts; empty if they are not there.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const std::size_t start = text.find(before);
+  if (start == std::string::npos) return {};
+  const std::size_t first = start + before.size();
+  return text.substr(first, text.find(after, first) - first);
+}
+
+/// The page without the library, in which comments and namespaces name addresses.
+std::string without_d3(std::string page) {
+  const std::size_t start = page.find(d3_script());
+  return page.erase(start, d3_script().size());
+}
+
+TEST(Page, HoldsTheFiguresAsTheScriptReadsThem) {
+  const Measurements measurements = tests::small_report();
+  const std::string page = report_page(measurements);
+  const std::string json =
+      between(page, "<script type=\"application/json\" id=\"figures\">", "</script>");
+  EXPECT_EQ(nlohmann::json::parse(json), to_json(figures_of(measurements)));
+  for (const Figure& figure : figures_of(measurements)) {
+    EXPECT_TRUE(contains(page, "<section class=\"figure\" id=\"" + figure.id + "\">"));
+    EXPECT_TRUE(contains(page, "download=\"" + figure.id + ".csv\""));
+  }
+}
+
+TEST(Page, MayLoadNothingFromAnywhere) {
+  const std::string page = report_page(tests::small_report());
+  EXPECT_TRUE(contains(page,
+                       "content=\"default-src 'none'; script-src 'unsafe-inline'; style-src "
+                       "'unsafe-inline'; img-src data:\""));
+  const std::string ours = without_d3(page);
+  EXPECT_LT(ours.size(), page.size());
+  EXPECT_FALSE(std::regex_search(ours, std::regex("https?:")));
+  EXPECT_FALSE(
+      std::regex_search(ours, std::regex("<(link|img|iframe|object)|@import|src=|url\\(")));
+}
+
+TEST(Page, HasTheTablesWithTheirNumbers) {
+  const std::string page = report_page(tests::small_report());
+  EXPECT_TRUE(contains(page, "<caption>handcrafted, vertex-face</caption>"));
+  EXPECT_TRUE(contains(page,
+                       "<th scope=\"row\">msrf</th><td>0.4</td><td>40</td><td>1</td><td>2</td>"
+                       "<td>0</td><td>100 of 200</td>"));
+  EXPECT_TRUE(contains(page, "<section id=\"table_2\">"));
+  EXPECT_FALSE(contains(page, "<section id=\"table_3\">")) << "nothing was measured of FPRF";
+}
+
+TEST(Page, NumbersAreDownloadedAsCsv) {
+  const std::string page = report_page(tests::small_report());
+  EXPECT_TRUE(contains(page,
+                       "download=\"table_1_1.csv\" href=\"data:text/csv;charset=utf-8,method,"
+                       "%C2%B5s,%C3%B7%20certified,"));
+  EXPECT_TRUE(contains(page,
+                       "group,kind,stage,queries,asked%0D%0Ahandcrafted,vertex-face,axis,75,"
+                       "100%0D%0A"));
+}
+
+TEST(Page, SaysWhatMadeItAndEscapesIt) {
+  const std::string page = report_page(tests::small_report());
+  EXPECT_TRUE(contains(page, "Made on a machine by"));
+  EXPECT_FALSE(contains(page, "<page>"));
+  EXPECT_TRUE(contains(page, "a &lt;page&gt;.html"));
+  Measurements hostile = tests::small_report();
+  hostile.all[0].group = "</script><script>alert(1)</script>";
+  EXPECT_FALSE(contains(report_page(hostile), "<script>alert"));
+}
+
+TEST(Page, SaysIfItWasInterrupted) {
+  Measurements measurements = tests::small_report();
+  EXPECT_FALSE(contains(report_page(measurements), "Interrupted"));
+  measurements.interrupted = true;
+  EXPECT_TRUE(contains(report_page(measurements), "Interrupted: not all"));
+}
+
+TEST(Page, WithoutABaselineOursAreShownOverTheSeparation) {
+  Measurements measurements = tests::small_report();
+  std::erase_if(measurements.all, [](const Measurement& m) { return m.method == "msrf"; });
+  EXPECT_TRUE(
+      contains(report_page(measurements), "<h2>Table 2: over the minimum separation d</h2>"));
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,34 @@
+#include "verify/report/page_texts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/folder_test.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+const std::string folder = TOUCHSTONE_SOURCE_DIR "/verify/report/page/";
+
+TEST(PageTexts, AreTheFilesByteForByte) {
+  EXPECT_EQ(page_script(), tests::read_file(folder + "page.js"));
+  EXPECT_EQ(page_style(), tests::read_file(folder + "page.css"));
+  EXPECT_GT(page_script().size(), 1000U);
+}
+
+TEST(PageTexts, D3HasItsNotice) {
+  EXPECT_TRUE(d3_script().starts_with("// https://d3js.org v")) << d3_script().substr(0, 80);
+  EXPECT_NE(d3_script().find("Copyright"), std::string_view::npos);
+}
+
+TEST(PageTexts, NoneEndsTheElementThatItStandsIn) {
+  for (const std::string_view text : {d3_script(), page_script(), page_style()}) {
+    EXPECT_EQ(text.find("</script"), std::string_view::npos);
+    EXPECT_EQ(text.find("</style"), std::string_view::npos);
+    EXPECT_EQ(text.find("<!--"), std::string_view::npos);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,73 @@
+#include "verify/report/results.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/measurements.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Results, HaveTheTablesWithThePublishedNumbers) {
+  const std::string text = results_document(tests::small_report());
+  EXPECT_TRUE(text.starts_with("# Results\n"));
+  EXPECT_TRUE(
+      contains(text, "## Table 1: all methods\n\n### handcrafted, vertex-face\n\n| method |"));
+  EXPECT_TRUE(contains(
+      text, "| msrf | 0.4 | 40 | 1 | 2 | 0 | 100 of 200 | 20 | 0 | – | – | 12.90 | 16 | 386 |\n"));
+  EXPECT_TRUE(contains(text, "## Table 2: MSRF over the minimum separation d\n"));
+  EXPECT_TRUE(contains(text, "| 1e-08 | msrf | L2 | 0.03 | 3 |"));
+  EXPECT_FALSE(contains(text, "## Table 3"));
+}
+
+TEST(Results, SayInSentencesWhatTheDataSay) {
+  const std::string text = results_document(tests::small_report());
+  EXPECT_TRUE(contains(text,
+                       "- **handcrafted, vertex-face**: with false negatives: `msrf`. Without "
+                       "false positives: `certified`. Faster than `certified` on the same queries: "
+                       "none.\n"))
+      << text;
+  EXPECT_TRUE(contains(text,
+                       "On the Pareto front of time against false positives and of time "
+                       "against the error of the time of impact, of those without a miss: "
+                       "certified, in all 3 comparisons.\n"))
+      << text;
+}
+
+TEST(Results, TellFrontsThatDifferApart) {
+  Measurements measurements = tests::small_report();
+  measurements.all[1].nanoseconds = 5.0;
+  EXPECT_TRUE(contains(results_document(measurements),
+                       ": tight_inclusion, certified, in all 3 comparisons.\n"));
+  measurements.all[1].false_positives = 0;
+  const std::string text = results_document(measurements);
+  EXPECT_TRUE(contains(text, "\n- tight_inclusion: false positives (handcrafted, vertex-face)\n"))
+      << text;
+  EXPECT_TRUE(contains(text,
+                       "\n- tight_inclusion, certified: error of the time of impact, median "
+                       "(handcrafted, vertex-face); error of the time of impact, greatest "
+                       "(handcrafted, vertex-face)\n"));
+}
+
+TEST(Results, ExplainTheMethodsThatWereMeasured) {
+  const std::string text = results_document(tests::small_report());
+  EXPECT_TRUE(contains(text, "\n- `msrf`: "));
+  EXPECT_FALSE(contains(text, "\n- `bsc`: "));
+}
+
+TEST(Results, NameTheCommandAndAnInterrupt) {
+  Measurements measurements = tests::small_report();
+  EXPECT_TRUE(contains(results_document(measurements),
+                       "```\ntouchstone report handcrafted --out 'a <page>.html'\n```\n"));
+  EXPECT_FALSE(contains(results_document(measurements), "Interrupted"));
+  measurements.interrupted = true;
+  EXPECT_TRUE(contains(results_document(measurements), "**Interrupted"));
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,83 @@
+#include "verify/report/tables.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/support/measurements.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using Row = std::vector<std::string>;
+
+TEST(Tables, TheFieldsHasThePublishedNumbersBesideOurs) {
+  const std::vector<Table> tables = field_tables(tests::small_report());
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].title, "handcrafted, vertex-face");
+  EXPECT_EQ(tables[0].columns, (Row{"method", "µs", "÷ certified", "FP", "FN", "late", "asked",
+                                    "collide", "at limit", "toi error, median", "toi error, max",
+                                    "published (12K) µs", "published FP", "published FN"}));
+  ASSERT_EQ(tables[0].rows.size(), 3U);
+  EXPECT_EQ(tables[0].rows[0], (Row{"certified", "0.01", "1", "0", "0", "0", "100 of 200", "20",
+                                    "0", "0", "1e-13", "–", "–", "–"}));
+  EXPECT_EQ(tables[0].rows[1], (Row{"tight_inclusion", "2.5", "250", "8", "0", "0", "100 of 200",
+                                    "20", "0", "1e-07", "0.5", "1532.54", "108", "0"}));
+  EXPECT_EQ(tables[0].rows[2], (Row{"msrf", "0.4", "40", "1", "2", "0", "100 of 200", "20", "0",
+                                    "–", "–", "12.90", "16", "386"}));
+}
+
+TEST(Tables, OtherDataHaveNoPublishedColumns) {
+  Measurements measurements;
+  measurements.all = {tests::measured("patches", "msrf", 1000.0)};
+  measurements.all[0].asked = 200;
+  const std::vector<Table> tables = field_tables(measurements);
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].columns.size(), 11U);
+  EXPECT_EQ(tables[0].rows[0],
+            (Row{"msrf", "1", "100", "0", "0", "0", "200", "20", "0", "–", "–"}));
+}
+
+TEST(Tables, GroupsAndKindsHaveTablesOfTheirOwn) {
+  Measurements measurements;
+  measurements.all = {tests::measured("a", "msrf", 1.0), tests::measured("b", "msrf", 1.0),
+                      tests::measured("a", "msrf", 1.0)};
+  measurements.all[2].kind = Kind::edge_edge;
+  const std::vector<Table> tables = field_tables(measurements);
+  ASSERT_EQ(tables.size(), 3U);
+  EXPECT_EQ(tables[2].title, "a, edge-edge");
+}
+
+TEST(Tables, SeparationsPutAMethodBesideOurs) {
+  const std::vector<Table> tables = separation_tables(tests::small_report(), "msrf");
+  ASSERT_EQ(tables.size(), 1U);
+  ASSERT_EQ(tables[0].rows.size(), 3U);
+  EXPECT_EQ(tables[0].rows[0], (Row{"1e-08", "msrf", "L2", "0.03", "3", "0", "0", "0", "100 of 200",
+                                    "20", "0", "15.05", "216", "2"}));
+  EXPECT_EQ(tables[0].rows[1][1], "tight_inclusion");
+  EXPECT_EQ(tables[0].rows[1][11], "1.60K");
+  EXPECT_EQ(tables[0].rows[2][1], "certified");
+  EXPECT_EQ(tables[0].rows[2][2], "L∞");
+  EXPECT_TRUE(separation_tables(tests::small_report(), "fprf").empty());
+  EXPECT_EQ(separation_tables(tests::small_report(), "tight_inclusion").at(0).rows.size(), 2U);
+}
+
+TEST(Tables, NumbersAreShort) {
+  EXPECT_EQ(short_number(0.0), "0");
+  EXPECT_EQ(short_number(0.0123456), "0.0123");
+  EXPECT_EQ(short_number(12.345), "12.3");
+  EXPECT_EQ(short_number(124242.4), "124242");
+  EXPECT_EQ(short_number(1e-100), "1e-100");
+  EXPECT_EQ(short_number(std::numeric_limits<double>::quiet_NaN()), "–");
+}
+
+TEST(Tables, WriteMarkdownAndCsv) {
+  const Table table{.title = "t", .columns = {"a", "b|c"}, .rows = {{"1", "x, \"y\""}}};
+  EXPECT_EQ(to_markdown(table), "| a | b\\|c |\n| --- | --- |\n| 1 | x, \"y\" |\n");
+  EXPECT_EQ(to_csv(table), "a,b|c\r\n1,\"x, \"\"y\"\"\"\r\n");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

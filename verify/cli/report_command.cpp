@@ -1,0 +1,328 @@
+// touchstone report: the field of methods, measured and drawn on one page.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "verify/cli/commands.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/cli/sources.hpp"
+#include "verify/families/families.hpp"
+#include "verify/methods/registry.hpp"
+#include "verify/moving_mesh.hpp"
+#include "verify/query_group.hpp"
+#include "verify/report/measurement_json.hpp"
+#include "verify/report/page.hpp"
+#include "verify/report/results.hpp"
+#include "verify/report/survey.hpp"
+#include "verify/terminal.hpp"
+#include "verify/workload.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  SourceArguments sources;
+  SurveyOptions survey;
+  std::string from_file;
+  std::string page_file;
+  std::string json_file;
+  std::string results_file;
+};
+
+/// A word of a command line as a shell takes it.
+std::string shell_quoted(const std::string& word) {
+  static constexpr const char* harmless =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,";
+  if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
+  std::string result = "'";
+  for (const char c : word) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
+}
+
+/// The command line of this process.
+std::string command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string command;
+  for (std::string word; std::getline(file, word, '\0');) {
+    command += command.empty() ? "touchstone" : " " + shell_quoted(word);
+  }
+  return command;
+}
+
+/// The last part of a path that says something.
+std::string short_name(const fs::path& path) {
+  const fs::path normal = fs::absolute(path).lexically_normal();
+  return normal.has_filename() ? normal.filename().string()
+                               : normal.parent_path().filename().string();
+}
+
+class ReportRun {
+ public:
+  explicit ReportRun(const Arguments& arguments)
+      : arguments_(arguments),
+        page_(arguments.page_file),
+        json_(arguments.json_file),
+        results_(arguments.results_file) {
+    if (!page_ && !json_ && !results_) {
+      throw std::invalid_argument("nothing to write: name --out, --json or --results");
+    }
+    if (json_.is(arguments.page_file) || results_.is(arguments.page_file) ||
+        results_.is(arguments.json_file)) {
+      throw std::runtime_error("a file is named for two outputs");
+    }
+    if (is_output(arguments.from_file)) {
+      throw std::runtime_error(arguments.from_file + ": named for input and output");
+    }
+  }
+
+  Status run() {
+    Measurements measurements;
+    if (arguments_.from_file.empty()) {
+      const std::vector<QueryGroup> groups =
+          arguments_.sources.built_in_set() ? built_in() : given();
+      if (!errors_.empty() && !arguments_.sources.keep_going) return Status::bad_input;
+      measurements = measured(groups);
+    } else {
+      measurements = read();
+    }
+    write(measurements);
+    report_broken_promises(measurements);
+    if (has_wrong_answers(measurements)) return Status::wrong_answers;
+    const bool failed = page_.failed() || json_.failed() || results_.failed();
+    if (failed || !errors_.empty() || skipped_ != 0) return Status::bad_input;
+    return interrupted() ? Status::interrupted : Status::all_well;
+  }
+
+ private:
+  [[nodiscard]] bool is_output(const fs::path& file) const {
+    return page_.is(file) || json_.is(file) || results_.is(file);
+  }
+
+  [[nodiscard]] Measurements read() const {
+    std::ifstream file(arguments_.from_file, std::ios::binary);
+    if (!file) throw std::runtime_error(arguments_.from_file + ": cannot be read");
+    const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+    try {
+      return measurements_from_json(json);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(arguments_.from_file + ": " + error.what());
+    }
+  }
+
+  [[nodiscard]] Measurements measured(const std::vector<QueryGroup>& groups) const {
+    ProgressBar bar("report");
+    SurveyOptions options = arguments_.survey;
+    options.seed = arguments_.sources.seed;
+    options.threads = arguments_.sources.threads;
+    options.on_progress = [&bar](double fraction) { bar.update(fraction); };
+    options.stop = &interrupted();
+    Measurements measurements = survey(groups, options);
+    measurements.command = command_line();
+    return measurements;
+  }
+
+  // ---- Queries ----------------------------------------------------------------------------------
+
+  [[nodiscard]] std::vector<Kind> kinds() const {
+    if (arguments_.sources.kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
+    return {kind_from_string(arguments_.sources.kind)};
+  }
+
+  /// The two moving patches, and the hard set with about as many queries as are asked.
+  [[nodiscard]] std::vector<QueryGroup> built_in() const {
+    const std::uint64_t seed = arguments_.sources.seed;
+    const std::uint64_t a_family =
+        std::max<std::uint64_t>(1, arguments_.survey.count / families().size());
+    const MovingMesh patches = moving_patches({.seed = seed});
+    std::vector<QueryGroup> groups;
+    for (const Kind kind : kinds()) {
+      const auto pairs = find_candidates(patches, kind);
+      groups.emplace_back(patches.name, kind,
+                          queries_of(patches, candidates_of(patches, kind, pairs)));
+    }
+    for (const Kind kind : kinds()) groups.push_back(hard_set(kind, seed, a_family));
+    return groups;
+  }
+
+  [[nodiscard]] std::vector<QueryGroup> given() {
+    std::vector<QueryGroup> groups;
+    std::set<std::string> names;
+    for (const fs::path& path : arguments_.sources.paths) {
+      const std::string name = short_name(path);
+      read_path(path, names.insert(name).second ? name : path.string(), groups);
+    }
+    return groups;
+  }
+
+  void read_path(const fs::path& path, const std::string& name, std::vector<QueryGroup>& groups) {
+    std::array<QueryGroup, 2> of_path{QueryGroup(name, Kind::vertex_face),
+                                      QueryGroup(name, Kind::edge_edge)};
+    SourceArguments sources = arguments_.sources;
+    sources.paths = {path};
+    for_each_source(
+        sources,
+        {.title = "reading " + path.string(),
+         .use =
+             [&](QuerySource& source, const std::function<void(double)>& progress) {
+               of_path.at(static_cast<std::size_t>(source.kind())).read(source, progress, [this] {
+                 return stopped();
+               });
+               skipped_ += source.skipped();
+             },
+         .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
+         .stopped = [this] { return stopped(); },
+         .is_output = [this](const fs::path& file) { return is_output(file); }});
+    for (QueryGroup& group : of_path) {
+      if (!group.queries().empty()) groups.push_back(std::move(group));
+    }
+  }
+
+  void fail(const std::string& message) {
+    if (errors_.insert(message).second) report_error(message);
+  }
+
+  [[nodiscard]] bool stopped() const {
+    return interrupted() || (!errors_.empty() && !arguments_.sources.keep_going);
+  }
+
+  // ---- Output -----------------------------------------------------------------------------------
+
+  void write(const Measurements& measurements) {
+    static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
+    // The measurements first: all else can be made from them.
+    if (json_) json_.write(to_json(measurements).dump(1, ' ', false, replace_bad_utf8) + "\n");
+    json_.close();
+    if (page_) page_.write(report_page(measurements));
+    page_.close();
+    if (results_) results_.write(results_document(measurements));
+    results_.close();
+    if (page_ && !page_.failed()) {
+      fmt::print(page_.is_standard_output() ? stderr : stdout, "{}\n",
+                 fs::absolute(arguments_.page_file).string());
+    }
+  }
+
+  static void report_broken_promises(const Measurements& measurements) {
+    for (const Measurement& m : measurements.all) {
+      if (m.keeps_promise) continue;
+      report_error(fmt::format(
+          "{} ({}) breaks its promise on {} {}, {}: false negatives {}, late toi {}, early "
+          "toi_upper {}, errors {}, false positives {}",
+          m.method, to_string(m.promise), m.group, to_string(m.kind), to_string(m.experiment),
+          m.false_negatives, m.late_tois, m.early_upper_tois, m.errors, m.false_positives));
+    }
+  }
+
+  const Arguments& arguments_;
+  ReportedOutput page_;
+  ReportedOutput json_;
+  ReportedOutput results_;
+  std::set<std::string> errors_;
+  std::uint64_t skipped_ = 0;
+};
+
+void add_measuring_options(CLI::App& command, Arguments& arguments) {
+  add_source_options(command, arguments.sources);
+  for (const std::string name : {"--min-separation", "--norm", "--count"}) {
+    command.remove_option(command.get_option(name));
+  }
+  std::string names;
+  for (const auto& method : methods()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", method->name());
+  }
+  command.add_option("--method", arguments.survey.methods, "Only these of " + names)
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command
+      .add_option(
+          "--count", arguments.survey.count,
+          "Queries asked of a group, an evenly spread sample of larger ones (over the distance a "
+          "quarter of them)")
+      ->capture_default_str()
+      ->check(whole_number(1, UINT32_MAX));
+  command
+      .add_option("--seconds", arguments.survey.seconds,
+                  "Processor seconds that the sample of a method, group and setting may take; "
+                  "slower methods "
+                  "are asked fewer")
+      ->capture_default_str()
+      ->check(real_number(1e-6, 1e6));
+  command.add_option("--repetitions", arguments.survey.repetitions, "Times are medians of so many")
+      ->capture_default_str()
+      ->check(whole_number(1, 1'000'000));
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--experiment",
+          [&arguments](const std::vector<std::string>& chosen) {
+            for (const std::string& name : chosen) {
+              arguments.survey.experiments.push_back(experiment_from_string(name));
+            }
+          },
+          "Only these: all methods (field), over the distance, over δ, over m_I")
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"field", "separation", "tolerance", "checks"}));
+  command
+      .add_option("--stability", arguments.survey.stability_count,
+                  "Queries a cell of the maps of stability (0: no maps)")
+      ->capture_default_str()
+      ->check(whole_number(0, UINT32_MAX));
+}
+
+void add_output_options(CLI::App& command, Arguments& arguments) {
+  command
+      .add_option("--from", arguments.from_file,
+                  "Measure nothing: take the measurements that --json of an earlier run wrote")
+      ->type_name("FILE.json")
+      ->excludes(command.get_option("PATH"))
+      ->excludes(command.get_option("--method"));
+  command.add_option("--out", arguments.page_file, "Write the page")->type_name("FILE.html");
+  command.add_option("--json", arguments.json_file, "Write all measurements as JSON")
+      ->type_name("FILE.json");
+  command
+      .add_option("--results", arguments.results_file,
+                  "Write the tables as Markdown, the published numbers beside ours")
+      ->type_name("FILE.md");
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "report", "Measure all methods side by side, and draw their speed against their error");
+  add_measuring_options(*command, *arguments);
+  add_output_options(*command, *arguments);
+  command->footer(
+      "The page is one file that needs no network; its path is printed. Without PATH the queries "
+      "are\n"
+      "those of two patches of triangle mesh that move through each other, and the generated hard\n"
+      "set. The queries of a PATH are one group a kind. Times are those of one thread; the truth "
+      "is\n"
+      "the oracle's.\n"
+      "Exit status: 0 all is well, 1 a solver gave an answer that its promise excludes, 2 bad "
+      "input or\n"
+      "usage, 130 interrupted (what is measured by then is written).\n"
+      "Example: touchstone report data/handcrafted --out report.html --json report.json");
+  command->callback([arguments, &status] { status = ReportRun(*arguments).run(); });
+}
+
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,545 @@
+#include "verify/report/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace touchstone::verify {
+namespace {
+
+using Chosen = std::vector<const Measurement*>;
+using Texts = std::vector<std::string>;
+using Value = std::function<double(const Measurement&)>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::string place_of(const Measurement& m) {
+  return fmt::format("{}, {}", m.group, to_string(m.kind));
+}
+
+double time_of(const Measurement& m) { return m.nanoseconds; }
+
+bool is_linf(const Measurement& m) { return m.separation.norm == Norm::linf; }
+
+/// Has it given an answer that a conservative method must not give?
+bool misses(const Measurement& m) { return m.false_negatives + m.late_tois != 0; }
+
+std::string with_limits(const std::string& text) {
+  return text +
+         " Hollow: there the method misses collisions, or gives times of impact after the exact "
+         "one.";
+}
+
+class Builder {
+ public:
+  explicit Builder(const Measurements& measurements) : measurements_(measurements) {
+    for (const Measurement& m : measurements.all) slot_of(m.method);
+    for (const StabilityMark& mark : measurements.stability) slot_of(mark.method);
+  }
+
+  std::vector<Figure> figures() {
+    add_speed_against_error();
+    add_times();
+    add_tolerance();
+    add_separation();
+    add_checks();
+    add_stages();
+    add_stability();
+    return std::move(figures_);
+  }
+
+ private:
+  /// The number of a method among those of the report.
+  int slot_of(const std::string& method) {
+    return slots_.try_emplace(method, static_cast<int>(slots_.size())).first->second;
+  }
+
+  void add(Figure figure) {
+    std::erase_if(figure.panels, [](const FigurePanel& panel) { return panel.series.empty(); });
+    if (!figure.panels.empty()) figures_.push_back(std::move(figure));
+  }
+
+  /// The measurements of an experiment by group and kind, in their order.
+  [[nodiscard]] std::vector<std::pair<std::string, Chosen>> by_place(Experiment experiment) const {
+    std::vector<std::pair<std::string, Chosen>> places;
+    for (const Measurement* m : of_experiment(measurements_, experiment)) {
+      const std::string place = place_of(*m);
+      auto found = std::ranges::find(places, place, &std::pair<std::string, Chosen>::first);
+      if (found == places.end()) {
+        places.emplace_back(place, Chosen{});
+        found = std::prev(places.end());
+      }
+      found->second.push_back(m);
+    }
+    return places;
+  }
+
+  // ---- Speed against error ----------------------------------------------------------------------
+
+  void add_speed_against_error() {
+    add_points("speed_false_positives", "Time a query against false positives",
+               "false positives, of the queries that do not collide", false_positive_rate);
+    add_points("speed_toi_median", "Time a query against the median error of the time of impact",
+               "error of the time of impact, median",
+               [](const Measurement& m) { return m.toi_error ? m.toi_error->median : nan; });
+    add_points("speed_toi_max", "Time a query against the greatest error of the time of impact",
+               "error of the time of impact, greatest",
+               [](const Measurement& m) { return m.toi_error ? m.toi_error->max : nan; });
+  }
+
+  void add_points(const std::string& id, const std::string& title, const std::string& y_label,
+                  const Value& error) {
+    Figure figure{.id = id,
+                  .title = title,
+                  .description = with_limits(
+                      "A point a method; a curve for those that aim at a tolerance, δ from 1e-8 to "
+                      "1. Down and to the left is better. Dashed: the Pareto front of the methods "
+                      "that miss nothing."),
+                  .form = FigureForm::points,
+                  .x_label = "time a query, ns",
+                  .y_label = y_label,
+                  .panels = {},
+                  .data = {{},
+                           {"group", "kind", "method", "tolerance", "ns_per_query", id,
+                            "false_negatives", "late_tois", "asked", "at_limit", "on_front"},
+                           {}}};
+    const auto curves = by_place(Experiment::tolerance);
+    for (const auto& [place, chosen] : by_place(Experiment::field)) {
+      FigurePanel panel{.title = place, .caption = {}, .series = {}, .front = {}};
+      for (const auto& [curve_place, of_curves] : curves) {
+        if (curve_place == place) add_curves(of_curves, error, panel, figure.data);
+      }
+      add_methods(chosen, error, panel, figure.data);
+      figure.panels.push_back(std::move(panel));
+    }
+    add(std::move(figure));
+  }
+
+  void add_curves(const Chosen& chosen, const Value& error, FigurePanel& panel, Table& data) {
+    for (const Measurement* m : chosen) {
+      if (std::isnan(error(*m))) continue;
+      FigureSeries& series = series_of(panel, m->method, "curve");
+      series.points.push_back(
+          {m->nanoseconds, error(*m), fmt::format("δ = {:.0e}", m->tolerance), misses(*m)});
+      add_error_row(*m, error(*m), false, data);
+    }
+  }
+
+  void add_methods(const Chosen& chosen, const Value& error, FigurePanel& panel, Table& data) {
+    std::vector<FigurePoint> eligible;
+    for (const Measurement* m : chosen) {
+      if (std::isnan(error(*m))) continue;
+      const FigurePoint point{m->nanoseconds, error(*m), m->method, misses(*m)};
+      series_of(panel, m->method, "point").points.push_back(point);
+      if (!point.open) eligible.push_back(point);
+    }
+    for (const std::size_t i : pareto_front(eligible)) panel.front.push_back(eligible[i]);
+    panel.caption = front_sentence(panel.front) + sample_sentence(chosen);
+    for (const Measurement* m : chosen) {
+      if (std::isnan(error(*m))) continue;
+      const bool on_front = std::ranges::any_of(
+          panel.front, [&](const FigurePoint& point) { return point.label == m->method; });
+      add_error_row(*m, error(*m), on_front, data);
+    }
+  }
+
+  static std::string front_sentence(const std::vector<FigurePoint>& front) {
+    if (front.empty()) return "No method here is without a miss.";
+    std::string names;
+    for (const FigurePoint& point : front) {
+      names += (names.empty() ? "" : ", ") + point.label;
+    }
+    return fmt::format("On the front of those without a miss: {}.", names);
+  }
+
+  /// Which methods were asked fewer queries than others; empty if none was.
+  static std::string sample_sentence(const Chosen& chosen) {
+    std::uint64_t most = 0;
+    for (const Measurement* m : chosen) most = std::max(most, m->asked);
+    std::string fewer;
+    for (const Measurement* m : chosen) {
+      if (m->asked == most) continue;
+      fewer += fmt::format("{}{} ({})", fewer.empty() ? "" : ", ", m->method, m->asked);
+    }
+    return fewer.empty() ? fmt::format(" All were asked the same {} queries.", most)
+                         : fmt::format(" Asked fewer of the {} queries: {}.", most, fewer);
+  }
+
+  /// How many queries the curves are about.
+  static std::string sample_sentence_of_curves(const Chosen& chosen) {
+    std::map<std::string, std::uint64_t> asked;
+    for (const Measurement* m : chosen) asked[m->method] = m->asked;
+    std::string text;
+    for (const auto& [method, count] : asked) {
+      text +=
+          fmt::format("{}{} {}", text.empty() ? "Queries along a curve: " : ", ", method, count);
+    }
+    return text + ".";
+  }
+
+  static void add_error_row(const Measurement& m, double error, bool on_front, Table& data) {
+    data.rows.push_back({m.group, std::string(to_string(m.kind)), m.method,
+                         fmt::format("{}", m.tolerance), fmt::format("{}", m.nanoseconds),
+                         fmt::format("{}", error), fmt::format("{}", m.false_negatives),
+                         fmt::format("{}", m.late_tois), fmt::format("{}", m.asked),
+                         fmt::format("{}", m.at_limit), on_front ? "1" : "0"});
+  }
+
+  FigureSeries& series_of(FigurePanel& panel, const std::string& method, const std::string& role,
+                          const std::string& name = {}) {
+    const std::string& shown = name.empty() ? method : name;
+    const auto is_it = [&](const FigureSeries& s) { return s.name == shown && s.role == role; };
+    const auto found = std::ranges::find_if(panel.series, is_it);
+    if (found != panel.series.end()) return *found;
+    return panel.series.emplace_back(
+        FigureSeries{.name = shown, .role = role, .slot = slot_of(method), .points = {}});
+  }
+
+  // ---- Running times ----------------------------------------------------------------------------
+
+  void add_times() {
+    Figure figure{
+        .id = "running_times",
+        .title = "Running times of single queries",
+        .description =
+            "How the times of single calls are spread: above each method's line for queries "
+            "that do not collide, below it for those that do. Heights are square roots of "
+            "shares, so that the rare is seen. One call a query takes longer than its part "
+            "of a call for many.",
+        .form = FigureForm::ridges,
+        .x_label = "time of one call, ns",
+        .y_label = "share of queries",
+        .y_log = false,
+        .panels = {},
+        .data = {{}, {"group", "kind", "method", "collide", "from_ns", "to_ns", "queries"}, {}}};
+    for (const auto& [place, chosen] : by_place(Experiment::field)) {
+      FigurePanel panel{.title = place, .caption = {}, .series = {}, .front = {}};
+      for (const Measurement* m : chosen) {
+        add_histogram(*m, m->miss_times, "misses", panel, figure.data);
+        add_histogram(*m, m->hit_times, "hits", panel, figure.data);
+      }
+      figure.panels.push_back(std::move(panel));
+    }
+    add(std::move(figure));
+  }
+
+  void add_histogram(const Measurement& m, const TimeHistogram& times, const std::string& role,
+                     FigurePanel& panel, Table& data) {
+    FigureSeries& series = series_of(panel, m.method, role);
+    const auto all = static_cast<double>(times.count());
+    for (const auto& [bin, count] : times.bins) {
+      const double from = TimeHistogram::lower_end(bin);
+      series.points.push_back({from, static_cast<double>(count) / all, {}, false});
+      data.rows.push_back({m.group, std::string(to_string(m.kind)), m.method,
+                           role == "hits" ? "1" : "0", fmt::format("{:.6g}", from),
+                           fmt::format("{:.6g}", TimeHistogram::lower_end(bin + 1)),
+                           fmt::format("{}", count)});
+    }
+  }
+
+  // ---- Curves over a parameter ------------------------------------------------------------------
+
+  struct Curve {
+    Experiment experiment;
+    std::string parameter;  ///< its column of the data
+    Value x;
+    std::string measure;  ///< its column of the data
+    Value y;
+    /// Which series a measurement belongs to: its method and this.
+    std::function<std::string(const Measurement&)> suffix;
+  };
+
+  void add_lines(Figure figure, const Curve& curve) {
+    figure.form = FigureForm::lines;
+    figure.data.columns = {"group",         "kind",        "method",          "norm",
+                           curve.parameter, curve.measure, "false_negatives", "asked",
+                           "at_limit"};
+    for (const auto& [place, chosen] : by_place(curve.experiment)) {
+      FigurePanel panel{
+          .title = place, .caption = sample_sentence_of_curves(chosen), .series = {}, .front = {}};
+      for (const Measurement* m : chosen) {
+        const double y = curve.y(*m);
+        if (std::isnan(y)) continue;
+        series_of(panel, m->method, "curve", m->method + curve.suffix(*m))
+            .points.push_back({curve.x(*m), y, {}, misses(*m)});
+        figure.data.rows.push_back({m->group, std::string(to_string(m->kind)), m->method,
+                                    std::string(to_string(m->separation.norm)),
+                                    fmt::format("{}", curve.x(*m)), fmt::format("{}", y),
+                                    fmt::format("{}", m->false_negatives),
+                                    fmt::format("{}", m->asked), fmt::format("{}", m->at_limit)});
+      }
+      figure.panels.push_back(std::move(panel));
+    }
+    add(std::move(figure));
+  }
+
+  static std::string no_suffix(const Measurement&) { return {}; }
+
+  void add_tolerance() {
+    const Value tolerance = [](const Measurement& m) { return m.tolerance; };
+    Figure time{.id = "tolerance_time",
+                .title = "Time over the tolerance δ",
+                .description = "Of the methods that aim at a tolerance.",
+                .x_label = "tolerance δ, in units of the coordinates",
+                .y_label = "time a query, ns",
+                .panels = {},
+                .data = {}};
+    add_lines(std::move(time),
+              {Experiment::tolerance, "tolerance", tolerance, "ns_per_query", time_of, no_suffix});
+    Figure error{.id = "tolerance_false_positives",
+                 .title = "False positives over the tolerance δ",
+                 .description = "Of the same methods, of the queries that do not collide.",
+                 .x_label = "tolerance δ, in units of the coordinates",
+                 .y_label = "false positives",
+                 .panels = {},
+                 .data = {}};
+    add_lines(std::move(error), {Experiment::tolerance, "tolerance", tolerance,
+                                 "false_positive_rate", false_positive_rate, no_suffix});
+  }
+
+  void add_separation() {
+    Figure figure{.id = "separation_time",
+                  .title = "Time over the minimum separation d",
+                  .description = with_limits(
+                      "Each method in its own norm, the certified solver in both; the truth is "
+                      "about the same distance."),
+                  .x_label = "minimum separation d, in units of the coordinates",
+                  .y_label = "time a query, ns",
+                  .x_even = true,
+                  .panels = {},
+                  .data = {}};
+    add_lines(std::move(figure),
+              {Experiment::separation, "min_separation",
+               [](const Measurement& m) { return m.separation.distance; }, "ns_per_query", time_of,
+               [](const Measurement& m) -> std::string {
+                 if (m.method != "certified") return {};
+                 return is_linf(m) ? " (L∞)" : " (L2)";
+               }});
+  }
+
+  void add_checks() {
+    const Value limit = [](const Measurement& m) { return static_cast<double>(m.max_checks); };
+    Figure share{.id = "checks_early",
+                 .title = "Early termination over the maximum number of checks m_I",
+                 .description =
+                     "Share of the queries that Tight-Inclusion gives up at m_I checks, and "
+                     "calls a collision.",
+                 .x_label = "maximum number of checks m_I",
+                 .y_label = "share of queries",
+                 .panels = {},
+                 .data = {}};
+    add_lines(std::move(share), {Experiment::checks, "max_checks", limit, "share_at_limit",
+                                 [](const Measurement& m) {
+                                   return static_cast<double>(m.at_limit) /
+                                          static_cast<double>(m.asked);
+                                 },
+                                 no_suffix});
+    Figure achieved{.id = "checks_tolerance",
+                    .title = "Achieved δ over the maximum number of checks m_I",
+                    .description =
+                        "The tolerance that Tight-Inclusion's collisions claim (asked: "
+                        "1e-6), the greatest and the median.",
+                    .x_label = "maximum number of checks m_I",
+                    .y_label = "achieved δ, in units of the coordinates",
+                    .panels = {},
+                    .data = {}};
+    add_achieved(std::move(achieved));
+  }
+
+  void add_achieved(Figure figure) {
+    figure.data.columns = {
+        "group",           "kind",        "method", "max_checks", "collisions_claimed",
+        "achieved_median", "achieved_max"};
+    for (const auto& [place, chosen] : by_place(Experiment::checks)) {
+      FigurePanel panel{
+          .title = place, .caption = sample_sentence_of_curves(chosen), .series = {}, .front = {}};
+      for (const Measurement* m : chosen) {
+        if (!m->achieved_tolerance) continue;
+        const auto x = static_cast<double>(m->max_checks);
+        const Spread& achieved = *m->achieved_tolerance;
+        series_of(panel, m->method, "curve", "greatest")
+            .points.push_back({x, achieved.max, {}, false});
+        series_of(panel, m->method, "faint", "median")
+            .points.push_back({x, achieved.median, {}, false});
+        figure.data.rows.push_back(
+            {m->group, std::string(to_string(m->kind)), m->method, fmt::format("{}", m->max_checks),
+             fmt::format("{}", achieved.count), fmt::format("{}", achieved.median),
+             fmt::format("{}", achieved.max)});
+      }
+      figure.panels.push_back(std::move(panel));
+    }
+    add(std::move(figure));
+  }
+
+  // ---- Stages and stability ---------------------------------------------------------------------
+
+  void add_stages() {
+    Figure figure{.id = "stages",
+                  .title = "Which stage ends a query of the certified solver",
+                  .description = "Share of the queries that each stage ends, cheapest first.",
+                  .form = FigureForm::bars,
+                  .x_label = "share of queries",
+                  .y_label = {},
+                  .x_log = false,
+                  .y_log = false,
+                  .panels = {},
+                  .data = {{}, {"group", "kind", "stage", "queries", "asked"}, {}}};
+    FigurePanel panel{.title = "certified", .caption = {}, .series = {}, .front = {}};
+    for (const Measurement* m : of_experiment(measurements_, Experiment::field)) {
+      for (std::size_t i = 0; i < m->stages.size(); ++i) {
+        const auto& [stage, queries] = m->stages[i];
+        if (panel.series.size() <= i) {
+          panel.series.push_back(
+              {.name = stage, .role = "stage", .slot = static_cast<int>(i), .points = {}});
+        }
+        panel.series[i].points.push_back(
+            {static_cast<double>(queries) / static_cast<double>(m->asked), 0.0, place_of(*m),
+             false});
+        figure.data.rows.push_back({m->group, std::string(to_string(m->kind)), stage,
+                                    fmt::format("{}", queries), fmt::format("{}", m->asked)});
+      }
+    }
+    figure.panels.push_back(std::move(panel));
+    add(std::move(figure));
+  }
+
+  /// The text in a cell: nothing where nothing is wrong, else a letter for the worst fault.
+  static std::string mark_text(const StabilityMark& mark) {
+    if (mark.worst.empty()) return {};
+    if (mark.worst == "false negative") return "N";
+    if (mark.worst == "false positive") return "P";
+    if (mark.worst == "error") return "E";
+    return mark.worst == "beyond tolerance" ? "B" : "T";
+  }
+
+  void add_stability() {
+    Figure figure{
+        .id = "stability",
+        .title = "Stability: what goes wrong as queries get harder",
+        .description =
+            "A cell a level of hardness: the worst that happens at it, and how often. N: "
+            "false negatives, of the collisions. T: the time of impact excludes the true "
+            "one. E: errors. P: false positives, of the misses, the deeper the more.",
+        .form = FigureForm::marks,
+        .x_label = "level, a power of two",
+        .y_label = {},
+        .x_log = false,
+        .y_log = false,
+        .panels = {},
+        .data = {{},
+                 {"hardness", "measure", "exponent", "kind", "method", "queries", "collisions",
+                  "false_positives", "false_negatives", "worst", "worst_rate", "ns_per_query"},
+                 {}}};
+    for (const StabilityMark& mark : measurements_.stability) {
+      auto panel = std::ranges::find(figure.panels, mark.hardness, &FigurePanel::title);
+      if (panel == figure.panels.end()) {
+        panel = figure.panels.insert(
+            panel, {.title = mark.hardness, .caption = mark.measure, .series = {}, .front = {}});
+      }
+      const std::string kind(mark.kind == Kind::vertex_face ? "vf" : "ee");
+      series_of(*panel, mark.method, kind)
+          .points.push_back({static_cast<double>(mark.exponent), mark.worst_rate, mark_text(mark),
+                             mark.worst == "false negative"});
+      figure.data.rows.push_back(
+          {mark.hardness, mark.measure, fmt::format("{}", mark.exponent),
+           std::string(to_string(mark.kind)), mark.method, fmt::format("{}", mark.queries),
+           fmt::format("{}", mark.collisions), fmt::format("{}", mark.false_positives),
+           fmt::format("{}", mark.false_negatives), mark.worst, fmt::format("{}", mark.worst_rate),
+           fmt::format("{}", mark.nanoseconds)});
+    }
+    // The rows of a method side by side.
+    for (FigurePanel& panel : figure.panels) {
+      std::ranges::stable_sort(panel.series, {}, &FigureSeries::slot);
+    }
+    add(std::move(figure));
+  }
+
+  const Measurements& measurements_;
+  std::map<std::string, int> slots_;
+  std::vector<Figure> figures_;
+};
+
+nlohmann::json number(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+nlohmann::json json_of(const std::vector<FigurePoint>& points) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const FigurePoint& point : points) {
+    list.push_back({{"x", number(point.x)},
+                    {"y", number(point.y)},
+                    {"label", point.label},
+                    {"open", point.open}});
+  }
+  return list;
+}
+
+nlohmann::json json_of(const FigurePanel& panel) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const FigureSeries& series : panel.series) {
+    all.push_back({{"name", series.name},
+                   {"role", series.role},
+                   {"slot", series.slot},
+                   {"points", json_of(series.points)}});
+  }
+  return {{"title", panel.title},
+          {"caption", panel.caption},
+          {"series", std::move(all)},
+          {"front", json_of(panel.front)}};
+}
+
+}  // namespace
+
+std::string_view to_string(FigureForm form) {
+  static constexpr std::array<std::string_view, 5> names{"points", "lines", "ridges", "bars",
+                                                         "marks"};
+  return names.at(static_cast<std::size_t>(form));
+}
+
+std::vector<std::size_t> pareto_front(std::span<const FigurePoint> points) {
+  const auto beats = [](const FigurePoint& a, const FigurePoint& b) {
+    return a.x <= b.x && a.y <= b.y && (a.x < b.x || a.y < b.y);
+  };
+  std::vector<std::size_t> front;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto beats_it = [&](const FigurePoint& other) { return beats(other, points[i]); };
+    if (std::ranges::none_of(points, beats_it)) front.push_back(i);
+  }
+  std::ranges::stable_sort(front, {}, [&](std::size_t i) { return points[i].x; });
+  return front;
+}
+
+std::vector<Figure> figures_of(const Measurements& measurements) {
+  return Builder(measurements).figures();
+}
+
+nlohmann::json to_json(const std::vector<Figure>& figures) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Figure& figure : figures) {
+    nlohmann::json panels = nlohmann::json::array();
+    for (const FigurePanel& panel : figure.panels) panels.push_back(json_of(panel));
+    list.push_back({{"id", figure.id},
+                    {"title", figure.title},
+                    {"description", figure.description},
+                    {"form", to_string(figure.form)},
+                    {"x_label", figure.x_label},
+                    {"y_label", figure.y_label},
+                    {"x_log", figure.x_log},
+                    {"x_even", figure.x_even},
+                    {"y_log", figure.y_log},
+                    {"panels", std::move(panels)}});
+  }
+  return list;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,72 @@
+#pragma once
+
+/// \file
+/// Measures methods on one group of queries, side by side.
+///
+/// **Sample.** Every method is asked an evenly spread sample of the group, which grows until the next
+/// one would take more than MeasureOptions::seconds, or all that may be asked are in it. Smaller
+/// samples are part of larger ones. Nothing is said of queries that were not asked.
+///
+/// **Time.** Each query alone, by the wall clock, for the histograms (the shortest of up to three
+/// calls). Then the whole sample in one call, by the thread's processor time; the repetitions of all
+/// methods are interleaved, each beginning with another one. A reference runs on each of the samples
+/// too, so that ratios compare the same queries.
+///
+/// Where settings of a method are compared (MeasureOptions::same_sample), all of them are asked the
+/// smallest of their samples.
+///
+/// **Truth.** The oracle's, for the separation that the method is asked for.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fast/method.hpp"
+#include "verify/contender.hpp"
+#include "verify/query_group.hpp"
+#include "verify/report/measurement.hpp"
+#include "verify/truths.hpp"
+
+namespace touchstone::verify {
+
+/// Who is measured, and under which options it answers: the truth is about their separation.
+struct Subject {
+  std::unique_ptr<Contender> contender;
+  fast::MethodOptions options;
+};
+
+/// Makes the reference that answers under these options.
+using MakeReference = std::function<std::unique_ptr<Contender>(const fast::MethodOptions&)>;
+
+struct MeasureOptions {
+  Experiment experiment = Experiment::field;
+  /// Of larger groups so many queries are asked at most; positive.
+  std::size_t count = 10'000;
+  /// Processor seconds that the sample of a method may take; positive. All that is done with a
+  /// method takes a few times as long.
+  double seconds = 1.0;
+  /// Times are medians of so many, of fewer where one takes longer than `seconds`; at least 1.
+  std::size_t repetitions = 5;
+  /// Subjects of one name are asked the same queries.
+  bool same_sample = false;
+  /// Called now and then with the fraction that is done.
+  std::function<void(double)> on_progress = nullptr;
+  /// May be null. Once true no further work is begun.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Measures the subjects on the group of `truths`, in their order. Once stopped, those are left out that
+/// have no time, no reference or no truth yet.
+/// \param make_reference whose time stands in Measurement::certified_nanoseconds
+/// \throws std::invalid_argument for options out of range or an empty group, and whatever a
+/// contender throws.
+[[nodiscard]] std::vector<Measurement> measure(const QueryGroup& group, Truths& truths,
+                                               std::span<const Subject> subjects,
+                                               const MakeReference& make_reference,
+                                               const MeasureOptions& options);
+
+}  // namespace touchstone::verify

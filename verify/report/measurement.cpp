@@ -1,0 +1,72 @@
+#include "verify/report/measurement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace touchstone::verify {
+namespace {
+
+constexpr std::array<std::pair<Experiment, std::string_view>, 4> names{{
+    {Experiment::field, "field"},
+    {Experiment::separation, "separation"},
+    {Experiment::tolerance, "tolerance"},
+    {Experiment::checks, "checks"},
+}};
+
+double ratio(std::uint64_t count, std::uint64_t among) {
+  return among == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(among);
+}
+
+}  // namespace
+
+std::string_view to_string(Experiment experiment) {
+  return names.at(static_cast<std::size_t>(experiment)).second;
+}
+
+Experiment experiment_from_string(std::string_view name) {
+  for (const auto& [experiment, known] : names) {
+    if (known == name) return experiment;
+  }
+  throw std::invalid_argument("no experiment is called " + std::string(name));
+}
+
+void TimeHistogram::add(double nanoseconds) {
+  const double place = std::log10(std::max(nanoseconds, 1.0)) * bins_per_decade;
+  ++bins[static_cast<int>(std::floor(place))];
+}
+
+double TimeHistogram::lower_end(int bin) {
+  return std::pow(10.0, static_cast<double>(bin) / bins_per_decade);
+}
+
+std::uint64_t TimeHistogram::count() const {
+  std::uint64_t sum = 0;
+  for (const auto& [bin, count] : bins) sum += count;
+  return sum;
+}
+
+double false_positive_rate(const Measurement& measurement) {
+  return ratio(measurement.false_positives, measurement.asked - measurement.collisions);
+}
+
+double false_negative_rate(const Measurement& measurement) {
+  return ratio(measurement.false_negatives, measurement.collisions);
+}
+
+std::vector<const Measurement*> of_experiment(const Measurements& measurements,
+                                              Experiment experiment) {
+  std::vector<const Measurement*> chosen;
+  for (const Measurement& measurement : measurements.all) {
+    if (measurement.experiment == experiment) chosen.push_back(&measurement);
+  }
+  return chosen;
+}
+
+bool has_wrong_answers(const Measurements& measurements) {
+  return !std::ranges::all_of(measurements.all, &Measurement::keeps_promise);
+}
+
+}  // namespace touchstone::verify

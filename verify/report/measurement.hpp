@@ -1,0 +1,148 @@
+#pragma once
+
+/// \file
+/// What a report is made of: measurements of a method, under some options, on a group of queries.
+/// Plain data; all that tables and figures show is computed from it and nothing else.
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+
+namespace touchstone::verify {
+
+/// Which question a measurement belongs to.
+enum class Experiment : std::uint8_t {
+  field,       ///< all methods side by side, as each is meant to be used (the paper's table 1)
+  separation,  ///< over the minimum separation d (its tables 2 and 3)
+  tolerance,   ///< over the tolerance δ
+  checks,      ///< over the maximum number of checks m_I
+};
+
+/// "field", "separation", "tolerance" or "checks".
+[[nodiscard]] std::string_view to_string(Experiment experiment);
+
+/// The experiment of that name. \throws std::invalid_argument if there is none.
+[[nodiscard]] Experiment experiment_from_string(std::string_view name);
+
+/// Running times of single queries, counted in bins of which eight make a factor of ten.
+struct TimeHistogram {
+  static constexpr int bins_per_decade = 8;
+
+  /// By the bin's number: bin b holds times from 10^(b/8) to 10^((b+1)/8) nanoseconds.
+  std::map<int, std::uint64_t> bins;
+
+  /// Times below a nanosecond count as one.
+  void add(double nanoseconds);
+  /// Where a bin begins, in nanoseconds.
+  [[nodiscard]] static double lower_end(int bin);
+  [[nodiscard]] std::uint64_t count() const;
+
+  friend bool operator==(const TimeHistogram&, const TimeHistogram&) = default;
+};
+
+/// Two numbers that stand for many. The median is one of them, to 1.6% above; the maximum is exact.
+struct Spread {
+  std::uint64_t count = 0;
+  double median = 0.0;
+  double max = 0.0;
+
+  friend bool operator==(const Spread&, const Spread&) = default;
+};
+
+/// So many of the queries were ended by the stage of that name.
+struct StageShare {
+  std::string stage;
+  std::uint64_t queries = 0;
+
+  friend bool operator==(const StageShare&, const StageShare&) = default;
+};
+
+/// A method, under some options, on a group of queries.
+struct Measurement {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  Experiment experiment = Experiment::field;
+  std::string group;
+  Kind kind = Kind::vertex_face;
+  std::string method;
+  fast::Promise promise = fast::Promise::none;
+  double tolerance = 0.0;       ///< MethodOptions::tolerance
+  std::int64_t max_checks = 0;  ///< MethodOptions::max_checks
+  Separation separation = {};   ///< what counts as contact, for the method and for the truth
+
+  std::uint64_t group_queries = 0;  ///< in the group
+  std::uint64_t asked = 0;          ///< of these, an evenly spread sample; all below is about them
+  std::uint64_t collisions = 0;     ///< by the oracle
+  std::uint64_t false_positives = 0;
+  std::uint64_t false_negatives = 0;
+  std::uint64_t late_tois = 0;         ///< toi_lower above the exact time of impact
+  std::uint64_t early_upper_tois = 0;  ///< toi_upper below the exact time of impact
+  std::uint64_t errors = 0;
+  std::uint64_t undecided = 0;
+  std::uint64_t at_limit = 0;  ///< queries that took max_checks or more, or were given up
+  bool keeps_promise = true;
+
+  /// Processor time a query, all of them in one call, in one thread; the median of `repetitions`.
+  double nanoseconds = unknown;
+  std::uint64_t repetitions = 0;
+  /// The same of the certified solver on the same queries in the same run.
+  double certified_nanoseconds = unknown;
+  /// From toi_lower to the exact time of impact; of collisions whose time the method gives.
+  std::optional<Spread> toi_error;
+  /// The tolerance that a yes claims, where the method gives one.
+  std::optional<Spread> achieved_tolerance;
+  /// Of methods that have stages, all in their order.
+  std::vector<StageShare> stages;
+  /// Of one call a query, of those that collide and of those that do not.
+  TimeHistogram hit_times;
+  TimeHistogram miss_times;
+};
+
+/// Of those that do not collide; 0 if there are none.
+[[nodiscard]] double false_positive_rate(const Measurement& measurement);
+
+/// Of those that collide; 0 if there are none.
+[[nodiscard]] double false_negative_rate(const Measurement& measurement);
+
+/// One cell of a map of stability (verify/stability/stability.hpp).
+struct StabilityMark {
+  std::string method;
+  std::string hardness;
+  std::string measure;  ///< what its levels are
+  int exponent = 0;     ///< the level is 2 to this power
+  Kind kind = Kind::vertex_face;
+  std::uint64_t queries = 0;
+  std::uint64_t collisions = 0;
+  std::uint64_t false_positives = 0;
+  std::uint64_t false_negatives = 0;
+  std::string worst;        ///< name of the worst fault; empty if there is none
+  double worst_rate = 0.0;  ///< how often, of those that it can happen to
+  double nanoseconds = Measurement::unknown;
+
+  friend bool operator==(const StabilityMark&, const StabilityMark&) = default;
+};
+
+/// All that a report is made of.
+struct Measurements {
+  std::string command;  ///< the command line that made them
+  std::string machine;  ///< the processor they were made on
+  std::vector<Measurement> all;
+  std::vector<StabilityMark> stability;
+  bool interrupted = false;
+};
+
+/// The measurements of one experiment, in their order. They point into `measurements`.
+[[nodiscard]] std::vector<const Measurement*> of_experiment(const Measurements& measurements,
+                                                            Experiment experiment);
+
+/// Did a method give a wrong answer that its promise excludes?
+[[nodiscard]] bool has_wrong_answers(const Measurements& measurements);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,208 @@
+#include "verify/report/measurement_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "verify/methods/registry.hpp"
+#include "verify/separation.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* format_name = "touchstone measurements 1";
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+double number_from(const Json& json) {
+  return json.is_null() ? Measurement::unknown : json.get<double>();
+}
+
+Json json_of(const std::optional<Spread>& spread) {
+  if (!spread) return {};
+  return {
+      {"count", spread->count}, {"median", number(spread->median)}, {"max", number(spread->max)}};
+}
+
+std::optional<Spread> spread_from(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return Spread{.count = json.at("count").get<std::uint64_t>(),
+                .median = number_from(json.at("median")),
+                .max = number_from(json.at("max"))};
+}
+
+Json json_of(const TimeHistogram& times) {
+  Json list = Json::array();
+  for (const auto& [bin, count] : times.bins) list.push_back({bin, count});
+  return list;
+}
+
+TimeHistogram histogram_from(const Json& json) {
+  TimeHistogram times;
+  for (const Json& bin : json) times.bins[bin.at(0).get<int>()] = bin.at(1).get<std::uint64_t>();
+  return times;
+}
+
+Json json_of(const std::vector<StageShare>& stages) {
+  Json list = Json::array();
+  for (const StageShare& share : stages) list.push_back({share.stage, share.queries});
+  return list;
+}
+
+fast::Promise promise_from(const std::string& name) {
+  for (const auto promise :
+       {fast::Promise::none, fast::Promise::conservative, fast::Promise::exact}) {
+    if (to_string(promise) == name) return promise;
+  }
+  throw std::invalid_argument("no promise is called " + name);
+}
+
+Json json_of(const Measurement& measurement) {
+  const Measurement& m = measurement;
+  return {{"experiment", to_string(m.experiment)},
+          {"group", m.group},
+          {"kind", to_string(m.kind)},
+          {"method", m.method},
+          {"promise", to_string(m.promise)},
+          {"tolerance", number(m.tolerance)},
+          {"max_checks", m.max_checks},
+          {"separation", to_json(m.separation)},
+          {"group_queries", m.group_queries},
+          {"asked", m.asked},
+          {"collisions", m.collisions},
+          {"false_positives", m.false_positives},
+          {"false_negatives", m.false_negatives},
+          {"late_tois", m.late_tois},
+          {"early_upper_tois", m.early_upper_tois},
+          {"errors", m.errors},
+          {"undecided", m.undecided},
+          {"at_limit", m.at_limit},
+          {"keeps_promise", m.keeps_promise},
+          {"ns_per_query", number(m.nanoseconds)},
+          {"repetitions", m.repetitions},
+          {"certified_ns_per_query", number(m.certified_nanoseconds)},
+          {"toi_error", json_of(m.toi_error)},
+          {"achieved_tolerance", json_of(m.achieved_tolerance)},
+          {"stages", json_of(m.stages)},
+          {"hit_times", json_of(m.hit_times)},
+          {"miss_times", json_of(m.miss_times)}};
+}
+
+Separation separation_from(const Json& json) {
+  return {.distance = json.at("min_separation").get<double>(),
+          .norm = norm_from_string(json.at("norm").get<std::string>())};
+}
+
+/// What a method was asked, and of whom.
+void read_question(const Json& json, Measurement& m) {
+  m.experiment = experiment_from_string(json.at("experiment").get<std::string>());
+  json.at("group").get_to(m.group);
+  m.kind = kind_from_string(json.at("kind").get<std::string>());
+  json.at("method").get_to(m.method);
+  m.promise = promise_from(json.at("promise").get<std::string>());
+  m.tolerance = number_from(json.at("tolerance"));
+  json.at("max_checks").get_to(m.max_checks);
+  m.separation = separation_from(json.at("separation"));
+  json.at("group_queries").get_to(m.group_queries);
+  json.at("asked").get_to(m.asked);
+}
+
+void read_faults(const Json& json, Measurement& m) {
+  json.at("collisions").get_to(m.collisions);
+  json.at("false_positives").get_to(m.false_positives);
+  json.at("false_negatives").get_to(m.false_negatives);
+  json.at("late_tois").get_to(m.late_tois);
+  json.at("early_upper_tois").get_to(m.early_upper_tois);
+  json.at("errors").get_to(m.errors);
+  json.at("undecided").get_to(m.undecided);
+  json.at("at_limit").get_to(m.at_limit);
+  json.at("keeps_promise").get_to(m.keeps_promise);
+}
+
+Measurement measurement_from(const Json& json) {
+  Measurement m;
+  read_question(json, m);
+  read_faults(json, m);
+  m.nanoseconds = number_from(json.at("ns_per_query"));
+  json.at("repetitions").get_to(m.repetitions);
+  m.certified_nanoseconds = number_from(json.at("certified_ns_per_query"));
+  m.toi_error = spread_from(json.at("toi_error"));
+  m.achieved_tolerance = spread_from(json.at("achieved_tolerance"));
+  for (const Json& stage : json.at("stages")) {
+    m.stages.push_back({stage.at(0).get<std::string>(), stage.at(1).get<std::uint64_t>()});
+  }
+  m.hit_times = histogram_from(json.at("hit_times"));
+  m.miss_times = histogram_from(json.at("miss_times"));
+  return m;
+}
+
+Json json_of(const StabilityMark& mark) {
+  return {{"method", mark.method},
+          {"hardness", mark.hardness},
+          {"measure", mark.measure},
+          {"exponent", mark.exponent},
+          {"kind", to_string(mark.kind)},
+          {"queries", mark.queries},
+          {"collisions", mark.collisions},
+          {"false_positives", mark.false_positives},
+          {"false_negatives", mark.false_negatives},
+          {"worst", mark.worst},
+          {"worst_rate", mark.worst_rate},
+          {"ns_per_query", number(mark.nanoseconds)}};
+}
+
+StabilityMark mark_from(const Json& json) {
+  StabilityMark mark;
+  json.at("method").get_to(mark.method);
+  json.at("hardness").get_to(mark.hardness);
+  json.at("measure").get_to(mark.measure);
+  json.at("exponent").get_to(mark.exponent);
+  mark.kind = kind_from_string(json.at("kind").get<std::string>());
+  json.at("queries").get_to(mark.queries);
+  json.at("collisions").get_to(mark.collisions);
+  json.at("false_positives").get_to(mark.false_positives);
+  json.at("false_negatives").get_to(mark.false_negatives);
+  json.at("worst").get_to(mark.worst);
+  json.at("worst_rate").get_to(mark.worst_rate);
+  mark.nanoseconds = number_from(json.at("ns_per_query"));
+  return mark;
+}
+
+Measurements read(const Json& json) {
+  if (json.at("format") != format_name) throw std::invalid_argument("unknown format");
+  Measurements measurements;
+  json.at("command").get_to(measurements.command);
+  json.at("machine").get_to(measurements.machine);
+  json.at("interrupted").get_to(measurements.interrupted);
+  for (const Json& one : json.at("measurements")) {
+    measurements.all.push_back(measurement_from(one));
+  }
+  for (const Json& one : json.at("stability")) measurements.stability.push_back(mark_from(one));
+  return measurements;
+}
+
+}  // namespace
+
+Json to_json(const Measurements& measurements) {
+  Json all = Json::array();
+  for (const Measurement& measurement : measurements.all) all.push_back(json_of(measurement));
+  Json stability = Json::array();
+  for (const StabilityMark& mark : measurements.stability) stability.push_back(json_of(mark));
+  return {{"format", format_name},           {"command", measurements.command},
+          {"machine", measurements.machine}, {"interrupted", measurements.interrupted},
+          {"measurements", std::move(all)},  {"stability", std::move(stability)}};
+}
+
+Measurements measurements_from_json(const Json& json) {
+  try {
+    return read(json);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string("not the measurements of a report: ") + error.what());
+  }
+}
+
+}  // namespace touchstone::verify

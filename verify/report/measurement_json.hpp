@@ -1,0 +1,24 @@
+#pragma once
+
+/// \file
+/// Measurements as JSON and back, without loss: what a run found outlives it.
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "verify/report/measurement.hpp"
+
+namespace touchstone::verify {
+
+/// `format` (its name and version), `command`, `machine`, `interrupted`; `measurements`, a list of
+/// objects with the fields of Measurement under their names, `separation` as an object of
+/// `min_separation` and `norm`, times in `ns_per_query` and `certified_ns_per_query`, spreads as null
+/// or an object of `count`, `median` and `max`, histograms as lists of `[bin, count]`, stages as a list
+/// of `[name, queries]`; `stability`, a list of objects with the fields of StabilityMark. What is NaN
+/// or infinite is null.
+[[nodiscard]] nlohmann::json to_json(const Measurements& measurements);
+
+/// The inverse.
+/// \throws std::runtime_error that says what is wrong if it is none of these.
+[[nodiscard]] Measurements measurements_from_json(const nlohmann::json& json);
+
+}  // namespace touchstone::verify

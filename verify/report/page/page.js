@@ -1,0 +1,390 @@
+"use strict";
+// Draws the figures of a report from the data that stand in the page. Each form of figure is a function
+// that draws one panel into an SVG of the width there is; all numbers and words come from the data.
+
+(function () {
+  const figures = JSON.parse(document.getElementById("figures").textContent);
+  const margin = { top: 10, right: 18, bottom: 44, left: 58 };
+  const zeroBand = 26;  // room below a logarithmic axis for what is zero
+
+  const color = (slot) => `var(--s${slot % 13})`;
+  const symbol = (slot, size) => d3.symbol().type(d3.symbols[slot % d3.symbols.length]).size(size)();
+
+  // ---- Words and scales -------------------------------------------------------------------------
+
+  const superscript = (number) => String(number).replace("-", "⁻").replace(/\d/g, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]);
+
+  function powerText(value) {
+    const exponent = Math.round(Math.log10(value));
+    if (exponent >= -1 && exponent <= 3) return String(Number(value.toPrecision(1)));
+    return "10" + superscript(exponent);
+  }
+
+  function timeText(nanoseconds) {
+    const units = [[1e9, "s"], [1e6, "ms"], [1e3, "µs"], [1, "ns"]];
+    const [size, unit] = units.find(([least]) => nanoseconds >= least * 0.999) || units[3];
+    return `${Number((nanoseconds / size).toPrecision(3))} ${unit}`;
+  }
+
+  const isTime = (label) => /, ns$/.test(label);
+  const axisTitle = (label) => label.replace(/, ns$/, "");
+
+  /// A scale over the values, logarithmic or not; zeros of a logarithmic one have a place of their own at
+  /// the lower end.
+  function makeScale(values, isLog, range, label) {
+    const text = isTime(label) ? timeText : powerText;
+    if (!isLog) {
+      const scale = d3.scaleLinear().domain([0, d3.max(values) || 1]).nice().range(range);
+      return { place: scale, ticks: scale.ticks(5), text: (v) => String(v), zero: null };
+    }
+    const positive = values.filter((v) => v > 0);
+    const hasZero = positive.length < values.length;
+    const high = Math.min(Math.ceil(Math.log10(d3.max(positive) || 1)), 308);
+    const low = Math.max(Math.min(Math.floor(Math.log10(d3.min(positive) || 1)), high - 1), -323);
+    const direction = Math.sign(range[1] - range[0]);
+    const start = hasZero ? range[0] + direction * zeroBand : range[0];
+    const scale = d3.scaleLog().domain([Number(`1e${low}`), Number(`1e${high}`)]).range([start, range[1]]);
+    const room = Math.abs(range[1] - start) / (direction > 0 ? 62 : 26);
+    const step = [1, 2, 3, 5, 10, 20, 50, 100].find((one) => (high - low) / one <= room) || 200;
+    const exponents = d3.range(Math.ceil(low / step) * step, high + 1, step);
+    const ticks = exponents.map((exponent) => Number(`1e${exponent}`));
+    return {
+      place: (v) => (v > 0 ? scale(v) : range[0]),
+      ticks, text, zero: hasZero ? range[0] : null, bottom: start,
+    };
+  }
+
+  /// A scale on which the values stand evenly spaced.
+  function makeEvenScale(values, range) {
+    const ticks = Array.from(new Set(values)).sort((a, b) => a - b);
+    return { place: d3.scalePoint().domain(ticks).range(range), ticks, text: powerText, zero: null };
+  }
+
+  // ---- Parts of a drawing -----------------------------------------------------------------------
+
+  let drawings = 0;
+
+  function makeSvg(parent, width, height, title, description) {
+    drawings += 1;
+    const id = `drawing${drawings}`;
+    const svg = d3.select(parent).append("svg")
+      .attr("viewBox", `0 0 ${width} ${height}`)
+      .attr("role", "img")
+      .attr("aria-labelledby", `${id}title ${id}desc`);
+    svg.append("title").attr("id", `${id}title`).text(title);
+    svg.append("desc").attr("id", `${id}desc`).text(description);
+    return svg;
+  }
+
+  function write(svg, x, y, text, anchor, kind) {
+    return svg.append("text").attr("x", x).attr("y", y).attr("text-anchor", anchor)
+      .attr("class", kind).text(text);
+  }
+
+  function rule(svg, x1, y1, x2, y2, kind) {
+    svg.append("line").attr("class", kind || "rule").attr("x1", x1).attr("y1", y1).attr("x2", x2).attr("y2", y2);
+  }
+
+  function drawXAxis(svg, scale, box, label) {
+    for (const tick of scale.ticks) {
+      const x = scale.place(tick);
+      rule(svg, x, box.top, x, box.bottom);
+      write(svg, x, box.bottom + 16, scale.text(tick), "middle", "tick");
+    }
+    if (scale.zero !== null) write(svg, scale.zero, box.bottom + 16, "0", "middle", "tick");
+    write(svg, (box.left + box.right) / 2, box.bottom + 36, axisTitle(label), "middle", "axis");
+  }
+
+  function drawYAxis(svg, scale, box) {
+    for (const tick of scale.ticks) {
+      const y = scale.place(tick);
+      rule(svg, box.left, y, box.right, y);
+      write(svg, box.left - 6, y + 4, scale.text(tick), "end", "tick");
+    }
+    if (scale.zero === null) return;
+    rule(svg, box.left, scale.zero, box.right, scale.zero, "rule zero");
+    write(svg, box.left - 6, scale.zero + 4, "0", "end", "tick");
+  }
+
+  function drawMark(svg, x, y, slot, point, size, tip) {
+    const mark = svg.append("path").attr("d", symbol(slot, size)).attr("transform", `translate(${x},${y})`)
+      .style("stroke", color(slot)).style("stroke-width", point.open ? 1.6 : 0.5)
+      .style("fill", point.open ? "var(--paper)" : color(slot));
+    mark.append("title").text(tip);
+  }
+
+  function drawCurve(svg, points, slot, width, opacity) {
+    svg.append("path").attr("d", d3.line()(points)).attr("fill", "none").style("stroke", color(slot))
+      .style("stroke-width", width).style("opacity", opacity);
+  }
+
+  /// Puts each name beside its point, where it hides no point and no other name.
+  function drawNames(svg, places, box) {
+    const taken = places.map(({ x, y }) => [x - 7, y - 7, x + 7, y + 7]);
+    const overlaps = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+    for (const { x, y, text, strong } of places) {
+      const width = 6.6 * text.length + 4;
+      const tries = [];
+      for (const dy of [4, -9, 18, -22, 31, -35, 44, -48, 57, -61]) {
+        tries.push([x + 9, y + dy, "start"], [x - 9, y + dy, "end"]);
+      }
+      const boxOf = ([tx, ty, anchor]) => {
+        const left = anchor === "start" ? tx : tx - width;
+        return [left, ty - 11, left + width, ty + 3];
+      };
+      const isFree = (place) => {
+        const own = boxOf(place);
+        return own[0] >= box.left && own[2] <= box.right + margin.right && own[1] >= 0 &&
+          own[3] <= box.bottom + 4 && !taken.some((other) => overlaps(own, other));
+      };
+      const place = tries.find(isFree) || tries[0];
+      taken.push(boxOf(place));
+      write(svg, place[0], place[1], text, place[2], "name").style("font-weight", strong ? 700 : 400);
+    }
+  }
+
+  function frame(height, width) {
+    return { left: margin.left, right: width - margin.right, top: margin.top, bottom: height - margin.bottom };
+  }
+
+  // ---- Forms ------------------------------------------------------------------------------------
+
+  const pointTip = (figure, series, point) =>
+    `${series.name} ${point.label === series.name ? "" : point.label}\n` +
+    `${axisTitle(figure.x_label)}: ${isTime(figure.x_label) ? timeText(point.x) : point.x}\n` +
+    `${axisTitle(figure.y_label)}: ${isTime(figure.y_label) ? timeText(point.y) : point.y}`;
+
+  /// Is it drawn paler, beside another series of the same method?
+  const isSecond = (series) => series.role === "faint" || / \(L2\)$/.test(series.name);
+
+  const allPoints = (panel) => panel.series.flatMap((series) => series.points);
+
+  function drawPlane(figure, panel, parent, width) {
+    const height = Math.round(Math.max(300, Math.min(width * 0.72, 400)));
+    const box = frame(height, width);
+    const svg = makeSvg(parent, width, height, `${figure.title}: ${panel.title}`,
+      `${figure.description} ${panel.caption}`);
+    const points = allPoints(panel);
+    const across = points.map((p) => p.x);
+    const x = figure.x_even ? makeEvenScale(across, [box.left, box.right])
+      : makeScale(across, figure.x_log, [box.left, box.right], figure.x_label);
+    const y = makeScale(points.map((p) => p.y), figure.y_log, [box.bottom, box.top], figure.y_label);
+    drawXAxis(svg, x, box, figure.x_label);
+    drawYAxis(svg, y, box);
+    return { svg, box, x, y };
+  }
+
+  function drawFront(svg, front, x, y, box) {
+    if (front.length === 0) return;
+    const corners = [[x.place(front[0].x), box.top]];
+    front.forEach((point, i) => {
+      if (i > 0) corners.push([x.place(point.x), corners[corners.length - 1][1]]);
+      corners.push([x.place(point.x), y.place(point.y)]);
+    });
+    corners.push([box.right, corners[corners.length - 1][1]]);
+    svg.append("path").attr("class", "front").attr("d", d3.line()(corners));
+  }
+
+  function drawPoints(figure, panel, parent, width) {
+    const { svg, box, x, y } = drawPlane(figure, panel, parent, width);
+    drawFront(svg, panel.front, x, y, box);
+    const names = [];
+    for (const series of panel.series) {
+      const places = series.points.map((p) => [x.place(p.x), y.place(p.y)]);
+      const isCurve = series.role === "curve";
+      if (isCurve) drawCurve(svg, places, series.slot, 1.5, 0.7);
+      series.points.forEach((point, i) => {
+        drawMark(svg, ...places[i], series.slot, point, isCurve ? 18 : 90, pointTip(figure, series, point));
+        if (!isCurve) {
+          names.push({ x: places[i][0], y: places[i][1], text: point.label, strong: point.label === "certified" });
+        }
+      });
+    }
+    drawNames(svg, names, box);
+  }
+
+  function drawLines(figure, panel, parent, width) {
+    const { svg, x, y } = drawPlane(figure, panel, parent, width);
+    for (const series of panel.series) {
+      const places = series.points.map((p) => [x.place(p.x), y.place(p.y)]);
+      drawCurve(svg, places, series.slot, 2, isSecond(series) ? 0.45 : 1);
+      series.points.forEach((point, i) => {
+        drawMark(svg, ...places[i], series.slot, point, isSecond(series) ? 16 : 40, pointTip(figure, series, point));
+      });
+    }
+  }
+
+  function drawRidges(figure, panel, parent, width) {
+    const names = Array.from(new Set(panel.series.map((series) => series.name)));
+    const half = 19;
+    const top = 8;
+    const height = top + 2 * half * names.length + margin.bottom;
+    const left = Math.min(150, 12 + 6.8 * d3.max(names, (name) => name.length));
+    const box = { left, right: width - margin.right, top, bottom: height - margin.bottom };
+    const svg = makeSvg(parent, width, height, `${figure.title}: ${panel.title}`, figure.description);
+    const factor = 10 ** (1 / 8);
+    const times = allPoints(panel).flatMap((p) => [p.x, p.x * factor]);
+    const x = makeScale(times, true, [box.left, box.right], figure.x_label);
+    drawXAxis(svg, x, box, figure.x_label);
+    const tallest = d3.max(allPoints(panel), (p) => p.y) || 1;
+    for (const series of panel.series) {
+      const line = top + half * (2 * names.indexOf(series.name) + 1);
+      const sign = series.role === "misses" ? -1 : 1;
+      const tone = series.role === "misses" ? "var(--miss)" : "var(--hit)";
+      for (const point of series.points) {
+        const from = x.place(point.x);
+        const tall = (half - 2) * Math.sqrt(point.y / tallest);
+        svg.append("rect").attr("x", from).attr("width", Math.max(x.place(point.x * factor) - from - 0.5, 1))
+          .attr("y", sign < 0 ? line - tall : line).attr("height", tall).style("fill", tone)
+          .append("title").text(`${series.name}, ${series.role}\nfrom ${timeText(point.x)}: ` +
+            `${(100 * point.y).toPrecision(3)} % of them`);
+      }
+    }
+    names.forEach((name, i) => {
+      const line = top + half * (2 * i + 1);
+      rule(svg, box.left, line, box.right, line);
+      write(svg, box.left - 6, line + 4, name, "end", "name").style("font-size", "11.5px");
+    });
+  }
+
+  function drawBars(figure, panel, parent, width) {
+    const rows = Array.from(new Set(allPoints(panel).map((point) => point.label)));
+    const row = 46;
+    const height = 8 + row * rows.length + margin.bottom;
+    const box = { left: 14, right: width - margin.right, top: 8, bottom: height - margin.bottom };
+    const svg = makeSvg(parent, width, height, `${figure.title}: ${panel.title}`, figure.description);
+    const scale = d3.scaleLinear().domain([0, 1]).range([box.left, box.right]);
+    const axis = { place: scale, ticks: [0, 0.25, 0.5, 0.75, 1], text: (v) => `${100 * v} %`, zero: null };
+    drawXAxis(svg, axis, box, figure.x_label);
+    const filled = new Map(rows.map((name) => [name, 0]));
+    for (const series of panel.series) {
+      for (const point of series.points) {
+        const from = filled.get(point.label);
+        filled.set(point.label, from + point.x);
+        svg.append("rect").attr("x", scale(from)).attr("width", scale(point.x) - scale(0))
+          .attr("y", box.top + row * rows.indexOf(point.label) + 18).attr("height", 20)
+          .style("fill", color(series.slot + 1)).style("stroke", "var(--paper)")
+          .append("title").text(`${series.name}: ${(100 * point.x).toPrecision(3)} %`);
+      }
+    }
+    rows.forEach((name, i) => write(svg, box.left, box.top + row * i + 13, name, "start", "name"));
+  }
+
+  const markColors = { N: "var(--bad)", T: "var(--toi)", E: "var(--error)", B: "var(--beyond)" };
+
+  function drawMarks(figure, panel, parent, width) {
+    const row = 16;
+    const top = 8;
+    const left = Math.min(180, 34 + 6.6 * d3.max(panel.series, (series) => series.name.length));
+    const levels = Array.from(new Set(allPoints(panel).map((point) => point.x)));
+    const cell = (width - left - 4) / levels.length;
+    const height = top + row * panel.series.length + 40;
+    const svg = makeSvg(parent, width, height, `${figure.title}: ${panel.title}`,
+      `${figure.description} ${panel.caption}`);
+    panel.series.forEach((series, i) => {
+      const y = top + row * i;
+      if (i === 0 || panel.series[i - 1].name !== series.name) {
+        write(svg, left - 26, y + 12, series.name, "end", "name").style("font-size", "11.5px");
+      }
+      write(svg, left - 6, y + 12, series.role, "end", "tick");
+      for (const point of series.points) {
+        const x = left + cell * levels.indexOf(point.x);
+        const isMild = point.label === "P";
+        const deep = 0.25 + 0.75 * point.y;
+        svg.append("rect").attr("x", x).attr("y", y).attr("width", cell - 1.5).attr("height", row - 1.5)
+          .style("fill", point.label === "" ? "var(--calm)"
+            : isMild ? `rgba(var(--mild), ${deep})` : markColors[point.label])
+          .append("title").text(`${series.name} ${series.role}, 2${superscript(point.x)}: ` +
+            (point.label === "" ? "nothing wrong" : `${point.label}, ${(100 * point.y).toPrecision(3)} %`));
+        if (point.label !== "" && !isMild) {
+          write(svg, x + cell / 2 - 0.7, y + 11.5, point.label, "middle", "tick")
+            .style("fill", "var(--paper)").style("font-weight", 700);
+        }
+      }
+    });
+    const every = cell < 30 ? 2 : 1;
+    levels.forEach((level, i) => {
+      if (i % every !== 0) return;
+      write(svg, left + cell * (i + 0.5), height - 24, `2${superscript(level)}`, "middle", "tick");
+    });
+    write(svg, (left + width) / 2, height - 6, panel.caption, "middle", "axis");
+  }
+
+  const forms = { points: drawPoints, lines: drawLines, ridges: drawRidges, bars: drawBars, marks: drawMarks };
+
+  // ---- Legends ----------------------------------------------------------------------------------
+
+  function addSwatch(legend, tone, name, shape, opacity) {
+    const item = legend.append("span");
+    const svg = item.append("svg").attr("width", 16).attr("height", 14).attr("aria-hidden", "true");
+    svg.append("path").attr("d", shape || "M-7,-5H7V5H-7Z").attr("transform", "translate(8,7)")
+      .style("fill", tone).style("opacity", opacity || 1);
+    item.append("b").style("font-weight", 400).text(name);
+  }
+
+  function drawLegend(figure, element) {
+    const legend = d3.select(element);
+    if (figure.form === "ridges") {
+      addSwatch(legend, "var(--miss)", "do not collide (above)");
+      addSwatch(legend, "var(--hit)", "collide (below)");
+      return;
+    }
+    if (figure.form === "marks") {
+      addSwatch(legend, "var(--calm)", "nothing wrong");
+      addSwatch(legend, "var(--bad)", "N false negatives");
+      addSwatch(legend, "var(--toi)", "T time of impact");
+      addSwatch(legend, "var(--error)", "E errors");
+      addSwatch(legend, "rgba(var(--mild), 0.35)", "some false positives");
+      addSwatch(legend, "rgba(var(--mild), 1)", "all misses are");
+      return;
+    }
+    const seen = new Map();
+    for (const series of figure.panels.flatMap((panel) => panel.series)) {
+      if (!seen.has(series.name)) seen.set(series.name, series);
+    }
+    const bySlot = Array.from(seen).sort((a, b) => a[1].slot - b[1].slot);
+    for (const [name, series] of bySlot) {
+      const isBar = figure.form === "bars";
+      addSwatch(legend, color(series.slot + (isBar ? 1 : 0)), name, isBar ? null : symbol(series.slot, 70),
+        isSecond(series) ? 0.45 : 1);
+    }
+  }
+
+  // ---- The page ---------------------------------------------------------------------------------
+
+  function drawFigure(figure) {
+    const section = document.getElementById(figure.id);
+    const legend = section.querySelector(".legend");
+    const panels = section.querySelector(".panels");
+    legend.textContent = "";
+    panels.textContent = "";
+    drawLegend(figure, legend);
+    for (const panel of figure.panels) {
+      const element = document.createElement("figure");
+      panels.appendChild(element);
+      const heading = document.createElement("h3");
+      heading.textContent = panel.title;
+      element.appendChild(heading);
+      if (figure.y_label !== "" && figure.form !== "ridges") {
+        const axis = document.createElement("figcaption");
+        axis.textContent = `↑ ${axisTitle(figure.y_label)}`;
+        element.appendChild(axis);
+      }
+      forms[figure.form](figure, panel, element, Math.max(element.clientWidth, 280));
+      if (panel.caption !== "" && figure.form !== "marks") {
+        const caption = document.createElement("figcaption");
+        caption.textContent = panel.caption;
+        element.appendChild(caption);
+      }
+    }
+  }
+
+  const drawAll = () => figures.forEach(drawFigure);
+  drawAll();
+  let drawnWidth = window.innerWidth;
+  window.addEventListener("resize", () => {
+    if (window.innerWidth === drawnWidth) return;
+    drawnWidth = window.innerWidth;
+    drawAll();
+  });
+})();

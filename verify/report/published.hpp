@@ -1,0 +1,40 @@
+#pragma once
+
+/// \file
+/// The published numbers, as printed in Wang et al. 2021, "A Large Scale Benchmark and an
+/// Inclusion-Based Algorithm for Continuous Collision Detection": table 1 (without separation), its
+/// table of MSRF against Tight-Inclusion and, in the appendix, of FPRF against it (over the minimum
+/// separation d).
+///
+/// They were measured on another machine and on more data: 12K and 15K handcrafted queries, 18M and 41M
+/// of simulations (vertex-face, edge-edge). Of these 4,884 and one step each are public.
+
+#include <optional>
+#include <string_view>
+
+#include "exact/query.hpp"
+
+namespace touchstone::verify {
+
+/// A cell of a published table, as printed; K and M stand for thousands and millions.
+struct PublishedNumbers {
+  std::string_view microseconds;  ///< a query
+  std::string_view false_positives;
+  std::string_view false_negatives;
+};
+
+/// So many queries a published dataset has, as printed; empty if it is none.
+/// \param dataset "handcrafted" or "simulation"
+[[nodiscard]] std::string_view published_size(std::string_view dataset, Kind kind);
+
+/// What table 1 says of a method, by our name of it; nothing if it is not there.
+[[nodiscard]] std::optional<PublishedNumbers> published_field(std::string_view dataset, Kind kind,
+                                                              std::string_view method);
+
+/// What the tables over d say of a method.
+[[nodiscard]] std::optional<PublishedNumbers> published_separation(std::string_view dataset,
+                                                                   Kind kind,
+                                                                   std::string_view method,
+                                                                   double distance);
+
+}  // namespace touchstone::verify

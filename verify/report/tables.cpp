@@ -1,0 +1,225 @@
+#include "verify/report/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "verify/csv.hpp"
+#include "verify/report/published.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using Texts = std::vector<std::string>;
+using Chosen = std::vector<const Measurement*>;
+
+constexpr const char* none = "–";
+/// The separations of the published tables, in their order.
+constexpr std::array<double, 5> published_distances{1e-2, 1e-8, 1e-16, 1e-30, 1e-100};
+
+struct Meaning {
+  std::string_view column;
+  std::string_view text;
+};
+
+constexpr auto meanings = std::to_array<Meaning>({
+    {"µs",
+     "processor time a query, all queries in one call, one thread, median of the repetitions of "
+     "one "
+     "run in which the methods take turns."},
+    {"÷ certified",
+     "the same as a multiple of the certified solver's time on the same queries in the same run."},
+    {"FP, FN", "false positives and false negatives."},
+    {"late", "times of impact above the exact one."},
+    {"asked",
+     "queries that the method was asked; where they are not all, an evenly spread sample, as large "
+     "as the time allowed. Nothing is extrapolated."},
+    {"collide", "of those asked, by the oracle, for the separation and norm of the row."},
+    {"at limit",
+     "queries that the method gave up at its limit of checks (1,000,000; IRF and UIRF 100,000) and "
+     "called a collision."},
+    {"toi error",
+     "from the time that the method gives to the exact time of impact, in units of the motion's "
+     "duration; – where it gives none."},
+    {"published", "as printed, for the whole of the published data, on another machine."},
+});
+
+/// A group of queries, as tables and figures name it.
+using Place = std::pair<std::string, Kind>;
+
+std::vector<Place> places_of(const Chosen& measurements) {
+  std::vector<Place> places;
+  for (const Measurement* m : measurements) {
+    const Place place{m->group, m->kind};
+    if (std::ranges::find(places, place) == places.end()) places.push_back(place);
+  }
+  return places;
+}
+
+std::string microseconds(double nanoseconds) { return short_number(nanoseconds / 1000.0); }
+
+std::string asked_text(const Measurement& m) {
+  return m.asked == m.group_queries ? fmt::format("{}", m.asked)
+                                    : fmt::format("{} of {}", m.asked, m.group_queries);
+}
+
+void append(Texts& row, std::initializer_list<std::string> texts) {
+  row.insert(row.end(), texts.begin(), texts.end());
+}
+
+void append_published(Texts& row, const std::optional<PublishedNumbers>& numbers) {
+  if (!numbers) return append(row, {none, none, none});
+  append(row, {std::string(numbers->microseconds), std::string(numbers->false_positives),
+               std::string(numbers->false_negatives)});
+}
+
+void append_published_columns(Texts& columns, const Place& place) {
+  const std::string_view size = published_size(place.first, place.second);
+  if (size.empty()) return;
+  append(columns, {fmt::format("published ({}) µs", size), "published FP", "published FN"});
+}
+
+void append_ours(Texts& row, const Measurement& m) {
+  append(row, {microseconds(m.nanoseconds), short_number(m.nanoseconds / m.certified_nanoseconds),
+               fmt::format("{}", m.false_positives), fmt::format("{}", m.false_negatives),
+               fmt::format("{}", m.late_tois), asked_text(m), fmt::format("{}", m.collisions),
+               fmt::format("{}", m.at_limit)});
+}
+
+const Texts& columns_of_ours() {
+  static const Texts columns{"µs",   "÷ certified", "FP",      "FN",
+                             "late", "asked",       "collide", "at limit"};
+  return columns;
+}
+
+Table field_table(const Chosen& measurements, const Place& place) {
+  Table table;
+  table.title = fmt::format("{}, {}", place.first, to_string(place.second));
+  table.columns = {"method"};
+  std::ranges::copy(columns_of_ours(), std::back_inserter(table.columns));
+  append(table.columns, {"toi error, median", "toi error, max"});
+  append_published_columns(table.columns, place);
+  const bool is_published = !published_size(place.first, place.second).empty();
+  for (const Measurement* m : measurements) {
+    if (Place(m->group, m->kind) != place) continue;
+    Texts& row = table.rows.emplace_back();
+    row.push_back(m->method);
+    append_ours(row, *m);
+    append(row, {m->toi_error ? short_number(m->toi_error->median) : none,
+                 m->toi_error ? short_number(m->toi_error->max) : none});
+    if (is_published) append_published(row, published_field(place.first, place.second, m->method));
+  }
+  return table;
+}
+
+/// The measurements of a separation table's row group, in its order.
+Chosen at_distance(const Chosen& measurements, const Place& place, std::string_view method,
+                   double distance) {
+  static constexpr std::string_view inclusion = "tight_inclusion";
+  std::vector<std::string_view> rows{method};
+  if (method != inclusion) rows.push_back(inclusion);
+  rows.emplace_back("certified");
+  Chosen chosen;
+  for (const std::string_view wanted : rows) {
+    for (const Measurement* m : measurements) {
+      if (Place(m->group, m->kind) == place && m->method == wanted &&
+          m->separation.distance == distance) {
+        chosen.push_back(m);
+      }
+    }
+  }
+  return chosen;
+}
+
+Table separation_table(const Chosen& measurements, const Place& place, std::string_view method) {
+  Table table;
+  table.title = fmt::format("{}, {}", place.first, to_string(place.second));
+  table.columns = {"d", "method", "norm"};
+  std::ranges::copy(columns_of_ours(), std::back_inserter(table.columns));
+  append_published_columns(table.columns, place);
+  const bool is_published = !published_size(place.first, place.second).empty();
+  for (const double distance : published_distances) {
+    for (const Measurement* m : at_distance(measurements, place, method, distance)) {
+      Texts& row = table.rows.emplace_back();
+      append(row, {fmt::format("{:.0e}", distance), m->method,
+                   m->separation.norm == Norm::linf ? "L∞" : "L2"});
+      append_ours(row, *m);
+      if (is_published) {
+        append_published(row, published_separation(place.first, place.second, m->method, distance));
+      }
+    }
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<std::string> column_meanings() {
+  std::vector<std::string> texts;
+  for (const auto& [column, meaning] : meanings) {
+    texts.push_back(fmt::format("{}: {}", column, meaning));
+  }
+  return texts;
+}
+
+std::vector<Table> field_tables(const Measurements& measurements) {
+  const Chosen chosen = of_experiment(measurements, Experiment::field);
+  std::vector<Table> tables;
+  for (const Place& place : places_of(chosen)) tables.push_back(field_table(chosen, place));
+  return tables;
+}
+
+std::vector<Table> separation_tables(const Measurements& measurements, std::string_view method) {
+  const Chosen chosen = of_experiment(measurements, Experiment::separation);
+  Chosen of_method;
+  std::ranges::copy_if(chosen, std::back_inserter(of_method),
+                       [&](const Measurement* m) { return m->method == method; });
+  std::vector<Table> tables;
+  for (const Place& place : places_of(of_method)) {
+    tables.push_back(separation_table(chosen, place, method));
+  }
+  return tables;
+}
+
+std::string short_number(double value) {
+  if (std::isnan(value)) return none;
+  if (std::abs(value) >= 1000.0 && std::abs(value) < 1e9) return fmt::format("{:.0f}", value);
+  return fmt::format("{:.3g}", value);
+}
+
+std::string to_markdown(const Table& table) {
+  const auto line = [](const Texts& texts) {
+    std::string result = "|";
+    for (const std::string& text : texts) {
+      result += ' ';
+      for (const char c : text) result += c == '|' ? "\\|" : std::string(1, c);
+      result += " |";
+    }
+    return result + "\n";
+  };
+  std::string text = line(table.columns);
+  text += line(Texts(table.columns.size(), "---"));
+  for (const Texts& row : table.rows) text += line(row);
+  return text;
+}
+
+std::string to_csv(const Table& table) {
+  std::string text;
+  const auto add = [&](const Texts& texts) {
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      text += i == 0 ? "" : ",";
+      text += csv_field(texts[i]);
+    }
+    text += "\r\n";
+  };
+  add(table.columns);
+  for (const Texts& row : table.rows) add(row);
+  return text;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,47 @@
+#pragma once
+
+/// \file
+/// The tables of a report: the paper's table 1 and its tables over the minimum separation, the
+/// published numbers beside ours where the data are those of the paper. The page and docs/results.md
+/// show the same tables.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "verify/report/measurement.hpp"
+
+namespace touchstone::verify {
+
+/// A table of texts.
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// What the columns of the tables below mean, one sentence a line of text.
+[[nodiscard]] std::vector<std::string> column_meanings();
+
+/// Table 1, one for each group and kind: a row a method with its time, that as a multiple of the
+/// certified solver's on the same queries, how many queries were asked, the counts of the judge, how many
+/// reached the limit of checks, and the error of the time of impact. A group named "handcrafted" or
+/// "simulation" has the published numbers too.
+[[nodiscard]] std::vector<Table> field_tables(const Measurements& measurements);
+
+/// The tables over d, one for each group and kind: of `method` beside Tight-Inclusion and the certified
+/// solver, in which each is judged in its own norm, and the certified solver in both. Empty without
+/// measurements of the method.
+[[nodiscard]] std::vector<Table> separation_tables(const Measurements& measurements,
+                                                   std::string_view method);
+
+/// "12.3", "0.00456", "12300": three digits, more for whole numbers from 1000; "–" for NaN.
+[[nodiscard]] std::string short_number(double value);
+
+/// As a table of Markdown, with "|" escaped.
+[[nodiscard]] std::string to_markdown(const Table& table);
+
+/// As RFC 4180 has it, the first record being the columns.
+[[nodiscard]] std::string to_csv(const Table& table);
+
+}  // namespace touchstone::verify
