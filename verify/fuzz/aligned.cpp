@@ -28,7 +28,7 @@ struct Track {
   /// How far above that solvers compute it to be, in 64ths.
   [[nodiscard]] std::int64_t error(std::int64_t n) const {
     const double t = static_cast<double>(n) / parts;
-    const double a = static_cast<double>(start), b = static_cast<double>(end);
+    const auto a = static_cast<double>(start), b = static_cast<double>(end);
     return parts * static_cast<std::int64_t>(a * (1.0 - t) + b * t) - at(n);
   }
 };
