@@ -161,6 +161,7 @@ Table separation_table(const Chosen& measurements, const Place& place, std::stri
 
 std::vector<std::string> column_meanings() {
   std::vector<std::string> texts;
+  texts.reserve(meanings.size());
   for (const auto& [column, meaning] : meanings) {
     texts.push_back(fmt::format("{}: {}", column, meaning));
   }

@@ -71,7 +71,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 /// The section of a figure in a document.
 std::string section(const std::string& dom, const std::string& id) {
-  const std::size_t start = dom.find("<section class=\"figure\" id=\"" + id + "\">");
+  const std::size_t start = dom.find(R"(<section class="figure" id=")" + id + "\">");
   if (start == std::string::npos) return {};
   return dom.substr(start, dom.find("</section>", start) - start);
 }

@@ -35,7 +35,7 @@ TEST(Page, HoldsTheFiguresAsTheScriptReadsThem) {
   const Measurements measurements = tests::small_report();
   const std::string page = report_page(measurements);
   const std::string json =
-      between(page, "<script type=\"application/json\" id=\"figures\">", "</script>");
+      between(page, R"(<script type="application/json" id="figures">)", "</script>");
   EXPECT_EQ(nlohmann::json::parse(json), to_json(figures_of(measurements)));
   for (const Figure& figure : figures_of(measurements)) {
     EXPECT_TRUE(contains(page, "<section class=\"figure\" id=\"" + figure.id + "\">"));

@@ -19,6 +19,7 @@ namespace {
 /// Vertices over a triangle, every second of which falls through it.
 std::vector<QueryGroup> falling() {
   std::vector<Query> queries;
+  queries.reserve(20);
   for (int i = 0; i < 20; ++i) {
     queries.push_back(tests::over_triangle(1, 1, 1, i % 2 == 0 ? -1.0 : 0.5).query);
   }
