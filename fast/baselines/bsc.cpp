@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <stdexcept>
-#include <string_view>
 
 #include "fast/baselines/bernstein.hpp"
 #include "fast/baselines/exact_number.hpp"
@@ -127,16 +126,6 @@ bool collides_exactly(Kind kind, const Query& query) {
   return SignClassification(kind, points).collides();
 }
 
-class BscMethod final : public Method {
- public:
-  [[nodiscard]] std::string_view name() const override { return "bsc"; }
-  [[nodiscard]] Promise promise() const override { return Promise::none; }
-  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
-             const MethodOptions& /*options*/) const override {
-    baselines::answer_each(kind, queries, answers, bsc_collides);
-  }
-};
-
 }  // namespace
 
 bool bsc_collides(Kind kind, const Query& query) {
@@ -149,6 +138,8 @@ bool bsc_collides(Kind kind, const Query& query) {
   return collides || collides_exactly(kind, query);
 }
 
-std::unique_ptr<Method> bsc_method() { return std::make_unique<BscMethod>(); }
+std::unique_ptr<Method> bsc_method() {
+  return std::make_unique<baselines::VerdictMethod>("bsc", bsc_collides);
+}
 
 }  // namespace touchstone::fast

@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <string_view>
 
 #include "fast/baselines/exact_number.hpp"
 #include "fast/baselines/planar_overlap.hpp"
@@ -390,16 +389,6 @@ bool has_odd_crossings(const Query& query, const Boundary& boundary,
   return has_odd_crossings(query, boundary, corners);
 }
 
-class RpMethod final : public Method {
- public:
-  [[nodiscard]] std::string_view name() const override { return "rp"; }
-  [[nodiscard]] Promise promise() const override { return Promise::none; }
-  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
-             const MethodOptions& /*options*/) const override {
-    baselines::answer_each(kind, queries, answers, rp_collides);
-  }
-};
-
 }  // namespace
 
 bool rp_collides(Kind kind, const Query& query) {
@@ -407,6 +396,8 @@ bool rp_collides(Kind kind, const Query& query) {
   return collides_by_parity(kind, query);
 }
 
-std::unique_ptr<Method> rp_method() { return std::make_unique<RpMethod>(); }
+std::unique_ptr<Method> rp_method() {
+  return std::make_unique<baselines::VerdictMethod>("rp", rp_collides);
+}
 
 }  // namespace touchstone::fast

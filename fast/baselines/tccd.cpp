@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <functional>
-#include <string_view>
 
 #include "fast/baselines/bernstein.hpp"
 #include "fast/baselines/error_bounded.hpp"
@@ -173,16 +172,6 @@ bool has_contact_beside_inflection(const Cubic& k, const Inside& inside) {
   return touches(cubics.before, &Parts<4>::before) || touches(cubics.after, &Parts<4>::after);
 }
 
-class TccdMethod final : public Method {
- public:
-  [[nodiscard]] std::string_view name() const override { return "tccd"; }
-  [[nodiscard]] Promise promise() const override { return Promise::none; }
-  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
-             const MethodOptions& /*options*/) const override {
-    baselines::answer_each(kind, queries, answers, tccd_collides);
-  }
-};
-
 }  // namespace
 
 bool tccd_collides(Kind kind, const Query& query) {
@@ -201,6 +190,8 @@ bool tccd_collides(Kind kind, const Query& query) {
                                       : has_contact(k, inside, course);
 }
 
-std::unique_ptr<Method> tccd_method() { return std::make_unique<TccdMethod>(); }
+std::unique_ptr<Method> tccd_method() {
+  return std::make_unique<baselines::VerdictMethod>("tccd", tccd_collides);
+}
 
 }  // namespace touchstone::fast

@@ -7,22 +7,18 @@
 /// The published comparison wraps every method and turns whatever it throws into "collision". That
 /// decides most answers of some methods (bsc.hpp), so it is reproduced here.
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <memory>
 #include <new>
 #include <span>
+#include <string_view>
 
 #include "exact/query.hpp"
+#include "fast/baselines/method_support.hpp"
 #include "fast/floating_point_state.hpp"
 #include "fast/method.hpp"
 
 namespace touchstone::fast::baselines {
-
-/// Is no coordinate infinite or NaN?
-[[nodiscard]] inline bool is_finite(const Query& query) {
-  return std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); });
-}
 
 /// The verdict of `collides(kind, query)`: error where a coordinate is not finite, yes where it throws.
 /// \throws std::bad_alloc if that is what it throws.
@@ -48,5 +44,24 @@ void answer_each(Kind kind, std::span<const Query> queries, std::span<Answer> an
     answers[i] = {.verdict = verdict_of(kind, queries[i], collides)};
   }
 }
+
+/// A method of verdicts alone, which promises nothing and has no use for options.
+class VerdictMethod final : public Method {
+ public:
+  using Collides = bool (*)(Kind, const Query&);
+
+  VerdictMethod(std::string_view name, Collides collides) : name_(name), collides_(collides) {}
+
+  [[nodiscard]] std::string_view name() const override { return name_; }
+  [[nodiscard]] Promise promise() const override { return Promise::none; }
+  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
+             const MethodOptions& /*options*/) const override {
+    answer_each(kind, queries, answers, collides_);
+  }
+
+ private:
+  std::string_view name_;
+  Collides collides_;
+};
 
 }  // namespace touchstone::fast::baselines

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -231,16 +230,6 @@ std::vector<Patch> sides(Kind kind, const Query& query) {
   return patches;
 }
 
-class RrpMethod final : public fast::Method {
- public:
-  [[nodiscard]] std::string_view name() const override { return "rrp"; }
-  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
-  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
-             const fast::MethodOptions& /*options*/) const override {
-    fast::baselines::answer_each(kind, queries, answers, rrp_collides);
-  }
-};
-
 }  // namespace
 
 bool rrp_collides(Kind kind, const Query& query) {
@@ -256,6 +245,8 @@ bool rrp_collides(Kind kind, const Query& query) {
   return hit == Hit::crosses || hit == Hit::on_surface;
 }
 
-std::unique_ptr<fast::Method> rrp_method() { return std::make_unique<RrpMethod>(); }
+std::unique_ptr<fast::Method> rrp_method() {
+  return std::make_unique<fast::baselines::VerdictMethod>("rrp", rrp_collides);
+}
 
 }  // namespace touchstone::verify
