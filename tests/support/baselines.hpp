@@ -9,8 +9,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ostream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "exact/number.hpp"
@@ -24,23 +26,21 @@
 
 namespace touchstone::tests {
 
+/// A query printed in the appendices of Wang et al. 2021, by the name of its family.
+[[nodiscard]] inline PosedQuery printed_query(std::string_view family) {
+  const auto known = verify::make_query(verify::family_from_name(family), Kind::vertex_face, 1, 0);
+  return {Kind::vertex_face, known.query};
+}
+
 /// H, the hourglass: two vertices of a sinking face exchange places. Contact at 0.9 (up to the
-/// rounding of 0.1), and at 0.5 the face is degenerate. (Wang et al. 2021, appendix.)
-[[nodiscard]] inline PosedQuery printed_hourglass() {
-  return vertex_face({0.1, 0.1, 0.1, 0, 0, 1, 1, 0, 1, 0, 1, 1},
-                     {0.1, 0.1, 0.1, 0, 0, 0, 0, 1, 0, 1, 0, 0});
-}
+/// rounding of 0.1), and at 0.5 the face is degenerate.
+[[nodiscard]] inline PosedQuery printed_hourglass() { return printed_query("hourglass"); }
 
-/// I, the inflection: coplanar twice, never in contact. (Ibid.)
-[[nodiscard]] inline PosedQuery printed_inflection() {
-  return vertex_face({1, 1, 0, 0, 0, 5, 2, 0, 2, 0, 1, 0}, {1, 1, 0, 0, 0, -1, 0, 0, -2, 0, 7, 0});
-}
+/// I, the inflection: coplanar twice, never in contact.
+[[nodiscard]] inline PosedQuery printed_inflection() { return printed_query("inflection"); }
 
-/// C: motion in a plane; the vertex meets a corner of the face at 7/29 (about). (Ibid.)
-[[nodiscard]] inline PosedQuery printed_coplanar() {
-  return vertex_face({1, 0.5, 1, 0, 0.57, 1, 1, 0.57, 1, 1, 1.57, 1},
-                     {1, 0.5, 1, 0, 0.28, 1, 1, 0.28, 1, 1, 1.28, 1});
-}
+/// C: motion in a plane; the vertex meets a corner of the face at 7/29 (about).
+[[nodiscard]] inline PosedQuery printed_coplanar() { return printed_query("sliding-degenerate"); }
 
 [[nodiscard]] inline fast::Answer answer_to(const fast::Method& method, const PosedQuery& posed,
                                             const fast::MethodOptions& options = {}) {
@@ -100,6 +100,13 @@ struct Score {
   int undecided = 0;
   int errors = 0;
 
+  /// Of a method that says yes or no and nothing else.
+  void count(bool collides, bool yes) {
+    ++(collides ? hits : misses);
+    false_negatives += collides && !yes ? 1 : 0;
+    false_positives += !collides && yes ? 1 : 0;
+  }
+
   void add(const exact::Verdict& truth, const fast::Answer& answer) {
     (truth.collides() ? hits : misses) += 1;
     if (answer.verdict == fast::Verdict::error) ++errors;
@@ -114,6 +121,11 @@ struct Score {
         truth.impact->toi < exact::Rational(answer.toi_lower)) {
       ++late;
     }
+  }
+
+  friend std::ostream& operator<<(std::ostream& out, const Score& score) {
+    return out << score.hits << " hits with " << score.false_negatives << " FN, " << score.misses
+               << " misses with " << score.false_positives << " FP";
   }
 };
 

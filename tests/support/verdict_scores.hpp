@@ -1,37 +1,22 @@
 #pragma once
 
 /// \file
-/// How the tests of baselines count wrong answers: against the oracle, on the queries that the
-/// published comparison prints, on random ones and on the public data.
+/// What the tests of baselines that give verdicts alone add to baselines.hpp.
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <ostream>
-#include <string_view>
 
 #include "exact/oracle.hpp"
-#include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "tests/support/public_data.hpp"
+#include "tests/support/baselines.hpp"
 #include "tests/support/queries.hpp"
-#include "verify/families/families.hpp"
 
 namespace touchstone::tests {
-
-/// A query printed in the appendices of Wang et al. 2021, by the name of its family: "hourglass" (a
-/// hit), "inflection" (a miss), "sliding-degenerate" (a hit).
-[[nodiscard]] inline PosedQuery printed_query(std::string_view family) {
-  const auto known = verify::make_query(verify::family_from_name(family), Kind::vertex_face, 1, 0);
-  return {Kind::vertex_face, known.query};
-}
 
 /// The method's verdict on one query.
 [[nodiscard]] inline fast::Verdict verdict_of(const fast::Method& method, const PosedQuery& posed,
                                               const fast::MethodOptions& options = {}) {
-  std::array<fast::Answer, 1> answer;
-  method.solve(posed.kind, {&posed.query, 1}, answer, options);
-  return answer[0].verdict;
+  return answer_to(method, posed, options).verdict;
 }
 
 /// Does it say yes? (Or cannot say, which counts as yes.)
@@ -43,24 +28,6 @@ namespace touchstone::tests {
 [[nodiscard]] inline bool truly_collides(const PosedQuery& posed) {
   return exact::decide(posed.kind, posed.query).collides();
 }
-
-/// What there was and what was wrong.
-struct Score {
-  int hits = 0;
-  int misses = 0;
-  int false_negatives = 0;
-  int false_positives = 0;
-
-  void count(bool collides, bool yes) {
-    ++(collides ? hits : misses);
-    false_negatives += collides && !yes ? 1 : 0;
-    false_positives += !collides && yes ? 1 : 0;
-  }
-  friend std::ostream& operator<<(std::ostream& out, const Score& score) {
-    return out << score.hits << " hits with " << score.false_negatives << " FN, " << score.misses
-               << " misses with " << score.false_positives << " FP";
-  }
-};
 
 /// The score on `count` random queries of a family of tests/support/queries.hpp.
 [[nodiscard]] inline Score score_on(const fast::Method& method, Kind kind, Family family,
@@ -76,17 +43,7 @@ struct Score {
 
 /// The score on the public handcrafted queries of a kind; nothing where they are missing.
 [[nodiscard]] inline Score score_on_handcrafted(const fast::Method& method, Kind kind) {
-  Score score;
-  for (const auto& file : public_datasets()) {
-    if (file.string().find("handcrafted") == std::string::npos) continue;
-    const auto source = verify::open_dataset(file);
-    if (source->kind() != kind) continue;
-    while (const auto recorded = source->next()) {
-      const PosedQuery posed{kind, recorded->query};
-      score.count(truly_collides(posed), says_yes(method, posed));
-    }
-  }
-  return score;
+  return score_on_public_data(method, {}, "handcrafted", kind, 1);
 }
 
 /// 1 + 2^-60, rounded in the mode that this thread's SSE unit has (which std::fegetround does not
