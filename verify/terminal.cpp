@@ -5,18 +5,36 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <utility>
 
 namespace touchstone::verify {
 namespace {
 
 std::atomic<bool> interrupt_flag = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+std::atomic<std::int64_t> interrupt_time = 0;  // 0: none yet
+static_assert(std::atomic<bool>::is_always_lock_free &&
+                  std::atomic<std::int64_t>::is_always_lock_free,
+              "a signal handler may touch nothing else");
+
+/// Of a clock that only goes forward, and that a signal handler may read.
+std::int64_t milliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
+}
 
 extern "C" void on_signal(int signal) {
-  interrupt_flag = true;
-  std::signal(signal, SIG_DFL);
+  const std::int64_t now = milliseconds();
+  std::int64_t first = 0;
+  if (interrupt_time.compare_exchange_strong(first, now)) {
+    interrupt_flag = true;
+  } else if (now - first >= same_interrupt_milliseconds) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
 }
 
 }  // namespace

@@ -38,8 +38,13 @@ class ProgressBar {
 /// The line that a progress bar draws: title, bar of 30 characters, percentage, seconds left.
 [[nodiscard]] std::string progress_line(const std::string& title, double fraction, double seconds);
 
+/// Signals closer than this to the first one are the same interrupt: timeout(1) and some shells send
+/// each to the process and to its group.
+inline constexpr int same_interrupt_milliseconds = 200;
+
 /// Turns true at the first interrupt or termination signal after this function was first called;
-/// the second one ends the process at once, as if the function had never been called.
+/// the next one (later than `same_interrupt_milliseconds`) ends the process at once, as if the
+/// function had never been called.
 [[nodiscard]] const std::atomic<bool>& interrupted();
 
 }  // namespace touchstone::verify

@@ -38,10 +38,20 @@ TEST(Terminal, FirstInterruptSetsTheFlagSecondOneEndsTheProcess) {
     if (flag) _exit(2);
     std::raise(SIGINT);
     if (!flag) _exit(3);
+    std::this_thread::sleep_for(std::chrono::milliseconds(same_interrupt_milliseconds + 1));
     std::raise(SIGINT);
     _exit(4);
   };
   EXPECT_EXIT(interrupt_twice(), ::testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(Terminal, InterruptsAtOnceAreOne) {
+  const auto interrupt_thrice = [] {
+    const std::atomic<bool>& flag = interrupted();
+    for (int i = 0; i < 3; ++i) std::raise(i == 1 ? SIGTERM : SIGINT);
+    _exit(flag ? 0 : 1);
+  };
+  EXPECT_EXIT(interrupt_thrice(), ::testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
