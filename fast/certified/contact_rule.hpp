@@ -68,6 +68,8 @@ template <class Number>
 struct Motion {
   Kind kind = Kind::vertex_face;
   MovingVector<Number> r, p, q;
+  /// The coordinates of an axis are in units of 2^this: of no matter but for guesses.
+  std::array<int, 3> unit{};
 };
 
 template <class Number, std::size_t size>
@@ -134,22 +136,33 @@ template <class Number>
   return sum;
 }
 
-/// Component k of N, U and V, and what theorem 1 says of it.
-template <class Number>
+/// Component k of N and of its bounds, the first of which are U and V.
+template <class AnyForm>
 struct Bounds {
-  Form<Square<Number>, 2> n, u, v;
-  std::array<Form<Square<Number>, 2>, 4> bound;
+  AnyForm n;
+  std::array<AnyForm, 4> bound;
   std::size_t count = 0;  ///< of bounds
 };
 
+/// Theorem 1 at a time when D = 0 and this component of N, n, is not: does every bound have its sign
+/// or 0? `sign_of` gives the sign of a form at that time.
+template <class AnyForm, class SignOf>
+[[nodiscard]] bool is_in_bounds(const Bounds<AnyForm>& in, int sign_of_n, SignOf&& sign_of) {
+  for (std::size_t i = 0; i < in.count; ++i) {
+    if (sign_of(in.bound[i]) * sign_of_n < 0) return false;
+  }
+  return true;
+}
+
 template <class Number>
-[[nodiscard]] Bounds<Number> bounds(const Motion<Number>& motion, const Form<Square<Number>, 2>& n,
-                                    std::size_t k) {
+[[nodiscard]] Bounds<Form<Square<Number>, 2>> bounds(const Motion<Number>& motion,
+                                                     const Form<Square<Number>, 2>& n,
+                                                     std::size_t k) {
   const auto u = cross(motion.r, motion.q, k), v = cross(motion.p, motion.r, k);
   if (motion.kind == Kind::vertex_face) {
-    return {n, u, v, {u, v, difference(difference(n, u), v), {}}, 3};
+    return {n, {u, v, difference(difference(n, u), v), {}}, 3};
   }
-  return {n, u, v, {u, v, difference(n, u), difference(n, v)}, 4};
+  return {n, {u, v, difference(n, u), difference(n, v)}, 4};
 }
 
 /// A corner of the polygon.
@@ -173,16 +186,19 @@ template <class Number>
 }
 
 /// (u,v) = (u/denominator, v/denominator); (0,0) where the denominator is 0.
-template <class Number>
+template <class AnyForm>
 struct ContactForms {
-  Form<Square<Number>, 2> u, v, denominator;
+  AnyForm u, v, denominator;
 };
+/// Of a motion in these numbers.
+template <class Number>
+using ContactOf = ContactForms<Form<Square<Number>, 2>>;
 
 /// (u,v) of the origin on the side from a to b, which lie on one line through it: it divides the
 /// side as w_a·(w_a − w_b) to w_b·(w_b − w_a).
 template <class Number>
-[[nodiscard]] ContactForms<Number> contact_on_side(const MovingCorner<Number>& a,
-                                                   const MovingCorner<Number>& b) {
+[[nodiscard]] ContactOf<Number> contact_on_side(const MovingCorner<Number>& a,
+                                                const MovingCorner<Number>& b) {
   const auto side = difference(b.w, a.w);
   const auto weight_a = dot(b.w, side), weight_b = dot(difference(a.w, b.w), a.w);
   const auto weighted = [&](bool at_a, bool at_b) {
@@ -198,8 +214,8 @@ template <class Number>
 
 /// Theorem 1 where N = 0.
 template <class Number, class SignOf>
-[[nodiscard]] std::optional<ContactForms<Number>> contact_on_line(const Motion<Number>& motion,
-                                                                  SignOf&& sign_of) {
+[[nodiscard]] std::optional<ContactOf<Number>> contact_on_line(const Motion<Number>& motion,
+                                                               SignOf&& sign_of) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (sign_of(cross(motion.r, motion.q, k)) != 0) return std::nullopt;
     if (sign_of(cross(motion.p, motion.r, k)) != 0) return std::nullopt;
@@ -214,20 +230,17 @@ template <class Number, class SignOf>
   return std::nullopt;
 }
 
-/// Theorem 1 at a time when D = 0. `sign_of` gives the sign of a quadratic form at that time; the
-/// first of `axes` with N_k ≠ 0 is taken for k.
+/// Theorem 1 at a time when D = 0. `sign_of` gives the sign of a quadratic form at that time.
 template <class Number, class SignOf>
-[[nodiscard]] std::optional<ContactForms<Number>> contact_in_plane(
-    const Motion<Number>& motion, const MovingNormal<Number>& normal, SignOf&& sign_of,
-    const std::array<std::size_t, 3>& axes = {0, 1, 2}) {
-  for (const std::size_t k : axes) {
+[[nodiscard]] std::optional<ContactOf<Number>> contact_in_plane(const Motion<Number>& motion,
+                                                                const MovingNormal<Number>& normal,
+                                                                SignOf&& sign_of) {
+  for (std::size_t k = 0; k < 3; ++k) {
     const int orientation = sign_of(normal[k]);
     if (orientation == 0) continue;
-    const Bounds<Number> in = bounds(motion, normal[k], k);
-    for (std::size_t i = 0; i < in.count; ++i) {
-      if (sign_of(in.bound[i]) * orientation < 0) return std::nullopt;
-    }
-    return ContactForms<Number>{in.u, in.v, in.n};
+    const auto in = bounds(motion, normal[k], k);
+    if (!is_in_bounds(in, orientation, sign_of)) return std::nullopt;
+    return ContactOf<Number>{in.bound[0], in.bound[1], in.n};
   }
   return contact_on_line(motion, sign_of);
 }
@@ -243,7 +256,7 @@ template <class Number>
   };
   for (std::size_t k = 0; k < 3; ++k) {
     if (!add(normal[k])) continue;
-    const Bounds<Number> in = bounds(motion, normal[k], k);
+    const auto in = bounds(motion, normal[k], k);
     for (std::size_t i = 0; i < in.count; ++i) add(in.bound[i]);
     return events;
   }

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 
 #include "fast/certified/big_integer.hpp"
@@ -22,10 +21,13 @@ namespace {
 
 using namespace exact_stage;
 
-/// Coordinates below 2^60 have differences below 2^61, and so on.
-constexpr int one_limb_bits = 60, two_limb_bits = 124;
+/// Coordinates below 2^28 have differences below 2^29, and so on.
+constexpr int short_bits = 28, one_limb_bits = 60, two_limb_bits = 124;
 
-/// numerator · 2^exponent.
+/// Of a double.
+constexpr int significand_bits = 53;
+
+/// numerator · 2^exponent, the numerator's magnitude below 2^53.
 struct Scaled {
   std::int64_t numerator;
   int exponent;
@@ -33,11 +35,11 @@ struct Scaled {
 
 /// A finite double, taken apart by its bits.
 Scaled scaled(double x) {
-  constexpr unsigned significand_bits = 52, exponent_bits = 11;
+  constexpr unsigned stored_bits = significand_bits - 1, exponent_bits = 11;
   const auto bits = std::bit_cast<std::uint64_t>(x);
-  const auto biased = static_cast<int>((bits >> significand_bits) & ((1U << exponent_bits) - 1));
-  auto significand = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << significand_bits) - 1));
-  if (biased != 0) significand |= std::int64_t{1} << significand_bits;
+  const auto biased = static_cast<int>((bits >> stored_bits) & ((1U << exponent_bits) - 1));
+  auto significand = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << stored_bits) - 1));
+  if (biased != 0) significand |= std::int64_t{1} << stored_bits;
   return {(bits >> 63U) != 0 ? -significand : significand, std::max(biased, 1) - 1075};
 }
 
@@ -57,10 +59,10 @@ Axis axis_of(const Query& query, std::size_t axis) {
     for (std::size_t i = 0; i < moving_points; ++i) {
       const Scaled x = result.x[end][i] = scaled(query.at(end, i, axis));
       if (x.numerator == 0) continue;
-      const auto magnitude = static_cast<std::uint64_t>(std::abs(x.numerator));
-      result.lowest = std::min(result.lowest, x.exponent + std::countr_zero(magnitude));
-      result.highest =
-          std::max(result.highest, x.exponent + static_cast<int>(std::bit_width(magnitude)));
+      // As many zeros as its magnitude ends in.
+      const int zeros = std::countr_zero(static_cast<std::uint64_t>(x.numerator));
+      result.lowest = std::min(result.lowest, x.exponent + zeros);
+      result.highest = std::max(result.highest, x.exponent + significand_bits);
     }
   }
   if (result.lowest == none) result.lowest = result.highest = 0;
@@ -84,6 +86,7 @@ Motion<Number> motion_of(Kind kind, const std::array<Axis, 3>& axes) {
   motion.kind = kind;
   const std::array<MovingVector<Number>*, 3> vectors{&motion.r, &motion.p, &motion.q};
   for (std::size_t k = 0; k < 3; ++k) {
+    motion.unit[k] = axes[k].lowest;
     for (std::size_t end = 0; end < 2; ++end) {
       std::array<Whole, moving_points> x;
       for (std::size_t i = 0; i < moving_points; ++i) {
@@ -127,7 +130,9 @@ std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64
   int bits = 0;
   for (const Axis& axis : axes) bits = std::max(bits, axis.highest - axis.lowest);
   QuickAnswer quick;
-  if (bits <= one_limb_bits) {
+  if (bits <= short_bits) {
+    quick = quick_first_impact(motion_of<ShortInteger, std::int64_t>(kind, axes), latest, step);
+  } else if (bits <= one_limb_bits) {
     quick = quick_first_impact(motion_of<FixedInteger<1>, std::int64_t>(kind, axes), latest, step);
   } else if (bits <= two_limb_bits) {
     quick =

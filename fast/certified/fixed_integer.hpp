@@ -8,6 +8,7 @@
 /// (contact_rule.hpp says how large each polynomial's coefficients are).
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,6 +24,8 @@ __extension__ typedef __int128 SignedWideLimb;
 template <std::size_t size>
 class FixedInteger {
  public:
+  static constexpr std::size_t limbs = size;
+
   constexpr FixedInteger() = default;
   constexpr explicit FixedInteger(std::int64_t value) {
     limb_.fill(value < 0 ? ~std::uint64_t{0} : 0);
@@ -85,14 +88,22 @@ class FixedInteger {
     return a * FixedInteger<2>(x) + b * FixedInteger<2>(y);
   }
 
-  /// Near the number, relative error below 2^-50: a guess.
-  [[nodiscard]] double guess() const {
-    const FixedInteger magnitude = is_negative() ? -*this : *this;
-    double value = 0.0;
-    for (std::size_t i = size; i-- > 0;) {
-      value = value * 0x1p64 + static_cast<double>(magnitude.limb_[i]);
+  /// Near the number: relative error below 2^-50, in any rounding mode. \pre below 2^1023.
+  [[nodiscard]] double rounded() const {
+    FixedInteger magnitude;
+    std::uint64_t carry = sign_mask() & 1U;
+    for (std::size_t i = 0; i < size; ++i) {
+      const WideLimb sum = WideLimb{limb_[i] ^ sign_mask()} + carry;
+      magnitude.limb_[i] = static_cast<std::uint64_t>(sum);
+      carry = static_cast<std::uint64_t>(sum >> 64U);
     }
-    return is_negative() ? -value : value;
+    std::size_t top = size - 1;
+    while (top > 0 && magnitude.limb_[top] == 0) --top;
+    auto value = static_cast<double>(magnitude.limb_[top]);
+    if (top > 0) value = value * 0x1p64 + static_cast<double>(magnitude.limb_[top - 1]);
+    // What is further below is less than 2^-64 of it.
+    for (std::size_t i = 1; i < top; ++i) value *= 0x1p64;
+    return std::copysign(value, static_cast<double>(static_cast<std::int64_t>(limb_[size - 1])));
   }
 
  private:
@@ -100,6 +111,10 @@ class FixedInteger {
   friend class FixedInteger;
 
   [[nodiscard]] bool is_negative() const { return (limb_[size - 1] >> 63U) != 0; }
+  /// All bits of a negative number, else none: signs are not for branches, nobody can predict them.
+  [[nodiscard]] std::uint64_t sign_mask() const {
+    return std::uint64_t{0} - (limb_[size - 1] >> 63U);
+  }
 
   [[nodiscard]] FixedInteger<size + 1> times_unsigned(std::uint64_t factor) const {
     FixedInteger<size + 1> product;
@@ -109,7 +124,7 @@ class FixedInteger {
       product.limb_[i] = static_cast<std::uint64_t>(sum);
       carry = static_cast<std::uint64_t>(sum >> 64U);
     }
-    product.limb_[size] = carry - (is_negative() ? factor : 0);
+    product.limb_[size] = carry - (sign_mask() & factor);
     return product;
   }
 
@@ -119,6 +134,7 @@ class FixedInteger {
       return FixedInteger<2>(SignedWideLimb{static_cast<std::int64_t>(limb_[0])} *
                              static_cast<std::int64_t>(b.limb_[0]));
     }
+    if constexpr (size == 2 && other_size == 2) return times_of_two(b);
     FixedInteger<size + other_size> product{};
     for (std::size_t i = 0; i < size; ++i) {
       std::uint64_t carry = 0;
@@ -130,24 +146,62 @@ class FixedInteger {
       product.limb_[i + other_size] = carry;
     }
     // A negative factor was read as itself plus 2^(64 limbs).
-    if (is_negative()) product.subtract_above(size, b);
-    if (b.is_negative()) product.subtract_above(other_size, *this);
+    product.subtract_above(size, b, sign_mask());
+    product.subtract_above(other_size, *this, b.sign_mask());
     return product;
   }
 
-  /// Subtracts 2^(64 limbs) times a number that is that much shorter.
+  /// Of two limbs each: the upper one is signed, and a product with it fits into two.
+  [[nodiscard]] FixedInteger<4> times_of_two(const FixedInteger<2>& b) const {
+    const auto upper = static_cast<std::int64_t>(limb_[1]);
+    const auto b_upper = static_cast<std::int64_t>(b.limb_[1]);
+    const WideLimb low = WideLimb{limb_[0]} * b.limb_[0];
+    const SignedWideLimb first =
+        SignedWideLimb{upper} * b.limb_[0] + static_cast<std::uint64_t>(low >> 64U);
+    const SignedWideLimb second =
+        SignedWideLimb{b_upper} * limb_[0] + static_cast<std::uint64_t>(first);
+    const SignedWideLimb high = SignedWideLimb{upper} * b_upper + (first >> 64U) + (second >> 64U);
+    FixedInteger<4> product;
+    product.limb_ = {static_cast<std::uint64_t>(low), static_cast<std::uint64_t>(second),
+                     static_cast<std::uint64_t>(high), static_cast<std::uint64_t>(high >> 64U)};
+    return product;
+  }
+
+  /// Subtracts 2^(64 places) times a number that is that much shorter, or 0, as the mask says.
   template <std::size_t other_size>
-  void subtract_above(std::size_t limbs, const FixedInteger<other_size>& other) {
+  void subtract_above(std::size_t places, const FixedInteger<other_size>& other,
+                      std::uint64_t mask) {
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < other_size; ++i) {
-      std::uint64_t& limb = limb_[limbs + i];
-      const WideLimb difference = WideLimb{limb} - other.limb_[i] - borrow;
+      std::uint64_t& limb = limb_[places + i];
+      const WideLimb difference = WideLimb{limb} - (other.limb_[i] & mask) - borrow;
       limb = static_cast<std::uint64_t>(difference);
       borrow = static_cast<std::uint64_t>(difference >> 64U) & 1U;
     }
   }
 
   std::array<std::uint64_t, size> limb_;
+};
+
+/// An integer whose square has one limb, and whose cube has two. \pre |value| ≤ 2^31.
+class ShortInteger {
+ public:
+  constexpr ShortInteger() = default;
+  constexpr explicit ShortInteger(std::int64_t value) : value_(value) {}
+
+  ShortInteger& operator-=(const ShortInteger& other) {
+    value_ -= other.value_;
+    return *this;
+  }
+  friend FixedInteger<1> operator*(const ShortInteger& a, const ShortInteger& b) {
+    return FixedInteger<1>(a.value_ * b.value_);
+  }
+  friend FixedInteger<2> operator*(const FixedInteger<1>& a, const ShortInteger& b) {
+    return a * FixedInteger<1>(b.value_);
+  }
+
+ private:
+  std::int64_t value_;
 };
 
 }  // namespace touchstone::fast::exact_stage

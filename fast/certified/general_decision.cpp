@@ -9,7 +9,7 @@ namespace {
 
 using BigMotion = Motion<BigInteger>;
 using Normal = MovingNormal<BigInteger>;
-using Contact = ContactForms<BigInteger>;
+using Contact = ContactOf<BigInteger>;
 
 /// What a motion's decision needs in many places.
 struct Problem {

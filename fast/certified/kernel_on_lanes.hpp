@@ -148,10 +148,10 @@ class CertifiedStages {
     far.count = 0;
     Crossings contacts, zeros;
     orientation_stage<kind, Source>(input, mixed, contacts, zeros, undecided, far, output);
-    zero_stage<kind, Source>(input, zeros, contacts, undecided, far, output);
+    Indices& hopeless = separated ? far : output.undecided;
+    zero_stages<kind, Source>(input, zeros, contacts, undecided, hopeless, far, output);
     Moving<kind> moving;
     load_moving<kind, Source>(input, undecided, moving);
-    Indices& hopeless = separated ? far : output.undecided;
     Bisection<kind>(input, moving, contacts, output.rejected, hopeless).run();
     refine<kind, Source>(input, contacts, hopeless, output);
     if constexpr (separated) {
@@ -762,29 +762,31 @@ class CertifiedStages {
 
   // ---- 4b. Around the only zero of det ----------------------------------------------------------
 
-  /// Half the length of the interval that is looked at.
-  static constexpr double half_around_zero = 0x1p-10;
+  /// Half the lengths of the intervals that are looked at: where the first is not short enough to tell,
+  /// the second may be; where it is not either, bisection would not come to an end.
+  static constexpr std::array<double, 2> halves_around_zero{0x1p-10, 0x1p-32};
 
-  /// Rounded to a multiple of 2^-20, so that it and 1 minus it are exact.
+  /// Rounded to a multiple of 2^-44, so that it and 1 minus it are exact.
   static Value to_short(const Value& time) {
-    const Value shift(0x1p32);
+    const Value shift(0x1p8);
     return (time + shift) - shift;
   }
 
+  /// \param unclear Those that cross zero in the interval, where the orientations tell nothing.
   template <Kind kind, class Source>
-  static void zero_stage(const KernelInput& input, const Crossings& zeros, Crossings& contacts,
-                         Indices& undecided, Indices& far, KernelOutput& output) {
-    Marks of_contacts, of_rejected, of_rest, of_far;
+  static void zero_stage(const KernelInput& input, double half, const Crossings& zeros,
+                         Crossings& contacts, Crossings& unclear, Indices& undecided, Indices& far,
+                         KernelOutput& output) {
+    Marks of_contacts, of_rejected, of_unclear, of_rest, of_far;
     Intervals intervals;
     Indices all;
     all.count = zeros.count;
     for (std::size_t i = 0; i < zeros.count; ++i) all.items[i] = zeros.items[i].index;
     for (std::size_t first = 0; first < zeros.count; first += width) {
       const std::size_t count = taken(first, zeros.count);
-      const Value zero =
-          CrossingLanes(zeros.items.data() + first, count).cubic.zero(half_around_zero);
-      const Value begin = to_short(max(zero - Value(half_around_zero), Value(0.0)));
-      const Value end = to_short(min(zero + Value(half_around_zero), Value(1.0)));
+      const Value zero = CrossingLanes(zeros.items.data() + first, count).cubic.zero(half);
+      const Value begin = to_short(max(zero - Value(half), Value(0.0)));
+      const Value end = to_short(min(zero + Value(half), Value(1.0)));
       const Ends unit = vectors_of<kind>(load<Source>(input, all.items.data() + first, count));
       const Examination found = examine<kind>(
           between(unit, begin, end), bounds_of<kind>(unit, Value(input.separation.distance)));
@@ -796,14 +798,30 @@ class CertifiedStages {
       const unsigned is_far = far_lanes(input, unit) & first_lanes(count);
       of_contacts.add(first, contact & ~is_far);
       of_rejected.add(first, rejected);
-      of_rest.add(first, first_lanes(count) & ~contact & ~rejected & ~is_far);
+      of_unclear.add(first, here & ~contact & ~rejected & ~is_far);
+      of_rest.add(first, first_lanes(count) & ~here & ~is_far);
       of_far.add(first, is_far & ~rejected);
     }
     of_contacts.for_each(
         [&](std::size_t place) { append(contacts, intervals.crossing(place, all.items[place])); });
+    of_unclear.for_each([&](std::size_t place) { append(unclear, zeros.items[place]); });
     append_marked(output.rejected, all, of_rejected);
     append_marked(undecided, all, of_rest);
     append_marked(far, all, of_far);
+  }
+
+  template <Kind kind, class Source>
+  static void zero_stages(const KernelInput& input, const Crossings& zeros, Crossings& contacts,
+                          Indices& undecided, Indices& hopeless, Indices& far,
+                          KernelOutput& output) {
+    Crossings unclear, still_unclear;
+    zero_stage<kind, Source>(input, halves_around_zero[0], zeros, contacts, unclear, undecided, far,
+                             output);
+    zero_stage<kind, Source>(input, halves_around_zero[1], unclear, contacts, still_unclear,
+                             hopeless, far, output);
+    for (std::size_t i = 0; i < still_unclear.count; ++i) {
+      append(hopeless, still_unclear.items[i].index);
+    }
   }
 
   // ---- 4c. Bisection ----------------------------------------------------------------------------
@@ -889,8 +907,11 @@ class CertifiedStages {
     }
 
    private:
-    /// Intervals are not halved below this length, nor more of them examined than this.
-    static constexpr double least_length = 0x1p-40;
+    /// Intervals are not halved below this length, nor more of them examined than this. What is not clear
+    /// then is less work for the exact stage.
+    static constexpr double least_length = 0x1p-12;
+    /// The same where det is not clear at an end of the interval, and so nor on any part at this end.
+    static constexpr double least_length_at_zero = 0x1p-3;
     static constexpr double most_steps = 150;
 
     using Row = std::array<double, width>;
@@ -919,14 +940,17 @@ class CertifiedStages {
           examine<kind>(between(lanes_.unit(), begin, begin + length), lanes_.bounds());
       const unsigned contact = found.has_contact().bits() & active_;
       if (contact != 0) keep_contacts(contact, begin, length, found.coefficients);
-      advance(found.has_no_contact(), contact);
+      const auto& c = found.coefficients;
+      const Mask is_at_zero = min(abs(c[0]), abs(c[3])) <= lanes_.bounds().determinant;
+      advance(found.has_no_contact(), contact,
+              select(is_at_zero, Value(least_length_at_zero), Value(least_length)));
     }
 
     // ---- What follows ----
 
     /// Goes on to the next interval where this one has no contact, to its first half elsewhere; the
     /// lanes that are done take other queries.
-    void advance(const Mask& rejected, unsigned contact) {
+    void advance(const Mask& rejected, unsigned contact, const Value& least) {
       const Value begin = load(begin_), length = load(length_), end = begin + length;
       // The next interval is as long as its place in the dyadic order allows, at most twice this.
       const Value doubled = length + length, places = end / doubled, shift(0x1p52);
@@ -935,7 +959,8 @@ class CertifiedStages {
       const Value next_length =
           select(rejected, select(can_double, doubled, length), length * Value(0.5));
       const unsigned over = (rejected & (end >= Value(input_.t_limit))).bits() & active_ & ~contact;
-      const Mask is_hopeless = (next_length < Value(least_length)) | (steps > Value(most_steps));
+      const Mask is_short = (next_length < least) & (next_length < length);
+      const Mask is_hopeless = is_short | (steps > Value(most_steps));
       const unsigned hopeless = is_hopeless.bits() & active_ & ~contact & ~over;
       select(rejected, end, begin).store(begin_.data());
       next_length.store(length_.data());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fast/certified/double_search.hpp"
+#include "fast/certified/filtered_form.hpp"
 
 namespace touchstone::fast::exact_stage {
 namespace {
@@ -18,16 +19,6 @@ namespace {
 /// A form whose coefficients have so many limbs.
 template <std::size_t limbs, std::size_t degree>
 using Fixed = Form<FixedInteger<limbs>, degree>;
-
-/// t = y/(x+y). \pre x, y ≥ 0, and x + y is positive and at most a quarter of what the type holds:
-/// then a mean of two coefficients, weighted with x and y, fits into the weight's limbs more.
-template <class Weight>
-struct BasicTime {
-  Weight x, y;
-
-  [[nodiscard]] Weight sum() const { return x + y; }
-  [[nodiscard]] double guess() const { return static_cast<double>(y) / static_cast<double>(x + y); }
-};
 
 using Time = BasicTime<std::int64_t>;
 using FineTime = BasicTime<SignedWideLimb>;
@@ -69,65 +60,33 @@ bool is_later(const Time& t, std::uint64_t bits) {
   return other ? compare(t, *other) > 0 : t.y != 0;
 }
 
-// ---- Forms by their Bernstein coefficients, times their degree ---------------------------------
+// ---- Signs on intervals ------------------------------------------------------------------------
 
-template <std::size_t limbs>
-Fixed<limbs, 2> bernstein(const Fixed<limbs, 2>& c) {
-  return {c[0] + c[0], c[1], c[2] + c[2]};
+/// The signs of the form's Bernstein coefficients on an interval that is not [0,1].
+template <std::size_t limbs, class AnyTime>
+std::array<int, 2> signs_within(const FilteredForm<limbs, 2>& b, const AnyTime& lower,
+                                const AnyTime& upper) {
+  return {b.sign(lower), b.sign(upper)};
 }
-template <std::size_t limbs>
-Fixed<limbs, 3> bernstein(const Fixed<limbs, 3>& c) {
-  return {c[0] + c[0] + c[0], c[1], c[2], c[3] + c[3] + c[3]};
+template <std::size_t limbs, class AnyTime>
+std::array<int, 3> signs_within(const FilteredForm<limbs, 3>& b, const AnyTime& lower,
+                                const AnyTime& upper) {
+  return {b.sign(lower, lower), b.sign(lower, upper), b.sign(upper, upper)};
 }
-
-/// A step of de Casteljau's: the form with one of its arguments set to a time.
-template <std::size_t limbs, std::size_t count, class Weight>
-auto blended(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& t) {
-  std::array<decltype(blend(b[0], t.x, b[0], t.y)), count - 1> result;
-  for (std::size_t i = 0; i + 1 < count; ++i) result[i] = blend(b[i], t.x, b[i + 1], t.y);
-  return result;
-}
-
-template <std::size_t limbs, std::size_t count, class Weight>
-auto value_at(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& t) {
-  if constexpr (count == 1) {
-    return b[0];
-  } else {
-    return value_at(blended(b, t), t);
-  }
+template <std::size_t limbs, class AnyTime>
+std::array<int, 4> signs_within(const FilteredForm<limbs, 4>& b, const AnyTime& lower,
+                                const AnyTime& upper) {
+  return {b.sign(lower, lower, lower), b.sign(lower, lower, upper), b.sign(lower, upper, upper),
+          b.sign(upper, upper, upper)};
 }
 
-template <std::size_t limbs, std::size_t count, class Weight>
-int sign_at(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& t) {
-  return value_at(b, t).sign();
-}
-
-/// The signs of the form's coefficients on an interval that is not [0,1].
-template <std::size_t limbs, class Weight>
-std::array<int, 2> signs_within(const Fixed<limbs, 1>& b, const BasicTime<Weight>& lower,
-                                const BasicTime<Weight>& upper) {
-  return {sign_at(b, lower), sign_at(b, upper)};
-}
-template <std::size_t limbs, class Weight>
-std::array<int, 3> signs_within(const Fixed<limbs, 2>& b, const BasicTime<Weight>& lower,
-                                const BasicTime<Weight>& upper) {
-  const auto low = blended(b, lower), high = blended(b, upper);
-  return {sign_at(low, lower), sign_at(low, upper), sign_at(high, upper)};
-}
-template <std::size_t limbs, class Weight>
-std::array<int, 4> signs_within(const Fixed<limbs, 3>& b, const BasicTime<Weight>& lower,
-                                const BasicTime<Weight>& upper) {
-  const auto low = blended(blended(b, lower), lower), high = blended(blended(b, upper), upper);
-  return {sign_at(low, lower), sign_at(low, upper), sign_at(high, lower), sign_at(high, upper)};
-}
-
-/// The signs of the form's coefficients on an interval.
-template <std::size_t limbs, std::size_t count, class Weight>
-std::array<int, count> signs_on(const std::array<FixedInteger<limbs>, count>& b,
-                                const BasicTime<Weight>& lower, const BasicTime<Weight>& upper) {
+/// The signs of the form's Bernstein coefficients on an interval.
+template <std::size_t limbs, std::size_t count, class AnyTime>
+std::array<int, count> signs_on(const FilteredForm<limbs, count>& b, const AnyTime& lower,
+                                const AnyTime& upper) {
   if (lower.y != 0 || upper.x != 0) return signs_within(b, lower, upper);
   std::array<int, count> signs;
-  for (std::size_t i = 0; i < count; ++i) signs[i] = b[i].sign();
+  for (std::size_t i = 0; i < count; ++i) signs[i] = b.coefficient_sign(i);
   return signs;
 }
 
@@ -177,19 +136,17 @@ struct Course {
   int last = 0;   ///< its sign near the upper end
 };
 
-template <std::size_t limbs, std::size_t count, class Weight>
-Course course(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& lower,
-              const BasicTime<Weight>& upper) {
+template <std::size_t limbs, std::size_t count, class AnyTime>
+Course course(const FilteredForm<limbs, count>& b, const AnyTime& lower, const AnyTime& upper) {
   auto signs = signs_on(b, lower, upper);
   const int first = first_sign(signs);
   std::ranges::reverse(signs);
   return {sign_changes(signs), first, first_sign(signs)};
 }
 
-template <std::size_t limbs, std::size_t count, class Weight>
-bool changes_sign(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& lower,
-                  const BasicTime<Weight>& upper) {
-  return sign_at(b, lower) * sign_at(b, upper) < 0;
+template <std::size_t limbs, std::size_t count, class AnyTime>
+bool changes_sign(const FilteredForm<limbs, count>& b, const AnyTime& lower, const AnyTime& upper) {
+  return b.sign_at(lower) * b.sign_at(upper) < 0;
 }
 
 /// The sign of q at the root of a linear form.
@@ -207,7 +164,8 @@ template <std::size_t limbs, std::size_t q_limbs, class Weight>
 std::optional<int> sign_by_remainder(const Fixed<limbs, 1>& line, int factor, const Course& of_f,
                                      const Fixed<q_limbs, 2>& q, const BasicTime<Weight>& lower,
                                      const BasicTime<Weight>& upper) {
-  const Course of_q = course(bernstein(q), lower, upper), of_line = course(line, lower, upper);
+  const Course of_q = course(FilteredForm(q), lower, upper);
+  const Course of_line = course(FilteredForm(line), lower, upper);
   if (of_q.changes != 1) return std::nullopt;
   int at_beta = of_line.first;
   if (of_line.changes == 1) {
@@ -235,7 +193,7 @@ std::optional<int> sign_at_root(const Fixed<f_limbs, 2>& f, const Fixed<q_limbs,
   if (q[2].sign() == 0 && q[0].sign() != 0) {
     return sign_at_root(reversed(f), reversed(q), mirrored(upper), mirrored(lower));
   }
-  return sign_by_remainder(remainder(f, q), q[2].sign(), course(bernstein(f), lower, upper), q,
+  return sign_by_remainder(remainder(f, q), q[2].sign(), course(FilteredForm(f), lower, upper), q,
                            lower, upper);
 }
 
@@ -248,7 +206,8 @@ std::optional<int> sign_at_root(const Fixed<f_limbs, 3>& f, const Fixed<q_limbs,
   }
   const Fixed<f_limbs + q_limbs, 2> g{f[0] * q[2], f[1] * q[2] - f[3] * q[0],
                                       f[2] * q[2] - f[3] * q[1]};
-  return sign_by_remainder(remainder(g, q), 1, course(bernstein(f), lower, upper), q, lower, upper);
+  return sign_by_remainder(remainder(g, q), 1, course(FilteredForm(f), lower, upper), q, lower,
+                           upper);
 }
 
 /// What is special about the roots of a cubic form.
@@ -305,20 +264,16 @@ Guesses quadratic_roots(double b0, double b1, double b2) {
   return roots;
 }
 
-template <std::size_t limbs>
-Guesses quadratic_roots(const Fixed<limbs, 2>& b) {
-  return quadratic_roots(b[0].guess(), b[1].guess(), b[2].guess());
+Guesses quadratic_roots(const std::array<double, 3>& b) {
+  return quadratic_roots(b[0], b[1], b[2]);
 }
 
-/// A root where the form changes its sign between two times.
-template <std::size_t limbs>
-double guess_root(const Fixed<limbs, 1>& b, double /*lower*/, double /*upper*/) {
-  const double b0 = b[0].guess(), b1 = b[1].guess();
-  return b0 / (b0 - b1);
+/// A root where the form of these coefficients changes its sign between two times.
+double guess_root(const std::array<double, 2>& b, double /*lower*/, double /*upper*/) {
+  return b[0] / (b[0] - b[1]);
 }
 
-template <std::size_t limbs>
-double guess_root(const Fixed<limbs, 2>& b, double lower, double upper) {
+double guess_root(const std::array<double, 3>& b, double lower, double upper) {
   const Guesses roots = quadratic_roots(b);
   for (std::size_t i = 0; i < roots.count; ++i) {
     if (roots.t[i] >= lower && roots.t[i] <= upper) return roots.t[i];
@@ -326,9 +281,7 @@ double guess_root(const Fixed<limbs, 2>& b, double lower, double upper) {
   return 0.5 * (lower + upper);
 }
 
-template <std::size_t limbs>
-double guess_root(const Fixed<limbs, 3>& form, double lower, double upper) {
-  const std::array<double, 4> b{form[0].guess(), form[1].guess(), form[2].guess(), form[3].guess()};
+double guess_root(const std::array<double, 4>& b, double lower, double upper) {
   const auto value = [&](double t) {
     const double s = 1.0 - t;
     return ((b[0] * s / 3.0 + b[1] * t) * s + b[2] * t * t) * s + b[3] * t * t * t / 3.0;
@@ -337,8 +290,10 @@ double guess_root(const Fixed<limbs, 3>& form, double lower, double upper) {
     const double s = 1.0 - t;
     return ((b[1] - b[0]) * s + 2.0 * (b[2] - b[1]) * t) * s + (b[3] - b[2]) * t * t;
   };
-  const bool rises = value(upper) > value(lower);
-  double t = 0.5 * (lower + upper);
+  const double at_lower = value(lower), at_upper = value(upper);
+  const bool rises = at_upper > at_lower;
+  double t = lower + (upper - lower) * (at_lower / (at_lower - at_upper));
+  if (!(t > lower && t < upper)) t = 0.5 * (lower + upper);
   for (int i = 0; i < 40; ++i) {
     const double at = value(t);
     ((at > 0.0) == rises ? upper : lower) = t;
@@ -351,19 +306,15 @@ double guess_root(const Fixed<limbs, 3>& form, double lower, double upper) {
 }
 
 /// Where a split may be of use: roots of quadratic events, extrema of a cubic one.
-template <std::size_t limbs>
-Guesses landmarks(const Fixed<limbs, 2>& b) {
-  return quadratic_roots(b);
-}
-template <std::size_t limbs>
-Guesses landmarks(const Fixed<limbs, 3>& b) {
-  return quadratic_roots((b[1] - b[0]).guess(), (b[2] - b[1]).guess(), (b[3] - b[2]).guess());
+Guesses landmarks(const std::array<double, 3>& b) { return quadratic_roots(b); }
+Guesses landmarks(const std::array<double, 4>& b) {
+  return quadratic_roots(b[1] - b[0], b[2] - b[1], b[3] - b[2]);
 }
 
 /// The first fraction of the continued fraction of t that is t up to rounding, if one has a small
 /// denominator.
 std::optional<Time> small_fraction(double t) {
-  constexpr double largest_denominator = 0x1p20, accuracy = 0x1p-44;
+  constexpr double largest_denominator = 0x1p12, accuracy = 0x1p-44;
   double numerator = 0.0, denominator = 1.0;            // of this convergent
   double last_numerator = 1.0, last_denominator = 0.0;  // of the one before
   double rest = t;
@@ -407,11 +358,9 @@ enum class Outcome : std::uint8_t {
 /// An event of theorem 2.
 template <std::size_t limbs, std::size_t degree>
 struct Event {
-  explicit Event(const Fixed<limbs, degree>& f) : form(f), b(f) {
-    if constexpr (degree > 1) b = bernstein(f);
-  }
+  explicit Event(const Fixed<limbs, degree>& f) : form(f), b(f) {}
   Fixed<limbs, degree> form;
-  Fixed<limbs, degree> b;  ///< by its Bernstein coefficients
+  FilteredForm<limbs, degree + 1> b;
 };
 
 /// A form with the same roots inside (0,1), each simple: a double root of c_0 x² + c_1 x y + c_2 y²
@@ -438,12 +387,12 @@ std::optional<Time> split(std::span<const Event<limbs, degree>> events, const Ti
   const double low = lower.guess(), high = upper.guess();
   double first = high, second = high;
   for (const auto& event : events) {
-    const Guesses marks = landmarks(event.b);
+    const Guesses marks = landmarks(event.b.rounded());
     for (std::size_t i = 0; i < marks.count; ++i) {
       const double t = marks.t[i];
       if (!(t > low && t < high)) continue;
       const auto fraction = small_fraction(t);
-      if (fraction && sign_at(event.b, *fraction) == 0 && is_inside(*fraction, lower, upper)) {
+      if (fraction && event.b.sign_at(*fraction) == 0 && is_inside(*fraction, lower, upper)) {
         return fraction;
       }
       if (t < first - resolution) second = std::exchange(first, t);
@@ -456,11 +405,11 @@ std::optional<Time> split(std::span<const Event<limbs, degree>> events, const Ti
   return middle;
 }
 
-/// The decision of one motion with coordinates of so many limbs.
-template <std::size_t limbs>
+/// The decision of one motion in such coordinates.
+template <class Number>
 class Decision {
  public:
-  Decision(const Motion<FixedInteger<limbs>>& motion, std::uint64_t latest, std::uint64_t step)
+  Decision(const Motion<Number>& motion, std::uint64_t latest, std::uint64_t step)
       : motion_(motion),
         latest_(latest),
         step_(std::min(step, widest_step)),
@@ -473,21 +422,24 @@ class Decision {
   }
 
  private:
-  using Quadratic = Fixed<2 * limbs, 2>;
-  using Cubic = Fixed<3 * limbs, 3>;
-  using PlaneEvent = Event<2 * limbs, 2>;
-  using SpaceEvent = Event<3 * limbs, 3>;
+  static constexpr std::size_t square_limbs = Square<Number>::limbs,
+                               cube_limbs = Cube<Number>::limbs;
+  using Quadratic = Fixed<square_limbs, 2>;
+  using Filtered = FilteredForm<square_limbs, 3>;
+  using Contact = ContactForms<Filtered>;
+  using PlaneEvent = Event<square_limbs, 2>;
+  using SpaceEvent = Event<cube_limbs, 3>;
 
   static constexpr int deepest = 12;
   /// Clusters are looked at where splitting has not separated the roots.
   static constexpr int deep = 2;
-  /// Wider enclosures would save little, and (u,v) are evaluated in them.
-  static constexpr std::uint64_t widest_step = 16;
+  /// In wider enclosures signs are less often clear, and (u,v) are interpolated in them.
+  static constexpr std::uint64_t widest_step = 1U << 12U;
 
   Outcome first() {
     if (determinant_.form[0].sign() == 0) {
       const auto contact =
-          contact_in_plane(motion_, normal_, [](const Quadratic& form) { return form[0].sign(); });
+          contact_by([](const Filtered& form) { return form.coefficient_sign(0); });
       if (contact) return found(*contact, start_time, {bits_of_zero, bits_of_zero});
     }
     const Outcome inner =
@@ -535,10 +487,11 @@ class Decision {
                                     const Time& lower, const Time& upper) {
     const auto roots = cubic_roots(events[0].form);
     if (roots.is_one && changes % 2 == 0) return Outcome::none;
-    if (changes != roots.multiplicity || !changes_sign(roots.multiple, lower, upper)) {
+    if (changes != roots.multiplicity ||
+        !changes_sign(FilteredForm(roots.multiple), lower, upper)) {
       return std::nullopt;
     }
-    return at_root(Event<6 * limbs, 1>(roots.multiple), lower, upper);
+    return at_root(Event<2 * cube_limbs, 1>(roots.multiple), lower, upper);
   }
 
   /// Where every event has one root in the open interval or none: the roots in ascending order.
@@ -561,15 +514,31 @@ class Decision {
     return Outcome::none;
   }
 
+  /// Component k of N.
+  const Filtered& n_at(std::size_t k) {
+    if (!n_[k]) n_[k].emplace(normal_[k]);
+    return *n_[k];
+  }
+
+  /// Component k of N and of the bounds.
+  const Bounds<Filtered>& bounds_at(std::size_t k) {
+    if (bounds_[k].count == 0) {
+      const auto in = bounds(motion_, normal_[k], k);
+      bounds_[k] = {n_at(k), {}, in.count};
+      for (std::size_t i = 0; i < in.count; ++i) bounds_[k].bound[i] = Filtered(in.bound[i]);
+    }
+    return bounds_[k];
+  }
+
   /// Do N_k and a bound keep opposite signs in the open interval?
   bool is_separated(const Time& lower, const Time& upper) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto on_normal = signs_on(bernstein(normal_[k]), lower, upper);
+    for (const std::size_t k : axes_at(0.5 * (lower.guess() + upper.guess()))) {
+      const auto on_normal = signs_on(n_at(k), lower, upper);
       const int orientation = first_sign(on_normal);
       if (orientation == 0 || sign_changes(on_normal) != 0) continue;
-      const auto in = bounds(motion_, normal_[k], k);
+      const auto& in = bounds_at(k);
       for (std::size_t i = 0; i < in.count; ++i) {
-        const auto on_bound = signs_on(bernstein(in.bound[i]), lower, upper);
+        const auto on_bound = signs_on(in.bound[i], lower, upper);
         if (first_sign(on_bound) == -orientation && sign_changes(on_bound) == 0) return true;
       }
       return false;
@@ -577,12 +546,28 @@ class Decision {
     return false;
   }
 
+  /// Theorem 1 at a time when D = 0; the first of `axes` with N_k ≠ 0 is taken for k.
+  template <class SignOf>
+  std::optional<Contact> contact_by(const SignOf& sign_of,
+                                    const std::array<std::size_t, 3>& axes = {0, 1, 2}) {
+    for (const std::size_t k : axes) {
+      const int orientation = sign_of(n_at(k));
+      if (orientation == 0) continue;
+      const auto& in = bounds_at(k);
+      if (!is_in_bounds(in, orientation, sign_of)) return std::nullopt;
+      return Contact{in.bound[0], in.bound[1], in.n};
+    }
+    const auto contact =
+        contact_on_line(motion_, [&](const Quadratic& form) { return sign_of(Filtered(form)); });
+    if (!contact) return std::nullopt;
+    return Contact{Filtered(contact->u), Filtered(contact->v), Filtered(contact->denominator)};
+  }
+
   /// A time that is known exactly, after 0.
   Outcome at_time(const Time& t) {
-    if (sign_at(determinant_.b, t) != 0) return Outcome::none;
+    if (determinant_.b.sign_at(t) != 0) return Outcome::none;
     if (is_later(t, latest_)) return Outcome::decided;
-    const auto contact = contact_in_plane(
-        motion_, normal_, [&](const Quadratic& form) { return sign_at(bernstein(form), t); });
+    const auto contact = contact_by([&](const Filtered& form) { return form.sign_at(t); });
     if (!contact) return Outcome::none;
     const auto is_above = [&](std::uint64_t bits) { return is_later(t, bits); };
     return found(*contact, t, enclose(t.guess(), step_, is_above));
@@ -591,9 +576,9 @@ class Decision {
   /// The only root of any event in the open interval, a simple one of this event.
   template <class AnyEvent>
   Outcome at_root(const AnyEvent& event, const Time& lower, const Time& upper) {
-    const double root = guess_root(event.b, lower.guess(), upper.guess());
+    const double root = guess_root(event.b.rounded(), lower.guess(), upper.guess());
     const auto fraction = small_fraction(root);
-    if (fraction && is_inside(*fraction, lower, upper) && sign_at(event.b, *fraction) == 0) {
+    if (fraction && is_inside(*fraction, lower, upper) && event.b.sign_at(*fraction) == 0) {
       return at_time(*fraction);
     }
     return at_irrational<Time>(event, root, lower, upper);
@@ -608,7 +593,7 @@ class Decision {
       const auto t = time_of<AnyTime>(bits);
       if (!t) beyond = true;
       if (!t || compare(*t, lower) <= 0) return true;
-      return compare(*t, upper) < 0 && sign_at(event.b, *t) == sign_below;
+      return compare(*t, upper) < 0 && event.b.sign_at(*t) == sign_below;
     };
     const BitInterval cell = enclose(root, step_, is_above);
     const bool too_late = latest_ <= cell.lower || (latest_ < cell.upper && is_above(latest_));
@@ -622,7 +607,7 @@ class Decision {
     const AnyTime low = compare(*first, lower) < 0 ? as<AnyTime>(lower) : *first;
     const bool is_within = compare(*last, upper) < 0;
     const AnyTime high = is_within ? *last : as<AnyTime>(upper);
-    const bool is_high = is_within && sign_at(event.b, high) == 0;
+    const bool is_high = is_within && event.b.sign_at(high) == 0;
     const Outcome outcome = in_cell(event, cell, low, high, is_high);
     if constexpr (std::is_same_v<AnyTime, Time>) {
       if (outcome == Outcome::unknown) return in_narrow_cell(event, cell, low, high);
@@ -635,27 +620,44 @@ class Decision {
   template <class AnyTime, class AnyEvent>
   Outcome in_cell(const AnyEvent& event, const BitInterval& cell, const AnyTime& low,
                   const AnyTime& high, bool is_high) {
-    constexpr double accuracy = 0x1p-44;
+    // The secant is good for a digit more.
+    constexpr double variation = 0x1p-41;
     bool unsure = false;
-    const auto sign_of = [&](const Quadratic& form) {
-      const auto b = bernstein(form);
-      if (is_high) return sign_at(b, high);
-      const auto signs = signs_on(b, low, high);
+    const auto sign_of = [&](const Filtered& form) {
+      if (is_high) return form.sign_at(high);
+      const auto signs = signs_on(form, low, high);
       if (sign_changes(signs) == 0) return first_sign(signs);
-      const auto sign = sign_at_root(event.form, form, low, high);
+      const auto sign = sign_at_root(event.form, form.form(), low, high);
       if (!sign) unsure = true;
       return sign.value_or(0);
     };
-    const auto contact = contact_in_plane(motion_, normal_, sign_of, axes_at(high.guess()));
+    const auto contact = contact_by(sign_of, axes_at(high.guess()));
     if (unsure) return Outcome::unknown;
     if (!contact) return Outcome::none;
     const auto [first_u, first_v] = parameters(*contact, is_high ? high : low);
     const auto [last_u, last_v] = parameters(*contact, high);
-    if (!(std::abs(first_u - last_u) + std::abs(first_v - last_v) <= accuracy)) {
+    if (!(std::abs(first_u - last_u) + std::abs(first_v - last_v) <= variation)) {
       return Outcome::unknown;
     }
-    impact_ = {cell, 0.5 * (first_u + last_u), 0.5 * (first_v + last_v)};
+    const auto value = [&](const AnyTime& t) {
+      return divided(event.b.rounded_value_at(t).value, t, event.b.degree);
+    };
+    const double part = is_high ? 1.0 : secant(value(low), value(high));
+    impact_ = {cell, first_u + part * (last_u - first_u), first_v + part * (last_v - first_v)};
     return Outcome::decided;
+  }
+
+  /// Which part of the interval is before its form's root, as a secant through these values guesses.
+  static double secant(double at_low, double at_high) {
+    const double part = at_low / (at_low - at_high);
+    return part >= 0.0 && part <= 1.0 ? part : 0.5;
+  }
+
+  /// value / sum^power
+  template <class AnyTime>
+  static double divided(double value, const AnyTime& t, std::size_t power) {
+    for (std::size_t i = 0; i < power; ++i) value /= static_cast<double>(t.sum());
+    return value;
   }
 
   /// The same between two times that are nearer to the root, as it is guessed by a secant; if need
@@ -664,16 +666,13 @@ class Decision {
   Outcome in_narrow_cell(const AnyEvent& event, const BitInterval& cell, const AnyTime& low,
                          const AnyTime& high) {
     constexpr bool again = std::is_same_v<AnyTime, Time>;
-    constexpr std::int64_t whole = std::int64_t{1} << (again ? 44U : 18U), slack = 4;
-    const auto scaled_value = [&](const AnyTime& t) {
-      double value = value_at(event.b, t).guess();
-      for (std::size_t i = 2; i < event.b.size(); ++i) value /= static_cast<double>(t.sum());
-      return value;
+    constexpr std::int64_t whole = std::int64_t{1} << (again ? 36U : 26U), slack = 4;
+    // Weights are mixed below, not times: one division less.
+    const auto value = [&](const AnyTime& t) {
+      return divided(event.b.value_at(t).rounded(), t, event.b.degree - 1);
     };
-    const double at_low = scaled_value(low), at_high = scaled_value(high);
-    const double part = at_low / (at_low - at_high) * static_cast<double>(whole);
-    if (!(part >= 0.0 && part <= static_cast<double>(whole))) return Outcome::unknown;
-    const auto weight = static_cast<std::int64_t>(part);
+    const auto weight =
+        static_cast<std::int64_t>(secant(value(low), value(high)) * static_cast<double>(whole));
     const auto mixed = [&](std::int64_t of_high) {
       const auto mix = [&](SignedWideLimb a, SignedWideLimb b) {
         return a * (whole - of_high) + b * of_high;
@@ -690,56 +689,65 @@ class Decision {
     return outcome;
   }
 
-  /// The axes, that first on which the normal's component is furthest from 0 beside its
-  /// coefficients, so that its errors are small beside it.
-  std::array<std::size_t, 3> axes_at(double t) const {
+  /// The axes, that first on which the normal's component is the greatest: along it r, p and q are seen
+  /// best, and (u,v) vary least.
+  std::array<std::size_t, 3> axes_at(double t) {
+    const auto& unit = motion_.unit;
+    const int greatest = std::max({unit[0], unit[1], unit[2]});
     std::array<double, 3> weight{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::array<double, 3> c{normal_[k][0].guess(), normal_[k][1].guess(),
-                                    normal_[k][2].guess()};
-      const double size = std::max({std::abs(c[0]), std::abs(c[1]), std::abs(c[2])});
-      const double s = 1.0 - t, value = (c[0] * s + c[1] * t) * s + c[2] * t * t;
-      weight[k] = size > 0.0 ? std::abs(value) / size : 0.0;
+      const std::array<double, 3>& b = n_at(k).rounded();
+      const double s = 1.0 - t, value = (b[0] * s + 2.0 * b[1] * t) * s + b[2] * t * t;
+      const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+      weight[k] = std::ldexp(std::abs(value), (unit[i] - greatest) + (unit[j] - greatest));
     }
     std::array<std::size_t, 3> axes{0, 1, 2};
     std::ranges::sort(axes, std::greater{}, [&](std::size_t k) { return weight[k]; });
     return axes;
   }
 
-  Outcome found(const ContactForms<FixedInteger<limbs>>& contact, const Time& t,
-                const BitInterval& cell) {
+  Outcome found(const Contact& contact, const Time& t, const BitInterval& cell) {
     const auto [u, v] = parameters(contact, t);
     impact_ = {cell, std::isnan(u) ? 0.0 : u, std::isnan(v) ? 0.0 : v};
     return Outcome::decided;
   }
 
   template <class AnyTime>
-  static std::array<double, 2> parameters(const ContactForms<FixedInteger<limbs>>& contact,
-                                          const AnyTime& t) {
-    const auto value = [&](const Quadratic& form) { return value_at(bernstein(form), t).guess(); };
+  static std::array<double, 2> parameters(const Contact& contact, const AnyTime& t) {
+    const auto value = [&](const Filtered& form) {
+      const RoundedBlossom rounded = form.rounded_value_at(t);
+      return rounded.is_near() ? rounded.value : form.value_at(t).rounded();
+    };
+    if (contact.denominator.is_zero()) return {0.0, 0.0};
     const double denominator = value(contact.denominator);
-    if (is_zero(contact.denominator)) return {0.0, 0.0};
     return {value(contact.u) / denominator, value(contact.v) / denominator};
   }
 
-  const Motion<FixedInteger<limbs>>& motion_;
+  const Motion<Number>& motion_;
   std::uint64_t latest_;
   std::uint64_t step_;
-  MovingNormal<FixedInteger<limbs>> normal_;
+  MovingNormal<Number> normal_;
   SpaceEvent determinant_;
+  std::array<std::optional<Filtered>, 3> n_;  ///< the components that are known: see n_at
+  std::array<Bounds<Filtered>, 3> bounds_{};  ///< with these: see bounds_at
   std::optional<Impact> impact_;
 };
 
 }  // namespace
 
+QuickAnswer quick_first_impact(const Motion<ShortInteger>& motion, std::uint64_t latest,
+                               std::uint64_t step) {
+  return Decision<ShortInteger>(motion, latest, step).run();
+}
+
 QuickAnswer quick_first_impact(const Motion<FixedInteger<1>>& motion, std::uint64_t latest,
                                std::uint64_t step) {
-  return Decision<1>(motion, latest, step).run();
+  return Decision<FixedInteger<1>>(motion, latest, step).run();
 }
 
 QuickAnswer quick_first_impact(const Motion<FixedInteger<2>>& motion, std::uint64_t latest,
                                std::uint64_t step) {
-  return Decision<2>(motion, latest, step).run();
+  return Decision<FixedInteger<2>>(motion, latest, step).run();
 }
 
 }  // namespace touchstone::fast::exact_stage

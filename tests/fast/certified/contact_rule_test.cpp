@@ -38,7 +38,7 @@ AtStart at_start(const PosedQuery& posed) {
       return exact::Rational(x.approximation().significand) *
              exact::power_of_two(x.approximation().exponent);
     } else {
-      return exact::Rational(x.guess());
+      return exact::Rational(x.rounded());
     }
   };
   const exact::Rational denominator = number(contact->denominator[0]);

@@ -21,7 +21,7 @@ namespace touchstone::tests {
 template <class Number>
 [[nodiscard]] fast::exact_stage::Motion<Number> integer_motion(const PosedQuery& posed,
                                                                double scale = 1.0) {
-  fast::exact_stage::Motion<Number> motion{posed.kind, {}, {}, {}};
+  fast::exact_stage::Motion<Number> motion{posed.kind, {}, {}, {}, {}};
   const auto line = [&](std::size_t a, std::size_t b, std::size_t k) {
     const auto at = [&](std::size_t end) {
       const double difference = posed.query.at(end, a, k) - posed.query.at(end, b, k);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
 #include <cstdint>
 
@@ -59,6 +60,7 @@ TEST(FixedInteger, MultipliesAsGmpDoes) {
   expect_products<1, 1>(random);
   expect_products<2, 1>(random);
   expect_products<1, 2>(random);
+  expect_products<2, 2>(random);
   expect_products<3, 2>(random);
   expect_products<7, 7>(random);
 }
@@ -89,12 +91,40 @@ TEST(FixedInteger, HoldsTheExtremesOfItsConstructors) {
   EXPECT_EQ(FixedInteger<2>().sign(), 0);
 }
 
-TEST(FixedInteger, GuessesWithin50Bits) {
+TEST(FixedInteger, MultipliesTwoLimbsAtTheirExtremes) {
+  const Integer least = 1 - (Integer(1) << 127U);
+  for (const Integer& a : {least, Integer(-least), Integer(-1), Integer(1)}) {
+    for (const Integer& b : {least, Integer(-least), Integer(-1)}) {
+      EXPECT_TRUE(fixed<2>(a) * fixed<2>(b) == fixed<4>(a * b)) << a << ' ' << b;
+    }
+  }
+}
+
+TEST(FixedInteger, RoundsWithin50BitsInEveryMode) {
   Random random(4);
   for (int i = 0; i < 1000; ++i) {
     const Integer a = draw<6>(random, 0);
-    const exact::Rational error = exact::Rational(fixed<6>(a).guess()) - a;
-    EXPECT_LE(abs(error), abs(exact::Rational(a)) * exact::power_of_two(-50)) << a;
+    for (const int mode : {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+      std::fesetround(mode);
+      const double rounded = fixed<6>(a).rounded();
+      std::fesetround(FE_TONEAREST);
+      const exact::Rational error = exact::Rational(rounded) - a;
+      EXPECT_LE(abs(error), abs(exact::Rational(a)) * exact::power_of_two(-50)) << a;
+    }
+  }
+  EXPECT_EQ(FixedInteger<3>(std::int64_t{-5}).rounded(), -5.0);
+  EXPECT_EQ(FixedInteger<3>(std::int64_t{0}).rounded(), 0.0);
+  EXPECT_EQ(FixedInteger<1>(std::int64_t{INT64_MIN}).rounded(), -0x1p63);
+}
+
+TEST(ShortInteger, MultipliesExactlyUpToItsBound) {
+  constexpr std::int64_t most = std::int64_t{1} << 31U;
+  for (const std::int64_t a : {-most, std::int64_t{-3}, std::int64_t{0}, most}) {
+    for (const std::int64_t b : {-most, std::int64_t{5}, most}) {
+      const auto square = ShortInteger(a) * ShortInteger(b);
+      EXPECT_TRUE(square == FixedInteger<1>(a * b));
+      EXPECT_TRUE(square * ShortInteger(b) == fixed<2>(Integer(a) * Integer(b) * Integer(b)));
+    }
   }
 }
 
