@@ -32,9 +32,16 @@ namespace touchstone::fast::exact_stage {
 template <class Weight>
 struct BasicTime {
   Weight x, y;
+  double rounded_x, rounded_y;
+
+  constexpr BasicTime(Weight of_start, Weight of_end)
+      : x(of_start),
+        y(of_end),
+        rounded_x(static_cast<double>(x)),
+        rounded_y(static_cast<double>(y)) {}
 
   [[nodiscard]] Weight sum() const { return x + y; }
-  [[nodiscard]] double guess() const { return static_cast<double>(y) / static_cast<double>(x + y); }
+  [[nodiscard]] double guess() const { return rounded_y / (rounded_x + rounded_y); }
 };
 
 /// A step of de Casteljau's: the form with one of its arguments set to a time.
@@ -156,7 +163,7 @@ class FilteredForm {
         m[i] = m[i] * x + m[i + 1] * y;
       }
     };
-    (step(static_cast<double>(times.x), static_cast<double>(times.y)), ...);
+    (step(times.rounded_x, times.rounded_y), ...);
     return {b[0], m[0]};
   }
 

@@ -24,9 +24,10 @@
 ///      the primitives. If the coefficients of det change sign once, certainly, it has exactly one
 ///      zero there (Descartes' rule for Bernstein coefficients).
 ///    If det changes sign once on [0,1], certainly, only its zero matters: where that is, Newton's
-///    method tells well enough for a short interval, on which det must change sign too. Elsewhere
-///    intervals are taken in order of time, halved if nothing is proved, so that what is before the
-///    current one has no contact, and the zero found is the time of impact.
+///    method tells well enough for a short interval, on which det must change sign too, and if need be
+///    for a very short one. Elsewhere intervals are taken in order of time, halved if nothing is
+///    proved, so that what is before the current one has no contact, and the zero found is the time of
+///    impact.
 /// 5. **Refinement.** Newton's method finds the zero; an enclosure around it, clipped to [a,b], is
 ///    right if det, in double-double, has at its ends the signs that it has at a and b, beyond the
 ///    bound of its value. If not, these two values tell where it is better.

@@ -299,7 +299,8 @@ double guess_root(const std::array<double, 4>& b, double lower, double upper) {
     ((at > 0.0) == rises ? upper : lower) = t;
     double next = t - at / slope(t);
     if (!(next > lower && next < upper)) next = 0.5 * (lower + upper);
-    if (std::abs(next - t) <= 0x1p-53 * t) return next;
+    // As it converges, the next step would be of the square.
+    if (std::abs(next - t) <= 0x1p-40 * t) return next;
     t = next;
   }
   return t;

@@ -12,7 +12,10 @@
 /// point and decides nothing but where to look.
 ///
 /// *At a root that is no small fraction* the signs come from the forms on the enclosure that is the
-/// result anyway. If one has a change of sign there, the decision is handed on.
+/// result anyway; where one changes its sign there, from its remainder by the event, or from a narrower
+/// enclosure. What is still open then is handed on.
+///
+/// *Signs* are exact. Floating point, with a bound, gives most of them (filtered_form.hpp).
 
 #include <cstdint>
 #include <optional>

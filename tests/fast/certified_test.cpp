@@ -88,6 +88,32 @@ TEST(Certified, EndsEachSortOfQueryInItsStage) {
   EXPECT_EQ(solve(over_triangle(2, 2, 1, -1)).verdict, Verdict::yes);
 }
 
+TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
+  // A vertex that moves along x too, over the triangle (0,0,0), (1,0,0), (0,1,0): at t = 0.4, where it
+  // is in its plane, it is so far inside of the edge x = 0.
+  const auto beside_edge = [](double inside) {
+    Query query{};
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double t = static_cast<double>(end);
+      query.at(end, 0, 0) = inside + (t - 0.4);
+      query.at(end, 0, 1) = 0.25;
+      query.at(end, 0, 2) = 0.4 - t;
+      query.at(end, 2, 0) = 1.0;
+      query.at(end, 3, 1) = 1.0;
+    }
+    return query;
+  };
+  for (const double inside : {0x1p-8, 0x1p-12, 0x1p-20, 0x1p-28}) {
+    const Query hit = beside_edge(inside), miss = beside_edge(-inside);
+    EXPECT_EQ(certified(Kind::vertex_face, hit).stage, Stage::bisection) << inside;
+    EXPECT_EQ(certified(Kind::vertex_face, hit).verdict, Verdict::yes) << inside;
+    EXPECT_EQ(certified(Kind::vertex_face, miss).stage, Stage::bisection) << inside;
+    EXPECT_EQ(certified(Kind::vertex_face, miss).verdict, Verdict::no) << inside;
+    expect_truth(Kind::vertex_face, {hit, miss});
+  }
+  EXPECT_EQ(certified(Kind::vertex_face, beside_edge(0x1p-50)).stage, Stage::exact);
+}
+
 TEST(Certified, EveryStageIsReachedAndNamed) {
   std::array<std::size_t, stages> reached{};
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
