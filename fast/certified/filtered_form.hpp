@@ -114,16 +114,16 @@ class FilteredForm {
 
   template <class Time>
   [[nodiscard]] int sign_at(const Time& t) const {
-    return at_all(t, [this](const auto&... times) { return sign(times...); });
+    return at_all(t, [this](const auto&... times) { return this->sign(times...); });
   }
   /// Up to the sum of the weights to the power of the degree.
   template <class Time>
   [[nodiscard]] RoundedBlossom rounded_value_at(const Time& t) const {
-    return at_all(t, [this](const auto&... times) { return rounded_blossom(times...); });
+    return at_all(t, [this](const auto&... times) { return this->rounded_blossom(times...); });
   }
   template <class Time>
   [[nodiscard]] auto value_at(const Time& t) const {
-    return at_all(t, [this](const auto&... times) { return blossom(exact(), times...); });
+    return at_all(t, [this](const auto&... times) { return blossom(this->exact(), times...); });
   }
 
  private:

@@ -912,7 +912,7 @@ class CertifiedStages {
     /// then is less work for the exact stage.
     static constexpr double least_length = 0x1p-12;
     /// The same where det is not clear at an end of the interval, and so nor on any part at this end.
-    static constexpr double least_length_at_zero = 0x1p-3;
+    static constexpr double least_length_at_zero = 0x1p-1;
     static constexpr double most_steps = 150;
 
     using Row = std::array<double, width>;
