@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -87,28 +88,44 @@ class Run {
 
   // ---- Asking -----------------------------------------------------------------------------------
 
-  /// Asks larger and larger samples until the next one would take too long.
+  /// Asks larger and larger samples until the next one would take too long, or too long for the
+  /// reference, which is timed on it too.
   void ask(const Subject& subject) {
     Entry& entry = entries_.emplace_back();
     std::map<std::size_t, Reply>& replies = replies_.emplace_back();
     entry.contender = subject.contender.get();
     entry.separation = {.distance = subject.options.min_separation, .norm = subject.options.norm};
     const std::size_t most = std::min(options_.count, group_.queries().size());
-    const double start = thread_nanoseconds();
-    const auto seconds = [&] { return 1e-9 * (thread_nanoseconds() - start); };
+    const std::unique_ptr<Contender> reference = reference_at(entry.separation);
+    double own = 0.0, of_reference = 0.0;  // of all up to now; of the sample
     std::size_t count = std::min(first_sample, most);
     for (;;) {
-      sweep(entry, replies, sample(count));
+      own += seconds_of([&] { sweep(entry, replies, sample(count)); });
+      take(entry, count);
+      of_reference = seconds_of([&] { reference->solve(group_.kind(), entry.queries); });
       const std::size_t next = std::min(2 * count, most);
-      const double pace = seconds() / static_cast<double>(count);
+      const double pace = std::max(own, of_reference) / static_cast<double>(count);
       if (next == count || stopped() || pace * static_cast<double>(next) > options_.seconds) break;
       count = next;
     }
-    take(entry, count);
-    const double once = seconds();
-    for (int i = 1; i < sweeps && seconds() + once < options_.seconds && !stopped(); ++i) {
-      time_alone(entry, replies);
+    const double once = own;
+    for (int i = 1; i < sweeps && own + once < options_.seconds && !stopped(); ++i) {
+      own += seconds_of([&] { time_alone(entry, replies); });
     }
+  }
+
+  template <class Work>
+  static double seconds_of(const Work& work) {
+    const double start = thread_nanoseconds();
+    work();
+    return 1e-9 * (thread_nanoseconds() - start);
+  }
+
+  [[nodiscard]] std::unique_ptr<Contender> reference_at(const Separation& separation) const {
+    fast::MethodOptions about;
+    about.min_separation = separation.distance;
+    about.norm = separation.norm;
+    return make_reference_(about);
   }
 
   [[nodiscard]] std::vector<std::size_t> sample(std::size_t count) const {
@@ -180,11 +197,8 @@ class Run {
       const ReferenceKey key = key_of(entries_[i]);
       if (reference_of_.contains(key)) continue;
       reference_of_[key] = entries_.size();
-      fast::MethodOptions about;
-      about.min_separation = entries_[i].separation.distance;
-      about.norm = entries_[i].separation.norm;
       Entry entry = entries_[i];
-      entry.contender = references_.emplace_back(make_reference_(about)).get();
+      entry.contender = references_.emplace_back(reference_at(entry.separation)).get();
       entries_.push_back(std::move(entry));
     }
   }

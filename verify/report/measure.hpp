@@ -4,8 +4,9 @@
 /// Measures methods on one group of queries, side by side.
 ///
 /// **Sample.** Every method is asked an evenly spread sample of the group, which grows until the next
-/// one would take more than MeasureOptions::seconds, or all that may be asked are in it. Smaller
-/// samples are part of larger ones. Nothing is said of queries that were not asked.
+/// one would take more than MeasureOptions::seconds, or take the reference so long, or all that may be
+/// asked are in it. Smaller samples are part of larger ones. Nothing is said of queries that were not
+/// asked.
 ///
 /// **Time.** Each query alone, by the wall clock, for the histograms (the shortest of up to three
 /// calls). Then the whole sample in one call, by the thread's processor time; the repetitions of all
