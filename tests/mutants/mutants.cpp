@@ -36,8 +36,8 @@ MakeSearch search_without_domain_edge, search_in_part_of_triangle, search_of_edg
 using DecideExactly = std::optional<ExactImpact>(Kind, const Query&, const Separation&, double,
                                                  double);
 DecideExactly exact_without_last_bound, exact_without_parallel_case, fault_on_boundary,
-    fault_on_line, fault_in_enclosure, fault_in_neighbour, fault_in_general, fault_in_side,
-    fault_in_vertex, fault_in_face, fault_in_cube, fault_in_dip, fault_in_horizon;
+    fault_on_line, fault_in_enclosure, fault_in_neighbour, fault_in_filter, fault_in_general,
+    fault_in_side, fault_in_vertex, fault_in_face, fault_in_cube, fault_in_dip, fault_in_horizon;
 
 }  // namespace touchstone::fast
 
@@ -386,6 +386,8 @@ std::vector<Mutant> last_stages_of_certified() {
       {"exact_neighbour", certified,
        "a root at the end of the searched interval is taken for the one before",
        with_exact_stage(fast::fault_in_neighbour)},
+      {"exact_filter_8192", certified, "the filter of signs is 8192 times too small",
+       with_exact_stage(fast::fault_in_filter)},
       {"exact_general_early", certified, "the general case gives the lower time twice",
        with_exact_stage(fast::fault_in_general)},
       {"exact_without_last_bound", certified, "the last side of the domain is forgotten",
