@@ -51,10 +51,12 @@ class Field {
 
   [[nodiscard]] std::vector<Measurement> run(const QueryGroup& group,
                                              const MeasureOptions& options = {}) {
+    return run(group, options,
+               [](const fast::MethodOptions& about) { return contend_certified(about); });
+  }
+  [[nodiscard]] std::vector<Measurement> run(const QueryGroup& group, const MeasureOptions& options,
+                                             const MakeReference& reference) {
     Truths truths(group);
-    const auto reference = [](const fast::MethodOptions& about) {
-      return contend_certified(about);
-    };
     return measure(group, truths, subjects_, reference, options);
   }
 
@@ -171,6 +173,20 @@ TEST(Measure, SlowMethodsGetASmallerSampleAndTheirOwnReference) {
   EXPECT_LT(all[0].nanoseconds, 1e7);
   EXPECT_LT(all[0].certified_nanoseconds, 1e5);
   EXPECT_GT(all[1].asked, all[0].asked);
+}
+
+TEST(Measure, ASampleIsNoLargerThanTheReferenceCanTake) {
+  const FunctionMethod slow(slow_no, Promise::none, "slow");
+  Field field;
+  field.add(tests::true_answer, Promise::exact, "fast");
+  MeasureOptions options;
+  options.seconds = 0.05;
+  const std::vector<Measurement> all =
+      field.run(falling(1000), options,
+                [&](const fast::MethodOptions& about) { return contend(slow, about); });
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_GE(all[0].asked, 16U);
+  EXPECT_LE(all[0].asked, 64U) << "a millisecond each";
 }
 
 TEST(Measure, TheTruthIsAboutTheSeparation) {
