@@ -358,11 +358,7 @@ enum class Outcome : std::uint8_t {
 
 /// An event of theorem 2.
 template <std::size_t limbs, std::size_t degree>
-struct Event {
-  explicit Event(const Fixed<limbs, degree>& f) : form(f), b(f) {}
-  Fixed<limbs, degree> form;
-  FilteredForm<limbs, degree + 1> b;
-};
+using Event = FilteredForm<limbs, degree + 1>;
 
 /// A form with the same roots inside (0,1), each simple: a double root of c_0 x² + c_1 x y + c_2 y²
 /// is the one of its derivative c_1 x + 2 c_2 y. Nothing if no root is real.
@@ -381,19 +377,19 @@ bool is_inside(const Time& t, const Time& lower, const Time& upper) {
 
 /// A time strictly inside at which to go on: a root (or extremum) that is a small fraction, or one
 /// after the first landmark and before the next, or one near the middle.
-template <std::size_t limbs, std::size_t degree>
-std::optional<Time> split(std::span<const Event<limbs, degree>> events, const Time& lower,
+template <std::size_t limbs, std::size_t count>
+std::optional<Time> split(std::span<const FilteredForm<limbs, count>> events, const Time& lower,
                           const Time& upper) {
   constexpr double resolution = 0x1p-30;
   const double low = lower.guess(), high = upper.guess();
   double first = high, second = high;
   for (const auto& event : events) {
-    const Guesses marks = landmarks(event.b.rounded());
+    const Guesses marks = landmarks(event.rounded());
     for (std::size_t i = 0; i < marks.count; ++i) {
       const double t = marks.t[i];
       if (!(t > low && t < high)) continue;
       const auto fraction = small_fraction(t);
-      if (fraction && event.b.sign_at(*fraction) == 0 && is_inside(*fraction, lower, upper)) {
+      if (fraction && event.sign_at(*fraction) == 0 && is_inside(*fraction, lower, upper)) {
         return fraction;
       }
       if (t < first - resolution) second = std::exchange(first, t);
@@ -438,13 +434,13 @@ class Decision {
   static constexpr std::uint64_t widest_step = 1U << 12U;
 
   Outcome first() {
-    if (determinant_.form[0].sign() == 0) {
+    if (determinant_.form()[0].sign() == 0) {
       const auto contact =
           contact_by([](const Filtered& form) { return form.coefficient_sign(0); });
       if (contact) return found(*contact, start_time, {bits_of_zero, bits_of_zero});
     }
     const Outcome inner =
-        is_zero(determinant_.form)
+        is_zero(determinant_.form())
             ? search_plane()
             : search(std::span<const SpaceEvent>(&determinant_, 1), start_time, end_time, 0);
     return inner == Outcome::none ? at_time(end_time) : inner;
@@ -465,7 +461,7 @@ class Decision {
     int changes = 0;
     const AnyEvent* active = nullptr;
     for (const auto& event : events) {
-      const int here = sign_changes(signs_on(event.b, lower, upper));
+      const int here = sign_changes(signs_on(event, lower, upper));
       if (here != 0) active = &event;
       changes += here;
     }
@@ -486,7 +482,7 @@ class Decision {
   /// Where the determinant has only a multiple root in the open interval, or no root.
   std::optional<Outcome> in_cluster(std::span<const SpaceEvent> events, int changes,
                                     const Time& lower, const Time& upper) {
-    const auto roots = cubic_roots(events[0].form);
+    const auto roots = cubic_roots(events[0].form());
     if (roots.is_one && changes % 2 == 0) return Outcome::none;
     if (changes != roots.multiplicity ||
         !changes_sign(FilteredForm(roots.multiple), lower, upper)) {
@@ -500,13 +496,13 @@ class Decision {
                                     const Time& lower, const Time& upper) {
     std::vector<const PlaneEvent*> active;
     for (const PlaneEvent& event : events) {
-      const int changes = sign_changes(signs_on(event.b, lower, upper));
+      const int changes = sign_changes(signs_on(event, lower, upper));
       if (changes > 1) return std::nullopt;
       if (changes == 1) active.push_back(&event);
     }
     // The root of f is before that of g iff g has there the sign that it begins with.
     std::ranges::sort(active, [&](const PlaneEvent* f, const PlaneEvent* g) {
-      return sign_at_root(f->form, g->form, lower, upper) == course(g->b, lower, upper).first;
+      return sign_at_root(f->form(), g->form(), lower, upper) == course(*g, lower, upper).first;
     });
     for (const PlaneEvent* event : active) {
       const Outcome outcome = at_root(*event, lower, upper);
@@ -566,7 +562,7 @@ class Decision {
 
   /// A time that is known exactly, after 0.
   Outcome at_time(const Time& t) {
-    if (determinant_.b.sign_at(t) != 0) return Outcome::none;
+    if (determinant_.sign_at(t) != 0) return Outcome::none;
     if (is_later(t, latest_)) return Outcome::decided;
     const auto contact = contact_by([&](const Filtered& form) { return form.sign_at(t); });
     if (!contact) return Outcome::none;
@@ -577,9 +573,9 @@ class Decision {
   /// The only root of any event in the open interval, a simple one of this event.
   template <class AnyEvent>
   Outcome at_root(const AnyEvent& event, const Time& lower, const Time& upper) {
-    const double root = guess_root(event.b.rounded(), lower.guess(), upper.guess());
+    const double root = guess_root(event.rounded(), lower.guess(), upper.guess());
     const auto fraction = small_fraction(root);
-    if (fraction && is_inside(*fraction, lower, upper) && event.b.sign_at(*fraction) == 0) {
+    if (fraction && is_inside(*fraction, lower, upper) && event.sign_at(*fraction) == 0) {
       return at_time(*fraction);
     }
     return at_irrational<Time>(event, root, lower, upper);
@@ -588,13 +584,13 @@ class Decision {
   /// The same for a root that is perhaps irrational, with doubles as times of a type.
   template <class AnyTime, class AnyEvent>
   Outcome at_irrational(const AnyEvent& event, double root, const Time& lower, const Time& upper) {
-    const int sign_below = first_sign(signs_on(event.b, lower, upper));
+    const int sign_below = first_sign(signs_on(event, lower, upper));
     bool beyond = false;
     const auto is_above = [&](std::uint64_t bits) {
       const auto t = time_of<AnyTime>(bits);
       if (!t) beyond = true;
       if (!t || compare(*t, lower) <= 0) return true;
-      return compare(*t, upper) < 0 && event.b.sign_at(*t) == sign_below;
+      return compare(*t, upper) < 0 && event.sign_at(*t) == sign_below;
     };
     const BitInterval cell = enclose(root, step_, is_above);
     const bool too_late = latest_ <= cell.lower || (latest_ < cell.upper && is_above(latest_));
@@ -608,7 +604,7 @@ class Decision {
     const AnyTime low = compare(*first, lower) < 0 ? as<AnyTime>(lower) : *first;
     const bool is_within = compare(*last, upper) < 0;
     const AnyTime high = is_within ? *last : as<AnyTime>(upper);
-    const bool is_high = is_within && event.b.sign_at(high) == 0;
+    const bool is_high = is_within && event.sign_at(high) == 0;
     const Outcome outcome = in_cell(event, cell, low, high, is_high);
     if constexpr (std::is_same_v<AnyTime, Time>) {
       if (outcome == Outcome::unknown) return in_narrow_cell(event, cell, low, high);
@@ -628,7 +624,7 @@ class Decision {
       if (is_high) return form.sign_at(high);
       const auto signs = signs_on(form, low, high);
       if (sign_changes(signs) == 0) return first_sign(signs);
-      const auto sign = sign_at_root(event.form, form.form(), low, high);
+      const auto sign = sign_at_root(event.form(), form.form(), low, high);
       if (!sign) unsure = true;
       return sign.value_or(0);
     };
@@ -641,7 +637,7 @@ class Decision {
       return Outcome::unknown;
     }
     const auto value = [&](const AnyTime& t) {
-      return divided(event.b.rounded_value_at(t).value, t, event.b.degree);
+      return divided(event.rounded_value_at(t).value, t, event.degree);
     };
     const double part = is_high ? 1.0 : secant(value(low), value(high));
     impact_ = {cell, first_u + part * (last_u - first_u), first_v + part * (last_v - first_v)};
@@ -670,7 +666,7 @@ class Decision {
     constexpr std::int64_t whole = std::int64_t{1} << (again ? 36U : 26U), slack = 4;
     // Weights are mixed below, not times: one division less.
     const auto value = [&](const AnyTime& t) {
-      return divided(event.b.value_at(t).rounded(), t, event.b.degree - 1);
+      return divided(event.value_at(t).rounded(), t, event.degree - 1);
     };
     const auto weight =
         static_cast<std::int64_t>(secant(value(low), value(high)) * static_cast<double>(whole));
@@ -682,7 +678,7 @@ class Decision {
     };
     const FineTime first = mixed(std::max(weight - slack, std::int64_t{0}));
     const FineTime last = mixed(std::min(weight + slack, whole));
-    if (!changes_sign(event.b, first, last)) return Outcome::unknown;
+    if (!changes_sign(event, first, last)) return Outcome::unknown;
     const Outcome outcome = in_cell(event, cell, first, last, false);
     if constexpr (again) {
       if (outcome == Outcome::unknown) return in_narrow_cell(event, cell, first, last);

@@ -97,12 +97,13 @@ class Run {
     entry.separation = {.distance = subject.options.min_separation, .norm = subject.options.norm};
     const std::size_t most = std::min(options_.count, group_.queries().size());
     const std::unique_ptr<Contender> reference = reference_at(entry.separation);
-    double own = 0.0, of_reference = 0.0;  // of all up to now; of the sample
+    double own = 0.0;  // seconds
     std::size_t count = std::min(first_sample, most);
     for (;;) {
       own += seconds_of([&] { sweep(entry, replies, sample(count)); });
       take(entry, count);
-      of_reference = seconds_of([&] { reference->solve(group_.kind(), entry.queries); });
+      const double of_reference =
+          seconds_of([&] { reference->solve(group_.kind(), entry.queries); });
       const std::size_t next = std::min(2 * count, most);
       const double pace = std::max(own, of_reference) / static_cast<double>(count);
       if (next == count || stopped() || pace * static_cast<double>(next) > options_.seconds) break;
