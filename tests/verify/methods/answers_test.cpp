@@ -36,6 +36,12 @@ RecordedAnswers load_rows(const std::string& text) {
   return load(folder, header + text);
 }
 
+/// The same of text that was written here.
+RecordedAnswers load_written(const std::string& text) {
+  const TemporaryFolder folder;
+  return load(folder, answers_header() + text);
+}
+
 std::string error_in(const std::string& text) {
   const TemporaryFolder folder;
   return test::error_of(folder.path(), [&] { static_cast<void>(load(folder, text)); });
@@ -115,8 +121,7 @@ TEST(Answers, ReadAsTheyWereWritten) {
   }
   std::string text;
   for (std::size_t i = 0; i < written.size(); ++i) text += answer_row("n,\n\"", i, ee, written[i]);
-  const TemporaryFolder folder;
-  const RecordedAnswers answers = load(folder, full_header + text);
+  const RecordedAnswers answers = load_written(text);
   ASSERT_EQ(answers.size(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i) {
     expect_same(answers.answer_to("n,\n\"", ee, i), written[i],
@@ -177,7 +182,7 @@ TEST(LoadAnswers, TimesWithoutAYesMayBeAnyNumber) {
 
 TEST(LoadAnswers, AnInfiniteToleranceClaimsNothingAndIsReadBack) {
   const Answer answer{Verdict::yes, 0, 0.25, 0.5, std::numeric_limits<double>::infinity()};
-  expect_same(load_rows(answer_row("a", 0, vf, answer)).answer_to("a", vf, 0), answer);
+  expect_same(load_written(answer_row("a", 0, vf, answer)).answer_to("a", vf, 0), answer);
 }
 
 TEST(LoadAnswers, LeavesTheRangeOfTimesToTheJudge) {
@@ -295,7 +300,7 @@ TEST(RecordedAnswers, MayBeAskedFromSeveralThreads) {
   for (std::uint64_t i = 0; i < count; ++i) {
     text += answer_row("a", i, vf, {.verdict = Verdict::yes, .toi_lower = static_cast<double>(i)});
   }
-  const RecordedAnswers answers = load_rows(text);
+  const RecordedAnswers answers = load_written(text);
   std::vector<std::uint64_t> right(4);
   {
     std::vector<std::jthread> threads;

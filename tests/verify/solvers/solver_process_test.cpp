@@ -699,8 +699,11 @@ TEST(SolverProcess, DiesWithItsParent) {
   ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
   const SharedValue<std::atomic<pid_t>> shared;
   std::atomic<pid_t>& grandchild = *shared;
+  // What is killed leaves its temporary folder behind.
+  const TemporaryFolder folder;
   const pid_t parent = ::fork();
   if (parent == 0) {
+    ::setenv("TMPDIR", folder.path().c_str(), 1);
     const std::vector<Query> queries = numbered(1);
     std::vector<Answer> answers(1);
     const LoggingMethod method(grandchild);
