@@ -26,7 +26,6 @@
 #include "verify/fuzz/fuzz_report.hpp"
 #include "verify/fuzz/reproduce.hpp"
 #include "verify/fuzz/shrink.hpp"
-#include "verify/methods/plugin.hpp"
 #include "verify/methods/registry.hpp"
 #include "verify/separation.hpp"
 #include "verify/terminal.hpp"
@@ -188,6 +187,7 @@ class FuzzRun {
     options_.method = arguments.solver.options;
     if (arguments.solver.exact) options_.promise = fast::Promise::exact;
     options_.query_limit_seconds = arguments.solver.query_limit;
+    options_.limits = arguments.solver.limits();
     options_.most_findings = arguments.most_findings;
     options_.corpus = read_corpus(arguments);
     options_.kinds = arguments.kinds();
@@ -204,6 +204,7 @@ class FuzzRun {
                             .result = fuzz(*method_, options_)};
     bar_.clear();
     report_unplaced_crashes(report.method, report.result.unplaced_crashes);
+    report_output(report.method, report.result.output, arguments_.solver.show_output);
     const std::vector<fs::path> written = found_.close();
     if (json_) {
       static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
@@ -226,7 +227,7 @@ class FuzzRun {
       options_.reach = reach_of(method_->name());
       return;
     }
-    plugin_ = load_plugin(solver.plugins.front());
+    plugin_ = solver.load(solver.plugins.front());
     method_ = plugin_.get();
   }
 
@@ -347,7 +348,6 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
-  arguments->solver.query_limit = FuzzOptions{}.query_limit_seconds;
   add_solver_options(*command, arguments->solver);
   command->add_flag("--exact", arguments->solver.exact,
                     "Hold the solver to exactness: false positives are findings too");

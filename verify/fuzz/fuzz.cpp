@@ -17,13 +17,13 @@
 #include "fast/certified.hpp"
 #include "verify/decision.hpp"
 #include "verify/fuzz/draws.hpp"
-#include "verify/fuzz/examinee.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/referee.hpp"
 #include "verify/fuzz/signature.hpp"
 #include "verify/fuzz/steering.hpp"
 #include "verify/fuzz/symmetry.hpp"
 #include "verify/prove.hpp"
+#include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -48,6 +48,8 @@ constexpr std::size_t judged_together = 64;
 constexpr double seconds_to_judge = 1.0;
 /// One in so many queries is asked again as an image.
 constexpr std::size_t queries_an_image = 8;
+/// A block is cut off behind so many queries that ended the solver's process or took too long.
+constexpr std::size_t most_failures = 4;
 /// Of a class of findings so many are kept.
 constexpr std::uint64_t kept_of_class = 2;
 
@@ -206,26 +208,33 @@ class Run {
         oracle_share_(name_ == judge_name ? 1.0 : options.oracle_share),
         generators_(generators(options.separation)),
         maker_(options, generators_),
-        examinee_(method, examinee_options(options)),
+        solver_(method, process_options(options)),
+        method_options_(method_options(options)),
         random_(builtin::mix(options.seed) + 2) {
     for (const Generator& generator : generators_) {
       result_.generators.push_back({.name = std::string(generator.name)});
     }
   }
 
-  /// What a child process is to be asked with.
-  static ExamineeOptions examinee_options(const FuzzOptions& options) {
-    ExamineeOptions result{.method = options.method,
-                           .query_limit_seconds = options.query_limit_seconds,
-                           .stop = options.stop};
-    result.method.min_separation = options.separation.distance;
-    result.method.norm = options.separation.norm;
+  static SolverProcessOptions process_options(const FuzzOptions& options) {
+    return {.query_limit_seconds = options.query_limit_seconds,
+            .most_failures = most_failures,
+            .stop = options.stop,
+            .limits = options.limits};
+  }
+
+  /// What the solver is to be asked with.
+  static fast::MethodOptions method_options(const FuzzOptions& options) {
+    fast::MethodOptions result = options.method;
+    result.min_separation = options.separation.distance;
+    result.norm = options.separation.norm;
     return result;
   }
 
   FuzzResult run() {
     while (!is_over()) run_block();
     result_.interrupted = is_stopped();
+    result_.output = solver_.take_output();
     result_.seconds = seconds();
     result_.other_seconds = result_.seconds - result_.method_seconds;
     return std::move(result_);
@@ -266,20 +275,21 @@ class Run {
     const double left =
         options_.seconds > 0.0 ? std::max(least, options_.seconds - seconds()) : 0.0;
     const Clock::time_point asked = Clock::now();
-    const Sitting sitting = examinee_.answer(block_.kind, block_.queries, answers_, left);
+    const SolverRun run =
+        solver_.solve(block_.kind, block_.queries, answers_, method_options_, left);
     result_.method_seconds += seconds_since(asked);
-    result_.unplaced_crashes += sitting.unplaced;
-    judge(sitting);
+    result_.unplaced_crashes += run.unplaced_crashes;
+    judge(run);
     if (options_.on_progress) {
       options_.on_progress(
           {.seconds = seconds(), .queries = result_.queries, .findings = result_.all_findings});
     }
   }
 
-  void judge(const Sitting& sitting) {
-    const std::span<const Query> queries = std::span(block_.queries).first(sitting.answered);
+  void judge(const SolverRun& run) {
+    const std::span<const Query> queries = std::span(block_.queries).first(run.answered);
     judged_.assign(queries.size(), CertifiedResult{});
-    incidents_ = sitting.incidents;
+    failures_ = run.failures;
     // In parts: with a distance and extreme coordinates a query may take a second.
     for (std::size_t first = 0; first < queries.size() && !must_end(seconds_to_judge);
          first += judged_together) {
@@ -288,18 +298,18 @@ class Run {
                   std::span(judged_).subspan(first, count),
                   {.separation = options_.separation, .max_threads = 1});
       for (std::size_t i = first; i < first + count && !has_found_enough(); ++i) {
-        judge_query(i, incident_at(i));
+        judge_query(i, failure_at(i));
       }
     }
   }
 
   /// What happened at a query, or null.
-  [[nodiscard]] const Incident* incident_at(std::size_t i) const {
-    const auto found = std::ranges::lower_bound(incidents_, i, {}, &Incident::position);
-    return found != incidents_.end() && found->position == i ? &*found : nullptr;
+  [[nodiscard]] const Failure* failure_at(std::size_t i) const {
+    const auto found = std::ranges::lower_bound(failures_, i, {}, &QueryFailure::position);
+    return found != failures_.end() && found->position == i ? &found->failure : nullptr;
   }
 
-  void judge_query(std::size_t i, const Incident* incident) {
+  void judge_query(std::size_t i, const Failure* failure) {
     GeneratorStatistics& statistics = result_.generators[block_.arms[i]];
     ++result_.queries;
     ++statistics.queries;
@@ -310,8 +320,8 @@ class Run {
     }
     double work = 0.0;
     double reward = 0.0;
-    if (incident != nullptr) {
-      reward += report_incident(i, incident->hang);
+    if (failure != nullptr) {
+      reward += report_failure(i, *failure);
     } else {
       reward += examine_answer(i, work);
     }
@@ -365,22 +375,22 @@ class Run {
   void explain_asymmetry(std::size_t i, Accusation& accusation) const {
     const Image* const image = block_.image(i);
     if (image == nullptr || standard_.promise != fast::Promise::exact) return;
-    const bool origin_has_answer = std::ranges::none_of(
-        incidents_, [&](const Incident& other) { return other.position == image->origin; });
     const Answer& other = answers_[image->origin];
-    if (!origin_has_answer || !contradict(answers_[i], other, !image->symmetry.reversed)) return;
+    if (failure_at(image->origin) != nullptr ||
+        !contradict(answers_[i], other, !image->symmetry.reversed))
+      return;
     accusation.what = FindingKind::asymmetry;
     accusation.detail += fmt::format("; of what this is an exact image of ({}) it says: {}",
                                      to_text(image->symmetry), to_text(other));
   }
 
-  double report_incident(std::size_t i, bool hang) {
-    answers_[i] = {.verdict = hang ? Verdict::undecided : Verdict::error};
+  double report_failure(std::size_t i, const Failure& failure) {
+    const bool hang = failure.kind == FailureKind::hang;
     ++result_.judged_by_oracle;
     const Accusation accusation =
         hang ? Accusation{FindingKind::hang,
                           fmt::format("takes more than {} s", options_.query_limit_seconds)}
-             : Accusation{FindingKind::crash, "ends its process"};
+             : Accusation{FindingKind::crash, to_text(failure)};
     return report(i, accusation, name_,
                   Decision(block_.kind, block_.queries[i], options_.separation));
   }
@@ -436,7 +446,8 @@ class Run {
   double oracle_share_;
   std::vector<Generator> generators_;
   BlockMaker maker_;
-  Examinee examinee_;
+  SolverProcess solver_;
+  fast::MethodOptions method_options_;
   Random random_;
   Clock::time_point start_ = Clock::now();
   double called_back_ = 0.0;
@@ -449,7 +460,7 @@ class Run {
   Block block_;
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
-  std::vector<Incident> incidents_;
+  std::vector<QueryFailure> failures_;
 };
 
 void check(const FuzzOptions& options) {
@@ -481,7 +492,8 @@ class Retrial {
                   .separation = options.separation,
                   .reach = options.reach},
         of_judge_(finding_.method == judge_name && method.name() != judge_name),
-        examinee_(method, Run::examinee_options(options)) {}
+        solver_(method, Run::process_options(options)),
+        method_options_(Run::method_options(options)) {}
 
   bool operator()(const Query& query) {
     if (!draws::is_finite(query)) return false;
@@ -495,12 +507,12 @@ class Retrial {
       return accusation && accusation->what == finding_.what;
     }
     Answer answer;
-    const Sitting sitting = examinee_.answer(finding_.kind, {&query, 1}, {&answer, 1});
-    if (!sitting.incidents.empty()) {
-      return finding_.what ==
-             (sitting.incidents.front().hang ? FindingKind::hang : FindingKind::crash);
+    const SolverRun run = solver_.solve(finding_.kind, {&query, 1}, {&answer, 1}, method_options_);
+    if (!run.failures.empty()) {
+      const bool hang = run.failures.front().failure.kind == FailureKind::hang;
+      return finding_.what == (hang ? FindingKind::hang : FindingKind::crash);
     }
-    if (sitting.answered == 0) return false;
+    if (run.answered == 0) return false;
     if (lacks_same_bound(answer)) return true;
     const auto accusation = accuse(finding_.kind, query, truth(), answer, standard_);
     if (!accusation) return false;
@@ -521,7 +533,8 @@ class Retrial {
   Finding finding_;
   Standard standard_;
   bool of_judge_;
-  Examinee examinee_;
+  SolverProcess solver_;
+  fast::MethodOptions method_options_;
 };
 
 }  // namespace

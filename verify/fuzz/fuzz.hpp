@@ -4,7 +4,7 @@
 /// The search for wrong answers of one solver.
 ///
 /// Blocks of queries come from generators (generators.hpp) that the steering (steering.hpp) prefers
-/// by what they have brought so far. The solver answers them in a child process (examinee.hpp), the
+/// by what they have brought so far. The solver answers them in a child process (solver_process.hpp), the
 /// certified solver judges (referee.hpp), and the oracle judges a share again and everything that
 /// is suspect. Some queries are asked once more as an exact image (symmetry.hpp).
 ///
@@ -24,6 +24,7 @@
 #include "fast/method.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/methods/reach.hpp"
+#include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify {
 
@@ -57,6 +58,8 @@ struct FuzzOptions {
   /// Wall-clock seconds a query may take; 0: no limit. Exact arithmetic takes one where coordinates from
   /// 2^-1074 to 2^1023 meet a distance in L2.
   double query_limit_seconds = 10.0;
+  /// What the method's process may take.
+  ChildLimits limits = {};
   /// Findings that are kept (one or a few of a class) after which the run ends; 0: never.
   std::size_t most_findings = 0;
   /// Queries to mutate.
@@ -95,6 +98,7 @@ struct FuzzResult {
   std::uint64_t all_findings = 0;      ///< kept or not
   /// Times the method ended its process at queries none of which does it alone.
   std::uint64_t unplaced_crashes = 0;
+  CapturedOutput output;  ///< what the method printed
   std::vector<GeneratorStatistics> generators;
   bool interrupted = false;
 

@@ -7,6 +7,7 @@
 
 #include "exact/distance_oracle.hpp"
 #include "verify/methods/answers.hpp"
+#include "verify/separation.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -21,12 +22,11 @@ bool has_bad_number(const Answer& answer) {
   return std::isinf(answer.toi_lower) || std::isinf(answer.toi_upper) || answer.tolerance < 0.0;
 }
 
-/// How near, in L∞, they come by what a yes claims, if it claims anything.
+/// How near they come by what a yes claims, if it claims anything.
 std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& answer,
                                    const Standard& standard) {
   if (!standard.reach) return std::nullopt;
-  const Separation claimed{.distance = standard.reach(kind, query, answer, standard.separation),
-                           .norm = Norm::linf};
+  const Separation claimed = standard.reach(kind, query, answer, standard.separation);
   return is_valid(claimed) ? std::optional(claimed) : std::nullopt;
 }
 
@@ -36,8 +36,8 @@ std::optional<Accusation> accuse_reach(Kind kind, const Query& query, const Answ
   const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
   if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
   return Accusation{FindingKind::beyond_promise,
-                    fmt::format("{}, but they never come within {} in L∞, as that claims",
-                                to_text(answer), claimed->distance)};
+                    fmt::format("{}, but they never come within {}, as that claims",
+                                to_text(answer), to_text(*claimed))};
 }
 
 std::optional<Accusation> accuse_toi(const Truth& truth, const Answer& answer) {
@@ -65,7 +65,9 @@ bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judge
     if (standard.promise == Promise::exact) return false;
     if (!is_yes) return true;
     const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
-    return !claimed || is_seen_within(kind, query, answer.toi_lower, claimed->distance) ||
+    return !claimed ||
+           (claimed->norm == Norm::linf &&
+            is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
            fast::certified(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
   }
   if (answer.verdict == Verdict::no) return false;

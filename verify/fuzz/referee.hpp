@@ -45,7 +45,7 @@ struct Accusation {
 /// - false_negative: no, but they collide;
 /// - beyond_promise: yes or undecided though they do not collide, of what promises exactness; yes,
 ///   but they
-///   never come as near as its tolerance claims, in L∞;
+///   never come as near as its tolerance claims;
 /// - not_finite: yes with an infinite bound, or a tolerance below 0;
 /// - late_toi, early_toi_upper: yes with a bound on the wrong side of the exact time of impact.
 /// \param truth of the query at the standard's separation
