@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "verify/methods/registry.hpp"
+#include "verify/printable.hpp"
 #include "verify/separation.hpp"
 
 namespace touchstone::verify {
@@ -49,8 +50,8 @@ void append_row(std::string& text, std::size_t width, const ContenderResult& con
   const auto single = [&](double SingleTimes::*time) {
     return contender.singles ? fmt::format("{:.0f}", (*contender.singles).*time) : "-";
   };
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), contender.name, width,
-                 number_text(contender.times.median(), "{:.1f}"),
+  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), printable(contender.name),
+                 width, number_text(contender.times.median(), "{:.1f}"),
                  number_text(passes(contender, group), "{:.2f}"), single(&SingleTimes::p50),
                  single(&SingleTimes::p99), single(&SingleTimes::max), contender.queries,
                  judged.queries, judged.count(Fault::false_negative),
@@ -85,14 +86,14 @@ void append_wrong_answers(std::string& text, const ContenderResult& contender,
     ++count;
     const QueryPlace& place = contender.wrong_places[i];
     text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n", to_string(wrong.fault),
-                        contender.name, place.source, to_string(group.kind), place.index,
-                        wrong.answer, wrong.truth);
+                        printable(contender.name), printable(place.source), to_string(group.kind),
+                        place.index, wrong.answer, wrong.truth);
   }
   for (std::size_t i = 0; i < fault_count; ++i) {
     const std::uint64_t all = contender.judgement.faults[i];
     if (printed[i] != most_printed || all == most_printed) continue;
     text += fmt::format("{}: {}: {}: and {} more\n", to_string(static_cast<Fault>(i)),
-                        contender.name, group.name, all - most_printed);
+                        printable(contender.name), printable(group.name), all - most_printed);
   }
 }
 
@@ -105,13 +106,13 @@ std::string separation_text(const Separation& separation) {
 void append_group(std::string& text, const BenchResult& group) {
   const bool judged_all = group.judged == group.queries;
   text += fmt::format(
-      "{}, {}{}: {} queries, {} collisions{}; memory pass {} ns/query{}\n", group.name,
+      "{}, {}{}: {} queries, {} collisions{}; memory pass {} ns/query{}\n", printable(group.name),
       to_string(group.kind), separation_text(group.separation), group.queries, group.collisions,
       judged_all ? "" : fmt::format(" among {} judged", group.judged),
       number_text(group.memory_pass.median(), "{:.2f}"), group.interrupted ? " (interrupted)" : "");
   std::size_t width = 6;
   for (const ContenderResult& contender : group.contenders) {
-    width = std::max(width, contender.name.size());
+    width = std::max(width, printable(contender.name).size());
   }
   append_header(text, width);
   for (const ContenderResult& contender : group.contenders) {
@@ -129,7 +130,7 @@ void append_step(std::string& text, const StepResult& step) {
       "{}{}: {} vertices, {} edges, {} faces; vertex-face {} candidates, {} collisions; edge-edge "
       "{} "
       "candidates, {} collisions{}\n",
-      step.name, separation_text(step.separation), step.vertices, step.edges, step.faces,
+      printable(step.name), separation_text(step.separation), step.vertices, step.edges, step.faces,
       step.vertex_face.candidates, step.vertex_face.collisions, step.edge_edge.candidates,
       step.edge_edge.collisions, step.interrupted ? " (interrupted)" : "");
   if (step.earliest) {

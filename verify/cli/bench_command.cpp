@@ -100,11 +100,10 @@ class BenchRun {
       for (const fs::path& path : arguments_.sources.paths) bench_path(path);
     }
     if (json_) {
-      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-      json_.write(to_json(report_).dump(2, ' ', false, replace_bad_utf8) + "\n");
+      json_.write(json_document(to_json(report_)));
     }
     json_.close();
-    fmt::print(json_.is_standard_output() ? stderr : stdout, "{}", to_text(report_));
+    print(json_.is_standard_output() ? stderr : stdout, to_text(report_));
     return status();
   }
 

@@ -117,14 +117,14 @@ nlohmann::json summary(const MovingMesh& mesh, const std::vector<Found>& all) {
 }
 
 void print_table(std::FILE* stream, const MovingMesh& mesh, const std::vector<Found>& all) {
-  fmt::print(stream, "{:<12}  {:>10}\n", "mesh", "count");
-  fmt::print(stream, "{:<12}  {:>10}\n", "vertices", mesh.vertices.size());
-  fmt::print(stream, "{:<12}  {:>10}\n", "edges", mesh.edges.size());
-  fmt::print(stream, "{:<12}  {:>10}\n\n", "faces", mesh.faces.size());
-  fmt::print(stream, "{:<12}  {:>10}  {:>8}\n", "candidates", "count", "seconds");
+  print(stream, fmt::format("{:<12}  {:>10}\n", "mesh", "count"));
+  print(stream, fmt::format("{:<12}  {:>10}\n", "vertices", mesh.vertices.size()));
+  print(stream, fmt::format("{:<12}  {:>10}\n", "edges", mesh.edges.size()));
+  print(stream, fmt::format("{:<12}  {:>10}\n\n", "faces", mesh.faces.size()));
+  print(stream, fmt::format("{:<12}  {:>10}  {:>8}\n", "candidates", "count", "seconds"));
   for (const Found& found : all) {
-    fmt::print(stream, "{:<12}  {:>10}  {:>8.3f}\n", to_string(found.kind), found.pairs.size(),
-               found.seconds);
+    print(stream, fmt::format("{:<12}  {:>10}  {:>8.3f}\n", to_string(found.kind),
+                              found.pairs.size(), found.seconds));
   }
 }
 
@@ -143,7 +143,7 @@ Status candidates(const Arguments& arguments) {
   write_index_pairs(files.edge_edge_pairs, all[1].pairs);
   write_queries(files.vertex_face, mesh, all[0]);
   write_queries(files.edge_edge, mesh, all[1]);
-  if (json) json.write(summary(mesh, all).dump(2) + "\n");
+  if (json) json.write(json_document(summary(mesh, all)));
   json.close();
   print_table(json.is_standard_output() ? stderr : stdout, mesh, all);
   return interrupted() ? Status::interrupted : Status::all_well;

@@ -5,7 +5,7 @@
 ///
 ///     file,index,kind,verdict,toi_lower,toi_upper,tolerance
 ///
-/// verdict: yes, no, undecided or error. The last three fields are empty where a solver gives none.
+/// file: its path, printable (printable.hpp). verdict: yes, no, undecided or error. The last three fields are empty where a solver gives none.
 /// A query is known by all of file, index and kind: the families of the built-in set have queries
 /// of both kinds under one name.
 
