@@ -21,7 +21,8 @@ constexpr std::string_view row_format =
     "{:<{}}  {:>10}  {:>8}  {:>9}  {:>9}  {:>11}  {:>8}  {:>8}  {:>9}  {:>9}  {:>8}  {:>11}  "
     "{:>9}  {:>6}  {:>9}  {:>9}  {:>9}\n";
 
-constexpr std::string_view step_row_format = "{:>7}  {:>11}  {:>10}  {:>10}  {:>13}  {:>15}\n";
+constexpr std::string_view step_row_format =
+    "{:>7}  {:<9}  {:>11}  {:>10}  {:>10}  {:>13}  {:>15}\n";
 
 /// Of a group, contender and fault so many answers are printed.
 constexpr std::size_t most_printed = 20;
@@ -125,6 +126,18 @@ void append_group(std::string& text, const BenchResult& group) {
   text += '\n';
 }
 
+/// One clock's times of a step.
+void append_step_row(std::string& text, const StepTimes& times, std::string_view clock,
+                     double StepTime::*time) {
+  const auto milliseconds = [time](auto... parts) {
+    return fmt::format("{:.1f} ms", 1e3 * (... + (parts.*time)));
+  };
+  fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), times.threads, clock,
+                 milliseconds(times.broad_phase), milliseconds(times.collisions),
+                 milliseconds(times.earliest), milliseconds(times.broad_phase, times.collisions),
+                 milliseconds(times.broad_phase, times.earliest));
+}
+
 void append_step(std::string& text, const StepResult& step) {
   text += fmt::format(
       "{}{}: {} vertices, {} edges, {} faces; vertex-face {} candidates, {} collisions; edge-edge "
@@ -138,16 +151,11 @@ void append_step(std::string& text, const StepResult& step) {
                         step.earliest->toi_upper,
                         step.earliest_agrees ? "" : ": NOT that of the collisions");
   }
-  fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), "threads", "broad phase",
-                 "collisions", "earliest", "step, all", "step, earliest");
+  fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), "threads", "time",
+                 "broad phase", "collisions", "earliest", "step, all", "step, earliest");
   for (const StepTimes& times : step.times) {
-    const auto milliseconds = [](double seconds) {
-      return fmt::format("{:.1f} ms", 1e3 * seconds);
-    };
-    fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), times.threads,
-                   milliseconds(times.broad_phase), milliseconds(times.collisions),
-                   milliseconds(times.earliest), milliseconds(times.broad_phase + times.collisions),
-                   milliseconds(times.broad_phase + times.earliest));
+    append_step_row(text, times, "wall", &StepTime::wall);
+    append_step_row(text, times, "processor", &StepTime::processor);
   }
   text += '\n';
 }
@@ -160,6 +168,13 @@ std::string legend(const BenchReport& report) {
       "shortest of up to three,\n"
       "without the clock's own time. error: from toi_lower up to the exact time of impact.\n",
       report.options.repetitions);
+  if (report.step) {
+    text +=
+        "The table of whole steps has medians of as many repetitions: wall is the time from "
+        "beginning "
+        "to end, processor\n"
+        "that of all threads together, which the other tables have.\n";
+  }
   const auto is_sampled = [](const BenchResult& group) {
     return std::ranges::any_of(group.contenders, [&](const ContenderResult& contender) {
       return contender.queries < group.queries;
@@ -277,9 +292,12 @@ nlohmann::json json_of(const std::optional<StepResult>& step) {
   nlohmann::json times = nlohmann::json::array();
   for (const StepTimes& time : step->times) {
     times.push_back({{"threads", time.threads},
-                     {"broad_phase_s", time.broad_phase},
-                     {"collisions_s", time.collisions},
-                     {"earliest_s", time.earliest}});
+                     {"broad_phase_s", time.broad_phase.wall},
+                     {"collisions_s", time.collisions.wall},
+                     {"earliest_s", time.earliest.wall},
+                     {"broad_phase_processor_s", time.broad_phase.processor},
+                     {"collisions_processor_s", time.collisions.processor},
+                     {"earliest_processor_s", time.earliest.processor}});
   }
   nlohmann::json earliest;
   if (step->earliest) {
@@ -309,7 +327,7 @@ std::string to_text(const BenchReport& report) {
   std::string text;
   for (const BenchResult& group : report.groups) append_group(text, group);
   if (report.step) append_step(text, *report.step);
-  return report.groups.empty() ? text : text + legend(report);
+  return report.groups.empty() && !report.step ? text : text + legend(report);
 }
 
 nlohmann::json to_json(const BenchReport& report) {
