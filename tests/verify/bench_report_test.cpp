@@ -138,6 +138,16 @@ TEST(BenchReport, TextSaysWhatWasSampledAndOnlyThen) {
             "b, edge-edge: 400 queries, 26 collisions; memory pass 5.00 ns/query");
 }
 
+TEST(BenchReport, TextShowsNamesOnOneLine) {
+  BenchReport named = report();
+  named.groups[0].name = "x\x1b[2J\nmethod\u202e";
+  named.step = step();
+  named.step->name = "y\n\u2028";
+  const std::string text = to_text(named);
+  EXPECT_NE(text.find("x\\x1b[2J\\x0amethod\\u202e, edge-edge: "), std::string::npos) << text;
+  EXPECT_NE(text.find("\ny\\x0a\\u2028: 10 vertices"), std::string::npos) << text;
+}
+
 TEST(BenchReport, TextHasTheStep) {
   BenchReport stepped;
   stepped.step = step();

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cstddef>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "verify/dataset/dataset_error.hpp"
-#include "verify/dataset/input_file.hpp"
 #include "verify/dataset/output_file.hpp"
 
 namespace touchstone::verify {
@@ -18,13 +18,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view file_name = "separation.json";
-constexpr std::size_t most_bytes = std::size_t{1} << 16U;
 
 /// Is there a digit other than 0 before the exponent?
 bool has_value(std::string_view text) {
   const bool is_hexadecimal = text.find_first_of("xX") != std::string_view::npos;
   const std::size_t end = text.find_first_of(is_hexadecimal ? "pP" : "eE");
   return text.substr(0, end).find_first_of("123456789abcdefABCDEF") != std::string_view::npos;
+}
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.is_open() || file.bad()) throw DatasetError(path, {}, "cannot read");
+  return text;
 }
 
 }  // namespace
@@ -52,7 +58,7 @@ std::optional<fs::path> find_separation_file(const fs::path& dataset) {
 
 Separation read_separation(const fs::path& path) {
   try {
-    const nlohmann::json json = nlohmann::json::parse(read_file(path, most_bytes));
+    const nlohmann::json json = nlohmann::json::parse(read_text(path));
     const auto distance = distance_from_text(json.at("min_separation").get<std::string>());
     if (!distance) throw DatasetError(path, {}, "min_separation is no finite number from 0 on");
     return {.distance = *distance, .norm = norm_from_string(json.at("norm").get<std::string>())};
