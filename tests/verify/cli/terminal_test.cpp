@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 
 // What the tool does when its user or its reader has gone, or its input never comes, and what names from
@@ -51,7 +52,7 @@ class TerminalTool : public tests::FolderTest {
 
   /// Starts the tool with its standard output in a file, at a descriptor, or closed.
   [[nodiscard]] pid_t start(std::vector<std::string> words, int output = to_file) const {
-    words.insert(words.begin(), TOUCHSTONE_TOOL);
+    words.insert(words.begin(), tests::touchstone_program());
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
     for (std::string& word : words) pointers.push_back(word.data());
@@ -68,7 +69,8 @@ class TerminalTool : public tests::FolderTest {
     }
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("err").c_str(), flags, 0600);
     pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, TOUCHSTONE_TOOL, &actions, nullptr, pointers.data(), environ),
+    EXPECT_EQ(posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
+                          pointers.data(), environ),
               0);
     posix_spawn_file_actions_destroy(&actions);
     return process;
@@ -213,7 +215,7 @@ TEST_F(TerminalTool, AClosedStandardOutputEndsThePrintingOnly) {
   const ClosedPipe pipe;
   // Findings are printed while the search goes on.
   const Outcome fuzz =
-      run({"fuzz", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--queries", "3000",
+      run({"fuzz", "--plugin", tests::plugin_library("box_overlap"), "--exact", "--queries", "3000",
            "--most-findings", "2", "--out", path("found.csv"), "--json", path("fuzz.json")},
           pipe.writer());
   EXPECT_EQ(fuzz.status, 1) << fuzz.err;
