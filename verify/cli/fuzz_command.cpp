@@ -27,6 +27,7 @@
 #include "verify/fuzz/reproduce.hpp"
 #include "verify/fuzz/shrink.hpp"
 #include "verify/methods/registry.hpp"
+#include "verify/printable.hpp"
 #include "verify/separation.hpp"
 #include "verify/terminal.hpp"
 
@@ -207,12 +208,12 @@ class FuzzRun {
     report_output(report.method, report.result.output, arguments_.solver.show_output);
     const std::vector<fs::path> written = found_.close();
     if (json_) {
-      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-      json_.write(with_shrunk(to_json(report)).dump(2, ' ', false, replace_bad_utf8) + "\n");
+      json_.write(json_document(with_shrunk(to_json(report))));
     }
     json_.close();
-    fmt::print(out(), "{}", to_text(report));
-    for (const fs::path& file : written) fmt::print(out(), "written: {}\n", file.string());
+    print(out(), to_text(report));
+    for (const fs::path& file : written)
+      print(out(), fmt::format("written: {}\n", printable(file.string())));
     return status(report.result);
   }
 
@@ -246,7 +247,7 @@ class FuzzRun {
   /// Makes a finding simpler, if it is wrong alone too, and prints it.
   void add(const Finding& finding) {
     bar_.clear();
-    fmt::print(out(), "{}", to_text(finding));
+    print(out(), to_text(finding));
     const auto fails = still_fails(*method_, finding, options_);
     const auto fails_uninterrupted = [&fails](const Query& query) {
       return !interrupted() && fails(query);
@@ -257,7 +258,7 @@ class FuzzRun {
           shrink(finding.kind, finding.query, fails_uninterrupted, {.seconds = shrink_seconds});
       shrunk.collides = Decision(finding.kind, shrunk.query, finding.separation).collides();
     } else {
-      fmt::print(out(), "  asked alone, it is not wrong\n");
+      print(out(), "  asked alone, it is not wrong\n");
     }
     print_query(shrunk);
     std::fflush(out());
@@ -276,10 +277,10 @@ class FuzzRun {
                                     .what = std::string(to_string(shrunk.what)),
                                     .plugin = plugins.empty() ? fs::path() : plugins.front(),
                                     .exact_plugin = arguments_.solver.exact};
-    fmt::print(out(), "\n{}\nAs rows of a dataset, {} {}:\n{}\nAs a test:\n{}\n",
-               as_points(shrunk.kind, shrunk.query), to_string(shrunk.kind),
-               shrunk.collides ? "that collides" : "that does not collide",
-               as_csv(shrunk.query, shrunk.collides), as_cpp_test(reproduction));
+    print(out(), fmt::format("\n{}\nAs rows of a dataset, {} {}:\n{}\nAs a test:\n{}\n",
+                             as_points(shrunk.kind, shrunk.query), to_string(shrunk.kind),
+                             shrunk.collides ? "that collides" : "that does not collide",
+                             as_csv(shrunk.query, shrunk.collides), as_cpp_test(reproduction)));
   }
 
   /// Adds to each finding the simplest query, as `shrunk`.

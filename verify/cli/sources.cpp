@@ -131,10 +131,14 @@ Separation separation_for(const SourceArguments& arguments, const QuerySource& s
 }
 
 void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers) {
-  if (arguments.built_in_set()) {
-    for_each_family(arguments, handlers);
-  } else {
-    for_each_file(arguments, handlers);
+  try {
+    if (arguments.built_in_set()) {
+      for_each_family(arguments, handlers);
+    } else {
+      for_each_file(arguments, handlers);
+    }
+  } catch (const Interrupted&) {
+    // The command goes on with what it has, as after an interrupt between two queries.
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "verify/printable.hpp"
 #include "verify/report/figures.hpp"
 #include "verify/report/tables.hpp"
 
@@ -63,13 +64,14 @@ constexpr auto differences = std::to_array<Difference>({
 
 class Writer {
  public:
-  explicit Writer(const Measurements& measurements) : measurements_(measurements) {}
+  explicit Writer(const Measurements& measurements)
+      : measurements_(with_printable_texts(measurements)) {}
 
   [[nodiscard]] std::string document() {
     text_ = "# Results\n\n";
-    text_ += fmt::format(
-        "Written by `./run results`; not edited by hand. Made on {} by\n\n```\n{}\n```\n\n",
-        measurements_.machine, measurements_.command);
+    text_ += fmt::format("Written by `./run results`; not edited by hand. Made on {} by\n\n{}\n",
+                         markdown_escaped(measurements_.machine),
+                         markdown_code_block(measurements_.command));
     if (measurements_.interrupted) text_ += "**Interrupted: not all is here.**\n\n";
     text_ +=
         "The truth is the exact oracle's. Published: Wang et al. 2021, \"A Large Scale Benchmark "
@@ -93,7 +95,7 @@ class Writer {
     std::string names;
     for (const Measurement* m : of_experiment(measurements_, Experiment::field)) {
       if (fmt::format("{}, {}", m->group, to_string(m->kind)) != place || !test(*m)) continue;
-      names += fmt::format("{}`{}`", names.empty() ? "" : ", ", m->method);
+      names += (names.empty() ? "" : ", ") + markdown_code(m->method);
     }
     return names.empty() ? "none" : names;
   }
@@ -102,7 +104,7 @@ class Writer {
   void write_sentences() {
     text_ += "## In sentences\n\n";
     for (const Table& table : field_tables(measurements_)) {
-      text_ += fmt::format("- **{}**: ", table.title);
+      text_ += fmt::format("- **{}**: ", markdown_escaped(table.title));
       text_ += fmt::format(
           "with false negatives: {}. Without false positives: {}. ",
           names_where(table.title, [](const Measurement& m) { return m.false_negatives != 0; }),
@@ -127,10 +129,10 @@ class Writer {
       for (const FigurePanel& panel : figure.panels) {
         std::string names;
         for (const FigurePoint& point : panel.front) {
-          names += (names.empty() ? "" : ", ") + point.label;
+          names += (names.empty() ? "" : ", ") + markdown_escaped(point.label);
         }
         comparisons[names.empty() ? "none" : names].push_back(
-            fmt::format("{} ({})", what, panel.title));
+            fmt::format("{} ({})", what, markdown_escaped(panel.title)));
       }
     }
     if (comparisons.empty()) return;
@@ -152,7 +154,7 @@ class Writer {
     if (tables.empty()) return;
     text_ += fmt::format("## {}\n\n", title);
     for (const Table& table : tables) {
-      text_ += fmt::format("### {}\n\n{}\n", table.title, to_markdown(table));
+      text_ += fmt::format("### {}\n\n{}\n", markdown_escaped(table.title), to_markdown(table));
     }
   }
 
@@ -186,7 +188,7 @@ class Writer {
     }
   }
 
-  const Measurements& measurements_;
+  Measurements measurements_;
   std::string text_;
 };
 

@@ -190,6 +190,7 @@ TEST_F(Bench, AStepIsTimedFromEndToEnd) {
   EXPECT_EQ(step.at("earliest_agrees"), true);
   ASSERT_EQ(step.at("times").size(), 2U);
   EXPECT_EQ(step.at("times")[1].at("threads"), 2);
+  EXPECT_GT(step.at("times")[1].at("collisions_processor_s"), 0.0);
   EXPECT_TRUE(contains(read("out"), "before-after: 6 vertices, 6 edges, 2 faces; ")) << read("out");
 }
 

@@ -98,6 +98,18 @@ std::string falling_triangle(const std::string& z) {
          "\nf 1 2 3\nf 4 5 6\n";
 }
 
+TEST_F(CandidatesCommand, SaysHowManyCandidatesAreTooMany) {
+  const std::string before = write("0.obj", falling_triangle("1"));
+  const std::string after = write("1.obj", falling_triangle("-1"));
+  const Outcome refused = run({before, after, "--out", path("step"), "--max-candidates", "2"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, "0-1: 3 vertex-face candidates, more than the 2 "))
+      << refused.err;
+  EXPECT_TRUE(contains(refused.err, "--max-candidates")) << refused.err;
+  EXPECT_EQ(files("step"), 0U);
+  EXPECT_EQ(run({before, after, "--out", path("step"), "--max-candidates", "3"}).status, 0);
+}
+
 TEST_F(CandidatesCommand, WritesQueriesThatTheirPairsName) {
   const auto outcome =
       run({write("0.obj", falling_triangle("1")), write("1.obj", falling_triangle("-1")), "--out",

@@ -207,7 +207,7 @@ TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
 /// Nothing of it runs in this process before somebody solves here.
 TEST(LoadPlugin, LoadsNothingIntoThisProcess) {
   const auto is_loaded = [] {
-    void* const handle = ::dlopen(tests::plugin_library("box_overlap"), RTLD_LAZY | RTLD_NOLOAD);
+    void* const handle = ::dlopen(tests::plugin_library("box_overlap").c_str(), RTLD_LAZY | RTLD_NOLOAD);
     if (handle != nullptr) ::dlclose(handle);
     return handle != nullptr;
   };
@@ -215,6 +215,24 @@ TEST(LoadPlugin, LoadsNothingIntoThisProcess) {
   EXPECT_FALSE(is_loaded());
   EXPECT_EQ(ask(*method, tests::over_triangle(1, 1, 1, -2)).verdict, Verdict::yes);
   EXPECT_TRUE(is_loaded());
+}
+
+TEST(Plugin, NameIsOneLineOfText) {
+  const auto set_name = [](const char* name) {
+    ::setenv("TOUCHSTONE_PLUGIN_NAME", name, 1);  // NOLINT(concurrency-mt-unsafe)
+  };
+  for (const char* name :
+       {"two\u2028lines", "\u202egnol", "\u009b31m", "caf\xe9", "\x1b[31m", "\x7f", ""}) {
+    set_name(name);
+    EXPECT_TRUE(load_error(tests::plugin_library("latin_name"))
+                    .starts_with("latin_name.so: name is not one line of text: "))
+        << name;
+  }
+  for (const char* name : {"café", "δ-solver (v2)", "法"}) {
+    set_name(name);
+    EXPECT_EQ(load_plugin(tests::plugin_library("latin_name"))->name(), name);
+  }
+  ::unsetenv("TOUCHSTONE_PLUGIN_NAME");  // NOLINT(concurrency-mt-unsafe)
 }
 
 // ---- Answers ------------------------------------------------------------------------------------

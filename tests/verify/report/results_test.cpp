@@ -25,6 +25,22 @@ TEST(Results, HaveTheTablesWithThePublishedNumbers) {
   EXPECT_FALSE(contains(text, "## Table 3"));
 }
 
+/// Names and commands may come from folders and from the JSON of strangers.
+TEST(Results, HoldNoMarkupOfNames) {
+  Measurements measurements = tests::small_report();
+  measurements.command = "touchstone report x\n```\n# forged";
+  measurements.machine = "<script>";
+  for (Measurement& measurement : measurements.all) measurement.group = "a\n# b <b>\u202e";
+  const std::string text = results_document(measurements);
+  EXPECT_TRUE(contains(text,
+                       "Made on \\<script\\> by\n\n````\n"
+                       "touchstone report x\\x0a```\\x0a# forged\n````\n"))
+      << text;
+  EXPECT_TRUE(contains(text, "### a\\\\x0a# b \\<b\\>\\\\u202e, vertex-face\n")) << text;
+  EXPECT_FALSE(contains(text, "<b>"));
+  EXPECT_FALSE(contains(text, "\n# b"));
+}
+
 TEST(Results, SayInSentencesWhatTheDataSay) {
   const std::string text = results_document(tests::small_report());
   EXPECT_TRUE(contains(text,
