@@ -13,10 +13,10 @@
 #include <chrono>
 #include <csignal>
 #include <new>
-#include <optional>
 #include <system_error>
 #include <type_traits>
 
+#include "verify/deadline.hpp"
 #include "verify/methods/isolation.hpp"
 
 namespace touchstone::verify {
@@ -190,10 +190,7 @@ class Examinee::Impl {
 
   Sitting answer(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
                  double seconds) {
-    deadline_.reset();
-    if (seconds > 0.0) {
-      deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
-    }
+    deadline_ = Deadline(seconds);
     Sitting sitting;
     while (sitting.answered < queries.size() && !is_stopped() &&
            sitting.incidents.size() < options_.most_incidents) {
@@ -207,8 +204,7 @@ class Examinee::Impl {
 
  private:
   [[nodiscard]] bool is_stopped() const {
-    return (options_.stop != nullptr && options_.stop->load()) ||
-           (deadline_ && Clock::now() >= *deadline_);
+    return (options_.stop != nullptr && options_.stop->load()) || deadline_.is_over();
   }
 
   /// Answers what fits into the shared memory, which begins at number `offset` of all.
@@ -286,13 +282,14 @@ class Examinee::Impl {
   }
 
   /// Solves a query that ended or held up the child once more, alone. On a busy machine what gets
-  /// little processor time gets more time. False if stopped.
+  /// little processor time gets more time, as long as there is some. False if stopped.
   bool confirm(Kind kind, std::span<const Query> query, std::span<fast::Answer> answer,
                Sitting& sitting) {
-    constexpr double longer = 5.0;
+    constexpr double longer = 5.0, least = 1e-3;
     IsolatedSolve solved;
     for (const double factor : {1.0, longer}) {
-      const double limit = factor * options_.query_limit_seconds;
+      double limit = factor * options_.query_limit_seconds;
+      if (limit > 0.0) limit = std::clamp(deadline_.seconds_left(), least, limit);
       solved = solve_isolated(method_, kind, query, answer, options_.method,
                               {.query_limit_seconds = limit, .stop = options_.stop});
       if (solved.stopped) return false;
@@ -310,7 +307,7 @@ class Examinee::Impl {
   ExamineeOptions options_;
   SharedMemory memory_;
   std::unique_ptr<Child> child_;
-  std::optional<Clock::time_point> deadline_;
+  Deadline deadline_;
   /// Is a step solved one by one since the child died in it?
   bool searching_ = false;
 };

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -62,12 +63,13 @@ class Examinee {
   ~Examinee();
 
   /// Answers query i in answers[i]; fewer if stopped, or at the limit of incidents.
-  /// \param seconds after this much wall-clock time, or a quarter of a second more, it stops; 0: no
-  /// limit
+  /// \param seconds after this much wall-clock time, or a quarter of a second more, it stops; infinite:
+  /// no limit
   /// \pre both spans have the same length.
   /// \throws std::system_error if the system has no memory or no process left to give.
   [[nodiscard]] Sitting answer(Kind kind, std::span<const Query> queries,
-                               std::span<fast::Answer> answers, double seconds = 0.0);
+                               std::span<fast::Answer> answers,
+                               double seconds = std::numeric_limits<double>::infinity());
 
  private:
   class Impl;

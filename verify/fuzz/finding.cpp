@@ -23,4 +23,17 @@ std::string_view to_string(FindingKind what) {
   }
 }
 
+std::string_view to_string(Shrinking shrinking) {
+  switch (shrinking) {
+    case Shrinking::not_tried:
+      return "not tried";
+    case Shrinking::complete:
+      return "complete";
+    case Shrinking::cut_short:
+      return "cut short";
+    default:
+      return "not reproduced";
+  }
+}
+
 }  // namespace touchstone::verify

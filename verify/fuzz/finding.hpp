@@ -28,19 +28,49 @@ inline constexpr std::size_t finding_kinds = 8;
 /// "false_negative", "late_toi" and so on, as above.
 [[nodiscard]] std::string_view to_string(FindingKind what);
 
+/// A query that a solver answers wrongly, its answer, and the truth: all of the same query.
+struct FailingCase {
+  Query query{};
+  fast::Answer answer = {};
+  bool collides = false;    ///< the truth
+  std::string truth = {};   ///< "no collision", or "collision between … and …"
+  std::string detail = {};  ///< what is wrong, in words
+  /// The proof of the truth, as a stream of one certificate (exact/CERTIFICATES.md); empty if beyond
+  /// the format's limits.
+  std::string certificate = {};
+};
+
+/// What became of the attempt to make a finding's query simpler.
+enum class Shrinking : std::uint8_t {
+  not_tried,
+  complete,        ///< no step leads to a simpler query that fails
+  cut_short,       ///< the time was over before
+  not_reproduced,  ///< asked alone, the solver is not wrong
+};
+
+/// "not tried", "complete", "cut short" or "not reproduced".
+[[nodiscard]] std::string_view to_string(Shrinking shrinking);
+
+/// Bounds of a time of impact that a solver gives with nearly every collision, and not with this.
+struct MissingBounds {
+  bool lower = false;
+  bool upper = false;
+
+  [[nodiscard]] bool any() const { return lower || upper; }
+};
+
 /// Something that a solver does wrong, confirmed by the oracle.
 struct Finding {
   FindingKind what = FindingKind::false_negative;
   Kind kind = Kind::vertex_face;
-  Query query{};
   Separation separation = {};
-  std::string method;  ///< that is wrong: the one asked, or "certified" where the judge is
-  fast::Answer answer = {};
-  bool collides = false;  ///< the truth
-  std::string truth;      ///< "no collision", or "collision between … and …"
-  std::string detail;     ///< what is wrong, in words
-  /// Of the truth, as text (exact/CERTIFICATES.md); empty if beyond its limits.
-  std::string certificate;
+  std::string method;         ///< that is wrong: the one asked, or "certified" where the judge is
+  FailingCase original = {};  ///< as it was found
+  FailingCase simplest =
+      {};  ///< the simplest query with the same fault: the original if none was found
+  Shrinking shrinking = Shrinking::not_tried;
+  /// Of what is wrong only in that.
+  MissingBounds missing = {};
   double seconds = 0.0;       ///< wall-clock time of the run when it was found
   std::uint64_t queries = 0;  ///< asked by then, itself included
   std::string generator;      ///< that made the query

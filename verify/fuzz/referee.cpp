@@ -97,6 +97,15 @@ std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& tru
                                         : std::nullopt;
 }
 
+Accusation accuse_incident(bool hang, double limit_seconds) {
+  if (hang) return {FindingKind::hang, fmt::format("takes more than {} s", limit_seconds)};
+  return {FindingKind::crash, "ends its process"};
+}
+
+Answer answer_of_incident(bool hang) {
+  return {.verdict = hang ? Verdict::undecided : Verdict::error};
+}
+
 std::optional<Accusation> accuse_judge(const Truth& truth, const CertifiedResult& judged) {
   const Answer answer{.verdict = judged.verdict,
                       .toi_lower = judged.toi_lower,

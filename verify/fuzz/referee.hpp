@@ -53,6 +53,13 @@ struct Accusation {
                                                const fast::Answer& answer,
                                                const Standard& standard);
 
+/// What is wrong with a solver that ended its process at a query, or held it up for longer than the
+/// limit.
+[[nodiscard]] Accusation accuse_incident(bool hang, double limit_seconds);
+
+/// Such an incident as an answer: undecided or error.
+[[nodiscard]] fast::Answer answer_of_incident(bool hang);
+
 /// Does the oracle's truth contradict what the certified solver found?
 [[nodiscard]] std::optional<Accusation> accuse_judge(const Truth& truth,
                                                      const fast::CertifiedResult& judged);

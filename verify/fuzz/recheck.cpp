@@ -1,0 +1,134 @@
+#include "verify/fuzz/recheck.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "verify/fuzz/draws.hpp"
+#include "verify/fuzz/shrink.hpp"
+#include "verify/prove.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::CertifiedResult;
+using fast::Verdict;
+
+/// Is it something that the solver's process has been asked a second time about, alone?
+bool is_incident(FindingKind what) {
+  return what == FindingKind::crash || what == FindingKind::hang;
+}
+
+/// Are the same bounds missing in both?
+bool lacks_same_bounds(const Answer& a, const Answer& b) {
+  return std::isnan(a.toi_lower) == std::isnan(b.toi_lower) &&
+         std::isnan(a.toi_upper) == std::isnan(b.toi_upper);
+}
+
+}  // namespace
+
+Standard standard_of(const fast::Method& method, const FuzzOptions& options) {
+  return {.promise = options.promise.value_or(method.promise()),
+          .separation = options.separation,
+          .reach = options.reach};
+}
+
+ExamineeOptions examinee_options(const FuzzOptions& options) {
+  return {.method = method_options(options),
+          .query_limit_seconds = options.query_limit_seconds,
+          .stop = options.stop};
+}
+
+Answer answer_of(const CertifiedResult& judged) {
+  return {.verdict = judged.verdict,
+          .toi_lower = judged.toi_lower,
+          .toi_upper = judged.toi_upper,
+          .tolerance = Answer::none};
+}
+
+FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
+                         const Decision& decision, std::string detail, std::string_view label) {
+  return {.query = query,
+          .answer = answer,
+          .collides = decision.collides(),
+          .truth = to_text(truth_of(0, decision)),
+          .detail = std::move(detail),
+          .certificate = certificate_stream(kind, query, decision, label)};
+}
+
+Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options)
+    : finding_(finding),
+      standard_(standard_of(method, options)),
+      query_limit_seconds_(options.query_limit_seconds),
+      of_judge_(finding.method == judge_name && method.name() != judge_name),
+      examinee_(method, examinee_options(options)) {}
+
+std::optional<FailingCase> Recheck::ask(const Query& query, const Deadline& deadline) {
+  if (!draws::is_finite(query) || deadline.is_over()) return std::nullopt;
+  const std::optional<Reply> reply = reply_to(query, deadline);
+  if (!reply) return std::nullopt;
+  const Decision decision(finding_.kind, query, standard_.separation);
+  const auto accusation = accuse_reply(query, truth_of(0, decision), *reply);
+  if (!accusation || !is_same(*accusation)) return std::nullopt;
+  return failing_case(finding_.kind, query, reply->answer, decision, accusation->detail,
+                      finding_.generator);
+}
+
+std::optional<Recheck::Reply> Recheck::reply_to(const Query& query, const Deadline& deadline) {
+  if (of_judge_) {
+    return Reply{.answer = answer_of(
+                     fast::certified(finding_.kind, query, {.separation = standard_.separation})),
+                 .incident = std::nullopt};
+  }
+  Reply reply;
+  const Sitting sitting =
+      examinee_.answer(finding_.kind, {&query, 1}, {&reply.answer, 1}, deadline.seconds_left());
+  if (sitting.answered == 0) return std::nullopt;
+  if (!sitting.incidents.empty()) {
+    const bool hang = sitting.incidents.front().hang;
+    reply = {.answer = answer_of_incident(hang),
+             .incident = accuse_incident(hang, query_limit_seconds_)};
+  }
+  return reply;
+}
+
+std::optional<Accusation> Recheck::accuse_reply(const Query& query, const Truth& truth,
+                                                const Reply& reply) const {
+  if (reply.incident) return reply.incident;
+  if (finding_.missing.any() && reply.answer.verdict == Verdict::yes &&
+      lacks_same_bounds(reply.answer, finding_.original.answer)) {
+    return Accusation{FindingKind::not_finite, finding_.original.detail};
+  }
+  Standard standard = standard_;
+  if (of_judge_) standard = {.promise = fast::Promise::exact, .separation = standard_.separation};
+  return accuse(finding_.kind, query, truth, reply.answer, standard);
+}
+
+bool Recheck::is_same(const Accusation& accusation) const {
+  return accusation.what == finding_.what || finding_.what == FindingKind::asymmetry;
+}
+
+void simplify(const fast::Method& method, const FuzzOptions& options, const Deadline& deadline,
+              Finding& finding) {
+  // In less time than that no query can be seen to hang.
+  const bool is_hang = finding.what == FindingKind::hang;
+  if (is_hang && deadline.seconds_left() <= options.query_limit_seconds) return;
+  Recheck recheck(method, finding, options);
+  const auto must_end = [&] {
+    return deadline.is_over() || (options.stop != nullptr && options.stop->load());
+  };
+  const auto fails = [&](const Query& query) {
+    std::optional<FailingCase> evidence = recheck.ask(query, deadline);
+    if (evidence) finding.simplest = std::move(*evidence);
+    return evidence.has_value();
+  };
+  // What ended the process or took too long has done it twice.
+  if (!is_incident(finding.what) && !fails(finding.original.query)) {
+    finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::not_reproduced;
+    return;
+  }
+  static_cast<void>(shrink(finding.kind, finding.original.query, fails, {.must_end = must_end}));
+  finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::complete;
+}
+
+}  // namespace touchstone::verify
