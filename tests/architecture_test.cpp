@@ -96,10 +96,12 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/", "nlohmann/"},
     {"verify/", "oneapi/tbb/"},
     {"verify/", "zstd.h"},
-    // POSIX: files, memory maps, terminals, clocks, processes, shared libraries.
+    // POSIX and Linux: files, memory maps, terminals, clocks, processes, shared libraries.
     {"verify/", "dlfcn.h"},
     {"verify/", "fcntl.h"},
+    {"verify/", "linux/"},
     {"verify/", "poll.h"},
+    {"verify/", "sched.h"},
     {"verify/", "sys/"},
     {"verify/", "time.h"},
     {"verify/", "unistd.h"},

@@ -94,7 +94,8 @@ std::string error_text(double error) {
   return std::isnan(error) ? "-" : fmt::format("{:.2e}", error);
 }
 
-/// Does the table of methods have a column of tolerances?
+/// Does the table of methods have a column of tolerances? It has if there is a separation, or somebody
+/// claims too much.
 enum class Tolerances : std::uint8_t { hidden, shown };
 
 void append_method_row(std::string& text, std::size_t width, const std::string& name,
@@ -109,9 +110,7 @@ void append_method_row(std::string& text, std::size_t width, const std::string& 
                  error_text(judged.toi_errors.quantile(0.99)), error_text(judged.toi_errors.max()));
   if (tolerances == Tolerances::hidden) return;
   text.pop_back();
-  text += fmt::format("  {:>10}\n", method.checks_reach
-                                        ? std::to_string(judged.count(Fault::beyond_tolerance))
-                                        : "-");
+  text += fmt::format("  {:>10}\n", judged.count(Fault::beyond_tolerance));
 }
 
 void append_wrong_answers(std::string& text, const CertifyResult& result,
@@ -133,10 +132,29 @@ void append_wrong_answers(std::string& text, const CertifyResult& result,
   }
 }
 
+/// How often it gave no answer, by kind, if that is for other reasons than its own indecision.
+void append_failures(std::string& text, const MethodResult& method) {
+  std::string kinds;
+  bool is_only_undecided = true;
+  for (const FailureKind kind : all_failure_kinds) {
+    const std::uint64_t count = method.judgement.count(kind);
+    if (count == 0) continue;
+    kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, to_string(kind));
+    is_only_undecided = is_only_undecided && kind == FailureKind::undecided;
+  }
+  if (!is_only_undecided) text += fmt::format("no answer: {}: {}\n", method.name, kinds);
+}
+
+bool claims_too_much(const MethodResult& method) {
+  return method.judgement.count(Fault::beyond_tolerance) != 0;
+}
+
 void append_methods(std::string& text, std::size_t width, const std::vector<CertifyResult>& results,
                     const CertifyResult& sum) {
   for (const MethodResult& method : sum.methods) width = std::max(width, method.name.size());
-  const Tolerances tolerances = has_separation(results) ? Tolerances::shown : Tolerances::hidden;
+  const bool shows_tolerances =
+      has_separation(results) || std::ranges::any_of(sum.methods, claims_too_much);
+  const Tolerances tolerances = shows_tolerances ? Tolerances::shown : Tolerances::hidden;
   width += 2;
   text += '\n';
   fmt::format_to(std::back_inserter(text), fmt::runtime(method_row_format), "method", width, "kind",
@@ -157,6 +175,7 @@ void append_methods(std::string& text, std::size_t width, const std::vector<Cert
       append_wrong_answers(wrong_answers, result, method);
     }
   }
+  for (const MethodResult& method : sum.methods) append_failures(text, method);
   text += wrong_answers;
 }
 
@@ -173,31 +192,35 @@ nlohmann::json to_json(const ToiErrors& errors) {
           {"max", errors.max()}};
 }
 
-nlohmann::json counts(const MethodResult& method, Tolerances tolerances) {
-  const Judgement& judged = method.judgement;
-  const bool has_time = method.timed && judged.queries != 0;
-  nlohmann::json json{{"name", method.name},
-                      {"promise", to_string(method.promise)},
-                      {"queries", judged.queries},
-                      {"false_negatives", judged.count(Fault::false_negative)},
-                      {"false_positives", judged.count(Fault::false_positive)},
-                      {"late_toi", judged.count(Fault::late_toi)},
-                      {"early_toi_upper", judged.count(Fault::early_toi_upper)},
-                      {"undecided", judged.undecided},
-                      {"errors", judged.count(Fault::error)},
-                      {"missing", judged.missing},
-                      {"ns_per_query", number_or_null(has_time, judged.nanoseconds_per_query())},
-                      {"toi_error", to_json(judged.toi_errors)}};
-  const std::uint64_t beyond_tolerance = judged.count(Fault::beyond_tolerance);
-  if (tolerances == Tolerances::shown || beyond_tolerance != 0) {
-    json["beyond_tolerance"] = beyond_tolerance;
-  }
+nlohmann::json failures_of(const Judgement& judged) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const FailureKind kind : all_failure_kinds) json[to_string(kind)] = judged.count(kind);
   return json;
 }
 
-nlohmann::json methods_of(const CertifyResult& result, Tolerances tolerances) {
+nlohmann::json counts(const MethodResult& method) {
+  const Judgement& judged = method.judgement;
+  const bool has_time = method.timed && judged.queries != 0;
+  return {{"name", method.name},
+          {"promise", to_string(method.promise)},
+          {"queries", judged.queries},
+          {"false_negatives", judged.count(Fault::false_negative)},
+          {"false_positives", judged.count(Fault::false_positive)},
+          {"late_toi", judged.count(Fault::late_toi)},
+          {"early_toi_upper", judged.count(Fault::early_toi_upper)},
+          {"undecided", judged.undecided},
+          {"errors", judged.count(Fault::error)},
+          {"failures", failures_of(judged)},
+          {"unplaced_crashes", judged.unplaced_crashes},
+          {"beyond_tolerance", judged.count(Fault::beyond_tolerance)},
+          {"missing", judged.missing},
+          {"ns_per_query", number_or_null(has_time, judged.nanoseconds_per_query())},
+          {"toi_error", to_json(judged.toi_errors)}};
+}
+
+nlohmann::json methods_of(const CertifyResult& result) {
   nlohmann::json json = nlohmann::json::array();
-  for (const MethodResult& method : result.methods) json.push_back(counts(method, tolerances));
+  for (const MethodResult& method : result.methods) json.push_back(counts(method));
   return json;
 }
 
@@ -245,9 +268,8 @@ std::string to_text(const std::vector<CertifyResult>& results) {
 nlohmann::json to_json(const std::vector<CertifyResult>& results) {
   const CertifyResult sum = total(results);
   nlohmann::json json = counts(sum);
-  const Tolerances tolerances = has_separation(results) ? Tolerances::shown : Tolerances::hidden;
   if (const auto separation = separation_of(results)) json["separation"] = to_json(*separation);
-  json["methods"] = methods_of(sum, tolerances);
+  json["methods"] = methods_of(sum);
   if (sum.proofs.certificates() != 0) json["proofs"] = to_json(sum.proofs);
   for (nlohmann::json& method : json["methods"]) method["wrong_answers"] = nlohmann::json::array();
   json["mismatches"] = nlohmann::json::array();
@@ -260,7 +282,7 @@ nlohmann::json to_json(const std::vector<CertifyResult>& results) {
       file["separation"] = to_json(result.separation);
       file["compared"] = name_of(result.compared);
     }
-    file["methods"] = methods_of(result, tolerances);
+    file["methods"] = methods_of(result);
     if (result.error) file["error"] = *result.error;
     json["files"].push_back(std::move(file));
     append_wrong_answers(json["methods"], result);

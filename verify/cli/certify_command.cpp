@@ -76,6 +76,7 @@ class CertifyRun {
          .stopped = [this] { return stopped(); },
          .is_output = [this](const fs::path& path) { return is_output(path); }});
     report_answers();
+    respondents_.report_output(arguments_.judged.show_output);
     // Files first: a closed standard output must not cost them.
     truth_.close();
     proof_.close();
@@ -135,8 +136,8 @@ class CertifyRun {
     result.separation = arguments_.sources.separation.given();
     result.fail(error.what());
     for (const Respondent* respondent : respondents_.all()) {
-      result.methods.push_back({respondent->name(), respondent->promise(), respondent->timed(),
-                                Judgement{}, respondent->reach() != nullptr});
+      result.methods.push_back(
+          {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
     }
     add(std::move(result));
   }
@@ -201,7 +202,7 @@ void add_judged_options(CLI::App& command, RespondentArguments& judged) {
   command
       .add_option("--results", judged.results,
                   "Judge the answers of this file: file,index,kind,verdict,toi_lower,toi_upper,"
-                  "tolerance (as touchstone solve writes it)")
+                  "tolerance and maybe failure (as touchstone solve writes it)")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command.add_flag("--exact", judged.exact,
@@ -241,9 +242,9 @@ void add_certify_command(CLI::App& app, Status& status) {
       "and written).\n"
       "With --min-separation the truth is about that distance; of what is recorded about contact "
       "only\n"
-      "what follows is compared: a collision must collide, no later. A yes of Tight-Inclusion is "
-      "held\n"
-      "to its tolerance: the primitives must come within it, the distance and twice the filter.\n"
+      "what follows is compared: a collision must collide, no later.\n"
+      "A yes is held to the tolerance it comes with: the primitives must come within it and the\n"
+      "distance (of Tight-Inclusion twice its filter, too).\n"
       "Example: touchstone certify data/handcrafted --json result.json --truth truth.csv\n"
       "Example: touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion");
   command->callback([arguments, command, &status] {

@@ -24,7 +24,6 @@
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
 #include "verify/fuzz/reproduce.hpp"
-#include "verify/methods/plugin.hpp"
 #include "verify/methods/registry.hpp"
 #include "verify/separation.hpp"
 #include "verify/terminal.hpp"
@@ -47,6 +46,7 @@ struct Arguments {
   std::uint64_t seed = default_seed;
   std::uint64_t most_findings = 20;
   std::string kind;
+  std::vector<std::string> only;
   std::vector<fs::path> corpus;
   std::string out_file;
   std::string json_file;
@@ -54,6 +54,12 @@ struct Arguments {
   [[nodiscard]] std::vector<Kind> kinds() const {
     if (kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
     return {kind_from_string(kind)};
+  }
+
+  [[nodiscard]] std::vector<FindingKind> sought() const {
+    std::vector<FindingKind> result;
+    for (const std::string& name : only) result.push_back(finding_kind_from_string(name).value());
+    return result;
   }
 };
 
@@ -186,8 +192,10 @@ class FuzzRun {
     options_.method = arguments.solver.options;
     if (arguments.solver.exact) options_.promise = fast::Promise::exact;
     options_.query_limit_seconds = arguments.solver.query_limit;
+    options_.limits = arguments.solver.limits();
     options_.most_findings = arguments.most_findings;
     options_.shrink_seconds = shrink_seconds;
+    options_.only = arguments.sought();
     options_.corpus = read_corpus(arguments);
     options_.kinds = arguments.kinds();
     options_.stop = &interrupted();
@@ -197,7 +205,8 @@ class FuzzRun {
               .plugin = plugin_ ? fs::absolute(arguments.solver.plugins.front()) : fs::path(),
               .promise = options_.promise.value_or(method_->promise()),
               .options = method_options(options_),
-              .query_limit_seconds = options_.query_limit_seconds};
+              .query_limit_seconds = options_.query_limit_seconds,
+              .limits = options_.limits};
   }
 
   Status run() {
@@ -205,9 +214,11 @@ class FuzzRun {
                             .seed = options_.seed,
                             .seconds = options_.seconds,
                             .queries = options_.most_queries,
+                            .only = options_.only,
                             .result = fuzz(*method_, options_)};
     bar_.clear();
     report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
+    report_output(asked_.method, report.result.output, arguments_.solver.show_output);
     const std::vector<fs::path> written = found_.close();
     if (json_) {
       static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
@@ -230,7 +241,7 @@ class FuzzRun {
       options_.reach = reach_of(method_->name());
       return;
     }
-    plugin_ = load_plugin(solver.plugins.front());
+    plugin_ = solver.load(solver.plugins.front());
     method_ = plugin_.get();
   }
 
@@ -259,7 +270,11 @@ class FuzzRun {
   }
 
   [[nodiscard]] Status status(const FuzzResult& result) const {
-    if (result.all_findings != 0 || result.unplaced_crashes != 0) return Status::wrong_answers;
+    const bool seeks_ends =
+        seeks(options_, FindingKind::crash) || seeks(options_, FindingKind::exit);
+    if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
+      return Status::wrong_answers;
+    }
     if (json_.failed()) return Status::bad_input;
     if (result.ended_by == FuzzEnd::interrupt) return Status::interrupted;
     if (result.queries != 0) return Status::all_well;
@@ -280,6 +295,14 @@ class FuzzRun {
   SolverCall asked_;
 };
 
+std::vector<std::string> finding_kind_names() {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < finding_kinds; ++i) {
+    names.emplace_back(to_string(static_cast<FindingKind>(i)));
+  }
+  return names;
+}
+
 void add_search_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option(
@@ -298,6 +321,12 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
       ->check(whole_number(0, UINT32_MAX));
   command.add_option("--kind", arguments.kind, "Only queries of this kind")
       ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
+  command
+      .add_option("--only", arguments.only,
+                  "Seek findings of this kind only; others are counted and no more")
+      ->type_name("KIND")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(finding_kind_names()));
   command
       .add_option("--corpus", arguments.corpus,
                   "Dataset files (.csv, .npy) or folders, whose queries are mutated")
@@ -320,7 +349,6 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
-  arguments->solver.query_limit = FuzzOptions{}.query_limit_seconds;
   add_solver_options(*command, arguments->solver);
   command->add_flag("--exact", arguments->solver.exact,
                     "Hold the solver to exactness: false positives are findings too");
@@ -329,9 +357,11 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   add_output_options(*command, *arguments);
   command->footer(
       "The solver (one --method or --plugin) runs in a child process. Sought are false\n"
-      "negatives, times of impact that exclude the true one, crashes, hangs, numbers that are\n"
-      "none, a yes that claims more nearness than there is, and of what calls itself exact\n"
-      "false positives and other answers to exact images of a query. The certified solver\n"
+      "negatives, times of impact that exclude the true one, a yes beyond the tolerance that it\n"
+      "states, crashes, exits, exceptions, missing verdicts, numbers that are not finite, hangs,\n"
+      "and of what calls itself exact false positives, undecided and other answers to exact\n"
+      "images of a query; --only KIND, several times if need be, seeks that alone. The certified "
+      "solver\n"
       "judges, the oracle one answer in a hundred again and every finding; of method certified\n"
       "the oracle judges all. Findings are made as simple as they go, and printed as points, as\n"
       "a command that asks again with all that the solver was asked with, and as a C++ test.\n"
@@ -339,6 +369,7 @@ void add_fuzz_command(CLI::App& app, Status& status) {
       "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, or nothing was judged,\n"
       "130 interrupted with nothing found.\n"
       "Example: touchstone fuzz --method tight_inclusion --seconds 600 --json result.json\n"
+      "Example: touchstone fuzz --plugin ./libsolver.so --only false_negative --only late_toi\n"
       "Example: touchstone fuzz --plugin ./libsolver.so --exact --out found.csv --corpus data");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);

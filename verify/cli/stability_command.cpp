@@ -91,6 +91,7 @@ Status run(const Arguments& arguments) {
   for (const MethodResult& method : result.total.methods) {
     report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
   }
+  respondents.report_output(arguments.judged.show_output);
   // Files first: a closed standard output must not cost them.
   static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
   if (json) json.write(to_json(result).dump(2, ' ', false, replace_bad_utf8) + "\n");

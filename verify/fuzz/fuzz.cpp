@@ -14,13 +14,13 @@
 #include "fast/certified.hpp"
 #include "verify/decision.hpp"
 #include "verify/fuzz/draws.hpp"
-#include "verify/fuzz/examinee.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/recheck.hpp"
 #include "verify/fuzz/referee.hpp"
 #include "verify/fuzz/signature.hpp"
 #include "verify/fuzz/steering.hpp"
 #include "verify/fuzz/symmetry.hpp"
+#include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -188,7 +188,8 @@ class Run {
         oracle_share_(name_ == judge_name ? 1.0 : options.oracle_share),
         generators_(generators(options.separation)),
         maker_(options, generators_),
-        examinee_(method, examinee_options(options)),
+        solver_(method, process_options(options)),
+        method_options_(method_options(options)),
         random_(builtin::mix(options.seed) + 2) {
     for (const Generator& generator : generators_) {
       result_.generators.push_back({.name = std::string(generator.name)});
@@ -198,6 +199,7 @@ class Run {
   FuzzResult run() {
     while (!is_over()) run_block();
     result_.ended_by = ended_by();
+    result_.output = solver_.take_output();
     result_.seconds = seconds();
     result_.other_seconds = result_.seconds - result_.method_seconds - result_.shrink_seconds;
     return std::move(result_);
@@ -238,11 +240,11 @@ class Run {
     answers_.assign(block_.queries.size(), Answer{});
     const double asked = seconds();
     // A block of a slow method may take minutes.
-    const Sitting sitting =
-        examinee_.answer(block_.kind, block_.queries, answers_, end_.seconds_left());
+    const SolverRun run =
+        solver_.solve(block_.kind, block_.queries, answers_, method_options_, solver_seconds(end_));
     result_.method_seconds += seconds() - asked;
-    result_.unplaced_crashes += sitting.unplaced;
-    judge(sitting);
+    result_.unplaced_crashes += run.unplaced_crashes;
+    judge(run);
     if (options_.on_progress) {
       options_.on_progress(
           {.seconds = seconds(), .queries = result_.queries, .findings = result_.all_findings});
@@ -251,21 +253,20 @@ class Run {
 
   /// Judges what is answered, and all of it unless the run must end: however late the answers come,
   /// there is time to judge some, and what ended or held up the solver is reported in any case.
-  void judge(const Sitting& sitting) {
-    const std::span<const Query> queries = std::span(block_.queries).first(sitting.answered);
-    judged_.assign(queries.size(), CertifiedResult{});
-    incidents_ = sitting.incidents;
+  void judge(const SolverRun& run) {
+    judged_.assign(run.answered, CertifiedResult{});
+    failures_ = run.failures;
     judging_end_ = end_.at_least(seconds_to_judge);
     std::size_t done = 0;
-    while (done < queries.size() && may_judge(done)) done = judge_part(done);
+    while (done < judged_.size() && may_judge(done)) done = judge_part(done);
     std::size_t late = 0;
-    for (const Incident& incident : incidents_) {
-      if (incident.position < done || has_found_enough()) continue;
-      judge_together(incident.position, 1);
-      judge_query(incident.position, &incident);
+    for (const auto& [position, failure] : failures_) {
+      if (position < done || has_found_enough()) continue;
+      judge_together(position, 1);
+      judge_query(position, &failure);
       ++late;
     }
-    result_.unjudged += queries.size() - done - late;
+    result_.unjudged += judged_.size() - done - late;
   }
 
   /// May another query be judged if so many of the block are?
@@ -280,7 +281,7 @@ class Run {
     judge_together(first, end - first);
     std::size_t i = first;
     while (i < end && may_judge(i)) {
-      judge_query(i, incident_at(i));
+      judge_query(i, failure_at(i));
       ++i;
     }
     return i;
@@ -293,12 +294,12 @@ class Run {
   }
 
   /// What happened at a query, or null.
-  [[nodiscard]] const Incident* incident_at(std::size_t i) const {
-    const auto found = std::ranges::lower_bound(incidents_, i, {}, &Incident::position);
-    return found != incidents_.end() && found->position == i ? &*found : nullptr;
+  [[nodiscard]] const Failure* failure_at(std::size_t i) const {
+    const auto found = std::ranges::lower_bound(failures_, i, {}, &QueryFailure::position);
+    return found != failures_.end() && found->position == i ? &found->failure : nullptr;
   }
 
-  void judge_query(std::size_t i, const Incident* incident) {
+  void judge_query(std::size_t i, const Failure* failure) {
     GeneratorStatistics& statistics = result_.generators[block_.arms[i]];
     ++result_.queries;
     ++statistics.queries;
@@ -309,8 +310,8 @@ class Run {
     }
     double work = 0.0;
     double reward = 0.0;
-    if (incident != nullptr) {
-      reward += report_incident(i, incident->hang);
+    if (failure != nullptr) {
+      reward += report_failure(i, *failure);
     } else {
       reward += examine_answer(i, work);
     }
@@ -366,8 +367,7 @@ class Run {
   void explain_asymmetry(std::size_t i, Accusation& accusation) const {
     const Image* const image = block_.image(i);
     if (image == nullptr || standard_.promise != fast::Promise::exact) return;
-    const bool origin_has_answer = std::ranges::none_of(
-        incidents_, [&](const Incident& other) { return other.position == image->origin; });
+    const bool origin_has_answer = failure_at(image->origin) == nullptr;
     const Answer& other = answers_[image->origin];
     if (!origin_has_answer || !contradict(answers_[i], other, !image->symmetry.reversed)) return;
     accusation.what = FindingKind::asymmetry;
@@ -375,10 +375,9 @@ class Run {
                                      to_text(image->symmetry), to_text(other));
   }
 
-  double report_incident(std::size_t i, bool hang) {
-    answers_[i] = answer_of_incident(hang);
+  double report_failure(std::size_t i, const Failure& failure) {
     ++result_.judged_by_oracle;
-    return report(i, {accuse_incident(hang, options_.query_limit_seconds), name_},
+    return report(i, {accuse_failure(failure, options_.query_limit_seconds), name_},
                   Decision(block_.kind, block_.queries[i], options_.separation));
   }
 
@@ -391,6 +390,10 @@ class Run {
 
   /// Counts a finding, keeps the first of a class. Returns the reward, less for what is not new.
   double report(std::size_t i, const Charge& charge, const Decision& decision) {
+    if (!seeks(options_, charge.accusation.what)) {
+      ++result_.other_findings;
+      return 0.0;
+    }
     ++result_.all_findings;
     ++result_.generators[block_.arms[i]].findings;
     const Class what{std::string(charge.method), charge.accusation.what, block_.kind,
@@ -439,7 +442,8 @@ class Run {
   double oracle_share_;
   std::vector<Generator> generators_;
   BlockMaker maker_;
-  Examinee examinee_;
+  SolverProcess solver_;
+  fast::MethodOptions method_options_;
   Random random_;
   double start_ = options_.clock();
   Deadline end_{options_.seconds > 0.0 ? options_.seconds : std::numeric_limits<double>::infinity(),
@@ -453,7 +457,7 @@ class Run {
   Block block_;
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
-  std::vector<Incident> incidents_;
+  std::vector<QueryFailure> failures_;
   Deadline judging_end_;
 };
 
@@ -478,6 +482,10 @@ void check(const FuzzOptions& options) {
 }
 
 }  // namespace
+
+bool seeks(const FuzzOptions& options, FindingKind what) {
+  return options.only.empty() || std::ranges::find(options.only, what) != options.only.end();
+}
 
 fast::MethodOptions method_options(const FuzzOptions& options) {
   fast::MethodOptions result = options.method;

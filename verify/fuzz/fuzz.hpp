@@ -4,7 +4,7 @@
 /// The search for wrong answers of one solver.
 ///
 /// Blocks of queries come from generators (generators.hpp) that the steering (steering.hpp) prefers
-/// by what they have brought so far. The solver answers them in a child process (examinee.hpp), the
+/// by what they have brought so far. The solver answers them in a child process (solver_process.hpp), the
 /// certified solver judges (referee.hpp), and the oracle judges a share again and everything that
 /// is suspect. Some queries are asked once more as an exact image (symmetry.hpp).
 ///
@@ -26,6 +26,7 @@
 #include "verify/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/methods/reach.hpp"
+#include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify {
 
@@ -55,16 +56,20 @@ struct FuzzOptions {
   fast::MethodOptions method = {};
   /// What the method is held to, if not to its own promise.
   std::optional<fast::Promise> promise = std::nullopt;
-  /// What the method's tolerances claim; null: nothing is known of it.
-  Reach reach = nullptr;
+  /// What the method's tolerances claim.
+  Reach reach = stated_reach;
   /// Wall-clock seconds a query may take; 0: no limit. Exact arithmetic takes one where coordinates from
   /// 2^-1074 to 2^1023 meet a distance in L2.
   double query_limit_seconds = 10.0;
+  /// What the method's process may take.
+  ChildLimits limits = {};
   /// Findings that are kept (one or a few of a class) after which the run ends; 0: never.
   std::size_t most_findings = 0;
   /// Wall-clock seconds for making the query of a finding simpler, or a tenth of what is left of the
   /// run if that is less; 0: it stays as it is.
   double shrink_seconds = 0.0;
+  /// Kinds of findings that are sought; empty: all. Others are counted and nothing else.
+  std::vector<FindingKind> only = {};
   /// Queries to mutate.
   std::vector<CorpusQuery> corpus = {};
   /// Kinds of queries to ask; not empty.
@@ -81,6 +86,9 @@ struct FuzzOptions {
   /// The clock of all times above but the query limit's.
   SecondsClock clock = steady_seconds;
 };
+
+/// Is that kind of findings sought?
+[[nodiscard]] bool seeks(const FuzzOptions& options, FindingKind what);
 
 /// What the method of a run is asked with.
 [[nodiscard]] fast::MethodOptions method_options(const FuzzOptions& options);
@@ -112,8 +120,10 @@ struct FuzzResult {
   double other_seconds = 0.0;          ///< generating and judging: the rest
   std::vector<Finding> findings;       ///< in order; the first of each class
   std::uint64_t all_findings = 0;      ///< kept or not
+  std::uint64_t other_findings = 0;    ///< of kinds that were not sought, beside all these
   /// Times the method ended its process at queries none of which does it alone.
   std::uint64_t unplaced_crashes = 0;
+  CapturedOutput output;  ///< what the method printed
   std::vector<GeneratorStatistics> generators;
   FuzzEnd ended_by = FuzzEnd::time;
 

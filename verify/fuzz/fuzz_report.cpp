@@ -94,7 +94,9 @@ nlohmann::json solver_json(const SolverCall& solver) {
       {"min_separation", solver.options.min_separation},
       {"norm", to_string(solver.options.norm)},
       {"t_max", solver.options.t_max},
-      {"query_limit", solver.query_limit_seconds}};
+      {"query_limit", solver.query_limit_seconds},
+      {"memory_limit", solver.limits.memory_bytes},
+      {"allow_processes", solver.limits.may_fork}};
 }
 
 Separation separation_of(const SolverCall& solver) {
@@ -137,6 +139,9 @@ std::string to_text(const FuzzReport& report) {
   text += result.all_findings == 0 ? "\nno findings\n"
                                    : fmt::format("\n{} findings, {} with all that are like them\n",
                                                  result.findings.size(), result.all_findings);
+  if (result.other_findings != 0) {
+    text += fmt::format("{} of kinds that were not sought\n", result.other_findings);
+  }
   return text;
 }
 
@@ -167,7 +172,8 @@ nlohmann::json to_json(const FuzzReport& report) {
                           {"signatures", generator.signatures},
                           {"findings", generator.findings}});
   }
-  nlohmann::json findings = nlohmann::json::array();
+  nlohmann::json findings = nlohmann::json::array(), only = nlohmann::json::array();
+  for (const FindingKind kind : report.only) only.push_back(to_string(kind));
   for (const Finding& finding : result.findings) {
     findings.push_back(to_json(finding, report.solver));
   }
@@ -178,7 +184,8 @@ nlohmann::json to_json(const FuzzReport& report) {
           {"separation", to_json(separation_of(report.solver))},
           {"asked",
            {{"seconds", report.seconds > 0.0 ? nlohmann::json(report.seconds) : nlohmann::json()},
-            {"queries", report.queries != 0 ? nlohmann::json(report.queries) : nlohmann::json()}}},
+            {"queries", report.queries != 0 ? nlohmann::json(report.queries) : nlohmann::json()},
+            {"only", only}}},
           {"ended_by", to_string(result.ended_by)},
           {"queries", result.queries},
           {"unjudged", result.unjudged},
@@ -192,6 +199,7 @@ nlohmann::json to_json(const FuzzReport& report) {
           {"queries_per_second", result.queries_per_second()},
           {"judged_per_second", result.judged_per_second()},
           {"all_findings", result.all_findings},
+          {"other_findings", result.other_findings},
           {"unplaced_crashes", result.unplaced_crashes},
           {"interrupted", result.ended_by == FuzzEnd::interrupt},
           {"generators", generators},

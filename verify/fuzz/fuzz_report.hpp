@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "fast/method.hpp"
 #include "verify/fuzz/finding.hpp"
@@ -18,8 +19,9 @@ namespace touchstone::verify {
 struct FuzzReport {
   SolverCall solver;  ///< that is searched for wrong answers
   std::uint64_t seed = 0;
-  double seconds = 0.0;       ///< asked for; 0: no limit
-  std::uint64_t queries = 0;  ///< asked for; 0: no limit
+  double seconds = 0.0;                ///< asked for; 0: no limit
+  std::uint64_t queries = 0;           ///< asked for; 0: no limit
+  std::vector<FindingKind> only = {};  ///< sought; empty: all
   FuzzResult result;
 };
 
@@ -43,11 +45,11 @@ struct FuzzReport {
 [[nodiscard]] nlohmann::json to_json(const Finding& finding, const SolverCall& asked);
 
 /// An object of `solver` (`method`, `plugin` or null, `promise`, `tolerance`, `max_checks`,
-/// `min_separation`, `norm`, `t_max`, `query_limit`), `method`, `promise`, `seed`, `separation`,
-/// `asked` (`seconds` and `queries`, null without a limit), `ended_by` ("time", "queries", "findings" or
+/// `min_separation`, `norm`, `t_max`, `query_limit`, `memory_limit` in bytes, `allow_processes`), `method`, `promise`, `seed`, `separation`,
+/// `asked` (`seconds` and `queries`, null without a limit, and `only`, a list of kinds, empty for all), `ended_by` ("time", "queries", "findings" or
 /// "interrupt"), `queries`, `unjudged`, `images`, `collisions`, `judged_by_oracle`, `seconds`,
 /// `method_seconds`, `shrink_seconds`, `other_seconds`, `queries_per_second`, `judged_per_second`,
-/// `all_findings`, `unplaced_crashes`, `interrupted`, `generators` (a list of `name`, `queries`,
+/// `all_findings`, `other_findings`, `unplaced_crashes`, `interrupted`, `generators` (a list of `name`, `queries`,
 /// `collisions`, `signatures`, `findings`) and `findings`, a list as above.
 [[nodiscard]] nlohmann::json to_json(const FuzzReport& report);
 

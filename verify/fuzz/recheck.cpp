@@ -1,6 +1,8 @@
 #include "verify/fuzz/recheck.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "verify/fuzz/draws.hpp"
@@ -14,9 +16,13 @@ using fast::Answer;
 using fast::CertifiedResult;
 using fast::Verdict;
 
-/// Is it something that the solver's process has been asked a second time about, alone?
-bool is_incident(FindingKind what) {
-  return what == FindingKind::crash || what == FindingKind::hang;
+/// The rest of a block is not asked after so many queries that ended the solver's process or took too
+/// long.
+constexpr std::size_t most_failures = 4;
+
+/// Was the query asked alone, in a process of its own, before it was a finding?
+bool is_confirmed_alone(FindingKind what) {
+  return what == FindingKind::crash || what == FindingKind::exit || what == FindingKind::hang;
 }
 
 /// Are the same bounds missing in both?
@@ -33,10 +39,17 @@ Standard standard_of(const fast::Method& method, const FuzzOptions& options) {
           .reach = options.reach};
 }
 
-ExamineeOptions examinee_options(const FuzzOptions& options) {
-  return {.method = method_options(options),
-          .query_limit_seconds = options.query_limit_seconds,
-          .stop = options.stop};
+SolverProcessOptions process_options(const FuzzOptions& options) {
+  return {.query_limit_seconds = options.query_limit_seconds,
+          .most_failures = most_failures,
+          .stop = options.stop,
+          .limits = options.limits};
+}
+
+double solver_seconds(const Deadline& deadline) {
+  constexpr double least = 1e-3, no_limit = 0.0;
+  const double left = deadline.seconds_left();
+  return std::isinf(left) ? no_limit : std::max(least, left);
 }
 
 Answer answer_of(const CertifiedResult& judged) {
@@ -61,7 +74,8 @@ Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzO
       standard_(standard_of(method, options)),
       query_limit_seconds_(options.query_limit_seconds),
       of_judge_(finding.method == judge_name && method.name() != judge_name),
-      examinee_(method, examinee_options(options)) {}
+      solver_(method, process_options(options)),
+      method_options_(method_options(options)) {}
 
 std::optional<FailingCase> Recheck::ask(const Query& query, const Deadline& deadline) {
   if (!draws::is_finite(query) || deadline.is_over()) return std::nullopt;
@@ -78,23 +92,19 @@ std::optional<Recheck::Reply> Recheck::reply_to(const Query& query, const Deadli
   if (of_judge_) {
     return Reply{.answer = answer_of(
                      fast::certified(finding_.kind, query, {.separation = standard_.separation})),
-                 .incident = std::nullopt};
+                 .failure = std::nullopt};
   }
   Reply reply;
-  const Sitting sitting =
-      examinee_.answer(finding_.kind, {&query, 1}, {&reply.answer, 1}, deadline.seconds_left());
-  if (sitting.answered == 0) return std::nullopt;
-  if (!sitting.incidents.empty()) {
-    const bool hang = sitting.incidents.front().hang;
-    reply = {.answer = answer_of_incident(hang),
-             .incident = accuse_incident(hang, query_limit_seconds_)};
-  }
+  const SolverRun run = solver_.solve(finding_.kind, {&query, 1}, {&reply.answer, 1},
+                                      method_options_, solver_seconds(deadline));
+  if (run.answered == 0) return std::nullopt;
+  if (!run.failures.empty()) reply.failure = run.failures.front().failure;
   return reply;
 }
 
 std::optional<Accusation> Recheck::accuse_reply(const Query& query, const Truth& truth,
                                                 const Reply& reply) const {
-  if (reply.incident) return reply.incident;
+  if (reply.failure) return accuse_failure(*reply.failure, query_limit_seconds_);
   if (finding_.missing.any() && reply.answer.verdict == Verdict::yes &&
       lacks_same_bounds(reply.answer, finding_.original.answer)) {
     return Accusation{FindingKind::not_finite, finding_.original.detail};
@@ -122,8 +132,8 @@ void simplify(const fast::Method& method, const FuzzOptions& options, const Dead
     if (evidence) finding.simplest = std::move(*evidence);
     return evidence.has_value();
   };
-  // What ended the process or took too long has done it twice.
-  if (!is_incident(finding.what) && !fails(finding.original.query)) {
+  // What ended the process or took too long was asked alone before.
+  if (!is_confirmed_alone(finding.what) && !fails(finding.original.query)) {
     finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::not_reproduced;
     return;
   }

@@ -14,10 +14,10 @@
 #include "fast/method.hpp"
 #include "verify/deadline.hpp"
 #include "verify/decision.hpp"
-#include "verify/fuzz/examinee.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/referee.hpp"
+#include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {
 
@@ -27,8 +27,11 @@ inline constexpr std::string_view judge_name = "certified";
 /// What a method is held to in a run.
 [[nodiscard]] Standard standard_of(const fast::Method& method, const FuzzOptions& options);
 
-/// What a solver's process is asked with in a run.
-[[nodiscard]] ExamineeOptions examinee_options(const FuzzOptions& options);
+/// How a solver's process is used in a run.
+[[nodiscard]] SolverProcessOptions process_options(const FuzzOptions& options);
+
+/// The seconds left as SolverProcess::solve takes them, at least a millisecond.
+[[nodiscard]] double solver_seconds(const Deadline& deadline);
 
 /// What the judge says, as an answer.
 [[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& judged);
@@ -52,10 +55,10 @@ class Recheck {
   [[nodiscard]] std::optional<FailingCase> ask(const Query& query, const Deadline& deadline = {});
 
  private:
-  /// What the solver answers alone, and what is wrong in that it ended its process or took too long.
+  /// What the solver answers alone, or why it does not.
   struct Reply {
     fast::Answer answer;
-    std::optional<Accusation> incident;
+    std::optional<Failure> failure;
   };
   [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const Deadline& deadline);
   [[nodiscard]] std::optional<Accusation> accuse_reply(const Query& query, const Truth& truth,
@@ -66,7 +69,8 @@ class Recheck {
   Standard standard_;
   double query_limit_seconds_;
   bool of_judge_;
-  Examinee examinee_;
+  SolverProcess solver_;
+  fast::MethodOptions method_options_;
 };
 
 /// Makes the finding's query simpler as long as the solver does the same wrong to it (shrink.hpp),

@@ -119,6 +119,11 @@ std::string numbers_as_code(const Reproduction& found) {
   return result;
 }
 
+double gibibytes(const ChildLimits& limits) {
+  constexpr int bits = 30;
+  return std::ldexp(static_cast<double>(limits.memory_bytes), -bits);
+}
+
 std::string in_shell_quotes(std::string_view text) {
   std::string result = "'";
   for (const char c : text) {
@@ -141,6 +146,10 @@ std::string options_as_words(const SolverCall& solver) {
                        options.tolerance, std::max<std::int64_t>(options.max_checks, 0),
                        options.min_separation, to_string(options.norm));
   words += fmt::format(" --query-limit {}", solver.query_limit_seconds);
+  if (solver.limits.memory_bytes != ChildLimits{}.memory_bytes) {
+    words += fmt::format(" --memory-limit {}", gibibytes(solver.limits));
+  }
+  if (solver.limits.may_fork) words += " --allow-processes";
   return solver.promise == fast::Promise::exact ? words + " --exact" : words;
 }
 
@@ -167,8 +176,8 @@ void expect_no_fault(const fast::Method& method) {
   verify::Judgement judgement;
   judgement.add(verify::truth_of(0, truth), answer);
   const verify::Reach reach = verify::reach_of(method.name());
-  if (reach && answer.verdict == fast::Verdict::yes) {
-    const Separation near{.distance = reach(kind, query, answer, separation), .norm = Norm::linf};
+  if (answer.verdict == fast::Verdict::yes) {
+    const Separation near = reach(kind, query, answer, separation);
     EXPECT_TRUE(!is_valid(near) || verify::Decision(kind, query, near).collides());
   }
   for (const verify::WrongAnswer& wrong : judgement.wrong_answers) {

@@ -11,6 +11,7 @@
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/fuzz/finding.hpp"
+#include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify {
 
@@ -34,6 +35,8 @@ struct SolverCall {
   fast::MethodOptions options = {};
   /// Wall-clock seconds that a query may take; 0: no limit.
   double query_limit_seconds = 0.0;
+  /// What its process may take.
+  ChildLimits limits = {};
 };
 
 /// What a solver answered wrongly.

@@ -100,14 +100,14 @@ TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
       run({"--plugin", tests::plugin_library("box_overlap"), "--exact", "--queries", "5000",
            "--most-findings", "3", "--out", path("found.csv"), "--json", path("j")});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
-  for (const std::string part : {"beyond_promise of box_overlap", "truth: no collision", "TEST(",
+  for (const std::string part : {"false_positive of box_overlap", "truth: no collision", "TEST(",
                                  "To ask again", "3 findings"}) {
     EXPECT_TRUE(contains(outcome.out, part)) << part << '\n' << outcome.out;
   }
   const nlohmann::json report = json("j");
   ASSERT_EQ(report.at("findings").size(), 3U);
   for (const nlohmann::json& finding : report.at("findings")) {
-    EXPECT_EQ(finding.at("what"), "beyond_promise");
+    EXPECT_EQ(finding.at("what"), "false_positive");
     EXPECT_TRUE(contains(finding.at("certificate"), "no_collision"));
     EXPECT_EQ(finding.at("collides"), false);
     EXPECT_EQ(finding.at("original").at("collides"), false);
@@ -201,6 +201,27 @@ TEST_F(FuzzTool, FindsAHang) {
                                "0.05", "--queries", "1"});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "hang of never_answers")) << outcome.out;
+}
+
+TEST_F(FuzzTool, SeeksFindingsOfOneKindOnly) {
+  const std::string plugin = tests::plugin_library("box_overlap");
+  const Outcome other = run({"--plugin", plugin, "--exact", "--queries", "1000", "--only",
+                             "false_negative", "--only", "hang", "--json", path("j")});
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_TRUE(contains(other.out, "of kinds that were not sought")) << other.out;
+  EXPECT_EQ(json("j").at("asked").at("only"), nlohmann::json({"false_negative", "hang"}));
+  EXPECT_EQ(
+      run({"--plugin", plugin, "--exact", "--queries", "1000", "--only", "false_positive"}).status,
+      1);
+  EXPECT_EQ(run({"--plugin", plugin, "--queries", "1000", "--only", "wrong"}).status, 2);
+}
+
+/// A plugin is held to the tolerance that it states.
+TEST_F(FuzzTool, FindsAYesBeyondAPluginsTolerance) {
+  const Outcome outcome = run({"--plugin", tests::plugin_library("always_yes"), "--queries", "500",
+                               "--most-findings", "1", "--json", path("j")});
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_EQ(json("j").at("findings").at(0).at("what"), "beyond_tolerance");
 }
 
 TEST_F(FuzzTool, SaysIfTheTimeWasTooShortForTheQueries) {

@@ -122,6 +122,16 @@ TEST(FuzzReport, SaysIfLessWasDoneThanAskedFor) {
   EXPECT_FALSE(contains(to_text(report), "too late"));
 }
 
+TEST(FuzzReport, SaysIfFindingsWereNotSought) {
+  FuzzReport report = sample();
+  EXPECT_FALSE(contains(to_text(report), "not sought"));
+  report.only = {FindingKind::late_toi};
+  report.result.other_findings = 53;
+  EXPECT_TRUE(contains(to_text(report), "53 of kinds that were not sought"));
+  EXPECT_EQ(to_json(report).at("other_findings"), 53);
+  EXPECT_EQ(to_json(report).at("asked").at("only"), nlohmann::json({"late_toi"}));
+}
+
 TEST(FuzzReport, WritesAllAsJson) {
   const nlohmann::json json = to_json(sample());
   EXPECT_EQ(json.at("method"), "mine");
@@ -130,6 +140,8 @@ TEST(FuzzReport, WritesAllAsJson) {
   EXPECT_EQ(json.at("separation").at("norm"), "l2");
   EXPECT_EQ(json.at("asked").at("seconds"), 2.0);
   EXPECT_TRUE(json.at("asked").at("queries").is_null());
+  EXPECT_TRUE(json.at("asked").at("only").empty());
+  EXPECT_EQ(json.at("other_findings"), 0);
   EXPECT_EQ(json.at("ended_by"), "time");
   EXPECT_EQ(json.at("unjudged"), 0);
   EXPECT_EQ(json.at("shrink_seconds"), 0.25);
@@ -146,6 +158,7 @@ TEST(FuzzReport, WritesAllAsJson) {
     EXPECT_EQ(solver.at("norm"), "l2");
     EXPECT_EQ(solver.at("t_max"), 1.0);
     EXPECT_EQ(solver.at("query_limit"), 3.0);
+    EXPECT_EQ(solver.at("allow_processes"), false);
   }
 }
 
@@ -176,9 +189,18 @@ TEST(FuzzReport, WritesAFindingAsJson) {
 TEST(FindingKind, HasANameEach) {
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < finding_kinds; ++i) {
-    names.insert(to_string(static_cast<FindingKind>(i)));
+    const auto kind = static_cast<FindingKind>(i);
+    names.insert(to_string(kind));
+    EXPECT_EQ(finding_kind_from_string(to_string(kind)), kind);
   }
   EXPECT_EQ(names.size(), finding_kinds);
+  EXPECT_FALSE(finding_kind_from_string("wrong"));
+}
+
+TEST(FindingKind, NamesFailuresAsTheyAreNamedEverywhere) {
+  for (const FailureKind kind : all_failure_kinds) {
+    EXPECT_EQ(to_string(finding_kind_of(kind)), to_string(kind));
+  }
 }
 
 }  // namespace

@@ -99,8 +99,8 @@ TEST(Fuzz, FindsAnUpperBoundThatIsEarly) {
 
 TEST(Fuzz, FindsFalsePositivesOfWhatPromisesNone) {
   const auto yes = [](Kind, const Query&) { return Answer{.verdict = Verdict::yes}; };
-  expect_found(FindingKind::beyond_promise, search(yes, Promise::exact));
-  expect_found(FindingKind::beyond_promise,
+  expect_found(FindingKind::false_positive, search(yes, Promise::exact));
+  expect_found(FindingKind::false_positive,
                search(yes, Promise::none, {.promise = Promise::exact}));
   const FuzzResult lenient =
       search(yes, Promise::conservative, {.most_queries = tests::trials(std::uint64_t{2400})});
@@ -108,13 +108,21 @@ TEST(Fuzz, FindsFalsePositivesOfWhatPromisesNone) {
   EXPECT_EQ(lenient.all_findings, 0U);
 }
 
-/// It says yes to all, which claims to be as near as the tolerance.
+/// It says yes to all, which claims to be as near as the tolerance: of any solver that gives one.
 TEST(Fuzz, FindsAYesBeyondItsTolerance) {
-  const auto yes = [](Kind, const Query&) {
-    return Answer{.verdict = Verdict::yes, .toi_lower = 0.0, .tolerance = 1e-9};
+  const auto yes = [](double tolerance) {
+    return [tolerance](Kind, const Query&) {
+      return Answer{.verdict = Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
+    };
   };
-  expect_found(FindingKind::beyond_promise,
-               search(yes, Promise::conservative, {.reach = reach_of("tight_inclusion")}));
+  expect_found(FindingKind::beyond_tolerance,
+               search(yes(1e-9), Promise::conservative, {.reach = reach_of("tight_inclusion")}));
+  expect_found(FindingKind::beyond_tolerance, search(yes(0.0), Promise::conservative));
+  expect_found(
+      FindingKind::beyond_tolerance,
+      search(yes(0.0), Promise::none, {.separation = {.distance = 0.25, .norm = Norm::l2}}));
+  const std::uint64_t some = tests::trials(std::uint64_t{2400});
+  EXPECT_EQ(search(yes(HUGE_VAL), Promise::conservative, {.most_queries = some}).all_findings, 0U);
 }
 
 /// Wrong only where the first point is on the left: the image of a query on the right.
@@ -170,19 +178,61 @@ TEST(Fuzz, FindsABoundThatIsMissing) {
                   .findings.empty());
 }
 
-TEST(Fuzz, FindsCrashesOfEverySort) {
+/// Each a kind of its own.
+TEST(Fuzz, FindsFailuresOfEverySort) {
   const auto with = [](const std::function<void()>& act) {
     return [act](Kind kind, const Query& query) {
       if (query.at(0, 1, 1) == query.at(1, 1, 1) && query.at(0, 1, 1) != 0.0) act();
       return honest(kind, query);
     };
   };
-  expect_found(FindingKind::crash, search(with([] { std::abort(); }), Promise::none));
-  expect_found(FindingKind::crash, search(with([] { std::_Exit(0); }), Promise::none));
-  expect_found(FindingKind::crash,
-               search(with([] { throw std::runtime_error("thrown"); }), Promise::none));
+  const auto expect_detail = [](FindingKind what, const FuzzResult& result,
+                                const std::string& detail) {
+    expect_found(what, result);
+    ASSERT_FALSE(result.findings.empty());
+    EXPECT_EQ(result.findings.front().original.detail, detail);
+  };
+  expect_detail(FindingKind::crash, search(with([] { std::abort(); }), Promise::none),
+                "crash: SIGABRT");
+  expect_detail(FindingKind::exit, search(with([] { std::_Exit(3); }), Promise::none),
+                "exit: status 3");
+  expect_detail(FindingKind::exception,
+                search(with([] { throw std::runtime_error("thrown"); }), Promise::none),
+                "exception: thrown");
   const auto says_error = [](Kind, const Query&) { return Answer{.verdict = Verdict::error}; };
-  expect_found(FindingKind::crash, search(says_error, Promise::none));
+  expect_found(FindingKind::no_verdict, search(says_error, Promise::none));
+  const auto says_undecided = [](Kind, const Query&) { return Answer{}; };
+  expect_found(FindingKind::undecided, search(says_undecided, Promise::exact));
+}
+
+/// Yes at an infinite time to most that collides, and no to some: as a public solver does.
+TEST(Fuzz, SeeksOnlyTheKindsOfFindingsOfItsOptions) {
+  const auto ill = [](Kind kind, const Query& query) {
+    Answer answer = honest(kind, query);
+    if (query.at(0, 0, 0) < query.at(1, 2, 1)) answer.toi_upper = HUGE_VAL;
+    if (query.at(0, 1, 1) == query.at(1, 1, 1)) answer.verdict = Verdict::no;
+    return answer;
+  };
+  FuzzOptions options{.most_queries = 3000, .most_findings = 1000};
+  const FuzzResult all = search(ill, Promise::conservative, options);
+  std::set<FindingKind> kinds;
+  for (const Finding& finding : all.findings) kinds.insert(finding.what);
+  EXPECT_EQ(kinds.size(), 2U);
+  EXPECT_EQ(all.other_findings, 0U);
+  for (const FindingKind only : {FindingKind::false_negative, FindingKind::not_finite}) {
+    options.only = {only};
+    const FuzzResult result = search(ill, Promise::conservative, options);
+    EXPECT_GT(result.findings.size(), 2U);
+    for (const Finding& finding : result.findings) EXPECT_EQ(finding.what, only);
+    EXPECT_GT(result.other_findings, 0U);
+  }
+  options.only = {FindingKind::false_negative, FindingKind::not_finite};
+  EXPECT_EQ(search(ill, Promise::conservative, options).findings.size(), all.findings.size());
+  options.only = {FindingKind::hang};
+  const FuzzResult none = search(ill, Promise::conservative, options);
+  EXPECT_TRUE(none.findings.empty());
+  EXPECT_EQ(none.all_findings, 0U);
+  EXPECT_EQ(none.queries, 3000U);
 }
 
 TEST(Fuzz, FindsAHang) {

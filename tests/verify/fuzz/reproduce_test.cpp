@@ -49,7 +49,7 @@ Reproduction miss() {
 
 /// Two edges that come within 0.1 of each other, and are asked for 0.09.
 Reproduction claim() {
-  return {.what = FindingKind::beyond_promise,
+  return {.what = FindingKind::false_positive,
           .kind = Kind::edge_edge,
           .failing = {.query = tests::over_edge(1, 1, -1, -0.1).query,
                       .answer = {.verdict = fast::Verdict::yes}},
@@ -295,6 +295,13 @@ TEST(AsCommand, writes_no_label_with_a_separation) {
   const std::vector<std::string> lines = lines_of(as_command(claim()));
   EXPECT_EQ(lines[1], "0,1,0,1,0,1");
   EXPECT_TRUE(lines[10].ends_with("--min-separation 0.09 --norm l2 --query-limit 0 --exact"));
+}
+
+TEST(AsCommand, names_limits_that_are_not_the_defaults) {
+  Reproduction found = miss();
+  found.solver.limits = {.memory_bytes = std::uint64_t{1} << 29U, .may_fork = true};
+  EXPECT_NE(as_command(found).find("--query-limit 10 --memory-limit 0.5 --allow-processes\n"),
+            std::string::npos);
 }
 
 TEST(AsCommand, quotes_the_plugin_for_the_shell) {
