@@ -63,7 +63,8 @@ void add_solver_options(CLI::App& command, RespondentArguments& arguments) {
       ->allow_extra_args(false);
   command
       .add_option("--query-limit", arguments.query_limit,
-                  "Seconds a query may take; beyond, it is undecided (0: no limit)")
+                  "Seconds that a query may take of a solver in a child process; beyond, it is "
+                  "undecided (0: no limit)")
       ->capture_default_str()
       ->check(real_number(0.0, longest_limit));
   command

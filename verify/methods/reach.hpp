@@ -3,7 +3,7 @@
 /// \file
 /// How near the primitives really come by what a yes with a tolerance claims.
 ///
-/// In general: a yes with tolerance τ, asked for the separation d in a norm, claims that the
+/// In general (verify/plugin.h): a yes with tolerance τ, asked for the separation d in a norm, claims that the
 /// primitives come within d + τ of each other in that norm at some time.
 ///
 /// **Claim of Tight-Inclusion,** which works in L∞ and leaves rounding errors out of its tolerance. A

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/support/folder_test.hpp"
+#include "tests/verify/methods/plugins/misbehaviour.hpp"
 
 // `touchstone bench` as users meet it: by running the tool.
 
@@ -57,7 +58,7 @@ bool contains(const std::string& text, const std::string& part) {
 TEST_F(Bench, HelpHasAnExample) {
   EXPECT_EQ(run("--help"), 0);
   EXPECT_TRUE(contains(read("out"), "Example: touchstone bench ")) << read("out");
-  EXPECT_FALSE(contains(read("out"), "--query-limit"));
+  EXPECT_TRUE(contains(read("out"), "--query-limit"));
 }
 
 TEST_F(Bench, TimesAndJudgesTheGivenQueries) {
@@ -128,6 +129,19 @@ TEST_F(Bench, ABrokenPromiseExitsWithOne) {
       << read("out");
 }
 
+TEST_F(Bench, APluginThatCrashesCostsAnAnswer) {
+  std::string crashing = falling_vertex("-3");
+  const std::string what = std::to_string(static_cast<int>(tests::Misbehaviour::writes_to_null));
+  crashing.replace(0, 1, what);
+  const std::string file = write("a_vf.csv", falling_vertex("-3") + crashing);
+  EXPECT_EQ(run(file + quick + "--plugin '" TOUCHSTONE_MISBEHAVING "' --method certified --json " +
+                quoted("json")),
+            1)
+      << read("out") << read("err");
+  EXPECT_TRUE(contains(read("out"), "vertex-face query 1: answer crash: SIGSEGV")) << read("out");
+  EXPECT_EQ(json().at("groups")[0].at("methods").size(), 2U);
+}
+
 TEST_F(Bench, TheBuiltInWorkloadIsPatchesAndTheHardSet) {
   ASSERT_EQ(run("--count 2 --judge 100 --kind edge-edge --repetitions 1 --seconds 0.001 --method "
                 "tight_inclusion --json " +
@@ -181,7 +195,7 @@ TEST_F(Bench, BadUsageExitsWithTwo) {
   for (const std::string& arguments :
        {std::string("--nonsense"), file + " --method nonsense", file + " --repetitions 0",
         file + " --seconds 0", file + " --judge -1", file + " --kernel nonsense",
-        file + " --query-limit 1", file + " --step x y", std::string("--step x"),
+        file + " --query-limit -1", file + " --step x y", std::string("--step x"),
         file + " --plugin " + quoted("missing.so"), file + json_to_input, quoted("missing"),
         "--step " + quoted("missing0.ply") + " " + quoted("missing1.ply")}) {
     EXPECT_EQ(run(arguments), 2) << arguments << read("err");

@@ -294,8 +294,9 @@ TEST_F(Tool, AnswersOnStandardOutputAreNothingButAnswers) {
   const Outcome solve =
       run({"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", "/dev/stdout"});
   EXPECT_EQ(solve.status, 0) << solve.err;
-  EXPECT_EQ(solve.out, std::string("file,index,kind,verdict,toi_lower,toi_upper,tolerance\n") +
-                           file + ",0,vertex-face,yes,0,,\n");
+  EXPECT_EQ(solve.out,
+            std::string("file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n") + file +
+                ",0,vertex-face,yes,0,,,\n");
   EXPECT_TRUE(contains(solve.err, "box_overlap: 1 queries")) << solve.err;
   const Outcome certify = run({"certify", file, "--json", "/dev/stdout"});
   EXPECT_EQ(certify.status, 0);
@@ -420,7 +421,9 @@ TEST_F(Tool, AnInterruptKeepsWhatIsDone) {
 
 // ---- Solvers ------------------------------------------------------------------------------------
 
-constexpr const char* answers_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
+/// What solve writes; files may do without the last column.
+const std::string full_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n";
+const std::string answers_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
 
 /// A vertex-face file of a hit at t=1/4, and a miss that the boxes do not tell from a hit.
 std::string hit_and_miss() {
@@ -478,9 +481,8 @@ TEST_F(Tool, ExactHoldsToFalsePositives) {
 
 TEST_F(Tool, MissingAnswersAreBadInputAndNamed) {
   const std::string file = write("queries_vf.csv", hit_and_miss());
-  const std::string answers =
-      write("answers.csv",
-            answers_header + file + ",0,vertex-face,yes,,,\n" + file + ",7,vertex-face,yes,,,\n");
+  const std::string answers = write("answers.csv", full_header + file + ",0,vertex-face,yes,,,,\n" +
+                                                       file + ",7,vertex-face,yes,,,,\n");
   const Outcome certify =
       run({"certify", file, "--results", answers, "--json", path("result.json")});
   EXPECT_EQ(certify.status, 2);
@@ -499,13 +501,147 @@ TEST_F(Tool, AnswersMustNotBeOutputs) {
   EXPECT_EQ(read_file(answers), answers_header);
 }
 
+/// A query that tells the plugin what to do: the first coordinate does, and puts the vertex beside the
+/// triangle.
+std::string misbehave(tests::Misbehaviour what) {
+  return falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
+}
+
+TEST_F(Tool, KindsOfFailureAreToldApart) {
+  using tests::Misbehaviour;
+  std::string text;
+  for (const auto what :
+       {Misbehaviour::writes_to_null, Misbehaviour::exits_with_3, Misbehaviour::throws,
+        Misbehaviour::leaves_answer_alone, Misbehaviour::infinite_toi_lower, Misbehaviour::hangs,
+        Misbehaviour::is_undecided, Misbehaviour::says_no}) {
+    text += misbehave(what);
+  }
+  const std::string file = write("queries_vf.csv", text);
+  const std::vector<std::string> failures{"crash: SIGSEGV",
+                                          "exit: status 3",
+                                          "exception: thrown by a plugin",
+                                          "no_verdict",
+                                          "not_finite: toi_lower -inf",
+                                          "hang"};
+  const Outcome solve = run({"solve", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--query-limit",
+                             "0.3", "--out", path("answers.csv"), "--json", path("summary.json")});
+  const std::string answers = read_file(path("answers.csv"));
+  for (const std::string& failure : failures) {
+    EXPECT_TRUE(contains(answers, "," + failure + "\n")) << answers;
+  }
+  const Outcome certify = run({"certify", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--query-limit",
+                               "0.3", "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 1);
+  EXPECT_TRUE(contains(certify.out,
+                       "no answer: misbehaving: 1 crash, 1 exit, 1 exception, 1 no_verdict, 1 "
+                       "not_finite, 1 hang, 1 undecided\n"))
+      << certify.out;
+  // A hang is taken for a collision, and no wrong answer.
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_TRUE(contains(certify.out, "answer " + failures[i] + ", truth")) << certify.out;
+  }
+  const nlohmann::json counts{{"crash", 1},      {"exit", 1}, {"exception", 1}, {"no_verdict", 1},
+                              {"not_finite", 1}, {"hang", 1}, {"undecided", 1}};
+  EXPECT_EQ(json("summary.json").at("failures"), counts);
+  EXPECT_EQ(json("result.json").at("methods")[0].at("failures"), counts);
+  EXPECT_EQ(json("result.json").at("methods")[0].at("errors"), 5);
+  // And as a file of answers.
+  const Outcome again =
+      run({"certify", file, "--results", path("answers.csv"), "--json", path("again.json")});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_EQ(json("again.json").at("methods")[0].at("failures"), counts);
+}
+
+TEST_F(Tool, APluginThatEndsItsProcessOnLoadingIsBadInput) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  for (const std::string how : {"constructor exits", "version exits", "name crashes"}) {
+    ASSERT_EQ(::setenv("TOUCHSTONE_TEST_LOADING", how.c_str(), 1), 0);
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"certify", file},
+                                                    {"solve", file, "--out", path("answers.csv")},
+                                                    {"bench", file},
+                                                    {"stability", "--count", "1"},
+                                                    {"fuzz", "--queries", "1"}}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"--plugin", TOUCHSTONE_BAD_LOADING});
+      const Outcome outcome = run(words);
+      EXPECT_EQ(outcome.status, 2) << how << " " << command.front();
+      EXPECT_TRUE(contains(outcome.err, "bad_loading.so: cannot load: ")) << outcome.err;
+    }
+  }
+  ::unsetenv("TOUCHSTONE_TEST_LOADING");
+}
+
+TEST_F(Tool, WhatAPluginPrintsIsNoneOfOurs) {
+  const std::string file = write("queries_vf.csv", misbehave(tests::Misbehaviour::prints));
+  const std::vector<std::string> certify{"certify", file, "--plugin", TOUCHSTONE_MISBEHAVING};
+  const Outcome quiet = run(certify);
+  EXPECT_FALSE(contains(quiet.out + quiet.err, "printed by a plugin")) << quiet.out;
+  EXPECT_TRUE(contains(quiet.err, "misbehaving printed 38 bytes; --show-output shows them"))
+      << quiet.err;
+  std::vector<std::string> shown = certify;
+  shown.emplace_back("--show-output");
+  const Outcome loud = run(shown);
+  EXPECT_FALSE(contains(loud.out, "printed by a plugin")) << loud.out;
+  EXPECT_TRUE(contains(loud.err, "misbehaving: printed by a plugin?[31m\n")) << loud.err;
+  EXPECT_TRUE(contains(loud.err, "misbehaving: and as error\n")) << loud.err;
+}
+
+TEST_F(Tool, APluginWritesIntoAFolderOfItsOwn) {
+  const std::string file = write("queries_vf.csv", misbehave(tests::Misbehaviour::writes_a_file));
+  EXPECT_EQ(
+      run({"solve", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--out", path("answers.csv")}).status,
+      0);
+  EXPECT_TRUE(contains(read_file(path("answers.csv")), ",no,"));
+  EXPECT_FALSE(std::filesystem::exists("written_by_a_plugin"));
+}
+
+/// Bounded: what is not refused makes few, and allocates little.
+TEST_F(Tool, APluginThatForksOrAllocatesWithoutEndCostsAQuery) {
+  using tests::Misbehaviour;
+  const std::string file =
+      write("queries_vf.csv", misbehave(Misbehaviour::forks) + misbehave(Misbehaviour::allocates) +
+                                  misbehave(Misbehaviour::says_no));
+  const std::vector<std::string> solve{
+      "solve", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--out", path("answers.csv")};
+  std::vector<std::string> limited = solve;
+  limited.insert(limited.end(), {"--memory-limit", "0.25"});
+  EXPECT_EQ(run(limited).status, 0);
+  const std::string answers = read_file(path("answers.csv"));
+  EXPECT_TRUE(contains(answers, ",error,,,,exception: fork is refused\n")) << answers;
+#ifndef TOUCHSTONE_SANITIZED
+  EXPECT_TRUE(contains(answers, ",error,,,,exception: std::bad_alloc\n")) << answers;
+#endif
+  EXPECT_TRUE(contains(answers, ",2,vertex-face,no,")) << answers;
+  std::vector<std::string> free = solve;
+  free.insert(free.end(), {"--memory-limit", "0", "--allow-processes"});
+  EXPECT_EQ(run(free).status, 0);
+  EXPECT_FALSE(contains(read_file(path("answers.csv")), "error"));
+}
+
+/// A yes beyond its tolerance: the plugin says yes with tolerance 0 to what never touches.
+TEST_F(Tool, AYesIsHeldToItsTolerance) {
+  const std::string file =
+      write("queries_vf.csv", misbehave(tests::Misbehaviour::yes_with_tolerance_0));
+  const Outcome certify =
+      run({"certify", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 1) << certify.out;
+  EXPECT_EQ(json("result.json").at("methods")[0].at("beyond_tolerance"), 1);
+  EXPECT_TRUE(contains(certify.out, "beyond tolerance: misbehaving: ")) << certify.out;
+  EXPECT_TRUE(contains(certify.out, "answer yes, tolerance 0, truth no collision")) << certify.out;
+  // So is a file of answers.
+  write("answers.csv", answers_header + file + ",0,vertex-face,yes,0,,0\n");
+  EXPECT_EQ(run({"certify", file, "--results", path("answers.csv")}).status, 1);
+  write("far.csv", answers_header + file + ",0,vertex-face,yes,0,,1000\n");
+  EXPECT_EQ(run({"certify", file, "--results", path("far.csv")}).status, 0);
+}
+
 TEST_F(Tool, ACrashAndAHangCostAQueryEach) {
   // The first coordinate tells the plugin what to do, and puts the vertex beside the triangle.
   using tests::Misbehaviour;
   std::string text;
   for (const auto what :
        {Misbehaviour::aborts, Misbehaviour::hangs, Misbehaviour::yes_without_toi}) {
-    text += falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
+    text += misbehave(what);
   }
   const std::string file = write("queries_vf.csv", text);
   const std::vector<std::string> solver{"--plugin", TOUCHSTONE_MISBEHAVING, "--query-limit", "0.3"};
@@ -514,9 +650,9 @@ TEST_F(Tool, ACrashAndAHangCostAQueryEach) {
   solve.insert(solve.end(), solver.begin(), solver.end());
   const Outcome solved = run(solve);
   EXPECT_EQ(solved.status, 0) << solved.err;
-  EXPECT_EQ(read_file(path("answers.csv")), answers_header + file + ",0,vertex-face,error,,,\n" +
-                                                file + ",1,vertex-face,undecided,,,\n" + file +
-                                                ",2,vertex-face,yes,,,\n");
+  EXPECT_EQ(read_file(path("answers.csv")),
+            full_header + file + ",0,vertex-face,error,,,,crash: SIGABRT\n" + file +
+                ",1,vertex-face,undecided,,,,hang\n" + file + ",2,vertex-face,yes,,,,\n");
   EXPECT_EQ(json("summary.json").at("queries"), 3);
   EXPECT_EQ(json("summary.json").at("errors"), 1);
   EXPECT_EQ(json("summary.json").at("undecided"), 1);
@@ -531,20 +667,19 @@ TEST_F(Tool, ACrashAndAHangCostAQueryEach) {
 
 TEST_F(Tool, ACrashThatDoesNotRepeatIsReportedAndIsAnError) {
   using tests::Misbehaviour;
-  const std::string query = falling_vertex("0").replace(
-      0, 1, std::to_string(static_cast<int>(Misbehaviour::dies_at_call_1500)));
   std::string text;
-  for (int i = 0; i < 2048; ++i) text += query;
+  for (int i = 0; i < 2048; ++i) text += misbehave(Misbehaviour::dies_at_call_1500);
   const std::string file = write("queries_vf.csv", text);
   const std::string said = "misbehaving ended its process 1 times, at no particular query";
-  const Outcome solve = run({"solve", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--out",
-                             path("answers.csv"), "--json", path("summary.json")});
+  // One thread, hence one process.
+  const Outcome solve = run({"solve", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--threads", "1",
+                             "--out", path("answers.csv"), "--json", path("summary.json")});
   EXPECT_EQ(solve.status, 0);
   EXPECT_TRUE(contains(solve.err, said)) << solve.err;
   EXPECT_EQ(json("summary.json").at("no"), 2048);
   EXPECT_EQ(json("summary.json").at("unplaced_crashes"), 1);
-  const Outcome certify =
-      run({"certify", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--json", path("result.json")});
+  const Outcome certify = run({"certify", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--threads",
+                               "1", "--json", path("result.json")});
   EXPECT_EQ(certify.status, 1);
   EXPECT_TRUE(contains(certify.err, said)) << certify.err;
   EXPECT_EQ(json("result.json").at("methods")[0].at("errors"), 1);
@@ -555,7 +690,7 @@ TEST_F(Tool, OurOwnAnswersCanBeReadBack) {
                  "--out", path("answers.csv")})
                 .status,
             0);
-  ASSERT_TRUE(contains(read_file(path("answers.csv")), ",inf\n")) << "what this test is about";
+  ASSERT_TRUE(contains(read_file(path("answers.csv")), ",inf,\n")) << "what this test is about";
   const Outcome certify = run({"certify", "--count", "4", "--results", path("answers.csv")});
   EXPECT_EQ(certify.status, 0) << certify.err << certify.out;
   EXPECT_EQ(certify.err, "");
@@ -633,7 +768,7 @@ TEST_F(Tool, SolveKeepsWhatItHasWhenARowIsBad) {
       run({"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("answers.csv")});
   EXPECT_EQ(solve.status, 2);
   EXPECT_TRUE(contains(solve.err, file + ":9:2: ")) << solve.err;
-  EXPECT_EQ(read_file(path("answers.csv")), answers_header + file + ",0,vertex-face,yes,0,,\n");
+  EXPECT_EQ(read_file(path("answers.csv")), full_header + file + ",0,vertex-face,yes,0,,,\n");
 }
 
 TEST_F(Tool, SolveRefusesOutputsThatAreInputsOrEachOther) {
