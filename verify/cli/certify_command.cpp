@@ -79,7 +79,7 @@ class CertifyRun {
     respondents_.report_output(arguments_.judged.show_output);
     // Files first: a closed standard output must not cost them.
     truth_.close();
-    proof_.close();
+    proof_.close(sum_.proofs.certificates());
     if (json_) {
       static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
       json_.write(to_json(results_).dump(2, ' ', false, replace_bad_utf8) + "\n");

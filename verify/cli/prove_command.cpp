@@ -67,7 +67,7 @@ class ProveRun {
          .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); },
          .is_output = [this](const fs::path& path) { return out_.is(path) || json_.is(path); }});
-    out_.close();
+    out_.close(sum_.counts.certificates());
     if (json_) json_.write(summary().dump(2) + "\n");
     json_.close();
     report_beyond_limits(sum_.counts);
