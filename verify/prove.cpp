@@ -123,14 +123,6 @@ void append_certificate(Kind kind, const Query& query, const Decision& decision,
   }
 }
 
-std::string certificate_stream(Kind kind, const Query& query, const Decision& decision,
-                               std::string_view label) {
-  std::string text(exact::certificates_header());
-  ProofCounts counts;
-  append_certificate(kind, query, decision, label, {}, text, counts);
-  return counts.certificates() == 1 ? text : std::string();
-}
-
 std::string to_text(const ProofCounts& counts) {
   std::string text = fmt::format("{:<16} {:>12}\n", "claim", "certificates");
   text += fmt::format("{:<16} {:>12}\n", "no collision", counts.no_collision);

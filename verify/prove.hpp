@@ -46,11 +46,6 @@ void append_certificate(Kind kind, const Query& query, const Decision& decision,
                         std::string_view label, const exact::ProveOptions& options,
                         std::string& text, ProofCounts& counts);
 
-/// A stream of that one certificate, as a checker takes it; empty if it would exceed the format's
-/// limits.
-[[nodiscard]] std::string certificate_stream(Kind kind, const Query& query,
-                                             const Decision& decision, std::string_view label);
-
 /// The counts as the lines that a user reads.
 [[nodiscard]] std::string to_text(const ProofCounts& counts);
 

@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <utility>
 
+#include "exact/certificate.hpp"
+#include "exact/certificate_text.hpp"
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/shrink.hpp"
-#include "verify/prove.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -29,6 +30,16 @@ bool is_confirmed_alone(FindingKind what) {
 bool lacks_same_bounds(const Answer& a, const Answer& b) {
   return std::isnan(a.toi_lower) == std::isnan(b.toi_lower) &&
          std::isnan(a.toi_upper) == std::isnan(b.toi_upper);
+}
+
+/// Empty where it would exceed the format's limits.
+std::string certificate(Kind kind, const Query& query, const Decision& decision,
+                        std::string_view label) {
+  try {
+    return exact::certificate_stream(decision.prove(kind, query, {}), label);
+  } catch (const exact::CertificateLimitError&) {
+    return {};
+  }
 }
 
 }  // namespace
@@ -66,7 +77,7 @@ FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
           .collides = decision.collides(),
           .truth = to_text(truth_of(0, decision)),
           .detail = std::move(detail),
-          .certificate = certificate_stream(kind, query, decision, label)};
+          .certificate = certificate(kind, query, decision, label)};
 }
 
 Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options)
