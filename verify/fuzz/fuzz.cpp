@@ -244,6 +244,7 @@ class Run {
         solver_.solve(block_.kind, block_.queries, answers_, method_options_, solver_seconds(end_));
     result_.method_seconds += seconds() - asked;
     result_.unplaced_crashes += run.unplaced_crashes;
+    if (end_.is_over() || is_stopped()) result_.unanswered = block_.queries.size() - run.answered;
     judge(run);
     if (options_.on_progress) {
       options_.on_progress(

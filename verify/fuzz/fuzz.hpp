@@ -111,6 +111,7 @@ struct GeneratorStatistics {
 struct FuzzResult {
   std::uint64_t queries = 0;           ///< asked and judged, images included
   std::uint64_t unjudged = 0;          ///< answered, but the run was over before they were judged
+  std::uint64_t unanswered = 0;        ///< asked, but the run was over before they were answered
   std::uint64_t images = 0;            ///< of those judged
   std::uint64_t collisions = 0;        ///< of these, by the judge
   std::uint64_t judged_by_oracle = 0;  ///< its share, and what was suspect

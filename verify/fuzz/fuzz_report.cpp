@@ -64,6 +64,10 @@ std::string end_text(const FuzzReport& report) {
     text +=
         fmt::format("\n{} queries more were answered, too late to be judged\n", result.unjudged);
   }
+  if (result.unanswered != 0) {
+    text +=
+        fmt::format("\n{} queries more were asked, and not answered in time\n", result.unanswered);
+  }
   return text;
 }
 
@@ -189,6 +193,7 @@ nlohmann::json to_json(const FuzzReport& report) {
           {"ended_by", to_string(result.ended_by)},
           {"queries", result.queries},
           {"unjudged", result.unjudged},
+          {"unanswered", result.unanswered},
           {"images", result.images},
           {"collisions", result.collisions},
           {"judged_by_oracle", result.judged_by_oracle},

@@ -47,7 +47,7 @@ struct FuzzReport {
 /// An object of `solver` (`method`, `plugin` or null, `promise`, `tolerance`, `max_checks`,
 /// `min_separation`, `norm`, `t_max`, `query_limit`, `memory_limit` in bytes, `allow_processes`), `method`, `promise`, `seed`, `separation`,
 /// `asked` (`seconds` and `queries`, null without a limit, and `only`, a list of kinds, empty for all), `ended_by` ("time", "queries", "findings" or
-/// "interrupt"), `queries`, `unjudged`, `images`, `collisions`, `judged_by_oracle`, `seconds`,
+/// "interrupt"), `queries`, `unjudged`, `unanswered`, `images`, `collisions`, `judged_by_oracle`, `seconds`,
 /// `method_seconds`, `shrink_seconds`, `other_seconds`, `queries_per_second`, `judged_per_second`,
 /// `all_findings`, `other_findings`, `unplaced_crashes`, `interrupted`, `generators` (a list of `name`, `queries`,
 /// `collisions`, `signatures`, `findings`) and `findings`, a list as above.

@@ -113,6 +113,10 @@ TEST(FuzzReport, SaysIfLessWasDoneThanAskedFor) {
   FuzzReport report = sample();
   EXPECT_FALSE(contains(to_text(report), "ended by the time"));
   EXPECT_FALSE(contains(to_text(report), "too late"));
+  EXPECT_FALSE(contains(to_text(report), "not answered"));
+  report.result.unanswered = 30;
+  EXPECT_TRUE(contains(to_text(report), "30 queries more were asked, and not answered in time"));
+  EXPECT_EQ(to_json(report).at("unanswered"), 30);
   report.queries = 5000;
   EXPECT_TRUE(contains(to_text(report), "ended by the time: 3000 of 5000 queries judged in 2 s"));
   report.result.unjudged = 256;

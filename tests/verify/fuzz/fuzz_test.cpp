@@ -414,6 +414,17 @@ TEST(Fuzz, ReportsAHangThatTakesTheRestOfTheTime) {
   EXPECT_EQ(to_string(result.findings.front().what), "hang");
 }
 
+TEST(Fuzz, SaysHowMuchWasNotAnswered) {
+  const FunctionMethod method([](Kind, const Query&) -> Answer {
+    for (;;) std::this_thread::sleep_for(1h);
+  });
+  const FuzzResult result = fuzz(method, {.seconds = 0.1, .query_limit_seconds = 0.0});
+  EXPECT_EQ(result.ended_by, FuzzEnd::time);
+  EXPECT_EQ(result.queries, 0U);
+  EXPECT_EQ(result.unjudged, 0U);
+  EXPECT_GT(result.unanswered, 0U);
+}
+
 TEST(Fuzz, CountsTheTimeOfFindingsAsTheRuns) {
   // A clock that goes on by a hundredth of a second whenever somebody looks.
   double now = 0.0;
