@@ -228,6 +228,7 @@ std::string as_cpp_test(const Reproduction& found) {
   result += fmt::format("\nnamespace {} {{\n\n", space);
   result += fmt::format("// {}: {}. The primitives {}.\n", one_line(found.solver.method), what,
                         found.failing.collides ? "collide" : "do not collide");
+  if (found.what == FindingKind::hang) result += "// Run it with a limit of time.\n";
   result += fmt::format("constexpr Kind kind = {};\n", enumerator(found.kind));
   result += fmt::format("constexpr fast::MethodOptions options{{\n{}}};\n",
                         options_as_code(found.solver.options));

@@ -257,6 +257,14 @@ TEST(AsCppTest, loads_plugins_and_makes_names_of_any_text) {
             std::string::npos);
 }
 
+TEST(AsCppTest, warns_of_a_hang) {
+  const std::string warning = "// Run it with a limit of time.\n";
+  Reproduction found = miss();
+  EXPECT_EQ(as_cpp_test(found).find(warning), std::string::npos);
+  found.what = FindingKind::hang;
+  EXPECT_NE(as_cpp_test(found).find(warning), std::string::npos);
+}
+
 TEST(AsCppTest, tells_findings_apart) {
   const auto name_of = [](const Reproduction& found) {
     const std::string text = as_cpp_test(found);
