@@ -113,7 +113,7 @@ TEST(Plugin, with_min_for_max_in_its_filter_is_found) {
   const verify::FuzzResult result =
       verify::fuzz(*plugin, {.most_queries = 20'000, .seed = 1, .most_findings = 1});
   ASSERT_FALSE(result.findings.empty());
-  EXPECT_TRUE(result.findings.front().collides);
+  EXPECT_TRUE(result.findings.front().original.collides);
 }
 
 }  // namespace
