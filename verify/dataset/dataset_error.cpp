@@ -5,9 +5,19 @@
 namespace touchstone::verify {
 namespace {
 
+/// The text, or its first bytes and "..."; no character of UTF-8 is cut in two.
+std::string bounded(std::string text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  std::size_t size = longest;
+  while (size > 0 && longest - size < 3 && continues(text[size])) --size;
+  text.resize(size);
+  return text + "...";
+}
+
 std::string message(const std::filesystem::path& path, FilePosition position,
                     const std::string& reason) {
-  std::string text = path.string();
+  std::string text = bounded(path.string(), DatasetError::longest_path);
   if (position.line != 0) text += ":" + std::to_string(position.line);
   if (position.column != 0) text += ":" + std::to_string(position.column);
   return text + ": " + reason;
@@ -16,10 +26,10 @@ std::string message(const std::filesystem::path& path, FilePosition position,
 }  // namespace
 
 DatasetError::DatasetError(std::filesystem::path path, FilePosition position, std::string reason)
-    : std::runtime_error(message(path, position, reason)),
+    : std::runtime_error(message(path, position, bounded(reason, longest_reason))),
       path_(std::move(path)),
       position_(position),
-      reason_(std::move(reason)) {}
+      reason_(bounded(std::move(reason), longest_reason)) {}
 
 std::string quote(std::string_view text) {
   static constexpr std::size_t longest = 40;
