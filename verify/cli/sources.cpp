@@ -132,7 +132,8 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
                    "and count them");
   command.add_flag(
       "--keep-going", arguments.keep_going,
-      "Skip queries and files in error, name and count them (no longer all well: exit status 2)");
+      "Skip queries and files in error, and the rest of a CSV file behind a line that is no row; "
+      "name and count them (no longer all well: exit status 2)");
   command.add_option("--threads", arguments.threads, "Cores to use (0: all)")
       ->capture_default_str();
   command.add_option("--seed", arguments.seed, "Seed of the built-in set")

@@ -32,7 +32,7 @@ class DatasetError : public std::runtime_error {
   /// Bytes that a path may have in what(): those of the system's longest path.
   static constexpr std::size_t longest_path = 4096;
 
-  DatasetError(std::filesystem::path path, FilePosition position, std::string reason);
+  DatasetError(std::filesystem::path path, FilePosition position, const std::string& reason);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Line counted from 1, 0 if the error belongs to no line.
@@ -47,6 +47,10 @@ class DatasetError : public std::runtime_error {
   FilePosition position_;
   std::string reason_;
 };
+
+/// The longest beginning of a text that has at most so many bytes and cuts no character of UTF-8 in
+/// two.
+[[nodiscard]] std::string_view beginning(std::string_view text, std::size_t longest);
 
 /// The text in double quotes for a message: cut after 40 bytes, unprintable bytes as '?'.
 [[nodiscard]] std::string quote(std::string_view text);

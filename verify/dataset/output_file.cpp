@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <string>
 #include <system_error>
@@ -26,12 +25,9 @@ fs::path temporary_name(const fs::path& target, unsigned attempt) {
   static constexpr std::size_t longest = 255;
   const std::string ending =
       std::string(temporary_extension) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
-  std::string name = target.filename().string();
-  std::size_t size = std::min(name.size(), longest - ending.size());
+  const std::string name = target.filename().string();
   // Some file systems refuse half a character of UTF-8.
-  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
-  while (size > 0 && size < name.size() && continues(name[size])) --size;
-  return target.parent_path() / (name.substr(0, size) + ending);
+  return target.parent_path() / (std::string(beginning(name, longest - ending.size())) + ending);
 }
 
 /// Does it have the form of the names above?
@@ -47,12 +43,12 @@ bool is_temporary_name(std::string_view name) {
          is_number(numbers.substr(dash + 1));
 }
 
-/// Is the open file still the one of that name?
+/// Is the open file an ordinary one, and still the one of that name?
 bool has_name(int descriptor, const fs::path& path) {
   struct stat opened {
   }, named{};
   return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
-         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+         S_ISREG(named.st_mode) && opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
 /// Removes a temporary file unless somebody holds its lock, or the file system has no locks.

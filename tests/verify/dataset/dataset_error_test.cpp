@@ -42,6 +42,16 @@ TEST(DatasetError, cuts_no_character_in_two) {
   }
 }
 
+TEST(Beginning, takes_whole_characters) {
+  EXPECT_EQ(beginning("abc", 3), "abc");
+  EXPECT_EQ(beginning("abc", 2), "ab");
+  EXPECT_EQ(beginning("", 0), "");
+  EXPECT_EQ(beginning("a\xC3\xA9", 2), "a");
+  EXPECT_EQ(beginning("a\xC3\xA9", 3), "a\xC3\xA9");
+  EXPECT_EQ(beginning("\xF0\x9F\x98\x80", 3), "");
+  EXPECT_EQ(beginning(std::string(10, '\x80'), 5).size(), 2U) << "where it is not UTF-8 it ends";
+}
+
 TEST(Quote, cuts_long_text_and_hides_what_a_terminal_would_obey) {
   EXPECT_EQ(quote("1.5"), "\"1.5\"");
   EXPECT_EQ(quote(std::string_view("a\x1b[31m\0\n", 7)), "\"a?[31m?\"");
