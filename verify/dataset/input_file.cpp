@@ -132,6 +132,21 @@ bool LineReader::fill() {
   return count > 0;
 }
 
+std::string read_file(const std::filesystem::path& path, std::size_t limit) {
+  InputFile file(path);
+  std::string bytes;
+  for (std::size_t count = 1; count > 0;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + chunk);
+    count = file.read({bytes.data() + before, chunk});
+    bytes.resize(before + count);
+    if (bytes.size() > limit) {
+      throw DatasetError(path, {}, "has more than " + std::to_string(limit) + " bytes");
+    }
+  }
+  return bytes;
+}
+
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};

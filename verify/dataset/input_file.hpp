@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace touchstone::verify {
@@ -94,6 +95,10 @@ class LineReader {
   std::optional<Line> ahead_;
   std::uint64_t blank_lines_ahead_ = 0;
 };
+
+/// The bytes of a file. \throws DatasetError if it cannot be read or has more than `limit` bytes,
+/// Interrupted as InputFile::read.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
 /// The text without spaces and tabs at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);

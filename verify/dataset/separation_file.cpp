@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cctype>
+#include <cstddef>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -19,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view file_name = "separation.json";
+constexpr std::size_t most_bytes = std::size_t{1} << 16U;
 constexpr const char* distance_key = "min_separation";
 constexpr const char* norm_key = "norm";
 
@@ -29,20 +30,8 @@ bool has_value(std::string_view text) {
   return text.substr(0, end).find_first_of("123456789abcdefABCDEF") != std::string_view::npos;
 }
 
-std::string read_text(const fs::path& path) {
-  static constexpr std::size_t longest = 4096;
-  InputFile file(path);
-  std::string text;
-  std::array<char, longest> buffer{};
-  while (const std::size_t count = file.read(buffer)) {
-    text.append(buffer.data(), count);
-    if (text.size() > longest) throw DatasetError(path, {}, "is no separation: longer than 4 KiB");
-  }
-  return text;
-}
-
-/// Parses the text; of its keys at the top none may be unknown or come twice.
-nlohmann::json parse(const fs::path& path, const std::string& text) {
+/// Parses the file; of its keys at the top none may be unknown or come twice.
+nlohmann::json parse(const fs::path& path) {
   std::set<std::string> seen;
   const auto check_key = [&](int depth, nlohmann::json::parse_event_t event,
                              const nlohmann::json& value) {
@@ -56,7 +45,7 @@ nlohmann::json parse(const fs::path& path, const std::string& text) {
     if (!seen.insert(key).second) throw DatasetError(path, {}, "repeated key " + quote(key));
     return true;
   };
-  return nlohmann::json::parse(text, check_key);
+  return nlohmann::json::parse(read_file(path, most_bytes), check_key);
 }
 
 }  // namespace
@@ -84,7 +73,7 @@ std::optional<fs::path> find_separation_file(const fs::path& dataset) {
 
 Separation read_separation(const fs::path& path) {
   try {
-    const nlohmann::json json = parse(path, read_text(path));
+    const nlohmann::json json = parse(path);
     const auto distance = distance_from_text(json.at(distance_key).get<std::string>());
     if (!distance) throw DatasetError(path, {}, "min_separation is no finite number from 0 on");
     return {.distance = *distance, .norm = norm_from_string(json.at(norm_key).get<std::string>())};

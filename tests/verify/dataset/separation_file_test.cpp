@@ -96,12 +96,12 @@ TEST_F(SeparationFile, MessagesAndFilesAreBounded) {
     }
     return "no error";
   };
-  EXPECT_LE(error(write(R"({"min_separation": ")" + std::string(4000, 'x'))).size(), 1003U);
+  EXPECT_LE(error(write(R"({"min_separation": ")" + std::string(60000, 'x'))).size(), 1003U);
   EXPECT_LE(
-      error(write(R"({"min_separation": "1", "norm": ")" + std::string(4000, 'x') + "\"}")).size(),
+      error(write(R"({"min_separation": "1", "norm": ")" + std::string(60000, 'x') + "\"}")).size(),
       1003U);
-  EXPECT_EQ(error(write(std::string(4097, ' '))), "is no separation: longer than 4 KiB");
-  EXPECT_EQ(error("/dev/zero"), "is no separation: longer than 4 KiB");
+  EXPECT_EQ(error(write(std::string(65537, ' '))), "has more than 65536 bytes");
+  EXPECT_EQ(error("/dev/zero"), "has more than 65536 bytes");
 }
 
 TEST_F(SeparationFile, WhatIsNoneIsAnErrorThatNamesTheFile) {
