@@ -1,12 +1,15 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -17,6 +20,7 @@
 #include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/verify/methods/plugins/misbehaviour.hpp"
+#include "verify/dataset/npy.hpp"
 
 // The commands (verify/cli/commands.hpp) are tested as users meet them: by running the tool.
 
@@ -213,6 +217,73 @@ TEST_F(Tool, KeepGoingSkipsNamesAndCountsAndStillExitsWithTwo) {
   EXPECT_EQ(json("result.json").at("skipped"), 1);
 }
 
+TEST_F(Tool, KeepGoingDecidesNoQueryThatIsPutTogetherOfTwo) {
+  std::string second = falling_vertex("1");
+  second.insert(second.find('\n') + 1, "\n");
+  const std::string file =
+      write("a_vf.csv", falling_vertex("1") + second + falling_vertex("1") + falling_vertex("1"));
+  const Outcome certify = run({"certify", file, "--keep-going", "--truth", path("truth.csv"),
+                               "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 2);
+  EXPECT_TRUE(contains(certify.err, file + ":10: blank line inside a query; the rest of the file"))
+      << certify.err;
+  EXPECT_EQ(json("result.json").at("queries"), 1);
+  EXPECT_EQ(json("result.json").at("skipped"), 1);
+  EXPECT_EQ(read_file(path("truth.csv")), "file,index,kind,collides,toi_lower,toi_upper\n" + file +
+                                              ",0,vertex-face,1,0.25,0.25\n");
+}
+
+TEST_F(Tool, AnArrayThatBecomesShorterIsNamedAndWhatIsDoneIsWritten) {
+  constexpr std::size_t queries = 16000, left = 12000;
+  const fs::path array = path("a_vf.npy");
+  NpyWriter writer(array);
+  for (std::size_t i = 0; i < queries; ++i) {
+    writer.write(Query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
+                        1, 1, -3, 0, 0, 0, 4, 0, 0, 0, 4, 0}});
+  }
+  writer.close();
+  ASSERT_EQ(::mkfifo(path("truth").c_str(), 0600), 0);
+  const pid_t process = start({"certify", array.string(), "--threads", "1", "--truth",
+                               path("truth"), "--json", path("result.json")});
+  // Two blocks of 2,048 queries are under way at most, and the pipe holds the truth of some
+  // thousand: when its first bytes are there, the array is being read, and not near the cut.
+  const int truth = ::open(path("truth").c_str(), O_RDONLY);
+  std::array<char, 4096> buffer{};
+  ssize_t count = ::read(truth, buffer.data(), buffer.size());
+  ASSERT_GT(count, 0);
+  fs::resize_file(array, 128 + left * sizeof(Query));
+  std::size_t lines = 0;
+  for (; count > 0; count = ::read(truth, buffer.data(), buffer.size())) {
+    lines += static_cast<std::size_t>(std::count(buffer.begin(), buffer.begin() + count, '\n'));
+  }
+  ::close(truth);
+  const Outcome certify = finish(process);
+  EXPECT_EQ(certify.status, 2);
+  EXPECT_TRUE(contains(certify.err, array.string() +
+                                        ": has become shorter while it was read: query 12000 of "
+                                        "16000 is missing"))
+      << certify.err;
+  EXPECT_EQ(lines, left + 1);
+  EXPECT_EQ(json("result.json").at("queries"), left);
+  EXPECT_TRUE(contains(certify.out, "total")) << certify.out;
+}
+
+TEST_F(Tool, AnArrayOfNoQueriesIsADataset) {
+  NpyWriter(path("none_vf.npy")).close();
+  const std::string file = path("none_vf.npy");
+  const Outcome certify =
+      run({"certify", file, "--method", "certified", "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 0) << certify.err;
+  EXPECT_EQ(certify.err, "");
+  EXPECT_FALSE(contains(certify.out, "nan")) << certify.out;
+  EXPECT_EQ(json("result.json").at("queries"), 0);
+  EXPECT_EQ(json("result.json").at("errors"), 0);
+  EXPECT_EQ(run({"solve", file, "--method", "certified", "--out", path("answers.csv")}).status, 0);
+  EXPECT_EQ(read_file(path("answers.csv")),
+            "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n");
+  EXPECT_EQ(run({"prove", file, "--out", path("proofs.cert")}).status, 0);
+}
+
 TEST_F(Tool, WrongAnswersOutrankBadInput) {
   const std::string file = write("wrong_vf.csv", falling_vertex("0") + "1,2,3\n");
   EXPECT_EQ(run({"certify", file}).status, 1);
@@ -233,6 +304,20 @@ TEST_F(Tool, RoundAcceptsAndCountsWhatIsNoDouble) {
   EXPECT_TRUE(contains(strict.err, file + ":1:1: ")) << strict.err;
   EXPECT_EQ(run({"certify", file, "--round", "--json", path("result.json")}).status, 0);
   EXPECT_EQ(json("result.json").at("rounded"), 1);
+}
+
+TEST_F(Tool, DecimalsAreReadAndTheErrorSaysHowToRoundThem) {
+  const std::string rows =
+      "-0.00058163201902061701,1,-0.057847701013088226,1,-0.65621602535247803,1\n"
+      "0.25,1,0.5,1,1e0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
+  const std::string file = write("decimals_vf.csv", rows + rows);
+  const Outcome strict = run({"certify", file});
+  EXPECT_EQ(strict.status, 2);
+  EXPECT_TRUE(contains(strict.err, file + ":1:1: not exactly a double (--round takes the nearest)"))
+      << strict.err;
+  EXPECT_EQ(run({"certify", file, "--round", "--json", path("result.json")}).status, 0);
+  EXPECT_EQ(json("result.json").at("queries"), 1);
+  EXPECT_EQ(json("result.json").at("rounded"), 6);
 }
 
 TEST_F(Tool, UnwritableOutputIsAnErrorBeforeTheWork) {
