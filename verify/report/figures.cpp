@@ -14,6 +14,8 @@
 #include <string_view>
 #include <utility>
 
+#include "verify/report/measurement_json.hpp"
+
 namespace touchstone::verify {
 namespace {
 
@@ -469,15 +471,11 @@ class Builder {
   std::vector<Figure> figures_;
 };
 
-nlohmann::json number(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
-}
-
 nlohmann::json json_of(const std::vector<FigurePoint>& points) {
   nlohmann::json list = nlohmann::json::array();
   for (const FigurePoint& point : points) {
-    list.push_back({{"x", number(point.x)},
-                    {"y", number(point.y)},
+    list.push_back({{"x", number_to_json(point.x)},
+                    {"y", number_to_json(point.y)},
                     {"label", point.label},
                     {"open", point.open}});
   }

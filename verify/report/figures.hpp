@@ -72,7 +72,7 @@ struct Figure {
 /// All figures that the measurements have data for.
 [[nodiscard]] std::vector<Figure> figures_of(const Measurements& measurements);
 
-/// The figures as page.js reads them, without their tables; numbers that are none are null.
+/// The figures as page.js reads them, without their tables; numbers are as number_to_json writes them.
 [[nodiscard]] nlohmann::json to_json(const std::vector<Figure>& figures);
 
 }  // namespace touchstone::verify
