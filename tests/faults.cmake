@@ -73,7 +73,8 @@ endfunction()
 function(faulty_box_kernel file name)
   folder_of_fault(folder ${name})
   with_fault(${file} ${folder} ${ARGN})
-  object_under_name(${name} fast/tight_inclusion/box_kernel_scalar.cpp scalar_box_kernel ${folder})
+  object_under_name(${name} fast/tight_inclusion/box_kernel_scalar.cpp scalar_box_kernel ${folder}
+    scalar_released_box_kernel)
 endfunction()
 
 # faulty_search(NAME …): fast::NAME, tight_inclusion_method with a fault in the search.

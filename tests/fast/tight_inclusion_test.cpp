@@ -703,32 +703,31 @@ std::vector<Query> contacts_denied_by_the_release() {
                  120.41999999999992}}};
 }
 
+TightInclusionResult solve_with(ErrorModel model, Kind kind, const Query& query) {
+  TightInclusionOptions options;
+  options.error_model = model;
+  return tight_inclusion(kind, query, options);
+}
+
 TEST(Published, ContactsDeniedByTheReleaseAreFound) {
   for (const Query& query : contacts_denied_by_the_release()) {
     ASSERT_TRUE(exact::decide(Kind::vertex_face, query).collides());
     for (const ErrorModel model : {ErrorModel::derived, ErrorModel::published}) {
-      TightInclusionOptions options;
-      options.error_model = model;
-      const auto result = tight_inclusion(Kind::vertex_face, query, options);
+      const auto result = solve_with(model, Kind::vertex_face, query);
       EXPECT_EQ(result.verdict, Verdict::yes);
       EXPECT_LE(result.toi, 0.5);
     }
+    EXPECT_EQ(solve_with(ErrorModel::released, Kind::vertex_face, query).verdict, Verdict::no);
   }
 }
 
 // ---- Planted faults -----------------------------------------------------------------------------
 
-/// The released filter: γ = min(x_max, 1) (shared/methods.md, section 9, "Defect").
+/// The released filter: γ = min(x_max, 1).
 std::array<double, 3> filter_with_min(Kind kind, const Query& query) {
   BoxProblem problem;
-  const Extent extent = best_box_kernel().load(query, problem);
-  std::array<double, 3> filter{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double gamma = std::min(extent.x_max[axis], 1.0);
-    filter[axis] =
-        error_filter(kind, {0, 0, 0}, 0.0, ErrorModel::published)[axis] * std::pow(gamma, 3.0);
-  }
-  return filter;
+  return error_filter(kind, best_box_kernel().load(query, problem).x_max, 0.0,
+                      ErrorModel::released);
 }
 
 /// A kernel that forgets the corner (t1,u1,v1).
@@ -820,6 +819,9 @@ TEST(Method, SaysWhoItIs) {
   EXPECT_EQ(tight_inclusion_method({.error_model = ErrorModel::published})->name(),
             "tight_inclusion_published");
   EXPECT_EQ(tight_inclusion_method()->promise(), Promise::conservative);
+  const auto released = tight_inclusion_method({.error_model = ErrorModel::released});
+  EXPECT_EQ(released->name(), "tight_inclusion_released");
+  EXPECT_EQ(released->promise(), Promise::none) << "it misses contacts";
 }
 
 TEST(Method, PromisesNothingWhereItMayLowerTheSeparation) {
