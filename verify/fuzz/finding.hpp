@@ -37,7 +37,7 @@ struct Finding {
   std::string method;  ///< that is wrong: the one asked, or "certified" where the judge is
   fast::Answer answer = {};
   bool collides = false;  ///< the truth
-  std::string truth;      ///< "no collision", or "collision between … and …"
+  std::string truth;      ///< as to_text(Truth) says it
   std::string detail;     ///< what is wrong, in words
   /// Of the truth, as text (exact/CERTIFICATES.md); empty if beyond its limits.
   std::string certificate;

@@ -29,8 +29,9 @@ double number_from(const Json& json) {
 
 Json json_of(const std::optional<Spread>& spread) {
   if (!spread) return {};
-  return {
-      {"count", spread->count}, {"median", number_to_json(spread->median)}, {"max", number_to_json(spread->max)}};
+  return {{"count", spread->count},
+          {"median", number_to_json(spread->median)},
+          {"max", number_to_json(spread->max)}};
 }
 
 std::optional<Spread> spread_from(const Json& json) {
@@ -76,6 +77,7 @@ Json json_of(const Measurement& measurement) {
           {"tolerance", number_to_json(m.tolerance)},
           {"max_checks", m.max_checks},
           {"separation", to_json(m.separation)},
+          {"scale", m.scale ? number_to_json(*m.scale) : Json()},
           {"group_queries", m.group_queries},
           {"asked", m.asked},
           {"collisions", m.collisions},
@@ -112,6 +114,9 @@ void read_question(const Json& json, Measurement& m) {
   m.tolerance = number_from(json.at("tolerance"));
   json.at("max_checks").get_to(m.max_checks);
   m.separation = separation_from(json.at("separation"));
+  // (Files from before there was a scale have none.)
+  const Json scale = json.value("scale", Json());
+  if (!scale.is_null()) m.scale = number_from(scale);
   json.at("group_queries").get_to(m.group_queries);
   json.at("asked").get_to(m.asked);
 }

@@ -10,7 +10,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <regex>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -81,7 +83,7 @@ TEST_F(Browser, DrawsEveryFigureWithoutAComplaint) {
   const std::string dom = load(report_page(measurements));
   EXPECT_EQ(complaints(), "");
   const std::vector<Figure> figures = figures_of(measurements);
-  ASSERT_EQ(figures.size(), 11U);
+  ASSERT_EQ(figures.size(), 12U);
   for (const Figure& figure : figures) {
     const std::string drawn = section(dom, figure.id);
     EXPECT_EQ(count(drawn, "role=\"img\""), figure.panels.size()) << figure.id;
@@ -115,10 +117,41 @@ TEST_F(Browser, FitsATelephone) {
   EXPECT_GE(std::stod(size[1]), 280.0);
 }
 
+/// The tolerances that a method is said to have achieved.
+Spread& achieved(Measurements& measurements) {
+  for (Measurement& m : measurements.all) {
+    if (m.achieved_tolerance) return *m.achieved_tolerance;
+  }
+  throw std::invalid_argument("nobody achieves a tolerance");
+}
+
+/// The heights of the marks of a drawn figure whose description ends so.
+std::vector<double> heights(const std::string& drawn, const std::string& end) {
+  const std::regex mark("translate\\([0-9.]+,([0-9.]+)\\)[^>]*><title>[^<]*" + end + "</title>");
+  std::vector<double> result;
+  for (std::sregex_iterator it(drawn.begin(), drawn.end(), mark), last; it != last; ++it) {
+    result.push_back(std::stod((*it)[1]));
+  }
+  return result;
+}
+
+TEST_F(Browser, DrawsWhatIsInfiniteAtTheUpperEnd) {
+  Measurements measurements = tests::small_report();
+  achieved(measurements).max = std::numeric_limits<double>::infinity();
+  const std::string drawn = section(load(report_page(measurements)), "checks_tolerance");
+  EXPECT_EQ(complaints(), "");
+  EXPECT_EQ(count(drawn, "NaN"), 0U);
+  EXPECT_EQ(count(drawn, ">∞</text>"), 1U) << drawn;
+  EXPECT_EQ(count(drawn, ">0</text>"), 0U) << "nothing is zero";
+  const std::vector<double> infinite = heights(drawn, "∞"), median = heights(drawn, "0.25");
+  ASSERT_EQ(infinite.size(), 1U) << drawn;
+  ASSERT_EQ(median.size(), 1U) << drawn;
+  EXPECT_LT(infinite[0], median[0]) << "heights are counted from the top";
+}
+
 TEST_F(Browser, DrawsNumbersAtTheEndsOfTheRange) {
   Measurements measurements = tests::small_report();
-  measurements.all.back().achieved_tolerance =
-      Spread{.count = 2, .median = 4.9e-324, .max = 1.7e308};
+  achieved(measurements) = Spread{.count = 2, .median = 4.9e-324, .max = 1.7e308};
   const std::string drawn = section(load(report_page(measurements)), "checks_tolerance");
   EXPECT_EQ(complaints(), "");
   EXPECT_EQ(count(drawn, "NaN"), 0U);
