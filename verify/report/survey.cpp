@@ -240,7 +240,6 @@ class Run {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (std::ranges::find(groups_, kind, &QueryGroup::kind) == groups_.end()) continue;
       for (const QueryGroup& group : groups_for_filters(kind)) judge(chosen, group, std::nullopt);
-      tell(part_of_trials + 0.5 * part_of_filters);
       for (const bool two_decimals : {false, true}) {
         for (const double scale : scales) {
           judge(chosen,
@@ -259,13 +258,15 @@ class Run {
     fast::MethodOptions asked;
     asked.max_checks = filter_limit;
     Truths truths(group, options_.threads);
+    std::vector<Measurement> side_by_side;
     for (const fast::Method* const method : chosen) {
       if (stopped()) return;
       auto judged = judge_all(group, truths, *method, asked, Experiment::filter, options_.stop);
       if (!judged) return;
       judged->scale = scale;
-      result_.all.push_back(std::move(*judged));
+      side_by_side.push_back(std::move(*judged));
     }
+    std::ranges::move(side_by_side, std::back_inserter(result_.all));
   }
 
   void map_stability() {

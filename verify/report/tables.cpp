@@ -180,7 +180,7 @@ void append_misses(Table& table, Texts row, const Chosen& asked_alike) {
   row.push_back(fmt::format("{}", asked_alike.front()->collisions));
   for (const Measurement* m : asked_alike) {
     row.push_back(m->false_negatives == 0 ? "0"
-                                          : fmt::format("{} ({:.2g} %)", m->false_negatives,
+                                          : fmt::format("{} ({:.3g} %)", m->false_negatives,
                                                         100.0 * false_negative_rate(*m)));
   }
   table.rows.push_back(std::move(row));

@@ -158,7 +158,8 @@ std::string short_number(double number) {
 std::string short_time(double nanoseconds) {
   if (nanoseconds < four_digits) return fmt::format("{:.0f}ns", nanoseconds);
   if (nanoseconds < four_digits * 1e3) return fmt::format("{:.0f}µs", nanoseconds / 1e3);
-  if (nanoseconds < four_digits * 1e6) return fmt::format("{:.0f}ms", nanoseconds / 1e6);
+  constexpr double three_digits = 99.5;  // of the wide "ms" no more fit
+  if (nanoseconds < three_digits * 1e6) return fmt::format("{:.0f}ms", nanoseconds / 1e6);
   return short_number(nanoseconds / 1e9) + "s";
 }
 

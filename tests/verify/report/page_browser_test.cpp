@@ -3,20 +3,16 @@
 /// hands back what became of it.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
+#include <cstddef>
 #include <limits>
 #include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "tests/support/folder_test.hpp"
+#include "tests/support/browser_test.hpp"
 #include "tests/support/measurements.hpp"
 #include "verify/report/figures.hpp"
 #include "verify/report/page.hpp"
@@ -24,44 +20,7 @@
 namespace touchstone::verify {
 namespace {
 
-bool runs(const std::string& command) {
-  const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
-class Browser : public tests::FolderTest {
- protected:
-  void SetUp() override {
-    if (runs("command -v chromium >/dev/null 2>&1")) return;
-    std::printf("MISSING chromium: no page was looked at (apt-get install chromium)\n");
-    GTEST_SKIP() << "chromium is not installed";
-  }
-
-  /// The document after the script has run; what the browser says goes to "err".
-  [[nodiscard]] std::string load(const std::string& page, int width = 1200) const {
-    std::ofstream(path("page.html"), std::ios::binary) << page;
-    // The proxy leads nowhere: whatever the page asks of a network shows as an error.
-    EXPECT_TRUE(
-        runs("timeout 120 chromium --headless --no-sandbox --disable-gpu "
-             "--disable-dev-shm-usage --proxy-server=127.0.0.1:9 --enable-logging=stderr "
-             "--window-size=" +
-             std::to_string(width) + ",900 --virtual-time-budget=10000 --user-data-dir='" +
-             path("profile") + "' --dump-dom 'file://" + path("page.html") + "' >'" + path("dom") +
-             "' 2>'" + path("err") + "'"))
-        << read("err");
-    return read("dom");
-  }
-
-  /// What the page's scripts and policy complained of.
-  [[nodiscard]] std::string complaints() const {
-    std::ifstream file(path("err"));
-    std::string found;
-    for (std::string line; std::getline(file, line);) {
-      if (line.find(":CONSOLE") != std::string::npos) found += line + "\n";
-    }
-    return found;
-  }
-};
+class Browser : public tests::BrowserTest {};
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t result = 0;

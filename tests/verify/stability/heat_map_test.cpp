@@ -160,7 +160,7 @@ TEST(HeatMap, PrintsNumbersThatFit) {
   }
   EXPECT_TRUE(has(texts_of(result), "100ns"));
   for (const auto& [time, text] : std::vector<std::pair<double, std::string>>{
-           {999.6, "1µs"}, {999'600, "1ms"}, {9.996e8, "1s"}, {1e12, "1ks"}}) {
+           {999.6, "1µs"}, {999'600, "1ms"}, {1.2e8, "0.12s"}, {9.996e8, "1s"}, {1e12, "1ks"}}) {
     result.cells[0].judged.methods[0].judgement.nanoseconds = 10.0 * time;
     EXPECT_TRUE(has(texts_of(result), text)) << time;
   }
