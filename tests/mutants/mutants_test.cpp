@@ -1,4 +1,5 @@
 #include "tests/mutants/mutants.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -106,12 +107,13 @@ TEST(Released, is_found_to_miss_contacts) {
 
 /// In seconds, by the command line as anyone runs it.
 TEST(Plugin, with_min_for_max_in_its_filter_is_found) {
-  const std::string command = std::string("\"") + TOUCHSTONE_TOOL + "\" fuzz --plugin \"" +
-                              TOUCHSTONE_MIN_FOR_MAX + "\" --seconds 10 --most-findings 1";
+  const std::string command = std::string("\"") + tests::touchstone_program() +
+                              "\" fuzz --plugin \"" + tests::plugin_library("min_for_max") +
+                              "\" --seconds 10 --most-findings 1";
   const int status = std::system((command + " > /dev/null").c_str());  // NOLINT(cert-env33-c)
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 1);
-  const auto plugin = verify::load_plugin(TOUCHSTONE_MIN_FOR_MAX);
+  const auto plugin = verify::load_plugin(tests::plugin_library("min_for_max"));
   const verify::FuzzResult result =
       verify::fuzz(*plugin, {.most_queries = 20'000, .seed = 1, .most_findings = 1});
   ASSERT_FALSE(result.findings.empty());
