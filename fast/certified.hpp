@@ -50,10 +50,11 @@ inline constexpr std::size_t stages = 5;
 [[nodiscard]] std::string_view name(Stage stage);
 
 struct CertifiedOptions {
-  /// The enclosure of the time of impact is at most this wide, relative to it, or one spacing of
-  /// doubles; finite, not negative.
+  /// The enclosure of the time of impact is at most this wide, relative to its upper end, or one spacing
+  /// of doubles, as that of a subnormal time is with any tolerance; finite, not negative.
   double toi_tolerance = 1e-12;
-  /// Only contacts up to this time count, in [0,1].
+  /// Only contacts up to this time count, in [0,1]: exactly these. Where the time of impact is t_max, or
+  /// before it by less than the enclosure is wide, toi_upper may lie beyond t_max, but not beyond 1.
   double t_max = 1.0;
   /// What counts as contact: to be this near.
   Separation separation = {};
@@ -68,7 +69,7 @@ struct CertifiedResult {
   Verdict verdict = Verdict::error;
   Stage stage = Stage::axis;        ///< that decided
   double toi_lower = Answer::none;  ///< with yes: below the time of impact, or 0 if that is 0
-  double toi_upper = Answer::none;  ///< with yes: not below the time of impact
+  double toi_upper = Answer::none;  ///< with yes: not below the time of impact; perhaps above t_max
   /// With yes: where on the primitives the contact is, or where they are nearest then, in F's domain,
   /// computed without a bound.
   double u = Answer::none;
@@ -108,7 +109,8 @@ struct Collision {
                                                 const Candidates& candidates,
                                                 const CertifiedOptions& options = {});
 
-/// An enclosure of the smallest time of impact.
+/// An enclosure of the smallest time of impact; its upper end may lie beyond t_max as that of a single
+/// query may.
 struct EarliestImpact {
   double toi_lower = 0.0;
   double toi_upper = 0.0;

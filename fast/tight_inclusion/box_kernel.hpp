@@ -68,6 +68,10 @@ struct BoxKernel {
 /// The fastest of box_kernels().
 [[nodiscard]] const BoxKernel& best_box_kernel();
 
+/// The scalar kernel in the order of operations of the public Tight-Inclusion, with the bits of
+/// filters::ReleasedEdgeEdge and filters::ReleasedVertexFace: for comparison only.
+[[nodiscard]] const BoxKernel& released_box_kernel();
+
 /// The kernel of an instruction set; nullptr if this processor cannot run it.
 [[nodiscard]] const BoxKernel* find_box_kernel(InstructionSet instructions);
 

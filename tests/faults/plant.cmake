@@ -72,7 +72,7 @@ endfunction()
 
 # faulty_box_kernel(FILE NAME …): fast::NAME, Tight-Inclusion's scalar kernel with a fault in one of its files.
 function(faulty_box_kernel file name)
-  faulty(fast/tight_inclusion/box_kernel_scalar.cpp scalar_box_kernel ${file} ${name} ${ARGN})
+  faulty(fast/tight_inclusion/box_kernel_scalar.cpp "scalar_box_kernel;scalar_released_box_kernel" ${file} ${name} ${ARGN})
 endfunction()
 
 # faulty_search(NAME …): fast::NAME, tight_inclusion_method with a fault in the search.

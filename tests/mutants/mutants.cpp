@@ -102,16 +102,10 @@ Make with_filter_of_points(std::size_t first, std::size_t last) {
   });
 }
 
-/// The published constants times min(x_max, 1)³; published is max.
+/// That of the public Tight-Inclusion: the published constants times min(x_max, 1)³; published is max.
 PerAxis filter_of_min(Kind kind, const Query& query, double separation) {
-  PerAxis result =
-      fast::error_filter(kind, {1.0, 1.0, 1.0}, separation, fast::ErrorModel::published);
-  const PerAxis x_max = greatest_of(query, 0, query_points);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double gamma = std::min(std::max(x_max[axis], separation), 1.0);
-    result[axis] *= gamma * gamma * gamma;
-  }
-  return result;
+  return fast::error_filter(kind, greatest_of(query, 0, query_points), separation,
+                            fast::ErrorModel::released);
 }
 
 /// The filter of the first axis for all.

@@ -101,6 +101,15 @@ TEST(Mutants, become_simple_queries) {
   EXPECT_EQ(simplest(mutant, *found.finding), Query{});
 }
 
+/// The public Tight-Inclusion's filter and order of operations, without a time limit.
+TEST(Released, is_found_to_miss_contacts) {
+  const verify::FuzzResult result =
+      verify::fuzz(verify::find_method("tight_inclusion_released"),
+                   {.most_queries = 20'000, .seed = 1, .most_findings = 1});
+  ASSERT_FALSE(result.findings.empty());
+  EXPECT_EQ(result.findings.front().what, verify::FindingKind::false_negative);
+}
+
 /// In seconds, by the command line as anyone runs it.
 TEST(Plugin, with_min_for_max_in_its_filter_is_found) {
   const std::string command = std::string("\"") + tests::touchstone_program() +

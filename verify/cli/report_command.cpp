@@ -277,10 +277,11 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
               arguments.survey.experiments.push_back(experiment_from_string(name));
             }
           },
-          "Only these: all methods (field), over the distance, over δ, over m_I")
+          "Only these: all methods (field), over the distance, over δ, over m_I, what "
+          "Tight-Inclusion's filters miss")
       ->type_name("NAME")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"field", "separation", "tolerance", "checks"}));
+      ->check(CLI::IsMember({"field", "separation", "tolerance", "checks", "filter"}));
   command
       .add_option("--stability", arguments.survey.stability_count,
                   "Queries a cell of the maps of stability (0: no maps)")

@@ -129,11 +129,4 @@ std::string to_text(const Answer& answer) {
   return text;
 }
 
-std::string to_text(const Truth& truth) {
-  if (!truth.collides) return "no collision";
-  const auto [lower, upper] = truth.toi.value();
-  return lower == upper ? fmt::format("collision at {}", lower)
-                        : fmt::format("collision between {} and {}", lower, upper);
-}
-
 }  // namespace touchstone::verify

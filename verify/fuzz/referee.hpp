@@ -64,7 +64,4 @@ struct Accusation {
 /// "no", "yes, toi_lower 0.5, tolerance 1e-06": the verdict and the fields that are given.
 [[nodiscard]] std::string to_text(const fast::Answer& answer);
 
-/// "no collision", "collision at 0.5" or "collision between 0.1 and 0.2".
-[[nodiscard]] std::string to_text(const Truth& truth);
-
 }  // namespace touchstone::verify

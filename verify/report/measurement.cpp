@@ -11,11 +11,12 @@
 namespace touchstone::verify {
 namespace {
 
-constexpr std::array<std::pair<Experiment, std::string_view>, 4> names{{
+constexpr std::array<std::pair<Experiment, std::string_view>, 5> names{{
     {Experiment::field, "field"},
     {Experiment::separation, "separation"},
     {Experiment::tolerance, "tolerance"},
     {Experiment::checks, "checks"},
+    {Experiment::filter, "filter"},
 }};
 
 double ratio(std::uint64_t count, std::uint64_t among) {

@@ -62,6 +62,16 @@ constexpr auto differences = std::to_array<Difference>({
      "reach 1,000,000 checks make its mean time."},
 });
 
+/// tests/fast/tight_inclusion_test.cpp asks it.
+constexpr std::string_view plainest_miss =
+    "The plainest of them: a vertex flies along the x axis from (-0.01, 0, 0) to (0.02, 0, 0), "
+    "onto "
+    "the resting triangle (0.02, -0.01, -0.01), (0.02, 0.02, -0.01), (0.02, -0.01, 0.02). They "
+    "touch "
+    "at t = 1. (0.02 + 0.01) - 0.01 is 3.5e-18 below 0.02, the filter is 5.3e-20, and the answer "
+    "is "
+    "no.\n";
+
 class Writer {
  public:
   explicit Writer(const Measurements& measurements)
@@ -83,6 +93,7 @@ class Writer {
                  separation_tables(measurements_, "msrf"));
     write_tables("Table 3: FPRF over the minimum separation d",
                  separation_tables(measurements_, "fprf"));
+    write_filters();
     write_meanings();
     write_differences();
     return std::move(text_);
@@ -155,6 +166,16 @@ class Writer {
     text_ += fmt::format("## {}\n\n", title);
     for (const Table& table : tables) {
       text_ += fmt::format("### {}\n\n{}\n", markdown_escaped(table.title), to_markdown(table));
+    }
+  }
+
+  void write_filters() {
+    const std::vector<Table> tables = filter_tables(measurements_);
+    if (tables.empty()) return;
+    text_ += fmt::format("## What Tight-Inclusion misses with each filter\n\n{}\n\n{}\n",
+                         released_filter_sentence(), plainest_miss);
+    for (const Table& table : tables) {
+      text_ += fmt::format("### {}\n\n{}\n", table.title, to_markdown(table));
     }
   }
 

@@ -35,6 +35,11 @@ struct Table {
 [[nodiscard]] std::vector<Table> separation_tables(const Measurements& measurements,
                                                    std::string_view method);
 
+/// What Tight-Inclusion misses with each of its filters: the contacts at t=1, a table for each number of
+/// digits with a row a kind and scale; then the built-in families, a row for each and kind of which one
+/// of them misses something. A column a method: how many of the collisions. Empty without measurements.
+[[nodiscard]] std::vector<Table> filter_tables(const Measurements& measurements);
+
 /// "12.3", "0.00456", "12300": three digits, more for whole numbers from 1000; "–" for NaN.
 [[nodiscard]] std::string short_number(double value);
 

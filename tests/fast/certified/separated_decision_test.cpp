@@ -239,6 +239,27 @@ TEST(SeparatedDecision, DistancesOfTheWholeRangeCount) {
   }
 }
 
+/// From height 1 + k 2^-52 down by about 2^1000, within 1 at about k 2^-1052: the enclosure is as narrow
+/// as documented where the time is subnormal too.
+TEST(SeparatedDecision, SubnormalTimesAreEnclosedByOneSpacing) {
+  for (const Kind kind : kinds) {
+    for (const Norm norm : norms) {
+      for (const int k : {1, 3, 1000}) {
+        const PosedQuery posed = over(kind, 1.0 + k * 0x1p-52, -0x1p1000);
+        const Separation one{1.0, norm};
+        const exact::DistanceVerdict truth = exact::decide(kind, posed.query, one);
+        ASSERT_TRUE(truth.collides());
+        for (const double tolerance : {0.0, 1e-12, 0.1}) {
+          const auto impact = decide_exactly(kind, posed.query, one, tolerance, 1.0);
+          ASSERT_TRUE(impact.has_value());
+          ASSERT_LT(impact->toi_upper, std::numeric_limits<double>::min());
+          expect_impact(posed, *impact, *truth.toi);
+        }
+      }
+    }
+  }
+}
+
 // ---- Relations ----------------------------------------------------------------------------------
 
 /// Is what `nearer` found also found, and not later, by `farther`?

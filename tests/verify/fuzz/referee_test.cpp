@@ -136,13 +136,9 @@ TEST(Referee, AccusesAJudgeThatTheOracleContradicts) {
   EXPECT_EQ(accuse_judge(miss, {.verdict = Verdict::yes})->what, FindingKind::false_positive);
 }
 
-TEST(Referee, SaysAnswersAndTruthsInWords) {
+TEST(Referee, SaysAnswersInWords) {
   EXPECT_EQ(to_text(Answer{.verdict = Verdict::no}), "no");
   EXPECT_EQ(to_text(yes(0.5, Answer::none, 1e-6)), "yes, toi_lower 0.5, tolerance 1e-06");
-  EXPECT_EQ(to_text(truth_of(0, Decision(never.kind, never.query, {}))), "no collision");
-  EXPECT_EQ(to_text(truth_of(0, Decision(at_half.kind, at_half.query, {}))), "collision at 0.5");
-  EXPECT_EQ(to_text(truth_of(0, Decision(at_third.kind, at_third.query, {}))),
-            "collision between 0.3333333333333333 and 0.33333333333333337");
 }
 
 }  // namespace

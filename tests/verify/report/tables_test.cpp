@@ -64,6 +64,24 @@ TEST(Tables, SeparationsPutAMethodBesideOurs) {
   EXPECT_EQ(separation_tables(tests::small_report(), "tight_inclusion").at(0).rows.size(), 2U);
 }
 
+TEST(Tables, OfFiltersHaveAColumnAMethodAndFamiliesOnlyWhereSomethingIsMissed) {
+  Measurements measurements = tests::small_report();
+  Measurement calm = tests::measured("calm-family", "tight_inclusion", Measurement::unknown);
+  calm.experiment = Experiment::filter;
+  measurements.all.push_back(calm);
+  const std::vector<Table> tables = filter_tables(measurements);
+  ASSERT_EQ(tables.size(), 2U);
+  EXPECT_EQ(tables[0].title, "contact at t=1, two decimals");
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(tables[0].columns, (Texts{"scale", "kind", "collide", "tight_inclusion FN",
+                                      "tight_inclusion_released FN"}));
+  ASSERT_EQ(tables[0].rows.size(), 1U);
+  EXPECT_EQ(tables[0].rows[0], (Texts{"0.01", "vertex-face", "20", "0", "2 (10 %)"}));
+  ASSERT_EQ(tables[1].rows.size(), 1U);
+  EXPECT_EQ(tables[1].rows[0][0], "a-family");
+  EXPECT_TRUE(filter_tables({}).empty());
+}
+
 TEST(Tables, NumbersAreShort) {
   EXPECT_EQ(short_number(0.0), "0");
   EXPECT_EQ(short_number(0.0123456), "0.0123");
