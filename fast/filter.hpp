@@ -14,7 +14,7 @@ namespace touchstone::fast {
 /// Where a filter comes from.
 enum class ErrorModel : std::uint8_t {
   derived,    ///< filters/error_bounds.hpp: c · x_max, proved for the operations that run
-  published,  ///< Wang et al. 2021: a constant times max(x_max, 1)³
+  published,  ///< [wang2021]: a constant times max(x_max, 1)³
 };
 
 /// The filter on each axis, in units of the coordinates, for F − d and F + d with `min_separation`

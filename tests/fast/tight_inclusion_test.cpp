@@ -256,7 +256,7 @@ TEST(MinimumSeparation, FindsContactsMovedApartByIt) {
 
 // ---- A plain reading of the description ---------------------------------------------------------
 
-/// Algorithm 2 with a priority queue, as it is told (shared/methods.md, section 9).
+/// Algorithm 2 of [wang2021] with a priority queue, as it is described (docs/methods.md, section 2).
 struct PlainReading {
   struct Item {
     int level;
@@ -718,7 +718,7 @@ TEST(Published, ContactsDeniedByTheReleaseAreFound) {
 
 // ---- Planted faults -----------------------------------------------------------------------------
 
-/// The released filter: γ = min(x_max, 1) (shared/methods.md, section 9, "Defect").
+/// The released filter: γ = min(x_max, 1) (docs/methods.md, section 2, the defect of the release).
 std::array<double, 3> filter_with_min(Kind kind, const Query& query) {
   BoxProblem problem;
   const Extent extent = best_box_kernel().load(query, problem);
