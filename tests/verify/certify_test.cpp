@@ -1,4 +1,5 @@
 #include "verify/certify.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -543,7 +544,7 @@ INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet,
 std::vector<CertifyResult> certify_public(const std::string& folder) {
   const char* data = std::getenv("TOUCHSTONE_DATA");
   const std::filesystem::path root =
-      data != nullptr ? data : TOUCHSTONE_SOURCE_DIR "/../shared/datasets";
+      data != nullptr ? data : tests::source_folder() + "/../shared/datasets";
   if (!std::filesystem::exists(root)) {
     std::cerr << "\n*** WARNING: public data missing at " << root
               << " (set TOUCHSTONE_DATA): the oracle is NOT held against it ***\n\n";

@@ -3,6 +3,7 @@
 /// that are no certificates; the corpus of the fuzzer, and the examples of the manual.
 
 #include "exact/checker/checker.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -268,7 +269,7 @@ std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-const std::filesystem::path root = TOUCHSTONE_SOURCE_DIR;
+const std::filesystem::path root = tests::source_folder();
 
 /// What becomes of each file of the fuzzer's corpus: accepted / rejected.
 TEST(Corpus, HasTheOutcomeThatItShould) {

@@ -12,6 +12,8 @@
 #include <string>
 #include <utility>
 
+#include "tests/support/built_files.hpp"
+
 namespace touchstone::checker {
 namespace {
 
@@ -23,7 +25,7 @@ struct Outcome {
 
 /// Runs touchstone-check with these arguments, as a shell reads them.
 Outcome run(const std::string& arguments) {
-  const std::string command = std::string(TOUCHSTONE_CHECK) + " " + arguments + " 2>&1";
+  const std::string command = tests::checker_program() + " " + arguments + " 2>&1";
   std::FILE* const pipe = popen(command.c_str(), "r");  // NOLINT(cert-env33-c)
   Outcome outcome;
   if (pipe == nullptr) return outcome;
@@ -35,7 +37,7 @@ Outcome run(const std::string& arguments) {
   return outcome;
 }
 
-const std::string corpus = TOUCHSTONE_SOURCE_DIR "/tests/exact/checker/corpus/";
+const std::string corpus = tests::source_folder() + "/tests/exact/checker/corpus/";
 
 TEST(Command, AcceptsAFile) {
   const auto [status, output] = run(corpus + "contacts.cert");

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "exact/oracle.hpp"
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 #include "verify/dataset/npy.hpp"
 
@@ -47,7 +48,7 @@ class CandidatesCommand : public tests::FolderTest {
 
   /// Runs `touchstone candidates …` to its end.
   [[nodiscard]] Outcome run(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words{TOUCHSTONE_TOOL, "candidates"};
+    std::vector<std::string> words{tests::touchstone_program(), "candidates"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -59,7 +60,8 @@ class CandidatesCommand : public tests::FolderTest {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
     pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, TOUCHSTONE_TOOL, &actions, nullptr, pointers.data(), environ),
+    EXPECT_EQ(posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
+                          pointers.data(), environ),
               0);
     posix_spawn_file_actions_destroy(&actions);
     int status = 0;

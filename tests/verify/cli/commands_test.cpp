@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/verify/methods/plugins/misbehaviour.hpp"
 
@@ -35,7 +36,7 @@ class Tool : public tests::FolderTest {
  protected:
   /// Starts the tool with its output in files of the test's folder.
   [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words{TOUCHSTONE_TOOL};
+    std::vector<std::string> words{tests::touchstone_program()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -47,8 +48,8 @@ class Tool : public tests::FolderTest {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
     pid_t process = 0;
-    const int error =
-        posix_spawn(&process, TOUCHSTONE_TOOL, &actions, nullptr, pointers.data(), environ);
+    const int error = posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
+                                  pointers.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     EXPECT_EQ(error, 0);
     return process;
@@ -149,9 +150,10 @@ TEST_F(Tool, UsageErrorsExitWithTwo) {
         {"solve", "--method", "tight_inclusion", "--count", "1", "--out", ""},
         {"solve", "--method", "none", "--out", path("x")},
         {"solve", "--method", "nonsense", "--out", path("x")},
-        {"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--method", "tight_inclusion", "--out",
-         path("x")},
-        {"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("x"), "--t-max", "2"},
+        {"solve", "--plugin", tests::plugin_library("box_overlap"), "--method", "tight_inclusion",
+         "--out", path("x")},
+        {"solve", "--plugin", tests::plugin_library("box_overlap"), "--out", path("x"), "--t-max",
+         "2"},
         {"generate"},
         {"generate", "--out", path("x"), "--family", "nonsense"}}) {
     const Outcome usage = run(arguments);
@@ -256,7 +258,8 @@ TEST_F(Tool, OutputsMustNotBeWhatAccompaniesInputsNorPlugins) {
   const std::string file = write("queries/a_vf.csv", falling_vertex("1"));
   const std::string tois = write("toi/a_vf_toi.csv", "query,toi\n0,0.25\n");
   const std::string labels = write("mma_bool/a_vf_mma_bool.json", "[true]\n");
-  const std::string plugin = write("box_overlap.so", read_file(TOUCHSTONE_BOX_OVERLAP));
+  const std::string plugin =
+      write("box_overlap.so", read_file(tests::plugin_library("box_overlap")));
   for (const std::string& victim : {tois, labels, plugin}) {
     const std::string before = read_file(victim);
     for (const std::vector<std::string>& words :
@@ -291,8 +294,8 @@ TEST_F(Tool, OutputsGoWhereSymbolicLinksPoint) {
 
 TEST_F(Tool, AnswersOnStandardOutputAreNothingButAnswers) {
   const std::string file = write("queries_vf.csv", falling_vertex("1"));
-  const Outcome solve =
-      run({"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", "/dev/stdout"});
+  const Outcome solve = run(
+      {"solve", file, "--plugin", tests::plugin_library("box_overlap"), "--out", "/dev/stdout"});
   EXPECT_EQ(solve.status, 0) << solve.err;
   EXPECT_EQ(solve.out, std::string("file,index,kind,verdict,toi_lower,toi_upper,tolerance\n") +
                            file + ",0,vertex-face,yes,0,,\n");
@@ -465,7 +468,8 @@ TEST_F(Tool, RecordedAnswersAreJudgedInEveryColumn) {
 
 TEST_F(Tool, ExactHoldsToFalsePositives) {
   const std::string file = write("queries_vf.csv", hit_and_miss());
-  const std::vector<std::string> lenient{"certify", file, "--plugin", TOUCHSTONE_BOX_OVERLAP};
+  const std::vector<std::string> lenient{"certify", file, "--plugin",
+                                         tests::plugin_library("box_overlap")};
   EXPECT_EQ(run(lenient).status, 0);
   std::vector<std::string> strict = lenient;
   strict.emplace_back("--exact");
@@ -508,7 +512,8 @@ TEST_F(Tool, ACrashAndAHangCostAQueryEach) {
     text += falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
   }
   const std::string file = write("queries_vf.csv", text);
-  const std::vector<std::string> solver{"--plugin", TOUCHSTONE_MISBEHAVING, "--query-limit", "0.3"};
+  const std::vector<std::string> solver{"--plugin", tests::plugin_library("misbehaving"),
+                                        "--query-limit", "0.3"};
   std::vector<std::string> solve{
       "solve", file, "--out", path("answers.csv"), "--json", path("summary.json")};
   solve.insert(solve.end(), solver.begin(), solver.end());
@@ -537,14 +542,14 @@ TEST_F(Tool, ACrashThatDoesNotRepeatIsReportedAndIsAnError) {
   for (int i = 0; i < 2048; ++i) text += query;
   const std::string file = write("queries_vf.csv", text);
   const std::string said = "misbehaving ended its process 1 times, at no particular query";
-  const Outcome solve = run({"solve", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--out",
-                             path("answers.csv"), "--json", path("summary.json")});
+  const Outcome solve = run({"solve", file, "--plugin", tests::plugin_library("misbehaving"),
+                             "--out", path("answers.csv"), "--json", path("summary.json")});
   EXPECT_EQ(solve.status, 0);
   EXPECT_TRUE(contains(solve.err, said)) << solve.err;
   EXPECT_EQ(json("summary.json").at("no"), 2048);
   EXPECT_EQ(json("summary.json").at("unplaced_crashes"), 1);
-  const Outcome certify =
-      run({"certify", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--json", path("result.json")});
+  const Outcome certify = run({"certify", file, "--plugin", tests::plugin_library("misbehaving"),
+                               "--json", path("result.json")});
   EXPECT_EQ(certify.status, 1);
   EXPECT_TRUE(contains(certify.err, said)) << certify.err;
   EXPECT_EQ(json("result.json").at("methods")[0].at("errors"), 1);
@@ -563,15 +568,16 @@ TEST_F(Tool, OurOwnAnswersCanBeReadBack) {
 
 TEST_F(Tool, NamesOfPluginsNeedNotBeUtf8) {
   const std::string file = write("queries_vf.csv", falling_vertex("1"));
-  const Outcome solve = run({"solve", file, "--plugin", TOUCHSTONE_LATIN_NAME, "--out",
-                             path("answers.csv"), "--json", path("summary.json")});
+  const Outcome solve = run({"solve", file, "--plugin", tests::plugin_library("latin_name"),
+                             "--out", path("answers.csv"), "--json", path("summary.json")});
   EXPECT_EQ(solve.status, 0) << solve.err;
   EXPECT_EQ(json("summary.json").at("method"), "caf\xef\xbf\xbd") << "the mark of what is no text";
 }
 
 TEST_F(Tool, SolversOfOneNameAreToldApartAndNamedEvenWithoutQueries) {
-  const Outcome certify = run({"certify", path("missing"), "--plugin", TOUCHSTONE_BOX_OVERLAP,
-                               "--plugin", TOUCHSTONE_BOX_OVERLAP, "--json", path("result.json")});
+  const Outcome certify =
+      run({"certify", path("missing"), "--plugin", tests::plugin_library("box_overlap"), "--plugin",
+           tests::plugin_library("box_overlap"), "--json", path("result.json")});
   EXPECT_EQ(certify.status, 2);
   const nlohmann::json methods = json("result.json").at("methods");
   ASSERT_EQ(methods.size(), 2U);
@@ -591,12 +597,13 @@ TEST_F(Tool, SolvedAnswersAreJudgedAsTheirSolverIs) {
       words.insert(words.end(), sources.begin(), sources.end());
       return words;
     };
-    ASSERT_EQ(run(with({"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("answers.csv"),
-                        "--json", path("summary.json")}))
+    ASSERT_EQ(run(with({"solve", "--plugin", tests::plugin_library("box_overlap"), "--out",
+                        path("answers.csv"), "--json", path("summary.json")}))
                   .status,
               0);
-    const Outcome certify = run(with({"certify", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--results",
-                                      path("answers.csv"), "--json", path("result.json")}));
+    const Outcome certify =
+        run(with({"certify", "--plugin", tests::plugin_library("box_overlap"), "--results",
+                  path("answers.csv"), "--json", path("result.json")}));
     EXPECT_EQ(certify.status, 0) << certify.err;
     EXPECT_EQ(certify.err, "");
     const nlohmann::json methods = json("result.json").at("methods");
@@ -629,8 +636,8 @@ TEST_F(Tool, MethodsAreJudgedUnaskedOnTheBuiltInSetOnly) {
 
 TEST_F(Tool, SolveKeepsWhatItHasWhenARowIsBad) {
   const std::string file = write("bad_vf.csv", falling_vertex("1") + "1,0,1,1,1,1,1\n");
-  const Outcome solve =
-      run({"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("answers.csv")});
+  const Outcome solve = run({"solve", file, "--plugin", tests::plugin_library("box_overlap"),
+                             "--out", path("answers.csv")});
   EXPECT_EQ(solve.status, 2);
   EXPECT_TRUE(contains(solve.err, file + ":9:2: ")) << solve.err;
   EXPECT_EQ(read_file(path("answers.csv")), answers_header + file + ",0,vertex-face,yes,0,,\n");
@@ -639,7 +646,8 @@ TEST_F(Tool, SolveKeepsWhatItHasWhenARowIsBad) {
 TEST_F(Tool, SolveRefusesOutputsThatAreInputsOrEachOther) {
   const std::string file = write("queries_vf.csv", falling_vertex("1"));
   const std::string text = read_file(file);
-  const std::vector<std::string> solve{"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP};
+  const std::vector<std::string> solve{"solve", file, "--plugin",
+                                       tests::plugin_library("box_overlap")};
   const auto with = [&](std::vector<std::string> words) {
     words.insert(words.begin(), solve.begin(), solve.end());
     return run(words).status;
@@ -651,8 +659,8 @@ TEST_F(Tool, SolveRefusesOutputsThatAreInputsOrEachOther) {
 }
 
 TEST_F(Tool, AFullDeviceEndsSolveEarly) {
-  const Outcome solve = run(
-      {"solve", "--count", "100000000", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", "/dev/full"});
+  const Outcome solve = run({"solve", "--count", "100000000", "--plugin",
+                             tests::plugin_library("box_overlap"), "--out", "/dev/full"});
   EXPECT_EQ(solve.status, 2);
   EXPECT_TRUE(contains(solve.err, "/dev/full: cannot be written")) << solve.err;
 }
@@ -663,8 +671,9 @@ TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
       falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(Misbehaviour::hangs)));
   const std::string file = write("queries_vf.csv", text);
   for (const std::string command : {"solve", "certify"}) {
-    std::vector<std::string> words{
-        command, file, "--plugin", TOUCHSTONE_MISBEHAVING, "--json", path("result.json")};
+    std::vector<std::string> words{command,    file,
+                                   "--plugin", tests::plugin_library("misbehaving"),
+                                   "--json",   path("result.json")};
     if (command == "solve") words.insert(words.end(), {"--out", path("answers.csv")});
     const pid_t process = start(words);
     wait_for_child(process);
@@ -678,8 +687,9 @@ TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
 
 TEST_F(Tool, AnInterruptOfSolveKeepsWhatIsDone) {
   using namespace std::chrono_literals;
-  const pid_t process = start({"solve", "--count", "100000000", "--plugin", TOUCHSTONE_BOX_OVERLAP,
-                               "--out", path("answers.csv"), "--json", path("summary.json")});
+  const pid_t process =
+      start({"solve", "--count", "100000000", "--plugin", tests::plugin_library("box_overlap"),
+             "--out", path("answers.csv"), "--json", path("summary.json")});
   wait_for_growth("answers.csv");
   kill(process, SIGINT);
   const Outcome solve = finish(process);

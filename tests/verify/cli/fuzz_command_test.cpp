@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 
 // `touchstone fuzz` as users meet it: by running the tool. The plugin is the example, which compares
@@ -34,7 +35,7 @@ class FuzzTool : public tests::FolderTest {
  protected:
   /// Starts the tool with its output in files of the test's folder.
   [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words{TOUCHSTONE_TOOL};
+    std::vector<std::string> words{tests::touchstone_program()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -46,7 +47,8 @@ class FuzzTool : public tests::FolderTest {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
     pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, TOUCHSTONE_TOOL, &actions, nullptr, pointers.data(), environ),
+    EXPECT_EQ(posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
+                          pointers.data(), environ),
               0);
     posix_spawn_file_actions_destroy(&actions);
     return process;
@@ -86,8 +88,8 @@ TEST_F(FuzzTool, FindsNothingInTheCertifiedSolver) {
 
 TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
   const Outcome outcome =
-      run({"--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--queries", "5000", "--most-findings",
-           "3", "--out", path("found.csv"), "--json", path("j")});
+      run({"--plugin", tests::plugin_library("box_overlap"), "--exact", "--queries", "5000",
+           "--most-findings", "3", "--out", path("found.csv"), "--json", path("j")});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   for (const std::string part : {"beyond_promise of box_overlap", "truth: no collision", "TEST(",
                                  "As rows of a dataset", "3 findings"}) {
@@ -108,7 +110,8 @@ TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
       if (entry.path().extension() == ".csv") arguments.push_back(entry.path().string());
     }
     EXPECT_GT(arguments.size(), 1U);
-    arguments.insert(arguments.end(), {"--plugin", TOUCHSTONE_BOX_OVERLAP, "--json", path("c")});
+    arguments.insert(arguments.end(),
+                     {"--plugin", tests::plugin_library("box_overlap"), "--json", path("c")});
     if (!exact.empty()) arguments.push_back(exact);
     return finish(start(arguments));
   };
@@ -120,8 +123,8 @@ TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
 TEST_F(FuzzTool, FindsTheSameForTheSameSeed) {
   std::vector<std::string> reports;
   for (const std::string seed : {"4", "4", "5"}) {
-    static_cast<void>(run({"--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--queries", "2000",
-                           "--most-findings", "1", "--seed", seed, "--json", path("j")}));
+    static_cast<void>(run({"--plugin", tests::plugin_library("box_overlap"), "--exact", "--queries",
+                           "2000", "--most-findings", "1", "--seed", seed, "--json", path("j")}));
     const nlohmann::json report = json("j");
     reports.push_back(report.at("findings").at(0).at("coordinates").dump() +
                       report.at("findings").at(0).at("shrunk").dump() +
@@ -134,9 +137,9 @@ TEST_F(FuzzTool, FindsTheSameForTheSameSeed) {
 /// The dataset says the distance that its truth is about.
 TEST_F(FuzzTool, SearchesAtASeparation) {
   const std::string out = path("near-vertex-face.csv");
-  const Outcome outcome = run({"--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--min-separation",
-                               "0.25", "--norm", "l2", "--kind", "vertex-face", "--queries", "3000",
-                               "--most-findings", "1", "--out", out});
+  const Outcome outcome = run({"--plugin", tests::plugin_library("box_overlap"), "--exact",
+                               "--min-separation", "0.25", "--norm", "l2", "--kind", "vertex-face",
+                               "--queries", "3000", "--most-findings", "1", "--out", out});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "at minimum separation 0.25 (l2)")) << outcome.out;
   EXPECT_TRUE(fs::exists(path("separation.json")));
@@ -162,7 +165,8 @@ TEST_F(FuzzTool, MutatesACorpus) {
 TEST_F(FuzzTool, RefusesWhatMakesNoSense) {
   EXPECT_EQ(run({"--queries", "10"}).status, 2);
   EXPECT_EQ(run({"--method", "nobody", "--queries", "10"}).status, 2);
-  EXPECT_EQ(run({"--method", "certified", "--plugin", TOUCHSTONE_BOX_OVERLAP}).status, 2);
+  EXPECT_EQ(run({"--method", "certified", "--plugin", tests::plugin_library("box_overlap")}).status,
+            2);
   EXPECT_EQ(run({"--method", "certified", "--seconds", "-1"}).status, 2);
   EXPECT_EQ(run({"--method", "certified", "--queries", "0"}).status, 2);
   EXPECT_EQ(run({"--method", "certified", "--queries", "10", "--kind", "face-face"}).status, 2);

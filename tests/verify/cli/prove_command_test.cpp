@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/folder_test.hpp"
 
@@ -48,7 +49,7 @@ class ProveCommand : public tests::FolderTest {
   }
 
   [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
-    std::string command = "exec '" TOUCHSTONE_TOOL "'";
+    std::string command = "exec '" + tests::touchstone_program() + "'";
     for (const std::string& argument : arguments) command.append(" '").append(argument).append("'");
     command.append(" >'" + path("stdout") + "' 2>'" + path("stderr") + "'");
     std::string shell = "/bin/sh", option = "-c";

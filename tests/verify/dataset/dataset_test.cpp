@@ -1,4 +1,5 @@
 #include "verify/dataset/dataset.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -138,7 +139,7 @@ class PublicData : public ::testing::Test {
   void SetUp() override {
     const char* const from_environment = std::getenv("TOUCHSTONE_DATA");
     folder_ = from_environment != nullptr ? fs::path(from_environment)
-                                          : fs::path(TOUCHSTONE_SOURCE_DIR) / "../shared/datasets";
+                                          : fs::path(tests::source_folder()) / "../shared/datasets";
     if (fs::is_directory(folder_)) return;
     std::cerr << "\n*** WARNING: no public data at " << folder_
               << "; nothing is tested against it. Set TOUCHSTONE_DATA. ***\n\n";

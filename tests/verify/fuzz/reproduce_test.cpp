@@ -1,4 +1,5 @@
 #include "verify/fuzz/reproduce.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
@@ -130,7 +131,7 @@ TEST(AsCsv, has_eight_rows_of_the_format) {
 // ---- As a C++ test ------------------------------------------------------------------------------
 
 std::string golden(const std::string& name) {
-  return test::contents(std::string(TOUCHSTONE_SOURCE_DIR) + "/tests/verify/fuzz/" + name);
+  return test::contents(tests::source_folder() + "/tests/verify/fuzz/" + name);
 }
 
 /// The text with a name for its fingerprint.

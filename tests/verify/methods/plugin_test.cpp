@@ -1,4 +1,5 @@
 #include "verify/methods/plugin.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,8 +26,8 @@ using test::TemporaryFolder;
 using tests::Misbehaviour;
 using tests::PosedQuery;
 
-const std::filesystem::path box_overlap = TOUCHSTONE_BOX_OVERLAP;
-const std::filesystem::path misbehaving = TOUCHSTONE_MISBEHAVING;
+const std::filesystem::path box_overlap = tests::plugin_library("box_overlap");
+const std::filesystem::path misbehaving = tests::plugin_library("misbehaving");
 
 Query query_for(Misbehaviour what) {
   Query query{};
@@ -167,14 +168,14 @@ TEST(LoadPlugin, NamesFileAndReason) {
             "missing.so: cannot load: cannot open shared object file: No such file or directory");
   EXPECT_EQ(load_error(folder.file("text.so", std::string(4096, 'x'))),
             "text.so: cannot load: invalid ELF header");
-  EXPECT_EQ(load_error(TOUCHSTONE_OTHER_LIBRARY),
+  EXPECT_EQ(load_error(tests::plugin_library("other_library")),
             "other_library.so: defines no touchstone_plugin_version");
-  EXPECT_EQ(load_error(TOUCHSTONE_WRONG_VERSION),
+  EXPECT_EQ(load_error(tests::plugin_library("wrong_version")),
             "wrong_version.so: made for version 43 of the plugin interface, this program has "
             "version 2");
-  EXPECT_EQ(load_error(TOUCHSTONE_WITHOUT_SOLVE),
+  EXPECT_EQ(load_error(tests::plugin_library("without_solve")),
             "without_solve.so: defines no touchstone_plugin_solve");
-  EXPECT_EQ(load_error(TOUCHSTONE_WITHOUT_NAME),
+  EXPECT_EQ(load_error(tests::plugin_library("without_name")),
             "without_name.so: name is not one line of text: \"two?lines\"");
 }
 
@@ -215,7 +216,7 @@ TEST(Plugin, GetsTheNorm) {
 }
 
 TEST(Plugin, MayBeOfTheVersionBeforeTheNorm) {
-  const auto method = load_plugin(TOUCHSTONE_OLD_VERSION);
+  const auto method = load_plugin(tests::plugin_library("old_version"));
   EXPECT_EQ(method->name(), "old_version");
   const Answer answer =
       ask(*method, Kind::vertex_face, {}, {.min_separation = 0.25, .norm = Norm::l2, .t_max = 0.5});
