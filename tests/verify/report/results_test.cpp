@@ -93,5 +93,17 @@ TEST(Results, NameTheCommandAndAnInterrupt) {
   EXPECT_TRUE(contains(results_document(measurements), "**Interrupted"));
 }
 
+TEST(Results, NameNoFolderOfAMachine) {
+  Measurements measurements = tests::small_report();
+  measurements.command =
+      "touchstone report /data/sets/handcrafted '/my data/simulation/' --json=/tmp/a.json "
+      "--out '/my data/a <page>.html' out/b.json ../c/d 'e f/g' / --results docs/results.md";
+  EXPECT_TRUE(contains(results_document(measurements),
+                       "```\ntouchstone report handcrafted 'simulation' --json=a.json "
+                       "--out 'a <page>.html' out/b.json ../c/d 'e f/g' / "
+                       "--results docs/results.md\n```\n"))
+      << results_document(measurements);
+}
+
 }  // namespace
 }  // namespace touchstone::verify
