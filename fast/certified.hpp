@@ -7,7 +7,7 @@
 /// in the convex hull of its corners w_i(t) (exact/query.hpp), which signs of polynomials in t
 /// decide. Floating-point bounds that are derived from the very expressions (filters/) prove most of
 /// these signs, in stages from cheap to dear; a query that a stage cannot decide goes on to the next,
-/// and the last one is exact:
+/// and the last one is exact (docs/theory.md, section 6):
 ///
 ///     axis, direction, determinant, bisection    fast/certified/kernel_on_lanes.hpp
 ///     exact                                      fast/certified/exact_stage.hpp
@@ -50,10 +50,11 @@ inline constexpr std::size_t stages = 5;
 [[nodiscard]] std::string_view name(Stage stage);
 
 struct CertifiedOptions {
-  /// The enclosure of the time of impact is at most this wide, relative to it, or one spacing of
-  /// doubles; finite, not negative.
+  /// The enclosure of the time of impact is at most this wide, relative to its upper end, or one spacing
+  /// of doubles, as that of a subnormal time is with any tolerance; finite, not negative.
   double toi_tolerance = 1e-12;
-  /// Only contacts up to this time count, in [0,1].
+  /// Only contacts up to this time count, in [0,1]: exactly these. Where the time of impact is t_max, or
+  /// before it by less than the enclosure is wide, toi_upper may lie beyond t_max, but not beyond 1.
   double t_max = 1.0;
   /// What counts as contact: to be this near.
   Separation separation = {};
@@ -68,7 +69,7 @@ struct CertifiedResult {
   Verdict verdict = Verdict::error;
   Stage stage = Stage::axis;        ///< that decided
   double toi_lower = Answer::none;  ///< with yes: below the time of impact, or 0 if that is 0
-  double toi_upper = Answer::none;  ///< with yes: not below the time of impact
+  double toi_upper = Answer::none;  ///< with yes: not below the time of impact; perhaps above t_max
   /// With yes: where on the primitives the contact is, or where they are nearest then, in F's domain,
   /// computed without a bound.
   double u = Answer::none;
@@ -108,7 +109,8 @@ struct Collision {
                                                 const Candidates& candidates,
                                                 const CertifiedOptions& options = {});
 
-/// An enclosure of the smallest time of impact.
+/// An enclosure of the smallest time of impact; its upper end may lie beyond t_max as that of a single
+/// query may.
 struct EarliestImpact {
   double toi_lower = 0.0;
   double toi_upper = 0.0;

@@ -207,13 +207,16 @@ std::string_view fault_of(const TightInclusionOptions& options) {
 /// The least number of at most 53 fractional bits that is not below t ∈ [0,1].
 double round_up_to_exact(double t) { return std::ceil(t * 0x1p53) * 0x1p-53; }
 
+const BoxKernel& kernel_of(const TightInclusionOptions& options) {
+  if (options.kernel != nullptr) return *options.kernel;
+  return options.error_model == ErrorModel::released ? released_box_kernel() : best_box_kernel();
+}
+
 /// One query: searches as often as the options ask for.
 class QuerySolver {
  public:
   QuerySolver(Workspace& workspace, const TightInclusionOptions& options)
-      : kernel_(options.kernel != nullptr ? *options.kernel : best_box_kernel()),
-        workspace_(workspace),
-        options_(options) {}
+      : kernel_(kernel_of(options)), workspace_(workspace), options_(options) {}
 
   TightInclusionResult solve(Kind kind, const Query& query) {
     TightInclusionResult result;
@@ -327,12 +330,19 @@ class TightInclusionMethod final : public Method {
   explicit TightInclusionMethod(const TightInclusionOptions& base) : base_(base) {}
 
   [[nodiscard]] std::string_view name() const override {
-    return base_.error_model == ErrorModel::derived ? "tight_inclusion"
-                                                    : "tight_inclusion_published";
+    switch (base_.error_model) {
+      case ErrorModel::derived:
+        return "tight_inclusion";
+      case ErrorModel::published:
+        return "tight_inclusion_published";
+      default:
+        return "tight_inclusion_released";
+    }
   }
   [[nodiscard]] Promise promise() const override {
     // An answer cannot say that it is about a lower separation.
-    return base_.no_zero_toi ? Promise::none : Promise::conservative;
+    const bool keeps_none = base_.no_zero_toi || base_.error_model == ErrorModel::released;
+    return keeps_none ? Promise::none : Promise::conservative;
   }
 
   void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,

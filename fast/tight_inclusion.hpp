@@ -2,7 +2,8 @@
 
 /// \file
 /// Tight-Inclusion: conservative continuous collision detection by bisection of (t,u,v).
-/// (Wang et al. 2021, section 4, algorithm 2; section 5 for the minimum separation.)
+/// ([wang2021], section 4, algorithm 2; section 5 for the minimum separation. docs/theory.md,
+/// section 7; docs/methods.md, section 2.)
 ///
 /// **Why no collision is missed.** F is affine in each of t, u and v, so over a box of parameters it
 /// stays within the bounding box of its values at the eight corners. These are computed in floating
@@ -58,6 +59,8 @@ struct TightInclusionOptions {
   bool no_zero_toi = false;
   /// Bounds the work of no_zero_toi to this many further searches.
   int max_refinements = 32;
+  /// Where the filter comes from; with `released`, which misses contacts, the order of operations too
+  /// is that of the public Tight-Inclusion, without vector instructions.
   ErrorModel error_model = ErrorModel::derived;
   /// Per axis, instead of the filter of each query: that of a scene (fast/filter.hpp). It must be
   /// that of this kind and of min_separation, or more; the filter of vertex_face serves both kinds.
@@ -67,7 +70,7 @@ struct TightInclusionOptions {
 };
 
 struct TightInclusionResult {
-  /// no: no contact, certainly. yes: contact, or nearly. error: see `error`; never undecided.
+  /// no: no contact, certainly (but for the released filter). yes: contact, or nearly. error: see `error`; never undecided.
   Verdict verdict = Verdict::error;
   /// With yes: not above the time of impact, in [0, t_max].
   double toi = Answer::none;
@@ -94,8 +97,9 @@ struct TightInclusionResult {
                                                    const TightInclusionOptions& options = {});
 
 /// As a method: its name is `tight_inclusion`, with the published filter
-/// `tight_inclusion_published`. What MethodOptions do not say is taken from `base`; a scene's filter
-/// must then be one for both kinds, and with no_zero_toi it promises nothing.
+/// `tight_inclusion_published`, with the released one `tight_inclusion_released`, which promises
+/// nothing. What MethodOptions do not say is taken from `base`; a scene's filter must then be one for
+/// both kinds, and with no_zero_toi it promises nothing.
 [[nodiscard]] std::unique_ptr<Method> tight_inclusion_method(
     const TightInclusionOptions& base = {});
 

@@ -44,6 +44,20 @@ template <class Scalar>
   return blend(a, b, weight_a, weight_b) + c * weight_c;
 }
 
+/// (a, b) as a + (b − a) weight_b: exact where the weight is 0, but not where it is 1.
+template <class Scalar>
+[[nodiscard]] constexpr Scalar blend_from_first(const Scalar& a, const Scalar& b,
+                                                const Scalar& weight_b) {
+  return (b - a) * weight_b + a;
+}
+
+/// (a, b, c) likewise.
+template <class Scalar>
+[[nodiscard]] constexpr Scalar blend_from_first(const Scalar& a, const Scalar& b, const Scalar& c,
+                                                const Scalar& weight_b, const Scalar& weight_c) {
+  return (b - a) * weight_b + (c - a) * weight_c + a;
+}
+
 // ---- Groups of weights --------------------------------------------------------------------------
 
 /// The vertices of a group's polygon, each with its weights.
@@ -101,7 +115,36 @@ struct VertexFace {
   }
 };
 
-// ---- The same in the order of operations of the paper (DESIGN.md section 4) ---------------------
+// ---- The same in the order of operations of the public Tight-Inclusion -------------------------
+
+/// F of edge_edge on one axis as the public Tight-Inclusion computes it, from the first point on.
+/// Inputs as EdgeEdge.
+struct ReleasedEdgeEdge : EdgeEdge {
+  static constexpr std::string_view name = "released_edge_edge";
+
+  template <class Scalar>
+  [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
+                                                 const std::array<Scalar, weights>& w) {
+    const auto at_time = [&](std::size_t i) { return blend_from_first(x[i], x[4 + i], w[1]); };
+    return blend_from_first(at_time(0), at_time(1), w[3]) -
+           blend_from_first(at_time(2), at_time(3), w[5]);
+  }
+};
+
+/// F of vertex_face likewise. Inputs as VertexFace.
+struct ReleasedVertexFace : VertexFace {
+  static constexpr std::string_view name = "released_vertex_face";
+
+  template <class Scalar>
+  [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
+                                                 const std::array<Scalar, weights>& w) {
+    const auto at_time = [&](std::size_t i) { return blend_from_first(x[i], x[4 + i], w[1]); };
+    return at_time(0) - blend_from_first(at_time(1), at_time(2), at_time(3), w[3], w[4]);
+  }
+};
+
+
+// ---- The same in the order of operations of [wang2021] (docs/theory.md, section 4.10) ----------
 
 /// F of edge_edge on one axis in the paper's order. Inputs as EdgeEdge.
 struct PaperEdgeEdge {

@@ -16,6 +16,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
+
 namespace touchstone::tests {
 namespace {
 
@@ -296,7 +298,7 @@ std::string read(const std::filesystem::path& path) {
 }
 
 Tree read_source_tree() {
-  const std::filesystem::path root = TOUCHSTONE_SOURCE_DIR;
+  const std::filesystem::path root = tests::source_folder();
   std::vector<std::string> folders(rooms.begin(), rooms.end());
   folders.emplace_back("tests");
   Tree tree;

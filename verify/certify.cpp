@@ -13,10 +13,10 @@ namespace {
 
 std::string verdict_text(bool collides) { return collides ? "collision" : "no collision"; }
 
-/// The first 45 significant digits, as published times of impact have them.
-std::string decimal_text(const exact::AlgebraicNumber& number) {
-  static constexpr unsigned digits = 45;
-  static const exact::Rational relative_width = exact::power_of_two(-160);
+/// The first significant digits, by which the relative error is far below a unit in the last one.
+std::string decimal_text(const exact::AlgebraicNumber& number, unsigned digits) {
+  const exact::Rational relative_width =
+      exact::power_of_two(-16 - 10 * static_cast<long>(digits) / 3);
   exact::AlgebraicNumber refined = number;
   // Zero would be known as rational, so the lower end leaves zero sooner or later.
   for (unsigned long level = 1; !refined.rational(); level *= 2) {
@@ -25,6 +25,18 @@ std::string decimal_text(const exact::AlgebraicNumber& number) {
     if (upper - lower <= relative_width * lower) break;
   }
   return to_decimal(refined.interval().lower, digits);
+}
+
+/// A recorded time of impact and the true one, which it is not: so many digits that the texts differ, from
+/// 45 on, as published times have them.
+Mismatch toi_mismatch(std::uint64_t index, const exact::Rational& recorded,
+                      const exact::AlgebraicNumber& toi) {
+  Mismatch mismatch{Mismatch::Of::toi, index, {}, {}};
+  for (unsigned digits = 45; mismatch.recorded == mismatch.truth; digits *= 2) {
+    mismatch.recorded = to_decimal(recorded, digits);
+    mismatch.truth = decimal_text(toi, digits);
+  }
+  return mismatch;
 }
 
 bool within(const exact::AlgebraicNumber& toi, const exact::Rational& recorded,
@@ -62,8 +74,9 @@ void compare(std::uint64_t index, const Block::Claim& claim, const Decision& tru
   }
   if (!comparison.uses_toi(claim)) return;
   if (truth.collides() && comparison.accepts(*claim.toi, truth.toi())) return;
-  mismatches.push_back({Mismatch::Of::toi, index, to_decimal(*claim.toi),
-                        truth.collides() ? decimal_text(truth.toi()) : verdict_text(false)});
+  mismatches.push_back(truth.collides() ? toi_mismatch(index, *claim.toi, truth.toi())
+                                        : Mismatch{Mismatch::Of::toi, index, to_decimal(*claim.toi),
+                                                   verdict_text(false)});
 }
 
 /// What the oracle finds in a part of a block.

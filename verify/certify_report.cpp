@@ -10,6 +10,7 @@
 
 #include "verify/csv.hpp"
 #include "verify/methods/registry.hpp"
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -29,7 +30,7 @@ std::string_view kind_text(const CertifyResult& result) {
 }
 
 void append_row(std::string& text, std::size_t width, const CertifyResult& result) {
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), result.name, width,
+  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), printable(result.name), width,
                  kind_text(result), result.queries, result.collisions, result.labels,
                  result.label_mismatches, result.tois, result.toi_mismatches,
                  fmt::format("{:.2f}", result.microseconds_per_query()));
@@ -62,7 +63,8 @@ void append_separations(std::string& text, const std::vector<CertifyResult>& res
     text += fmt::format("minimum separation {}\n", to_text(*separation));
   } else {
     for (const CertifyResult& result : results) {
-      text += fmt::format("minimum separation {}: {}\n", to_text(result.separation), result.name);
+      text += fmt::format("minimum separation {}: {}\n", to_text(result.separation),
+                          printable(result.name));
     }
   }
   const auto compares_collisions = [](const CertifyResult& result) {
@@ -121,14 +123,14 @@ void append_wrong_answers(std::string& text, const CertifyResult& result,
     if (!breaks(wrong.fault, method.promise) || count == most_printed) continue;
     ++count;
     text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n", to_string(wrong.fault),
-                        method.name, result.name, kind_text(result), wrong.index, wrong.answer,
-                        wrong.truth);
+                        printable(method.name), printable(result.name), kind_text(result),
+                        wrong.index, wrong.answer, wrong.truth);
   }
   for (std::size_t i = 0; i < fault_count; ++i) {
     if (printed[i] != most_printed || method.judgement.faults[i] == most_printed) continue;
     const auto fault = static_cast<Fault>(i);
-    text += fmt::format("{}: {}: {}: and {} more\n", to_string(fault), method.name, result.name,
-                        method.judgement.faults[i] - most_printed);
+    text += fmt::format("{}: {}: {}: and {} more\n", to_string(fault), printable(method.name),
+                        printable(result.name), method.judgement.faults[i] - most_printed);
   }
 }
 
@@ -151,7 +153,9 @@ bool claims_too_much(const MethodResult& method) {
 
 void append_methods(std::string& text, std::size_t width, const std::vector<CertifyResult>& results,
                     const CertifyResult& sum) {
-  for (const MethodResult& method : sum.methods) width = std::max(width, method.name.size());
+  for (const MethodResult& method : sum.methods) {
+    width = std::max(width, printable(method.name).size());
+  }
   const bool shows_tolerances =
       has_separation(results) || std::ranges::any_of(sum.methods, claims_too_much);
   const Tolerances tolerances = shows_tolerances ? Tolerances::shown : Tolerances::hidden;
@@ -166,12 +170,13 @@ void append_methods(std::string& text, std::size_t width, const std::vector<Cert
   }
   std::string wrong_answers;
   for (std::size_t i = 0; i < sum.methods.size(); ++i) {
-    append_method_row(text, width, sum.methods[i].name, "", sum.methods[i], tolerances);
+    append_method_row(text, width, printable(sum.methods[i].name), "", sum.methods[i], tolerances);
     for (const CertifyResult& result : results) {
       if (i >= result.methods.size()) continue;
       const MethodResult& method = result.methods[i];
       if (keeps(method.judgement, method.promise)) continue;
-      append_method_row(text, width, "  " + result.name, kind_text(result), method, tolerances);
+      append_method_row(text, width, "  " + printable(result.name), kind_text(result), method,
+                        tolerances);
       append_wrong_answers(wrong_answers, result, method);
     }
   }
@@ -241,7 +246,8 @@ void append_wrong_answers(nlohmann::json& methods, const CertifyResult& result) 
 
 std::string to_text(const std::vector<CertifyResult>& results) {
   std::size_t width = 5;
-  for (const CertifyResult& result : results) width = std::max(width, result.name.size());
+  for (const CertifyResult& result : results)
+    width = std::max(width, printable(result.name).size());
 
   std::string text;
   append_separations(text, results);
@@ -256,9 +262,9 @@ std::string to_text(const std::vector<CertifyResult>& results) {
 
   for (const CertifyResult& result : results) {
     for (const Mismatch& mismatch : result.mismatches) {
-      text += fmt::format("mismatch: {}: {} query {}: recorded {} {}, truth {}\n", result.name,
-                          kind_text(result), mismatch.index, name_of(mismatch.of),
-                          mismatch.recorded, mismatch.truth);
+      text += fmt::format("mismatch: {}: {} query {}: recorded {} {}, truth {}\n",
+                          printable(result.name), kind_text(result), mismatch.index,
+                          name_of(mismatch.of), mismatch.recorded, mismatch.truth);
     }
   }
   if (!sum.methods.empty()) append_methods(text, width, results, sum);

@@ -10,12 +10,16 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 namespace touchstone::fast::exact_stage {
 
 /// Bits of 0 and of 1.
 inline constexpr std::uint64_t bits_of_zero = 0;
 inline constexpr std::uint64_t bits_of_one = std::bit_cast<std::uint64_t>(1.0);
+/// Of 2^-1022; those below, but for 0, are of subnormal doubles.
+inline constexpr std::uint64_t bits_of_least_normal =
+    std::bit_cast<std::uint64_t>(std::numeric_limits<double>::min());
 
 /// The bits of the double in [0,1] nearest to the guess; of 0 for NaN.
 [[nodiscard]] inline std::uint64_t unit_bits(double guess) {
@@ -31,9 +35,10 @@ struct BitInterval {
   std::uint64_t upper = bits_of_one;
 };
 
-/// Doubles around a number α with 0 < α ≤ 1: lower < α ≤ upper, and `step` or fewer spacings apart.
-/// `is_above(bits)` says whether α is above that double. Fast if α is near the guess, right in any
-/// case. \pre step ≥ 1, and at most 2^52.
+/// Doubles around a number α with 0 < α ≤ 1: lower < α ≤ upper, and `step` or fewer spacings apart;
+/// where `upper` is subnormal, and a spacing no longer small beside it, one spacing. `is_above(bits)`
+/// says whether α is above that double. Fast if α is near the guess, right in any case.
+/// \pre step ≥ 1, and at most 2^52.
 template <class IsAbove>
 [[nodiscard]] BitInterval enclose(double guess, std::uint64_t step, IsAbove&& is_above) {
   BitInterval cell;
@@ -60,7 +65,7 @@ template <class IsAbove>
       cell.upper = next;
     }
   }
-  while (cell.upper - cell.lower > step) {
+  while (cell.upper - cell.lower > (cell.upper < bits_of_least_normal ? 1 : step)) {
     const std::uint64_t middle = cell.lower + (cell.upper - cell.lower) / 2;
     (is_above(middle) ? cell.lower : cell.upper) = middle;
   }

@@ -23,9 +23,9 @@ struct ExactImpact {
 
 /// The first contact with a time of impact of at most t_max, or nothing if there is none: the truth
 /// for every query of finite doubles. The enclosure of the time of impact is at most toi_tolerance
-/// wide, relative to its upper end, or one spacing of doubles. Where contact is not at a single
-/// point, (u,v) is any point of the overlap. Independent of the floating-point environment (rounding
-/// mode, flushed subnormals).
+/// wide, relative to its upper end, or one spacing of doubles; its upper end may be above t_max. Where
+/// contact is not at a single point, (u,v) is any point of the overlap. Independent of the
+/// floating-point environment (rounding mode, flushed subnormals).
 /// \pre all coordinates are finite; 0 ≤ toi_tolerance; 0 ≤ t_max ≤ 1.
 [[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
                                                         double toi_tolerance, double t_max);

@@ -4,6 +4,7 @@ namespace touchstone::fast {
 
 // One definition a file, each compiled for its instruction set (box_kernel_*.cpp).
 extern const BoxKernel scalar_box_kernel;
+extern const BoxKernel scalar_released_box_kernel;
 #ifdef TOUCHSTONE_X86_64
 extern const BoxKernel avx2_box_kernel;
 extern const BoxKernel avx512_box_kernel;
@@ -38,6 +39,8 @@ std::span<const BoxKernel* const> box_kernels() {
 }
 
 const BoxKernel& best_box_kernel() { return *box_kernels().back(); }
+
+const BoxKernel& released_box_kernel() { return scalar_released_box_kernel; }
 
 const BoxKernel* find_box_kernel(InstructionSet instructions) {
   return find_kernel(box_kernels(), instructions);

@@ -4,7 +4,7 @@
 /// The inner loop of Tight-Inclusion: F at the eight corners of a box, and what follows from it.
 ///
 /// F is affine in each of t, u and v, so over a box it stays within the bounding box of its eight
-/// corner values (Wang et al. 2021, section 4.2). Both are computed on lanes, one a corner, with the
+/// corner values ([wang2021], section 4.2). Both are computed on lanes, one a corner, with the
 /// steps of filters/expressions.hpp in their order, so that a lane has the very bits of
 /// EdgeEdge::evaluate or VertexFace::evaluate, whatever the instruction set.
 
@@ -67,6 +67,10 @@ struct BoxKernel {
 
 /// The fastest of box_kernels().
 [[nodiscard]] const BoxKernel& best_box_kernel();
+
+/// The scalar kernel in the order of operations of the public Tight-Inclusion, with the bits of
+/// filters::ReleasedEdgeEdge and filters::ReleasedVertexFace: for comparison only.
+[[nodiscard]] const BoxKernel& released_box_kernel();
 
 /// The kernel of an instruction set; nullptr if this processor cannot run it.
 [[nodiscard]] const BoxKernel* find_box_kernel(InstructionSet instructions);

@@ -21,8 +21,35 @@
 
 namespace touchstone::fast {
 
-/// The kernel's functions on `Lanes`.
-template <class Lanes>
+/// The steps of filters::EdgeEdge and filters::VertexFace.
+struct ConvexSteps {
+  template <class Lanes>
+  static Lanes blend(const Lanes& a, const Lanes& b, const Lanes& weight_a, const Lanes& weight_b) {
+    return filters::blend(a, b, weight_a, weight_b);
+  }
+  template <class Lanes>
+  static Lanes blend(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& weight_a,
+                     const Lanes& weight_b, const Lanes& weight_c) {
+    return filters::blend(a, b, c, weight_a, weight_b, weight_c);
+  }
+};
+
+/// Those of filters::ReleasedEdgeEdge and filters::ReleasedVertexFace.
+struct ReleasedSteps {
+  template <class Lanes>
+  static Lanes blend(const Lanes& a, const Lanes& b, const Lanes& /*weight_a*/,
+                     const Lanes& weight_b) {
+    return filters::blend_from_first(a, b, weight_b);
+  }
+  template <class Lanes>
+  static Lanes blend(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& /*weight_a*/,
+                     const Lanes& weight_b, const Lanes& weight_c) {
+    return filters::blend_from_first(a, b, c, weight_b, weight_c);
+  }
+};
+
+/// The kernel's functions on `Lanes`, in the order of operations of `Steps`.
+template <class Lanes, class Steps = ConvexSteps>
 struct BoxKernelOnLanes {
   /// The weights of a box: the time's, and those of (u,v) in the layout of the kind, which for
   /// edge_edge has no third.
@@ -48,15 +75,14 @@ struct BoxKernelOnLanes {
   }
 
   static Lanes points_at_times(const std::array<double, query_points>& x, const BoxWeights& w) {
-    return filters::blend(Lanes::twice(x.data()), Lanes::twice(x.data() + 4), w.early, w.late);
+    return Steps::blend(Lanes::twice(x.data()), Lanes::twice(x.data() + 4), w.early, w.late);
   }
 
   /// filters::EdgeEdge on lanes.
   static Lanes edge_edge_corners(const std::array<double, query_points>& x, const BoxWeights& w) {
     const Lanes points = points_at_times(x, w);
-    const Lanes on_edges =
-        filters::blend(points.template shuffled<0, 0, 2, 2>(),
-                       points.template shuffled<1, 1, 3, 3>(), w.first, w.second);
+    const Lanes on_edges = Steps::blend(points.template shuffled<0, 0, 2, 2>(),
+                                        points.template shuffled<1, 1, 3, 3>(), w.first, w.second);
     return on_edges.template shuffled<0, 0, 1, 1>() - on_edges.template shuffled<2, 3, 2, 3>();
   }
 
@@ -64,9 +90,9 @@ struct BoxKernelOnLanes {
   static Lanes vertex_face_corners(const std::array<double, query_points>& x, const BoxWeights& w) {
     const Lanes points = points_at_times(x, w);
     return points.template shuffled<0, 0, 0, 0>() -
-           filters::blend(points.template shuffled<1, 1, 1, 1>(),
-                          points.template shuffled<2, 2, 2, 2>(),
-                          points.template shuffled<3, 3, 3, 3>(), w.first, w.second, w.third);
+           Steps::blend(points.template shuffled<1, 1, 1, 1>(),
+                        points.template shuffled<2, 2, 2, 2>(),
+                        points.template shuffled<3, 3, 3, 3>(), w.first, w.second, w.third);
   }
 
   template <class CornersOnAxis>

@@ -117,5 +117,8 @@ struct Lanes {
 
 extern const BoxKernel scalar_box_kernel;
 const BoxKernel scalar_box_kernel = BoxKernelOnLanes<Lanes>::kernel(InstructionSet::scalar);
+extern const BoxKernel scalar_released_box_kernel;
+const BoxKernel scalar_released_box_kernel =
+    BoxKernelOnLanes<Lanes, ReleasedSteps>::kernel(InstructionSet::scalar);
 
 }  // namespace touchstone::fast

@@ -165,6 +165,18 @@ TEST(Certified, CountsOnlyWhatIsUpToTMax) {
   EXPECT_EQ(solve(over_triangle(1, 1, 0, 1), {.t_max = 0.0}).verdict, Verdict::yes);
 }
 
+/// As certified.hpp says: contact at t_max counts, though the enclosure ends beyond it.
+TEST(Certified, TheUpperEndMayLieBeyondTMax) {
+  const CertifiedResult result =
+      solve(over_triangle(1, 1, 1, -1), {.toi_tolerance = 0.1, .t_max = 0.5});
+  EXPECT_EQ(result.verdict, Verdict::yes);
+  EXPECT_LT(result.toi_lower, 0.5);
+  EXPECT_GT(result.toi_upper, 0.5);
+  EXPECT_LE(result.toi_upper - result.toi_lower, 0.1 * result.toi_upper);
+  const CertifiedResult at_end = solve(over_triangle(1, 1, 1, 0), {.toi_tolerance = 0.1});
+  EXPECT_EQ(at_end.toi_upper, 1.0) << "but not beyond 1";
+}
+
 // ---- Errors -------------------------------------------------------------------------------------
 
 TEST(Certified, WhatIsNoNumberIsAnErrorOfItsQueryAlone) {

@@ -65,13 +65,35 @@ TEST(ErrorFilter, IsBelowThePublishedAtEveryScale) {
   }
 }
 
+TEST(ErrorFilter, ReleasedHasTheLeastOfOneAndXMaxForTheGreatest) {
+  for (const double d : {0.0, 1e-8}) {
+    const double published = on_first_axis(Kind::vertex_face, 1.0, d, ErrorModel::published);
+    for (const double x_max : {1.0, 3.0, 1e6}) {
+      EXPECT_EQ(on_first_axis(Kind::vertex_face, x_max, d, ErrorModel::released), published);
+    }
+    EXPECT_EQ(on_first_axis(Kind::vertex_face, 0.5, d, ErrorModel::released), published / 8.0);
+    EXPECT_EQ(on_first_axis(Kind::vertex_face, 0.0, d, ErrorModel::released), 0.0);
+  }
+  EXPECT_EQ(on_first_axis(Kind::edge_edge, 0x1p-20, 0.0, ErrorModel::released),
+            6.217248937900877e-15 * 0x1p-60);
+}
+
+/// It is no bound: below what F's values err by at least, half a unit in the last place, for coordinates
+/// that are small or large.
+TEST(ErrorFilter, ReleasedIsBelowHalfAUnitInTheLastPlaceAtMostScales) {
+  for (const double x_max : {1e-3, 1e-2, 1e3}) {
+    EXPECT_LT(on_first_axis(Kind::vertex_face, x_max, 0.0, ErrorModel::released), 0x1p-53 * x_max);
+  }
+}
+
 TEST(ErrorFilter, IsPositiveWithNothingButUnderflow) {
   EXPECT_GT(on_first_axis(Kind::edge_edge, 0.0, 0.0), 0.0);
   EXPECT_GT(on_first_axis(Kind::vertex_face, least, 0.0), least);
 }
 
 TEST(ErrorFilter, IsInfiniteWhereOverflowCouldOccur) {
-  for (const ErrorModel model : {ErrorModel::derived, ErrorModel::published}) {
+  for (const ErrorModel model :
+       {ErrorModel::derived, ErrorModel::published, ErrorModel::released}) {
     EXPECT_EQ(on_first_axis(Kind::edge_edge, std::numeric_limits<double>::max(), 0.0, model),
               infinity);
     EXPECT_EQ(on_first_axis(Kind::vertex_face, 1.0, 0x1p1022, model), infinity);

@@ -63,31 +63,6 @@ std::vector<double> random_weights(std::mt19937_64& random, int bits) {
   return weights;
 }
 
-/// F of edge_edge in the order of operations of the released Tight-Inclusion: x(t) = (x1 − x0) t +
-/// x0.
-struct ReleasedEdgeEdge : EdgeEdge {
-  static constexpr std::string_view name = "released_edge_edge";
-
-  template <class Scalar>
-  static constexpr Scalar evaluate(const std::array<Scalar, 8>& x, const std::array<Scalar, 6>& w) {
-    const auto at_time = [&](std::size_t i) -> Scalar { return (x[4 + i] - x[i]) * w[1] + x[i]; };
-    const Scalar ea0 = at_time(0), eb0 = at_time(2);
-    return ((at_time(1) - ea0) * w[3] + ea0) - ((at_time(3) - eb0) * w[5] + eb0);
-  }
-};
-
-/// The same for vertex_face.
-struct ReleasedVertexFace : VertexFace {
-  static constexpr std::string_view name = "released_vertex_face";
-
-  template <class Scalar>
-  static constexpr Scalar evaluate(const std::array<Scalar, 8>& x, const std::array<Scalar, 5>& w) {
-    const auto at_time = [&](std::size_t i) -> Scalar { return (x[4 + i] - x[i]) * w[1] + x[i]; };
-    const Scalar f0 = at_time(1);
-    return at_time(0) - ((at_time(2) - f0) * w[3] + (at_time(3) - f0) * w[4] + f0);
-  }
-};
-
 /// (a, b) blended once: small enough to follow by hand.
 struct Blend {
   static constexpr std::string_view name = "blend";

@@ -66,6 +66,17 @@ TEST(CertifyReport, TextHasARowASourceTheTotalAndEachMismatch) {
             "mismatch: b,c/edge-edge.csv: edge-edge query 1: recorded toi 2.5E-1, truth 5E-1");
 }
 
+TEST(CertifyReport, TextShowsNamesOnOneLine) {
+  std::vector<CertifyResult> named = results();
+  named[1].name = "x\x1b[2J\ntotal 9\u202e";
+  const std::string text = to_text(named);
+  EXPECT_NE(text.find("\nx\\x1b[2J\\x0atotal 9\\u202e  edge-edge "), std::string::npos) << text;
+  EXPECT_NE(text.find("mismatch: x\\x1b[2J\\x0atotal 9\\u202e: edge-edge query 0"),
+            std::string::npos);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_EQ(text.find("\ntotal 9"), std::string::npos);
+}
+
 TEST(CertifyReport, JsonHasTotalFilesAndMismatches) {
   const nlohmann::json json = to_json(results());
   EXPECT_EQ(json.at("queries"), 10);

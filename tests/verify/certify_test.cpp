@@ -1,4 +1,5 @@
 #include "verify/certify.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -112,6 +113,26 @@ TEST(Certify, ToleranceZeroAsksForEquality) {
   EXPECT_EQ(certify_records(records, options).toi_mismatches, 0U);
   records[1].toi = *records[1].toi + exact::power_of_two(-2000);
   EXPECT_EQ(certify_records(records, options).toi_mismatches, 1U);
+}
+
+TEST(Certify, PrintsTimesOfImpactUntilTheyDiffer) {
+  CertifyOptions options;
+  options.toi_tolerance = 0;
+  const std::string threes(45, '3');
+  std::vector<RecordedQuery> records{{.query = falling_vertex(1, 2),
+                                      .index = 0,
+                                      .collides = true,
+                                      .toi = exact::rational_from_decimal("0." + threes)},
+                                     {.query = falling_vertex(1, 3),
+                                      .index = 1,
+                                      .collides = true,
+                                      .toi = Rational(1, 4) + exact::power_of_two(-2000)}};
+  const CertifyResult result = certify_records(std::move(records), options);
+  ASSERT_EQ(result.mismatches.size(), 2U);
+  EXPECT_EQ(result.mismatches[0].recorded, "3." + threes.substr(1) + "E-1");
+  EXPECT_EQ(result.mismatches[0].truth, "3." + threes.substr(1) + threes + "E-1");
+  EXPECT_TRUE(result.mismatches[1].recorded.starts_with("2.5000"));
+  EXPECT_EQ(result.mismatches[1].truth, "2.5E-1");
 }
 
 TEST(Certify, ATimeOfImpactOfAMissIsAMismatch) {
@@ -543,7 +564,7 @@ INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet,
 std::vector<CertifyResult> certify_public(const std::string& folder) {
   const char* data = std::getenv("TOUCHSTONE_DATA");
   const std::filesystem::path root =
-      data != nullptr ? data : TOUCHSTONE_SOURCE_DIR "/../shared/datasets";
+      data != nullptr ? data : tests::source_folder() + "/../shared/datasets";
   if (!std::filesystem::exists(root)) {
     std::cerr << "\n*** WARNING: public data missing at " << root
               << " (set TOUCHSTONE_DATA): the oracle is NOT held against it ***\n\n";

@@ -102,11 +102,10 @@ class BenchRun {
       for (const fs::path& path : arguments_.sources.paths) bench_path(path);
     }
     if (json_) {
-      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-      json_.write(to_json(report_).dump(2, ' ', false, replace_bad_utf8) + "\n");
+      json_.write(json_document(to_json(report_)));
     }
     json_.close();
-    fmt::print(json_.is_standard_output() ? stderr : stdout, "{}", to_text(report_));
+    print(json_.is_standard_output() ? stderr : stdout, to_text(report_));
     return status();
   }
 
@@ -296,7 +295,8 @@ void add_bench_command(CLI::App& app, Status& status) {
       "--query-limit, costs one answer.\n"
       "With --step the candidates of our broad phase are the queries, and the whole step is timed "
       "from\n"
-      "broad phase to the times of impact, with one thread and with --threads.\n"
+      "broad phase to the times of impact, with one thread and with --threads: wall and processor "
+      "time.\n"
       "With --min-separation candidates are the pairs whose boxes come that near.\n"
       "Exit status: 0 all is well, 1 a solver gave an answer that its promise excludes, 2 bad "
       "input or\n"

@@ -79,10 +79,9 @@ class CertifyRun {
     respondents_.report_output(arguments_.judged.show_output);
     // Files first: a closed standard output must not cost them.
     truth_.close();
-    proof_.close();
+    proof_.close(sum_.proofs.certificates());
     if (json_) {
-      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-      json_.write(to_json(results_).dump(2, ' ', false, replace_bad_utf8) + "\n");
+      json_.write(json_document(to_json(results_)));
     }
     json_.close();
     print_summary();
@@ -102,8 +101,8 @@ class CertifyRun {
     const bool is_standard_output =
         json_.is_standard_output() || truth_.is_standard_output() || proof_.is_standard_output();
     std::FILE* const stream = is_standard_output ? stderr : stdout;
-    fmt::print(stream, "{}", to_text(results_));
-    if (proof_) fmt::print(stream, "\n{}", to_text(sum_.proofs));
+    print(stream, to_text(results_));
+    if (proof_) print(stream, fmt::format("\n{}", to_text(sum_.proofs)));
     report_beyond_limits(sum_.proofs);
   }
 

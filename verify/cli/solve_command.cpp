@@ -74,8 +74,7 @@ class SolveRun {
          .is_output = [this](const fs::path& path) { return is_output(path); }});
     out_.close();
     if (json_) {
-      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-      json_.write(summary().dump(2, ' ', false, replace_bad_utf8) + "\n");
+      json_.write(json_document(summary()));
     }
     json_.close();
     report_unplaced_crashes(solver_.name(), sum_.unplaced_crashes);
@@ -93,17 +92,22 @@ class SolveRun {
     std::FILE* const stream =
         out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
     if (const auto separation = the_separation()) {
-      fmt::print(stream, "minimum separation {}\n", to_text(*separation));
+      print(stream, fmt::format("minimum separation {}\n", to_text(*separation)));
     }
-    fmt::print(stream, "{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
-               solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
-               sum_.nanoseconds_per_query());
+    print(stream,
+          fmt::format("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
+                      solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
+                      sum_.nanoseconds_per_query()));
     for (const FailureKind kind : all_failure_kinds) {
       const std::uint64_t count = sum_.failures[static_cast<std::size_t>(kind)];
-      if (count != 0) fmt::print(stream, "no answer: {} {}\n", count, to_string(kind));
+      if (count != 0) print(stream, fmt::format("no answer: {} {}\n", count, to_string(kind)));
     }
-    if (sum_.skipped != 0) fmt::print(stream, "{} queries in error skipped\n", sum_.skipped);
-    if (sum_.rounded != 0) fmt::print(stream, "{} coordinates rounded to double\n", sum_.rounded);
+    if (sum_.skipped != 0) {
+      print(stream, fmt::format("{} queries in error skipped\n", sum_.skipped));
+    }
+    if (sum_.rounded != 0) {
+      print(stream, fmt::format("{} coordinates rounded to double\n", sum_.rounded));
+    }
   }
 
   void solve_source(QuerySource& source, const Progress& progress) {

@@ -35,7 +35,7 @@ std::optional<Accusation> accuse_reach(Kind kind, const Query& query, const Answ
                                        const Standard& standard) {
   const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
   if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
-  return Accusation{FindingKind::beyond_promise,
+  return Accusation{FindingKind::beyond_tolerance,
                     fmt::format("{}, but they never come within {}, as that claims",
                                 to_text(answer), to_text(*claimed))};
 }
@@ -78,9 +78,7 @@ bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judge
 
 std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& truth,
                                  const Answer& answer, const Standard& standard) {
-  if (answer.verdict == Verdict::error) {
-    return Accusation{FindingKind::crash, "error, of a valid query"};
-  }
+  if (answer.verdict == Verdict::error) return accuse_failure(failure_of(answer).value(), 0.0);
   if (answer.verdict == Verdict::yes && has_bad_number(answer)) {
     return Accusation{FindingKind::not_finite, to_text(answer)};
   }
@@ -92,11 +90,24 @@ std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& tru
   }
   if (answer.verdict == Verdict::no) return std::nullopt;
   if (standard.promise == Promise::exact) {
-    return Accusation{FindingKind::beyond_promise,
-                      to_text(answer) + ", but they do not collide, and it promises exactness"};
+    return Accusation{
+        answer.verdict == Verdict::yes ? FindingKind::false_positive : FindingKind::undecided,
+        to_text(answer) + ", but they do not collide, and it promises exactness"};
   }
   return answer.verdict == Verdict::yes ? accuse_reach(kind, query, answer, standard)
                                         : std::nullopt;
+}
+
+Accusation accuse_failure(const Failure& failure, double limit_seconds) {
+  const FindingKind what = finding_kind_of(failure.kind);
+  switch (failure.kind) {
+    case FailureKind::hang:
+      return {what, fmt::format("takes more than {} s", limit_seconds)};
+    case FailureKind::no_verdict:
+      return {what, "error or no verdict, of a valid query"};
+    default:
+      return {what, to_text(failure)};
+  }
 }
 
 std::optional<Accusation> accuse_judge(const Truth& truth, const CertifiedResult& judged) {
@@ -116,13 +127,6 @@ std::string to_text(const Answer& answer) {
   add("toi_upper", answer.toi_upper);
   add("tolerance", answer.tolerance);
   return text;
-}
-
-std::string to_text(const Truth& truth) {
-  if (!truth.collides) return "no collision";
-  const auto [lower, upper] = truth.toi.value();
-  return lower == upper ? fmt::format("collision at {}", lower)
-                        : fmt::format("collision between {} and {}", lower, upper);
 }
 
 }  // namespace touchstone::verify

@@ -15,6 +15,7 @@
 #include "verify/csv.hpp"
 #include "verify/dataset/dataset_error.hpp"
 #include "verify/dataset/input_file.hpp"
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -163,10 +164,10 @@ class AnswersReader {
 
   /// The group of the row at hand: nearly always that of the row before.
   RecordedAnswers::Rows& rows_of(Kind kind) {
-    if (group_ == nullptr || group_->first.second != kind ||
-        group_->first.first != raw(Column::file)) {
-      if (raw(Column::file).empty()) fail(Column::file, "no file name");
-      group_ = &*answers_.rows_.try_emplace({raw(Column::file), kind}).first;
+    if (group_ == nullptr || group_->first.second != kind || group_field_ != raw(Column::file)) {
+      group_field_ = raw(Column::file);
+      if (group_field_.empty()) fail(Column::file, "no file name");
+      group_ = &*answers_.rows_.try_emplace({text_of_field(group_field_), kind}).first;
     }
     return group_->second;
   }
@@ -258,11 +259,14 @@ class AnswersReader {
   std::size_t columns_ = most_columns;
   RecordedAnswers answers_;
   std::pair<const RecordedAnswers::Key, RecordedAnswers::Rows>* group_ = nullptr;
+  std::string group_field_;  // that named the group
 };
 
 std::optional<RecordedAnswer> RecordedAnswers::answer_to(std::string_view file, Kind kind,
                                                          std::uint64_t index) const {
-  const auto group = rows_.find(std::pair(file, kind));
+  // The file has names as csv_field() writes them.
+  const std::string name = is_printable(file) ? std::string() : printable(file);
+  const auto group = rows_.find(std::pair(name.empty() ? file : std::string_view(name), kind));
   if (group == rows_.end()) return std::nullopt;
   const auto row = std::ranges::lower_bound(group->second, index, {}, &Row::index);
   if (row == group->second.end() || row->index != index) return std::nullopt;

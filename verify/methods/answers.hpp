@@ -5,9 +5,9 @@
 ///
 ///     file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure
 ///
-/// verdict: yes, no, undecided or error. The three fields behind are empty where a solver gives none.
-/// failure: why there is no answer (failure.hpp: "crash: SIGSEGV", "hang", …), else empty; a file may
-/// do without this column.
+/// file: its path, printable (printable.hpp). verdict: yes, no, undecided or error. The three fields behind
+/// are empty where a solver gives none. failure: why there is no answer (failure.hpp: "crash: SIGSEGV",
+/// "hang", …), else empty; a file may do without this column.
 /// A query is known by all of file, index and kind: the families of the built-in set have queries
 /// of both kinds under one name.
 

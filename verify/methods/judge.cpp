@@ -34,14 +34,14 @@ std::string answer_text(Fault fault, const fast::Answer& answer) {
   return std::string(to_string(answer.verdict));
 }
 
-std::string truth_text(const Truth& truth) {
+}  // namespace
+
+std::string to_text(const Truth& truth) {
   if (!truth.collides) return "no collision";
   const auto [lower, upper] = truth.toi.value();
   return lower == upper ? fmt::format("collision at {}", lower)
-                        : fmt::format("collision between {} and {}", lower, upper);
+                        : fmt::format("collision after {} and before {}", lower, upper);
 }
-
-}  // namespace
 
 Truth truth_of(std::uint64_t index, const Decision& decision) {
   Truth truth{.index = index, .collides = decision.collides(), .toi = std::nullopt};
@@ -136,7 +136,7 @@ void Judgement::add_fault(Fault fault, const Truth& truth, const fast::Answer& a
   if (++count > most_kept) return;
   wrong_answers.push_back({fault, truth.index,
                            fault == Fault::error ? to_text(failure) : answer_text(fault, answer),
-                           truth_text(truth)});
+                           to_text(truth)});
 }
 
 void Judgement::add_beyond_tolerance(const Truth& truth, const fast::Answer& answer) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <exception>
 #include <mutex>
@@ -14,6 +15,7 @@
 
 #include "verify/dataset/dataset_error.hpp"
 #include "verify/plugin.h"
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -74,8 +76,7 @@ std::string read_name(const Library& library, const std::filesystem::path& path)
       find_function<decltype(touchstone_plugin_name)>(library, path, "touchstone_plugin_name")();
   if (name == nullptr) throw DatasetError(path, {}, "has no name");
   const std::string_view text = name;
-  const auto unprintable = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-  if (text.empty() || std::ranges::any_of(text, unprintable)) {
+  if (text.empty() || !is_printable(text)) {
     throw DatasetError(path, {}, "name is not one line of text: " + quote(text));
   }
   return std::string(text);

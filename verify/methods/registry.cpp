@@ -26,8 +26,13 @@ namespace {
 
 using Methods = std::vector<std::unique_ptr<const fast::Method>>;
 
+std::unique_ptr<fast::Method> tight_inclusion_released() {
+  return fast::tight_inclusion_method({.error_model = fast::ErrorModel::released});
+}
+
 /// The known methods, which are here to be compared with.
 constexpr auto baselines = std::to_array<std::unique_ptr<fast::Method> (*)()>({
+    tight_inclusion_released,
     fast::irf_method,
     fast::uirf_method,
     fast::fprf_method,
@@ -89,7 +94,9 @@ const fast::Method& find_method(std::string_view name) {
 }
 
 Reach reach_of(std::string_view name) {
-  const bool published = name == "tight_inclusion_published";
+  // The published filter bounds the errors of the released order of operations too, and is not below
+  // the released one: so what a yes with the released filter claims follows from it.
+  const bool published = name == "tight_inclusion_published" || name == "tight_inclusion_released";
   if (name != "tight_inclusion" && !published) return stated_reach;
   return
       [model = published ? fast::ErrorModel::published : fast::ErrorModel::derived](

@@ -16,8 +16,8 @@ namespace touchstone::verify {
 /// All methods, always in the same order; they live as long as the program.
 [[nodiscard]] const std::vector<std::unique_ptr<const fast::Method>>& methods();
 
-/// Is that the name of a baseline: a known method that is here to be compared with (fast/baselines/),
-/// known errors and all?
+/// Is that the name of a baseline: a known method that is here to be compared with (fast/baselines/, and
+/// the public Tight-Inclusion), known errors and all?
 [[nodiscard]] bool is_baseline(std::string_view name);
 
 /// The names of those that are judged where nobody names any: all that promise something, in their

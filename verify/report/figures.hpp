@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "verify/report/measurement.hpp"
@@ -72,7 +73,10 @@ struct Figure {
 /// All figures that the measurements have data for.
 [[nodiscard]] std::vector<Figure> figures_of(const Measurements& measurements);
 
-/// The figures as page.js reads them, without their tables; numbers that are none are null.
+/// Whose filter misses contacts, and which ones: below the figure and in docs/results.md.
+[[nodiscard]] std::string_view released_filter_sentence();
+
+/// The figures as page.js reads them, without their tables; numbers are as number_to_json writes them.
 [[nodiscard]] nlohmann::json to_json(const std::vector<Figure>& figures);
 
 }  // namespace touchstone::verify

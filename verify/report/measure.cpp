@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -47,6 +48,44 @@ struct Entry {
   std::vector<double> times;           ///< nanoseconds a query, one a repetition
   double spent = 0.0;                  ///< nanoseconds in all repetitions
 };
+
+/// Who was asked what. `Answerer` is a fast::Method or a Contender.
+template <class Answerer>
+Measurement of_question(const QueryGroup& group, Experiment experiment, const Answerer& answerer,
+                        const fast::MethodOptions& options, const Separation& separation) {
+  Measurement said;
+  said.experiment = experiment;
+  said.group = group.name();
+  said.kind = group.kind();
+  said.method = answerer.name();
+  said.promise = answerer.promise();
+  said.tolerance = options.tolerance;
+  said.max_checks = options.max_checks;
+  said.separation = separation;
+  said.group_queries = group.queries().size();
+  return said;
+}
+
+bool is_at_limit(const fast::Answer& answer, std::int64_t max_checks) {
+  if (answer.verdict == fast::Verdict::undecided) return true;
+  return max_checks > 0 && std::int64_t{answer.checks} >= max_checks;
+}
+
+std::optional<Spread> spread_of(const ToiErrors& numbers) {
+  if (numbers.count() == 0) return std::nullopt;
+  return Spread{.count = numbers.count(), .median = numbers.quantile(0.5), .max = numbers.max()};
+}
+
+void set_counts(const Judgement& judgement, Measurement& said) {
+  said.false_positives = judgement.count(Fault::false_positive);
+  said.false_negatives = judgement.count(Fault::false_negative);
+  said.late_tois = judgement.count(Fault::late_toi);
+  said.early_upper_tois = judgement.count(Fault::early_toi_upper);
+  said.errors = judgement.count(Fault::error);
+  said.undecided = judgement.undecided;
+  said.keeps_promise = said.promise == fast::Promise::none || keeps(judgement, said.promise);
+  said.toi_error = spread_of(judgement.toi_errors);
+}
 
 class Run {
  public:
@@ -239,17 +278,8 @@ class Run {
 
   [[nodiscard]] Measurement report(std::size_t index) const {
     const Entry& entry = entries_[index];
-    const fast::MethodOptions& asked = subjects_[index].options;
-    Measurement said;
-    said.experiment = options_.experiment;
-    said.group = group_.name();
-    said.kind = group_.kind();
-    said.method = entry.contender->name();
-    said.promise = entry.contender->promise();
-    said.tolerance = asked.tolerance;
-    said.max_checks = asked.max_checks;
-    said.separation = entry.separation;
-    said.group_queries = group_.queries().size();
+    Measurement said = of_question(group_, options_.experiment, *entry.contender,
+                                   subjects_[index].options, entry.separation);
     said.asked = entry.positions.size();
     said.nanoseconds = median(entry.times);
     said.repetitions = entry.times.size();
@@ -274,25 +304,8 @@ class Run {
       const bool is_yes = reply.answer.verdict == fast::Verdict::yes;
       if (is_yes && reply.answer.tolerance >= 0.0) tolerances.add(reply.answer.tolerance);
     }
-    said.false_positives = judgement.count(Fault::false_positive);
-    said.false_negatives = judgement.count(Fault::false_negative);
-    said.late_tois = judgement.count(Fault::late_toi);
-    said.early_upper_tois = judgement.count(Fault::early_toi_upper);
-    said.errors = judgement.count(Fault::error);
-    said.undecided = judgement.undecided;
-    said.keeps_promise = said.promise == fast::Promise::none || keeps(judgement, said.promise);
-    said.toi_error = spread_of(judgement.toi_errors);
+    set_counts(judgement, said);
     said.achieved_tolerance = spread_of(tolerances);
-  }
-
-  static bool is_at_limit(const fast::Answer& answer, std::int64_t max_checks) {
-    if (answer.verdict == fast::Verdict::undecided) return true;
-    return max_checks > 0 && std::int64_t{answer.checks} >= max_checks;
-  }
-
-  static std::optional<Spread> spread_of(const ToiErrors& numbers) {
-    if (numbers.count() == 0) return std::nullopt;
-    return Spread{.count = numbers.count(), .median = numbers.quantile(0.5), .max = numbers.max()};
   }
 
   const QueryGroup& group_;
@@ -323,6 +336,29 @@ std::vector<Measurement> measure(const QueryGroup& group, Truths& truths,
   if (options.repetitions == 0) throw std::invalid_argument("repetitions must be at least 1");
   if (!(options.seconds > 0.0)) throw std::invalid_argument("seconds must be positive");
   return Run(group, truths, subjects, make_reference, options).measurements();
+}
+
+std::optional<Measurement> judge_all(const QueryGroup& group, Truths& truths,
+                                     const fast::Method& method, const fast::MethodOptions& options,
+                                     Experiment experiment, const std::atomic<bool>* stop) {
+  const Separation separation{.distance = options.min_separation, .norm = options.norm};
+  const std::vector<Query>& queries = group.queries();
+  std::vector<std::size_t> positions(queries.size());
+  std::iota(positions.begin(), positions.end(), std::size_t{0});
+  const std::vector<Truth> known = truths.of(separation, positions, stop);
+  if (known.size() < queries.size()) return std::nullopt;
+  std::vector<fast::Answer> answers(queries.size());
+  method.solve(group.kind(), queries, answers, options);
+  Measurement said = of_question(group, experiment, method, options, separation);
+  said.asked = queries.size();
+  Judgement judgement;
+  for (const Truth& truth : known) {
+    judgement.add(truth, answers[truth.index]);
+    said.collisions += truth.collides ? 1U : 0U;
+    said.at_limit += is_at_limit(answers[truth.index], said.max_checks) ? 1U : 0U;
+  }
+  set_counts(judgement, said);
+  return said;
 }
 
 }  // namespace touchstone::verify

@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -69,5 +70,13 @@ struct MeasureOptions {
                                                std::span<const Subject> subjects,
                                                const MakeReference& make_reference,
                                                const MeasureOptions& options);
+
+/// Judges the answers of a method to all queries of the group of `truths`; nothing is timed. No result
+/// once *stop is true (it may be null).
+[[nodiscard]] std::optional<Measurement> judge_all(const QueryGroup& group, Truths& truths,
+                                                   const fast::Method& method,
+                                                   const fast::MethodOptions& options,
+                                                   Experiment experiment,
+                                                   const std::atomic<bool>* stop = nullptr);
 
 }  // namespace touchstone::verify

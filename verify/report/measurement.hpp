@@ -23,9 +23,10 @@ enum class Experiment : std::uint8_t {
   separation,  ///< over the minimum separation d (its tables 2 and 3)
   tolerance,   ///< over the tolerance δ
   checks,      ///< over the maximum number of checks m_I
+  filter,      ///< what Tight-Inclusion misses with each of its filters; nothing is timed
 };
 
-/// "field", "separation", "tolerance" or "checks".
+/// "field", "separation", "tolerance", "checks" or "filter".
 [[nodiscard]] std::string_view to_string(Experiment experiment);
 
 /// The experiment of that name. \throws std::invalid_argument if there is none.
@@ -76,6 +77,8 @@ struct Measurement {
   double tolerance = 0.0;       ///< MethodOptions::tolerance
   std::int64_t max_checks = 0;  ///< MethodOptions::max_checks
   Separation separation = {};   ///< what counts as contact, for the method and for the truth
+  /// Of groups that are made for a scale: no coordinate is greater in magnitude.
+  std::optional<double> scale;
 
   std::uint64_t group_queries = 0;  ///< in the group
   std::uint64_t asked = 0;          ///< of these, an evenly spread sample; all below is about them
@@ -137,6 +140,9 @@ struct Measurements {
   std::vector<StabilityMark> stability;
   bool interrupted = false;
 };
+
+/// The same with all names and texts printable (printable.hpp): for what people read.
+[[nodiscard]] Measurements with_printable_texts(Measurements measurements);
 
 /// The measurements of one experiment, in their order. They point into `measurements`.
 [[nodiscard]] std::vector<const Measurement*> of_experiment(const Measurements& measurements,

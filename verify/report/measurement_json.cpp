@@ -1,6 +1,7 @@
 #include "verify/report/measurement_json.hpp"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -16,16 +17,21 @@ using Json = nlohmann::json;
 
 constexpr const char* format_name = "touchstone measurements 1";
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr const char* infinity_name = "Infinity";
+constexpr const char* negative_infinity_name = "-Infinity";
 
 double number_from(const Json& json) {
+  if (json == infinity_name) return infinity;
+  if (json == negative_infinity_name) return -infinity;
   return json.is_null() ? Measurement::unknown : json.get<double>();
 }
 
 Json json_of(const std::optional<Spread>& spread) {
   if (!spread) return {};
-  return {
-      {"count", spread->count}, {"median", number(spread->median)}, {"max", number(spread->max)}};
+  return {{"count", spread->count},
+          {"median", number_to_json(spread->median)},
+          {"max", number_to_json(spread->max)}};
 }
 
 std::optional<Spread> spread_from(const Json& json) {
@@ -68,9 +74,10 @@ Json json_of(const Measurement& measurement) {
           {"kind", to_string(m.kind)},
           {"method", m.method},
           {"promise", to_string(m.promise)},
-          {"tolerance", number(m.tolerance)},
+          {"tolerance", number_to_json(m.tolerance)},
           {"max_checks", m.max_checks},
           {"separation", to_json(m.separation)},
+          {"scale", m.scale ? number_to_json(*m.scale) : Json()},
           {"group_queries", m.group_queries},
           {"asked", m.asked},
           {"collisions", m.collisions},
@@ -82,9 +89,9 @@ Json json_of(const Measurement& measurement) {
           {"undecided", m.undecided},
           {"at_limit", m.at_limit},
           {"keeps_promise", m.keeps_promise},
-          {"ns_per_query", number(m.nanoseconds)},
+          {"ns_per_query", number_to_json(m.nanoseconds)},
           {"repetitions", m.repetitions},
-          {"certified_ns_per_query", number(m.certified_nanoseconds)},
+          {"certified_ns_per_query", number_to_json(m.certified_nanoseconds)},
           {"toi_error", json_of(m.toi_error)},
           {"achieved_tolerance", json_of(m.achieved_tolerance)},
           {"stages", json_of(m.stages)},
@@ -107,6 +114,9 @@ void read_question(const Json& json, Measurement& m) {
   m.tolerance = number_from(json.at("tolerance"));
   json.at("max_checks").get_to(m.max_checks);
   m.separation = separation_from(json.at("separation"));
+  // (Files from before there was a scale have none.)
+  const Json scale = json.value("scale", Json());
+  if (!scale.is_null()) m.scale = number_from(scale);
   json.at("group_queries").get_to(m.group_queries);
   json.at("asked").get_to(m.asked);
 }
@@ -152,7 +162,7 @@ Json json_of(const StabilityMark& mark) {
           {"false_negatives", mark.false_negatives},
           {"worst", mark.worst},
           {"worst_rate", mark.worst_rate},
-          {"ns_per_query", number(mark.nanoseconds)}};
+          {"ns_per_query", number_to_json(mark.nanoseconds)}};
 }
 
 StabilityMark mark_from(const Json& json) {
@@ -186,6 +196,12 @@ Measurements read(const Json& json) {
 }
 
 }  // namespace
+
+Json number_to_json(double value) {
+  if (std::isnan(value)) return {};
+  if (std::isinf(value)) return value > 0.0 ? infinity_name : negative_infinity_name;
+  return value;
+}
 
 Json to_json(const Measurements& measurements) {
   Json all = Json::array();

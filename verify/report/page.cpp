@@ -20,6 +20,8 @@ namespace {
 constexpr std::string_view policy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
 
+constexpr std::string_view filter_title = "What Tight-Inclusion misses with each filter";
+
 /// Bytes as they may stand in a data URL.
 std::string percent_encoded(std::string_view text) {
   std::string result;
@@ -49,7 +51,8 @@ std::string script_json(const nlohmann::json& json) {
 
 class Writer {
  public:
-  explicit Writer(const Measurements& measurements) : measurements_(measurements) {}
+  explicit Writer(const Measurements& measurements)
+      : measurements_(with_printable_texts(measurements)) {}
 
   [[nodiscard]] std::string page() {
     const std::vector<Figure> figures = figures_of(measurements_);
@@ -60,6 +63,7 @@ class Writer {
     for (const Section& section : separation_sections()) {
       write_tables(section.id, section.title, section.tables);
     }
+    write_tables("filters", filter_title, filter_tables(measurements_));
     write_scripts(figures);
     return std::move(text_);
   }
@@ -115,6 +119,9 @@ class Writer {
     for (const Section& section : separation_sections()) {
       text_ += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, section.title);
     }
+    if (!filter_tables(measurements_).empty()) {
+      text_ += fmt::format("<li><a href=\"#filters\">{}</a></li>\n", filter_title);
+    }
     text_ += "</ul></nav>\n<main>\n";
   }
 
@@ -156,7 +163,9 @@ class Writer {
   }
 
   /// Does the column hold words?
-  static bool is_word(std::string_view column) { return column == "method" || column == "norm"; }
+  static bool is_word(std::string_view column) {
+    return column == "method" || column == "norm" || column == "kind";
+  }
 
   /// The numbers as CSV, and the command that made them.
   void write_origin(std::string_view id, const Table& data) {
@@ -187,7 +196,7 @@ class Writer {
                          d3_script(), page_script());
   }
 
-  const Measurements& measurements_;
+  Measurements measurements_;
   std::string text_;
 };
 

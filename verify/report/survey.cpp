@@ -5,15 +5,18 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "verify/contender.hpp"
+#include "verify/families/families.hpp"
 #include "verify/methods/registry.hpp"
 #include "verify/methods/respondent.hpp"
 #include "verify/report/measure.hpp"
 #include "verify/stability/stability.hpp"
 #include "verify/truths.hpp"
+#include "verify/workload.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -23,9 +26,12 @@ using Names = std::span<const std::string>;
 constexpr std::string_view certified_name = "certified";
 constexpr std::array<double, 7> distances{1e-100, 1e-30, 1e-16, 1e-8, 1e-4, 1e-2, 1.0};
 constexpr std::array<double, 9> tolerances{1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0};
+constexpr std::array<double, 7> scales{1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0, 1000.0};
 constexpr std::array<std::int64_t, 6> limits{10, 100, 1'000, 10'000, 100'000, 1'000'000};
 
 constexpr std::array<std::string_view, 3> tolerance_driven{"tight_inclusion", "irf", "uirf"};
+constexpr std::array<std::string_view, 3> with_filters{
+    "tight_inclusion", "tight_inclusion_published", "tight_inclusion_released"};
 constexpr std::array<std::string_view, 2> measuring_in_linf{"certified", "tight_inclusion"};
 constexpr std::array<std::string_view, 4> measuring_in_l2{"certified", "fprf", "msrf", "accd"};
 
@@ -35,8 +41,13 @@ constexpr std::int64_t slow_limit = 100'000;
 /// On the map of stability, whose queries are the hardest.
 constexpr std::int64_t stability_limit = 10'000;
 
-/// What the experiments on groups take of the whole run, the rest being the map of stability's.
-constexpr double part_of_trials = 0.85;
+/// The experiment on filters: checks a query, and queries of a family and of a scale.
+constexpr std::int64_t filter_limit = 100'000;
+constexpr std::size_t most_of_family = 500, most_of_scale = 10'000;
+
+/// What the experiments on groups take of the whole run, and that on filters; the rest is the map of
+/// stability's.
+constexpr double part_of_trials = 0.8, part_of_filters = 0.05;
 
 template <class Thing, class Range>
 bool is_one_of(const Thing& thing, const Range& things) {
@@ -157,6 +168,7 @@ class Run {
                       [&](double fraction) { tell(part_of_trials * (place + fraction) / all); });
       }
     }
+    judge_filters();
     if (options_.stability_count > 0 && !stopped()) map_stability();
     result_.interrupted = stopped();
     return std::move(result_);
@@ -171,10 +183,12 @@ class Run {
 
   [[nodiscard]] std::vector<Trial> chosen_trials() const {
     std::vector<Trial> trials = trials_of(methods_);
-    std::erase_if(trials, [this](const Trial& trial) {
-      return !options_.experiments.empty() && !is_one_of(trial.experiment, options_.experiments);
-    });
+    std::erase_if(trials, [this](const Trial& trial) { return !is_chosen(trial.experiment); });
     return trials;
+  }
+
+  [[nodiscard]] bool is_chosen(Experiment experiment) const {
+    return options_.experiments.empty() || is_one_of(experiment, options_.experiments);
   }
 
   /// At least 1.
@@ -203,6 +217,58 @@ class Run {
     std::ranges::move(measured, std::back_inserter(result_.all));
   }
 
+  // ---- Filters ----------------------------------------------------------------------------------
+
+  [[nodiscard]] std::vector<QueryGroup> groups_for_filters(Kind kind) const {
+    std::vector<QueryGroup> groups;
+    for (const Family& family : families()) {
+      if (!supports(family, kind)) continue;
+      QueryGroup& group = groups.emplace_back(std::string(family.name), kind);
+      group.read(
+          *open_family(family, kind, options_.seed, std::min(options_.count, most_of_family)),
+          [](double) {}, [] { return false; });
+    }
+    return groups;
+  }
+
+  void judge_filters() {
+    std::vector<const fast::Method*> chosen;
+    for (const std::string& name : methods_) {
+      if (is_one_of(name, with_filters)) chosen.push_back(&find_method(name));
+    }
+    if (chosen.size() < 2 || !is_chosen(Experiment::filter)) return;
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (std::ranges::find(groups_, kind, &QueryGroup::kind) == groups_.end()) continue;
+      for (const QueryGroup& group : groups_for_filters(kind)) judge(chosen, group, std::nullopt);
+      for (const bool two_decimals : {false, true}) {
+        for (const double scale : scales) {
+          judge(chosen,
+                end_contacts(kind, {.scale = scale,
+                                    .two_decimals = two_decimals,
+                                    .seed = options_.seed,
+                                    .count = std::min(options_.count, most_of_scale)}),
+                scale);
+        }
+      }
+    }
+  }
+
+  void judge(const std::vector<const fast::Method*>& chosen, const QueryGroup& group,
+             std::optional<double> scale) {
+    fast::MethodOptions asked;
+    asked.max_checks = filter_limit;
+    Truths truths(group, options_.threads);
+    std::vector<Measurement> side_by_side;
+    for (const fast::Method* const method : chosen) {
+      if (stopped()) return;
+      auto judged = judge_all(group, truths, *method, asked, Experiment::filter, options_.stop);
+      if (!judged) return;
+      judged->scale = scale;
+      side_by_side.push_back(std::move(*judged));
+    }
+    std::ranges::move(side_by_side, std::back_inserter(result_.all));
+  }
+
   void map_stability() {
     std::vector<std::unique_ptr<Respondent>> respondents;
     std::vector<const Respondent*> asked;
@@ -214,15 +280,17 @@ class Run {
     }
     std::vector<const Hardness*> sorts;
     for (const Hardness& hardness : hardnesses()) sorts.push_back(&hardness);
-    const StabilityResult map = measure_stability(
-        sorts,
-        {.seed = options_.seed,
-         .count = options_.stability_count,
-         .threads = options_.threads,
-         .respondents = asked,
-         .on_progress =
-             [&](double fraction) { tell(part_of_trials + (1.0 - part_of_trials) * fraction); },
-         .stop = options_.stop});
+    const StabilityResult map =
+        measure_stability(sorts, {.seed = options_.seed,
+                                  .count = options_.stability_count,
+                                  .threads = options_.threads,
+                                  .respondents = asked,
+                                  .on_progress =
+                                      [&](double fraction) {
+                                        constexpr double before = part_of_trials + part_of_filters;
+                                        tell(before + (1.0 - before) * fraction);
+                                      },
+                                  .stop = options_.stop});
     for (const StabilityCell& cell : map.cells) {
       for (std::size_t i = 0; i < cell.judged.methods.size(); ++i) {
         result_.stability.push_back(mark_of(cell, i));
@@ -239,6 +307,8 @@ class Run {
 }  // namespace
 
 std::span<const double> separation_distances() { return distances; }
+
+std::span<const double> filter_scales() { return scales; }
 
 std::vector<Trial> trials_of(Names methods) {
   std::vector<Trial> trials{field_trial(methods), tolerance_trial(methods), checks_trial(methods),

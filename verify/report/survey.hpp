@@ -8,6 +8,10 @@
 ///   it: Tight-Inclusion in L∞, FPRF, MSRF and ACCD in L2, the certified solver in both (tables 2, 3).
 /// - *tolerance*: what aims at a tolerance, at δ from 1e-8 to 1.
 /// - *checks*: Tight-Inclusion with m_I from 10 to 1,000,000.
+/// - *filter*: Tight-Inclusion with its three filters, the derived, the published and the released one,
+///   if more than one of them takes part: what each misses of the built-in families, and of contacts at
+///   t=1 (verify/workload.hpp) at scales from 0.001 to 1000. It has queries of its own, of the kinds of
+///   the groups.
 /// - *stability*: every method on the hard queries of verify/stability/.
 ///
 /// Of the methods named here those take part that the registry has.
@@ -44,13 +48,17 @@ struct Trial {
 /// The minimum separations of the experiment, ascending.
 [[nodiscard]] std::span<const double> separation_distances();
 
+/// The scales of the experiment on filters, ascending.
+[[nodiscard]] std::span<const double> filter_scales();
+
 struct SurveyOptions {
   /// Names of methods; all there are if empty.
   std::vector<std::string> methods = {};
   /// Those to do; all if empty.
   std::vector<Experiment> experiments = {};
   /// Of a group so many queries are asked at most, an evenly spread sample; positive. A quarter of them
-  /// over the separation, where the oracle takes longest, fourteen times.
+  /// over the separation, where the oracle takes longest, fourteen times. In the experiment on filters it
+  /// bounds those of a family (at most 500) and of a scale (at most 10,000).
   std::size_t count = 2000;
   /// Of a method on a group in a trial: MeasureOptions::seconds.
   double seconds = 0.2;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "verify/csv.hpp"
+#include "verify/printable.hpp"
 #include "verify/report/published.hpp"
 
 namespace touchstone::verify {
@@ -157,6 +158,35 @@ Table separation_table(const Chosen& measurements, const Place& place, std::stri
   return table;
 }
 
+/// Measurements on the same queries, group by group.
+std::vector<Chosen> side_by_side(const Chosen& measurements) {
+  std::vector<Chosen> result;
+  for (const Measurement* m : measurements) {
+    const auto is_alike = [&](const Chosen& some) {
+      const Measurement& other = *some.front();
+      return other.group == m->group && other.kind == m->kind && other.scale == m->scale;
+    };
+    const auto found = std::ranges::find_if(result, is_alike);
+    (found == result.end() ? result.emplace_back() : *found).push_back(m);
+  }
+  return result;
+}
+
+/// A row of what each misses; the columns are named by the first.
+void append_misses(Table& table, Texts row, const Chosen& asked_alike) {
+  if (table.rows.empty()) {
+    table.columns.emplace_back("collide");
+    for (const Measurement* m : asked_alike) table.columns.push_back(m->method + " FN");
+  }
+  row.push_back(fmt::format("{}", asked_alike.front()->collisions));
+  for (const Measurement* m : asked_alike) {
+    row.push_back(m->false_negatives == 0 ? "0"
+                                          : fmt::format("{} ({:.3g} %)", m->false_negatives,
+                                                        100.0 * false_negative_rate(*m)));
+  }
+  table.rows.push_back(std::move(row));
+}
+
 }  // namespace
 
 std::vector<std::string> column_meanings() {
@@ -187,6 +217,31 @@ std::vector<Table> separation_tables(const Measurements& measurements, std::stri
   return tables;
 }
 
+std::vector<Table> filter_tables(const Measurements& measurements) {
+  const Chosen chosen = of_experiment(measurements, Experiment::filter);
+  Table of_families{.title = "built-in families", .columns = {"family", "kind"}, .rows = {}};
+  std::vector<Table> tables;
+  for (const Chosen& asked_alike : side_by_side(chosen)) {
+    const Measurement& first = *asked_alike.front();
+    const std::string kind(to_string(first.kind));
+    if (!first.scale) {
+      const auto misses = [](const Measurement* m) { return m->false_negatives != 0; };
+      if (std::ranges::any_of(asked_alike, misses)) {
+        append_misses(of_families, {first.group, kind}, asked_alike);
+      }
+      continue;
+    }
+    auto table = std::ranges::find(tables, first.group, &Table::title);
+    if (table == tables.end()) {
+      tables.push_back({.title = first.group, .columns = {"scale", "kind"}, .rows = {}});
+      table = std::prev(tables.end());
+    }
+    append_misses(*table, {fmt::format("{}", *first.scale), kind}, asked_alike);
+  }
+  if (!of_families.rows.empty()) tables.push_back(std::move(of_families));
+  return tables;
+}
+
 std::string short_number(double value) {
   if (std::isnan(value)) return none;
   if (std::abs(value) >= 1000.0 && std::abs(value) < 1e9) return fmt::format("{:.0f}", value);
@@ -198,8 +253,7 @@ std::string to_markdown(const Table& table) {
     std::string result = "|";
     for (const std::string& text : texts) {
       result += ' ';
-      for (const char c : text) result += c == '|' ? "\\|" : std::string(1, c);
-      result += " |";
+      result += markdown_escaped(text) + " |";
     }
     return result + "\n";
   };

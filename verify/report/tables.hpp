@@ -35,13 +35,18 @@ struct Table {
 [[nodiscard]] std::vector<Table> separation_tables(const Measurements& measurements,
                                                    std::string_view method);
 
+/// What Tight-Inclusion misses with each of its filters: the contacts at t=1, a table for each number of
+/// digits with a row a kind and scale; then the built-in families, a row for each and kind of which one
+/// of them misses something. A column a method: how many of the collisions. Empty without measurements.
+[[nodiscard]] std::vector<Table> filter_tables(const Measurements& measurements);
+
 /// "12.3", "0.00456", "12300": three digits, more for whole numbers from 1000; "–" for NaN.
 [[nodiscard]] std::string short_number(double value);
 
-/// As a table of Markdown, with "|" escaped.
+/// As a table of Markdown, with what could be markup escaped.
 [[nodiscard]] std::string to_markdown(const Table& table);
 
-/// As RFC 4180 has it, the first record being the columns.
+/// As RFC 4180 [rfc4180] has it, the first record being the columns.
 [[nodiscard]] std::string to_csv(const Table& table);
 
 }  // namespace touchstone::verify

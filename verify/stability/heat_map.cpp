@@ -61,6 +61,16 @@ text.on-light{fill:#e6eaec}text.on-dark{fill:#14181b}text.always-dark{fill:#1418
 }
 )";
 
+std::string superscript(int number) {
+  static constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴",
+                                                           "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = number < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(number))) {
+    text += digits.at(static_cast<std::size_t>(digit - '0'));
+  }
+  return text;
+}
+
 std::string percent(double rate) {
   const double value = 100.0 * rate;
   if (value > 0.0 && value < 1.0) return "<1%";
@@ -124,24 +134,33 @@ std::size_t step_on(const Scale& scale, double number) {
   return static_cast<std::size_t>(std::clamp(1.0 + 5.0 * part, 1.0, 5.0));
 }
 
+/// A digit and a power of ten; the power alone where both do not fit.
+std::string in_powers_of_ten(double number) {
+  const double exponent = std::floor(std::log10(number));
+  if (std::abs(exponent) >= 100.0) return "10" + superscript(static_cast<int>(exponent));
+  return fmt::format("{:.0f}e{:.0f}", std::min(9.0, number / std::pow(10.0, exponent)), exponent);
+}
+
+/// Numbers from here on are rounded to four digits before the point.
+constexpr double four_digits = 999.5;
+
 /// In as few characters as fit into a cell.
 std::string short_number(double number) {
   if (number == 0.0) return "0";
-  if (number < 1e-2) {
-    const double exponent = std::floor(std::log10(number));
-    return fmt::format("{:.0f}e{:.0f}", std::min(9.0, number / std::pow(10.0, exponent)), exponent);
-  }
+  if (std::isinf(number)) return "∞";
+  if (number < 1e-2 || number >= four_digits * 1e6) return in_powers_of_ten(number);
   if (number < 10.0) return fmt::format("{:.2g}", number);
-  if (number < 1e3) return fmt::format("{:.0f}", number);
-  if (number < 1e6) return fmt::format("{:.0f}k", number / 1e3);
+  if (number < four_digits) return fmt::format("{:.0f}", number);
+  if (number < four_digits * 1e3) return fmt::format("{:.0f}k", number / 1e3);
   return fmt::format("{:.0f}M", number / 1e6);
 }
 
 std::string short_time(double nanoseconds) {
-  if (nanoseconds < 1e3) return fmt::format("{:.0f}ns", nanoseconds);
-  if (nanoseconds < 1e6) return fmt::format("{:.0f}µs", nanoseconds / 1e3);
-  if (nanoseconds < 1e9) return fmt::format("{:.0f}ms", nanoseconds / 1e6);
-  return fmt::format("{:.0f}s", nanoseconds / 1e9);
+  if (nanoseconds < four_digits) return fmt::format("{:.0f}ns", nanoseconds);
+  if (nanoseconds < four_digits * 1e3) return fmt::format("{:.0f}µs", nanoseconds / 1e3);
+  constexpr double three_digits = 99.5;  // of the wide "ms" no more fit
+  if (nanoseconds < three_digits * 1e6) return fmt::format("{:.0f}ms", nanoseconds / 1e6);
+  return short_number(nanoseconds / 1e9) + "s";
 }
 
 Look number_look(const Scale& scale, const std::optional<double>& number,
@@ -403,15 +422,7 @@ class Drawing {
 
 }  // namespace
 
-std::string power_text(int exponent) {
-  static constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴",
-                                                           "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "2⁻" : "2";
-  for (const char digit : std::to_string(std::abs(exponent))) {
-    text += digits.at(static_cast<std::size_t>(digit - '0'));
-  }
-  return text;
-}
+std::string power_text(int exponent) { return "2" + superscript(exponent); }
 
 std::string heat_map(const StabilityResult& result) { return Drawing(result).draw(); }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/verify/methods/plugins/misbehaviour.hpp"
 
@@ -23,8 +24,8 @@ class Bench : public tests::FolderTest {
  protected:
   /// Runs the tool, after shell words such as a limit of time; its exit status.
   [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" TOUCHSTONE_TOOL "' bench " + arguments + " >'" +
-                                path("out") + "' 2>'" + path("err") + "'";
+    const std::string command = before + " '" + tests::touchstone_program() + "' bench " +
+                                arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
     const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -120,9 +121,13 @@ TEST_F(Bench, AFileHasItsOwnGroup) {
 
 TEST_F(Bench, ABrokenPromiseExitsWithOne) {
   const std::string file = write("a_vf.csv", falling_vertex("-3"));
-  EXPECT_EQ(run(file + quick + "--plugin '" TOUCHSTONE_BOX_OVERLAP "' --json " + quoted("json")), 0)
+  EXPECT_EQ(run(file + quick + "--plugin '" + tests::plugin_library("box_overlap") + "' --json " +
+                quoted("json")),
+            0)
       << read("err");
-  EXPECT_EQ(run(file + quick + "--plugin '" TOUCHSTONE_MISBEHAVING "' --json " + quoted("json")), 1)
+  EXPECT_EQ(run(file + quick + "--plugin '" + tests::plugin_library("misbehaving") + "' --json " +
+                quoted("json")),
+            1)
       << read("out") << read("err");
   EXPECT_TRUE(json().at("groups")[0].at("methods")[0].at("broke_promise").get<bool>());
   EXPECT_TRUE(contains(read("out"), path("a_vf.csv") + ": vertex-face query 0: answer"))
@@ -134,8 +139,8 @@ TEST_F(Bench, APluginThatCrashesCostsAnAnswer) {
   const std::string what = std::to_string(static_cast<int>(tests::Misbehaviour::writes_to_null));
   crashing.replace(0, 1, what);
   const std::string file = write("a_vf.csv", falling_vertex("-3") + crashing);
-  EXPECT_EQ(run(file + quick + "--plugin '" TOUCHSTONE_MISBEHAVING "' --method certified --json " +
-                quoted("json")),
+  EXPECT_EQ(run(file + quick + "--plugin '" + tests::plugin_library("misbehaving") +
+                "' --method certified --json " + quoted("json")),
             1)
       << read("out") << read("err");
   EXPECT_TRUE(contains(read("out"), "vertex-face query 1: answer crash: SIGSEGV")) << read("out");
@@ -185,6 +190,7 @@ TEST_F(Bench, AStepIsTimedFromEndToEnd) {
   EXPECT_EQ(step.at("earliest_agrees"), true);
   ASSERT_EQ(step.at("times").size(), 2U);
   EXPECT_EQ(step.at("times")[1].at("threads"), 2);
+  EXPECT_GT(step.at("times")[1].at("collisions_processor_s"), 0.0);
   EXPECT_TRUE(contains(read("out"), "before-after: 6 vertices, 6 edges, 2 faces; ")) << read("out");
 }
 

@@ -8,10 +8,12 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "tests/verify/dataset/dataset_fixture.hpp"
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -127,6 +129,20 @@ TEST(Answers, ReadAsTheyWereWritten) {
     expect_same(answers.answer_to("n,\n\"", ee, i), written[i],
                 i == 2 ? std::optional(FailureKind::no_verdict) : std::nullopt);
   }
+}
+
+TEST(Answers, AreFoundUnderNamesThatAreWrittenOut) {
+  for (const std::string name :
+       {"=1+1.csv", "'=1.csv", "-a.csv", "a\x1b[2J\n\u202e.csv", "caf\xe9.csv"}) {
+    const std::string row = answer_row(name, 0, vf, {.verdict = Verdict::yes, .toi_lower = 0.5});
+    EXPECT_TRUE(is_printable(row.substr(0, row.size() - 1))) << row;
+    EXPECT_EQ(std::string_view("=+-@").find(row.front()), std::string_view::npos) << row;
+    const RecordedAnswers answers = load_rows(row);
+    ASSERT_TRUE(answers.answer_to(name, vf, 0)) << row;
+    EXPECT_EQ(answers.unasked(), 0U);
+  }
+  // As others may write them.
+  EXPECT_TRUE(load_rows("=1+1.csv,0,vertex-face,no,,,\n").answer_to("=1+1.csv", vf, 0));
 }
 
 // ---- Reading ------------------------------------------------------------------------------------

@@ -69,6 +69,21 @@ TEST(Judge, EveryVerdictHasItsColumn) {
   }
 }
 
+TEST(Judge, SaysTruthsInWords) {
+  EXPECT_EQ(to_text(miss()), "no collision");
+  EXPECT_EQ(to_text(hit(0.5, 0.5)), "collision at 0.5");
+}
+
+/// Late by less than a spacing of doubles: the printed end of the enclosure is not the time.
+TEST(Judge, ATimeBesideTheExactOneIsSeenToBeWrong) {
+  const Truth third = hit(0.3333333333333333, 0.33333333333333337);
+  const Judgement late = judge(third, {.verdict = Verdict::yes, .toi_lower = 0.33333333333333337});
+  ASSERT_EQ(late.count(Fault::late_toi), 1U);
+  EXPECT_EQ(late.wrong_answers[0].answer, "toi_lower 0.33333333333333337");
+  EXPECT_EQ(late.wrong_answers[0].truth,
+            "collision after 0.3333333333333333 and before 0.33333333333333337");
+}
+
 TEST(Judge, UndecidedIsAConservativeYesInAColumnOfItsOwn) {
   const Judgement of_hit = judge(hit(0.5, 0.5), {.verdict = Verdict::undecided});
   EXPECT_EQ(of_hit.undecided, 1U);

@@ -1,4 +1,5 @@
 #include "verify/methods/plugin.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -27,8 +28,8 @@ using test::TemporaryFolder;
 using tests::Misbehaviour;
 using tests::PosedQuery;
 
-const std::filesystem::path box_overlap = TOUCHSTONE_BOX_OVERLAP;
-const std::filesystem::path misbehaving = TOUCHSTONE_MISBEHAVING;
+const std::filesystem::path box_overlap = tests::plugin_library("box_overlap");
+const std::filesystem::path misbehaving = tests::plugin_library("misbehaving");
 
 Query query_for(Misbehaviour what) {
   Query query{};
@@ -169,14 +170,14 @@ TEST(LoadPlugin, NamesFileAndReason) {
             "missing.so: cannot load: cannot open shared object file: No such file or directory");
   EXPECT_EQ(load_error(folder.file("text.so", std::string(4096, 'x'))),
             "text.so: cannot load: invalid ELF header");
-  EXPECT_EQ(load_error(TOUCHSTONE_OTHER_LIBRARY),
+  EXPECT_EQ(load_error(tests::plugin_library("other_library")),
             "other_library.so: defines no touchstone_plugin_version");
-  EXPECT_EQ(load_error(TOUCHSTONE_WRONG_VERSION),
+  EXPECT_EQ(load_error(tests::plugin_library("wrong_version")),
             "wrong_version.so: made for version 43 of the plugin interface, this program has "
             "version 2");
-  EXPECT_EQ(load_error(TOUCHSTONE_WITHOUT_SOLVE),
+  EXPECT_EQ(load_error(tests::plugin_library("without_solve")),
             "without_solve.so: defines no touchstone_plugin_solve");
-  EXPECT_EQ(load_error(TOUCHSTONE_WITHOUT_NAME),
+  EXPECT_EQ(load_error(tests::plugin_library("without_name")),
             "without_name.so: name is not one line of text: \"two?lines\"");
 }
 
@@ -184,7 +185,7 @@ TEST(LoadPlugin, NamesFileAndReason) {
 TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
   const auto error = [](const char* how) {
     ::setenv("TOUCHSTONE_TEST_LOADING", how, 1);
-    const std::filesystem::path path = TOUCHSTONE_BAD_LOADING;
+    const std::filesystem::path path = tests::plugin_library("bad_loading");
     const std::string text = error_of(
         path.parent_path(), [&] { static_cast<void>(load_plugin(path, {.load_seconds = 0.5})); });
     ::unsetenv("TOUCHSTONE_TEST_LOADING");
@@ -200,13 +201,13 @@ TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
   EXPECT_EQ(error("name hangs"), prefix + "touchstone_plugin_name(): hang");
   // Forks without end, but for the child that may not.
   EXPECT_EQ(error("constructor forks"), prefix + "its constructors: exit: status 11");
-  EXPECT_EQ(load_plugin(TOUCHSTONE_BAD_LOADING)->name(), "bad_loading");
+  EXPECT_EQ(load_plugin(tests::plugin_library("bad_loading"))->name(), "bad_loading");
 }
 
 /// Nothing of it runs in this process before somebody solves here.
 TEST(LoadPlugin, LoadsNothingIntoThisProcess) {
   const auto is_loaded = [] {
-    void* const handle = ::dlopen(TOUCHSTONE_BOX_OVERLAP, RTLD_LAZY | RTLD_NOLOAD);
+    void* const handle = ::dlopen(tests::plugin_library("box_overlap").c_str(), RTLD_LAZY | RTLD_NOLOAD);
     if (handle != nullptr) ::dlclose(handle);
     return handle != nullptr;
   };
@@ -214,6 +215,24 @@ TEST(LoadPlugin, LoadsNothingIntoThisProcess) {
   EXPECT_FALSE(is_loaded());
   EXPECT_EQ(ask(*method, tests::over_triangle(1, 1, 1, -2)).verdict, Verdict::yes);
   EXPECT_TRUE(is_loaded());
+}
+
+TEST(Plugin, NameIsOneLineOfText) {
+  const auto set_name = [](const char* name) {
+    ::setenv("TOUCHSTONE_PLUGIN_NAME", name, 1);  // NOLINT(concurrency-mt-unsafe)
+  };
+  for (const char* name :
+       {"two\u2028lines", "\u202egnol", "\u009b31m", "caf\xe9", "\x1b[31m", "\x7f", ""}) {
+    set_name(name);
+    EXPECT_TRUE(load_error(tests::plugin_library("latin_name"))
+                    .starts_with("latin_name.so: name is not one line of text: "))
+        << name;
+  }
+  for (const char* name : {"café", "δ-solver (v2)", "法"}) {
+    set_name(name);
+    EXPECT_EQ(load_plugin(tests::plugin_library("latin_name"))->name(), name);
+  }
+  ::unsetenv("TOUCHSTONE_PLUGIN_NAME");  // NOLINT(concurrency-mt-unsafe)
 }
 
 // ---- Answers ------------------------------------------------------------------------------------
@@ -253,7 +272,7 @@ TEST(Plugin, GetsTheNorm) {
 }
 
 TEST(Plugin, MayBeOfTheVersionBeforeTheNorm) {
-  const auto method = load_plugin(TOUCHSTONE_OLD_VERSION);
+  const auto method = load_plugin(tests::plugin_library("old_version"));
   EXPECT_EQ(method->name(), "old_version");
   const Answer answer =
       ask(*method, Kind::vertex_face, {}, {.min_separation = 0.25, .norm = Norm::l2, .t_max = 0.5});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -64,17 +65,11 @@ TEST(Figures, AreAllThereAndHaveTheirDataAsATable) {
     for (const auto& row : one.data.rows) EXPECT_EQ(row.size(), one.data.columns.size()) << one.id;
     for (const FigurePanel& panel : one.panels) EXPECT_FALSE(panel.series.empty()) << one.id;
   }
-  const std::set<std::string> expected{"speed_false_positives",
-                                       "speed_toi_median",
-                                       "speed_toi_max",
-                                       "running_times",
-                                       "tolerance_time",
-                                       "tolerance_false_positives",
-                                       "separation_time",
-                                       "checks_early",
-                                       "checks_tolerance",
-                                       "stages",
-                                       "stability"};
+  const std::set<std::string> expected{
+      "speed_false_positives", "speed_toi_median", "speed_toi_max",
+      "running_times",         "tolerance_time",   "tolerance_false_positives",
+      "separation_time",       "checks_early",     "checks_tolerance",
+      "filter_misses",         "stages",           "stability"};
   EXPECT_EQ(ids, expected);
   EXPECT_EQ(figures.size(), expected.size());
 }
@@ -144,6 +139,31 @@ TEST(Figures, CurvesStandOverTheirParameter) {
   EXPECT_EQ(series(separation, "msrf", "curve").points.at(0).y, 30.0);
 }
 
+TEST(Figures, MissesStandOverTheScale) {
+  const std::vector<Figure> figures = figures_of(tests::small_report());
+  const Figure& misses = figure(figures, "filter_misses");
+  ASSERT_EQ(misses.panels.size(), 1U) << "the family has no scale";
+  EXPECT_EQ(misses.panels[0].title, "contact at t=1, two decimals, vertex-face");
+  EXPECT_EQ(series(misses.panels[0], "tight_inclusion_released", "curve").points.at(0),
+            (FigurePoint{0.01, 0.1, "", true}));
+  EXPECT_EQ(series(misses.panels[0], "tight_inclusion", "curve").points.at(0).y, 0.0);
+}
+
+TEST(Figures, WhatIsInfiniteIsAWordForTheScript) {
+  Measurements measurements = tests::small_report();
+  for (Measurement& m : measurements.all) {
+    if (m.achieved_tolerance) {
+      m.achieved_tolerance->max = std::numeric_limits<double>::infinity();
+    }
+  }
+  for (const nlohmann::json& one : to_json(figures_of(measurements))) {
+    if (one.at("id") != "checks_tolerance") continue;
+    EXPECT_EQ(one.at("panels")[0].at("series")[0].at("points")[0].at("y"), "Infinity");
+    return;
+  }
+  FAIL() << "no such figure";
+}
+
 TEST(Figures, StagesAndStabilityAreCellsAndShares) {
   const std::vector<Figure> figures = figures_of(tests::small_report());
   const FigurePanel& stages = figure(figures, "stages").panels.at(0);
@@ -178,7 +198,7 @@ TEST(Figures, WithoutMeasurementsThereAreNone) { EXPECT_TRUE(figures_of({}).empt
 
 TEST(Figures, AreJsonForTheScript) {
   const nlohmann::json json = to_json(figures_of(tests::small_report()));
-  ASSERT_EQ(json.size(), 11U);
+  ASSERT_EQ(json.size(), 12U);
   EXPECT_EQ(json[0].at("id"), "speed_false_positives");
   EXPECT_EQ(json[0].at("form"), "points");
   EXPECT_EQ(json[0].at("x_log"), true);

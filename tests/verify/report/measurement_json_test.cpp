@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -19,6 +20,7 @@ Measurement with_all_fields() {
   m.tolerance = 1e-6;
   m.max_checks = 7;
   m.separation = {.distance = 1e-100, .norm = Norm::l2};
+  m.scale = 1e-3;
   m.group_queries = 1000;
   m.asked = 100;
   m.collisions = 40;
@@ -70,6 +72,7 @@ TEST(MeasurementJson, ComesBackWithoutLoss) {
   const Measurement& m = read.all[0];
   EXPECT_EQ(m.experiment, Experiment::separation);
   EXPECT_EQ(m.separation, (Separation{.distance = 1e-100, .norm = Norm::l2}));
+  EXPECT_EQ(m.scale, 1e-3);
   EXPECT_EQ(m.promise, fast::Promise::conservative);
   EXPECT_EQ(m.certified_nanoseconds, 1.0 / 3.0);
   EXPECT_EQ(m.toi_error, (Spread{.count = 38, .median = 1e-300, .max = 0.7}));
@@ -83,13 +86,31 @@ TEST(MeasurementJson, ComesBackWithoutLoss) {
 
 TEST(MeasurementJson, WritesTheDocumentedFields) {
   const nlohmann::json json = to_json(example()).at("measurements")[0];
-  EXPECT_EQ(json.size(), 27U);
+  EXPECT_EQ(json.size(), 28U);
   EXPECT_EQ(json.at("experiment"), "separation");
   EXPECT_EQ(json.at("kind"), "edge-edge");
   EXPECT_EQ(json.at("separation").at("norm"), "l2");
   EXPECT_EQ(json.at("false_negatives"), 2);
   EXPECT_EQ(json.at("hit_times"), nlohmann::json::parse("[[-1, 2], [40, 38]]"));
   EXPECT_EQ(json.at("stages"), nlohmann::json::parse(R"([["axis", 99], ["exact", 1]])"));
+}
+
+TEST(MeasurementJson, KeepsWhatIsInfinite) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Measurements measurements = example();
+  measurements.all[0].achieved_tolerance = Spread{.count = 2, .median = 1.0, .max = infinity};
+  const nlohmann::json written = to_json(measurements);
+  EXPECT_EQ(written.at("measurements")[0].at("achieved_tolerance").at("max"), "Infinity");
+  const Measurements read = measurements_from_json(nlohmann::json::parse(written.dump()));
+  EXPECT_EQ(read.all[0].achieved_tolerance, measurements.all[0].achieved_tolerance);
+  EXPECT_EQ(number_to_json(-infinity), "-Infinity");
+  EXPECT_TRUE(number_to_json(std::numeric_limits<double>::quiet_NaN()).is_null());
+}
+
+TEST(MeasurementJson, ReadsMeasurementsFromBeforeThereWasAScale) {
+  nlohmann::json earlier = to_json(example());
+  earlier["measurements"][0].erase("scale");
+  EXPECT_FALSE(measurements_from_json(earlier).all[0].scale.has_value());
 }
 
 TEST(MeasurementJson, WhatIsNoneIsRefused) {

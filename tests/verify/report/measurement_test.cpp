@@ -9,7 +9,8 @@ namespace {
 
 TEST(Measurement, ExperimentsHaveNames) {
   for (const Experiment experiment :
-       {Experiment::field, Experiment::separation, Experiment::tolerance, Experiment::checks}) {
+       {Experiment::field, Experiment::separation, Experiment::tolerance, Experiment::checks,
+        Experiment::filter}) {
     EXPECT_EQ(experiment_from_string(to_string(experiment)), experiment);
   }
   EXPECT_EQ(to_string(Experiment::checks), "checks");

@@ -3,18 +3,16 @@
 /// hands back what became of it.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
+#include <cstddef>
+#include <limits>
 #include <regex>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "tests/support/folder_test.hpp"
+#include "tests/support/browser_test.hpp"
 #include "tests/support/measurements.hpp"
 #include "verify/report/figures.hpp"
 #include "verify/report/page.hpp"
@@ -22,44 +20,7 @@
 namespace touchstone::verify {
 namespace {
 
-bool runs(const std::string& command) {
-  const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
-class Browser : public tests::FolderTest {
- protected:
-  void SetUp() override {
-    if (runs("command -v chromium >/dev/null 2>&1")) return;
-    std::printf("MISSING chromium: no page was looked at (apt-get install chromium)\n");
-    GTEST_SKIP() << "chromium is not installed";
-  }
-
-  /// The document after the script has run; what the browser says goes to "err".
-  [[nodiscard]] std::string load(const std::string& page, int width = 1200) const {
-    std::ofstream(path("page.html"), std::ios::binary) << page;
-    // The proxy leads nowhere: whatever the page asks of a network shows as an error.
-    EXPECT_TRUE(
-        runs("timeout 120 chromium --headless --no-sandbox --disable-gpu "
-             "--disable-dev-shm-usage --proxy-server=127.0.0.1:9 --enable-logging=stderr "
-             "--window-size=" +
-             std::to_string(width) + ",900 --virtual-time-budget=10000 --user-data-dir='" +
-             path("profile") + "' --dump-dom 'file://" + path("page.html") + "' >'" + path("dom") +
-             "' 2>'" + path("err") + "'"))
-        << read("err");
-    return read("dom");
-  }
-
-  /// What the page's scripts and policy complained of.
-  [[nodiscard]] std::string complaints() const {
-    std::ifstream file(path("err"));
-    std::string found;
-    for (std::string line; std::getline(file, line);) {
-      if (line.find(":CONSOLE") != std::string::npos) found += line + "\n";
-    }
-    return found;
-  }
-};
+class Browser : public tests::BrowserTest {};
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t result = 0;
@@ -81,7 +42,7 @@ TEST_F(Browser, DrawsEveryFigureWithoutAComplaint) {
   const std::string dom = load(report_page(measurements));
   EXPECT_EQ(complaints(), "");
   const std::vector<Figure> figures = figures_of(measurements);
-  ASSERT_EQ(figures.size(), 11U);
+  ASSERT_EQ(figures.size(), 12U);
   for (const Figure& figure : figures) {
     const std::string drawn = section(dom, figure.id);
     EXPECT_EQ(count(drawn, "role=\"img\""), figure.panels.size()) << figure.id;
@@ -115,10 +76,41 @@ TEST_F(Browser, FitsATelephone) {
   EXPECT_GE(std::stod(size[1]), 280.0);
 }
 
+/// The tolerances that a method is said to have achieved.
+Spread& achieved(Measurements& measurements) {
+  for (Measurement& m : measurements.all) {
+    if (m.achieved_tolerance) return *m.achieved_tolerance;
+  }
+  throw std::invalid_argument("nobody achieves a tolerance");
+}
+
+/// The heights of the marks of a drawn figure whose description ends so.
+std::vector<double> heights(const std::string& drawn, const std::string& end) {
+  const std::regex mark("translate\\([0-9.]+,([0-9.]+)\\)[^>]*><title>[^<]*" + end + "</title>");
+  std::vector<double> result;
+  for (std::sregex_iterator it(drawn.begin(), drawn.end(), mark), last; it != last; ++it) {
+    result.push_back(std::stod((*it)[1]));
+  }
+  return result;
+}
+
+TEST_F(Browser, DrawsWhatIsInfiniteAtTheUpperEnd) {
+  Measurements measurements = tests::small_report();
+  achieved(measurements).max = std::numeric_limits<double>::infinity();
+  const std::string drawn = section(load(report_page(measurements)), "checks_tolerance");
+  EXPECT_EQ(complaints(), "");
+  EXPECT_EQ(count(drawn, "NaN"), 0U);
+  EXPECT_EQ(count(drawn, ">∞</text>"), 1U) << drawn;
+  EXPECT_EQ(count(drawn, ">0</text>"), 0U) << "nothing is zero";
+  const std::vector<double> infinite = heights(drawn, "∞"), median = heights(drawn, "0.25");
+  ASSERT_EQ(infinite.size(), 1U) << drawn;
+  ASSERT_EQ(median.size(), 1U) << drawn;
+  EXPECT_LT(infinite[0], median[0]) << "heights are counted from the top";
+}
+
 TEST_F(Browser, DrawsNumbersAtTheEndsOfTheRange) {
   Measurements measurements = tests::small_report();
-  measurements.all.back().achieved_tolerance =
-      Spread{.count = 2, .median = 4.9e-324, .max = 1.7e308};
+  achieved(measurements) = Spread{.count = 2, .median = 4.9e-324, .max = 1.7e308};
   const std::string drawn = section(load(report_page(measurements)), "checks_tolerance");
   EXPECT_EQ(complaints(), "");
   EXPECT_EQ(count(drawn, "NaN"), 0U);

@@ -138,6 +138,31 @@ TEST(Survey, WithoutNamesAllMethodsTakePart) {
   EXPECT_TRUE(result.stability.empty());
 }
 
+TEST(Survey, FiltersAreComparedOnFamiliesAndOverTheScale) {
+  const std::vector<QueryGroup> groups = falling();
+  SurveyOptions options = quick();
+  options.methods = {"tight_inclusion", "tight_inclusion_released"};
+  options.count = 40;
+  options.experiments = {Experiment::filter};
+  options.stability_count = 0;
+  const Measurements result = survey(groups, options);
+  std::set<double> scales;
+  std::map<std::string, std::uint64_t> missed;
+  for (const Measurement& m : result.all) {
+    EXPECT_EQ(m.experiment, Experiment::filter);
+    EXPECT_EQ(m.kind, Kind::vertex_face) << "the groups are of one kind";
+    EXPECT_EQ(m.asked, 40U);
+    if (m.scale) {
+      EXPECT_EQ(m.collisions, 40U);
+      scales.insert(*m.scale);
+      missed[m.method] += m.false_negatives;
+    }
+  }
+  EXPECT_EQ(scales.size(), filter_scales().size());
+  EXPECT_EQ(missed["tight_inclusion"], 0U);
+  EXPECT_GT(missed["tight_inclusion_released"], 0U);
+}
+
 TEST(Survey, OnlyTheChosenExperimentsAreDone) {
   const std::vector<QueryGroup> groups = falling();
   SurveyOptions options = quick();

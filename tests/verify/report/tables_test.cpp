@@ -64,6 +64,24 @@ TEST(Tables, SeparationsPutAMethodBesideOurs) {
   EXPECT_EQ(separation_tables(tests::small_report(), "tight_inclusion").at(0).rows.size(), 2U);
 }
 
+TEST(Tables, OfFiltersHaveAColumnAMethodAndFamiliesOnlyWhereSomethingIsMissed) {
+  Measurements measurements = tests::small_report();
+  Measurement calm = tests::measured("calm-family", "tight_inclusion", Measurement::unknown);
+  calm.experiment = Experiment::filter;
+  measurements.all.push_back(calm);
+  const std::vector<Table> tables = filter_tables(measurements);
+  ASSERT_EQ(tables.size(), 2U);
+  EXPECT_EQ(tables[0].title, "contact at t=1, two decimals");
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(tables[0].columns, (Texts{"scale", "kind", "collide", "tight_inclusion FN",
+                                      "tight_inclusion_released FN"}));
+  ASSERT_EQ(tables[0].rows.size(), 1U);
+  EXPECT_EQ(tables[0].rows[0], (Texts{"0.01", "vertex-face", "20", "0", "2 (10 %)"}));
+  ASSERT_EQ(tables[1].rows.size(), 1U);
+  EXPECT_EQ(tables[1].rows[0][0], "a-family");
+  EXPECT_TRUE(filter_tables({}).empty());
+}
+
 TEST(Tables, NumbersAreShort) {
   EXPECT_EQ(short_number(0.0), "0");
   EXPECT_EQ(short_number(0.0123456), "0.0123");
@@ -76,6 +94,10 @@ TEST(Tables, NumbersAreShort) {
 TEST(Tables, WriteMarkdownAndCsv) {
   const Table table{.title = "t", .columns = {"a", "b|c"}, .rows = {{"1", "x, \"y\""}}};
   EXPECT_EQ(to_markdown(table), "| a | b\\|c |\n| --- | --- |\n| 1 | x, \"y\" |\n");
+  const Table hostile{.title = "t", .columns = {"a"}, .rows = {{"=1+1\n| x | **y** <b> \u202e"}}};
+  EXPECT_EQ(to_markdown(hostile),
+            "| a |\n| --- |\n| =1+1\\\\x0a\\| x \\| \\*\\*y\\*\\* \\<b\\> \\\\u202e |\n");
+  EXPECT_EQ(to_csv(hostile), "a\r\n'=1+1\\x0a| x | **y** <b> \\u202e\r\n");
   EXPECT_EQ(to_csv(table), "a,b|c\r\n1,\"x, \"\"y\"\"\"\r\n");
 }
 

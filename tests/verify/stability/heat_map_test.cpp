@@ -6,13 +6,17 @@
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace touchstone::verify {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Tree = boost::property_tree::ptree;
 
@@ -145,17 +149,21 @@ TEST(HeatMap, HasARowOfChecksWhereTheMethodCountsThem) {
 
 TEST(HeatMap, PrintsNumbersThatFit) {
   StabilityResult result = calm_result();
-  for (const double error : {0.0, 3.2e-13, 0.051, 1.0}) {
+  const std::vector<std::pair<double, std::string>> printed{
+      {0.0, "0"},       {4.9e-324, "10⁻³²⁴"}, {3.2e-13, "3e-13"}, {0.051, "0.051"},
+      {1.0, "1"},       {999.6, "1k"},        {999'600, "1M"},    {3e8, "300M"},
+      {9.996e8, "9e8"}, {2.5e12, "2e12"},     {1e300, "10³⁰⁰"},   {infinity, "∞"}};
+  for (const auto& [error, text] : printed) {
     result.cells[0].judged.methods[0].judgement.toi_errors = {};
     result.cells[0].judged.methods[0].judgement.toi_errors.add(error);
-    const std::vector<std::string> texts = texts_of(result);
-    EXPECT_TRUE(has(texts, error == 0.0   ? "0"
-                           : error < 1e-2 ? "3e-13"
-                           : error < 1.0  ? "0.051"
-                                          : "1"))
-        << error;
+    EXPECT_TRUE(has(texts_of(result), text)) << error;
   }
   EXPECT_TRUE(has(texts_of(result), "100ns"));
+  for (const auto& [time, text] : std::vector<std::pair<double, std::string>>{
+           {999.6, "1µs"}, {999'600, "1ms"}, {1.2e8, "0.12s"}, {9.996e8, "1s"}, {1e12, "1ks"}}) {
+    result.cells[0].judged.methods[0].judgement.nanoseconds = 10.0 * time;
+    EXPECT_TRUE(has(texts_of(result), text)) << time;
+  }
 }
 
 TEST(HeatMap, EscapesTheNamesOfMethods) {

@@ -3,9 +3,12 @@
 // that draws one panel into an SVG of the width there is; all numbers and words come from the data.
 
 (function () {
-  const figures = JSON.parse(document.getElementById("figures").textContent);
+  // JSON has no infinite numbers: they are words there.
+  const isPlace = (key) => key === "x" || key === "y";
+  const figures = JSON.parse(document.getElementById("figures").textContent,
+    (key, value) => (isPlace(key) && typeof value === "string" ? Number(value) : value));
   const margin = { top: 10, right: 18, bottom: 44, left: 58 };
-  const zeroBand = 26;  // room below a logarithmic axis for what is zero
+  const endBand = 26;  // room below a logarithmic axis for what is zero, above any for what is infinite
 
   const color = (slot) => `var(--s${slot % 13})`;
   const symbol = (slot, size) => d3.symbol().type(d3.symbols[slot % d3.symbols.length]).size(size)();
@@ -26,38 +29,43 @@
     return `${Number((nanoseconds / size).toPrecision(3))} ${unit}`;
   }
 
+  const numberText = (value) => String(value).replace("Infinity", "∞");
+
   const isTime = (label) => /, ns$/.test(label);
   const axisTitle = (label) => label.replace(/, ns$/, "");
 
-  /// A scale over the values, logarithmic or not; zeros of a logarithmic one have a place of their own at
-  /// the lower end.
+  /// A scale over the values, logarithmic or not. What is infinite has a place of its own at the upper
+  /// end, and zeros of a logarithmic one have one at the lower end.
   function makeScale(values, isLog, range, label) {
-    const text = isTime(label) ? timeText : powerText;
+    const finite = values.filter(Number.isFinite);
+    const direction = Math.sign(range[1] - range[0]);
+    const hasInfinite = values.includes(Infinity);
+    const top = hasInfinite ? range[1] - direction * endBand : range[1];
+    const infinite = hasInfinite ? range[1] : null;
     if (!isLog) {
-      const scale = d3.scaleLinear().domain([0, d3.max(values) || 1]).nice().range(range);
-      return { place: scale, ticks: scale.ticks(5), text: (v) => String(v), zero: null };
+      const scale = d3.scaleLinear().domain([0, d3.max(finite) || 1]).nice().range([range[0], top]);
+      const place = (v) => (Number.isFinite(v) ? scale(v) : range[1]);
+      return { place, ticks: scale.ticks(5), text: (v) => String(v), zero: null, infinite };
     }
-    const positive = values.filter((v) => v > 0);
-    const hasZero = positive.length < values.length;
+    const text = isTime(label) ? timeText : powerText;
+    const positive = finite.filter((v) => v > 0);
+    const hasZero = positive.length < finite.length;
     const high = Math.min(Math.ceil(Math.log10(d3.max(positive) || 1)), 308);
     const low = Math.max(Math.min(Math.floor(Math.log10(d3.min(positive) || 1)), high - 1), -323);
-    const direction = Math.sign(range[1] - range[0]);
-    const start = hasZero ? range[0] + direction * zeroBand : range[0];
-    const scale = d3.scaleLog().domain([Number(`1e${low}`), Number(`1e${high}`)]).range([start, range[1]]);
-    const room = Math.abs(range[1] - start) / (direction > 0 ? 62 : 26);
+    const bottom = hasZero ? range[0] + direction * endBand : range[0];
+    const scale = d3.scaleLog().domain([Number(`1e${low}`), Number(`1e${high}`)]).range([bottom, top]);
+    const room = Math.abs(top - bottom) / (direction > 0 ? 62 : 26);
     const step = [1, 2, 3, 5, 10, 20, 50, 100].find((one) => (high - low) / one <= room) || 200;
     const exponents = d3.range(Math.ceil(low / step) * step, high + 1, step);
     const ticks = exponents.map((exponent) => Number(`1e${exponent}`));
-    return {
-      place: (v) => (v > 0 ? scale(v) : range[0]),
-      ticks, text, zero: hasZero ? range[0] : null, bottom: start,
-    };
+    const place = (v) => (v === Infinity ? range[1] : v > 0 ? scale(v) : range[0]);
+    return { place, ticks, text, zero: hasZero ? range[0] : null, infinite };
   }
 
   /// A scale on which the values stand evenly spaced.
   function makeEvenScale(values, range) {
     const ticks = Array.from(new Set(values)).sort((a, b) => a - b);
-    return { place: d3.scalePoint().domain(ticks).range(range), ticks, text: powerText, zero: null };
+    return { place: d3.scalePoint().domain(ticks).range(range), ticks, text: powerText, zero: null, infinite: null };
   }
 
   // ---- Parts of a drawing -----------------------------------------------------------------------
@@ -85,13 +93,16 @@
     svg.append("line").attr("class", kind || "rule").attr("x1", x1).attr("y1", y1).attr("x2", x2).attr("y2", y2);
   }
 
+  /// Where what is not on the scale stands, with its name.
+  const ends = (scale) => [[scale.zero, "0"], [scale.infinite, "∞"]].filter(([end]) => end !== null);
+
   function drawXAxis(svg, scale, box, label) {
     for (const tick of scale.ticks) {
       const x = scale.place(tick);
       rule(svg, x, box.top, x, box.bottom);
       write(svg, x, box.bottom + 16, scale.text(tick), "middle", "tick");
     }
-    if (scale.zero !== null) write(svg, scale.zero, box.bottom + 16, "0", "middle", "tick");
+    for (const [end, text] of ends(scale)) write(svg, end, box.bottom + 16, text, "middle", "tick");
     write(svg, (box.left + box.right) / 2, box.bottom + 36, axisTitle(label), "middle", "axis");
   }
 
@@ -101,9 +112,10 @@
       rule(svg, box.left, y, box.right, y);
       write(svg, box.left - 6, y + 4, scale.text(tick), "end", "tick");
     }
-    if (scale.zero === null) return;
-    rule(svg, box.left, scale.zero, box.right, scale.zero, "rule zero");
-    write(svg, box.left - 6, scale.zero + 4, "0", "end", "tick");
+    for (const [end, text] of ends(scale)) {
+      rule(svg, box.left, end, box.right, end, "rule zero");
+      write(svg, box.left - 6, end + 4, text, "end", "tick");
+    }
   }
 
   function drawMark(svg, x, y, slot, point, size, tip) {
@@ -151,8 +163,8 @@
 
   const pointTip = (figure, series, point) =>
     `${series.name} ${point.label === series.name ? "" : point.label}\n` +
-    `${axisTitle(figure.x_label)}: ${isTime(figure.x_label) ? timeText(point.x) : point.x}\n` +
-    `${axisTitle(figure.y_label)}: ${isTime(figure.y_label) ? timeText(point.y) : point.y}`;
+    `${axisTitle(figure.x_label)}: ${isTime(figure.x_label) ? timeText(point.x) : numberText(point.x)}\n` +
+    `${axisTitle(figure.y_label)}: ${isTime(figure.y_label) ? timeText(point.y) : numberText(point.y)}`;
 
   /// Is it drawn paler, beside another series of the same method?
   const isSecond = (series) => series.role === "faint" || / \(L2\)$/.test(series.name);
@@ -254,7 +266,8 @@
     const box = { left: 14, right: width - margin.right, top: 8, bottom: height - margin.bottom };
     const svg = makeSvg(parent, width, height, `${figure.title}: ${panel.title}`, figure.description);
     const scale = d3.scaleLinear().domain([0, 1]).range([box.left, box.right]);
-    const axis = { place: scale, ticks: [0, 0.25, 0.5, 0.75, 1], text: (v) => `${100 * v} %`, zero: null };
+    const ticks = [0, 0.25, 0.5, 0.75, 1];
+    const axis = { place: scale, ticks, text: (v) => `${100 * v} %`, zero: null, infinite: null };
     drawXAxis(svg, axis, box, figure.x_label);
     const filled = new Map(rows.map((name) => [name, 0]));
     for (const series of panel.series) {
