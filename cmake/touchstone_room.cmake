@@ -14,10 +14,10 @@ target_compile_options(touchstone_build_options INTERFACE
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
 if(TOUCHSTONE_SANITIZE)
   target_compile_options(touchstone_build_options INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+    -fsanitize=${TOUCHSTONE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     # GCC 12 raises false alarms on std::regex under the sanitizers (its bug 105562).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  target_link_options(touchstone_build_options INTERFACE -fsanitize=address,undefined)
+  target_link_options(touchstone_build_options INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE})
 endif()
 
 # GCC 12 raises false alarms on std::string where its header is precompiled, or at -O1. For the targets that meet them.

@@ -191,7 +191,11 @@ void write_contact(std::string& text, const ContactProof& contact) {
 
 }  // namespace
 
-std::string_view certificates_header() { return "touchstone-certificates 1\n"; }
+std::string_view certificates_header() { return "touchstone-certificates 2\n"; }
+
+std::string certificates_closing_line(std::uint64_t certificates) {
+  return "certificates " + std::to_string(certificates) + "\n";
+}
 
 void write(std::string& text, const Certificate& certificate, std::string_view label) {
   write_kind(text, certificate.kind);
@@ -202,6 +206,12 @@ void write(std::string& text, const Certificate& certificate, std::string_view l
   write_pieces(text, certificate.pieces);
   if (certificate.contact) write_contact(text, *certificate.contact);
   text += "end\n";
+}
+
+std::string certificate_stream(const Certificate& certificate, std::string_view label) {
+  std::string text(certificates_header());
+  write(text, certificate, label);
+  return text + certificates_closing_line(1);
 }
 
 void write_hexadecimal(std::string& text, double value) {

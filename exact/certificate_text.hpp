@@ -1,8 +1,10 @@
 #pragma once
 
 /// \file
-/// Certificates as text: exact/CERTIFICATES.md, version 1.
+/// Certificates as text: exact/CERTIFICATES.md, version 2.
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -16,10 +18,17 @@ inline constexpr std::size_t label_limit = 1024;
 /// The first line of a stream of certificates.
 [[nodiscard]] std::string_view certificates_header();
 
+/// The last line of a stream of so many certificates: a stream without it is cut.
+[[nodiscard]] std::string certificates_closing_line(std::uint64_t certificates);
+
 /// Appends the lines of a certificate.
 /// \param label For messages: from which file the query is, say. Control characters become question
 /// marks, and of a longer one the last label_limit bytes remain. No line if it is empty.
 void write(std::string& text, const Certificate& certificate, std::string_view label = {});
+
+/// A stream of one certificate, from the first line to the closing line. \param label as for write()
+[[nodiscard]] std::string certificate_stream(const Certificate& certificate,
+                                             std::string_view label = {});
 
 /// Appends a finite double as C's %a writes it, in any locale and floating-point environment.
 void write_hexadecimal(std::string& text, double value);

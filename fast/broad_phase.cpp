@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -88,32 +90,82 @@ class Search {
   Search(const BoxTree& some, const BoxTree& all, double separation)
       : some_(some), all_(all), within_(&some == &all), separation_(separation) {}
 
-  [[nodiscard]] std::vector<IndexPair> run() const {
+  /// \throws TooManyCandidates if there are more than `most`.
+  [[nodiscard]] std::vector<IndexPair> run(std::uint64_t most) const {
     const std::size_t count = (some_.groups().size() + groups_of_chunk - 1) / groups_of_chunk;
     std::vector<std::vector<IndexPair>> chunks(count);
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { chunks[i] = chunk(i); });
-    std::vector<std::size_t> offsets(count + 1, 0);
-    for (std::size_t i = 0; i < count; ++i) offsets[i + 1] = offsets[i] + chunks[i].size();
-    std::vector<IndexPair> result(offsets.back());
+    std::atomic<std::uint64_t> found = 0;
+    std::atomic<bool> all_fit = true;
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      const std::uint64_t before = found;
+      if (all_fit && before <= most && collect(i, most - before, chunks[i])) {
+        found += chunks[i].size();
+        return;
+      }
+      all_fit = false;
+      chunks[i] = {};
+      found += count_pairs(i);
+    });
+    if (!all_fit || found > most) throw TooManyCandidates(found);
+    return joined(chunks, found);
+  }
+
+ private:
+  /// Calls use(group) with the number of each group of a chunk while it returns true.
+  template <class Use>
+  void for_each_group(std::size_t chunk, const Use& use) const {
+    const std::size_t first = chunk * groups_of_chunk;
+    const std::size_t end = std::min(first + groups_of_chunk, some_.groups().size());
+    for (std::size_t i = first; i < end && use(i); ++i) continue;
+  }
+
+  /// Appends the pairs of a chunk. False if they are more than there is room for, or do not fit into
+  /// memory.
+  [[nodiscard]] bool collect(std::size_t chunk, std::uint64_t room,
+                             std::vector<IndexPair>& pairs) const {
+    const StrictFloatingPoint strict;
+    try {
+      for_each_group(chunk, [&](std::size_t group) {
+        search(group, [&pairs](const IndexPair& pair) { pairs.push_back(pair); });
+        return pairs.size() <= room;
+      });
+    } catch (const std::bad_alloc&) {
+      return false;
+    }
+    return pairs.size() <= room;
+  }
+
+  [[nodiscard]] std::uint64_t count_pairs(std::size_t chunk) const {
+    const StrictFloatingPoint strict;
+    std::uint64_t count = 0;
+    for_each_group(chunk, [&](std::size_t group) {
+      search(group, [&count](const IndexPair&) { ++count; });
+      return true;
+    });
+    return count;
+  }
+
+  /// The chunks, of so many pairs together, one after the other; they are empty afterwards.
+  [[nodiscard]] static std::vector<IndexPair> joined(std::vector<std::vector<IndexPair>>& chunks,
+                                                     std::uint64_t count) {
+    std::vector<std::size_t> offsets(chunks.size() + 1, 0);
+    for (std::size_t i = 0; i < chunks.size(); ++i) offsets[i + 1] = offsets[i] + chunks[i].size();
+    std::vector<IndexPair> result;
+    try {
+      result.resize(offsets.back());
+    } catch (const std::bad_alloc&) {
+      throw TooManyCandidates(count);
+    }
+    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
       std::ranges::copy(chunks[i], result.begin() + static_cast<std::ptrdiff_t>(offsets[i]));
       chunks[i] = {};
     });
     return result;
   }
 
- private:
-  /// The pairs of some consecutive groups.
-  [[nodiscard]] std::vector<IndexPair> chunk(std::size_t number) const {
-    const StrictFloatingPoint strict;
-    std::vector<IndexPair> pairs;
-    const std::size_t first = number * groups_of_chunk;
-    const std::size_t end = std::min(first + groups_of_chunk, some_.groups().size());
-    for (std::size_t i = first; i < end; ++i) search(i, pairs);
-    return pairs;
-  }
-
-  void search(std::size_t number, std::vector<IndexPair>& pairs) const {
+  /// Calls use(pair) for each pair of a group.
+  template <class Use>
+  void search(std::size_t number, const Use& use) const {
     const Group& group = some_.groups()[number];
     std::array<Box, Group::capacity> boxes;
     for (std::size_t lane = 0; lane < group.size; ++lane) {
@@ -126,19 +178,20 @@ class Search {
         if (!boxes[lane].overlaps(node.box)) continue;
         unsigned hits = others.overlapping(boxes[lane]);
         if (&others == &group) hits &= ~0U << (lane + 1);
-        append(group, lane, others, hits, pairs);
+        for_each_hit(group, lane, others, hits, use);
       }
     });
   }
 
-  /// Appends a primitive with those of the other group's that are hits.
-  void append(const Group& group, std::size_t lane, const Group& others, unsigned hits,
-              std::vector<IndexPair>& pairs) const {
+  /// Calls use(pair) for a primitive with each of the other group's that are hits.
+  template <class Use>
+  void for_each_hit(const Group& group, std::size_t lane, const Group& others, unsigned hits,
+                    const Use& use) const {
     for (; hits != 0; hits &= hits - 1) {
       const auto hit = static_cast<std::size_t>(std::countr_zero(hits));
       if (share_vertex(group.primitives[lane], others.primitives[hit])) continue;
       const std::int32_t a = group.indices[lane], b = others.indices[hit];
-      pairs.push_back(within_ && b < a ? IndexPair{b, a} : IndexPair{a, b});
+      use(within_ && b < a ? IndexPair{b, a} : IndexPair{a, b});
     }
   }
 
@@ -162,6 +215,10 @@ std::vector<IndexPair> with_threads(int max_threads, const Work& work) {
 
 }  // namespace
 
+TooManyCandidates::TooManyCandidates(std::uint64_t count)
+    : std::runtime_error(std::to_string(count) + " candidates are too many for the memory"),
+      count_(count) {}
+
 std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
                                               std::span<const Face> faces,
                                               const BroadPhaseOptions& options) {
@@ -171,7 +228,7 @@ std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
   const std::vector<Primitive> triangles = primitives_of(vertices, faces, "face");
   return with_threads(options.max_threads, [&] {
     const BoxTree vertex_tree(vertices, corners), face_tree(vertices, triangles);
-    return Search(vertex_tree, face_tree, options.min_separation).run();
+    return Search(vertex_tree, face_tree, options.min_separation).run(options.max_candidates);
   });
 }
 
@@ -183,7 +240,7 @@ std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
   const std::vector<Primitive> segments = primitives_of(vertices, edges, "edge");
   return with_threads(options.max_threads, [&] {
     const BoxTree tree(vertices, segments);
-    return Search(tree, tree, options.min_separation).run();
+    return Search(tree, tree, options.min_separation).run(options.max_candidates);
   });
 }
 

@@ -26,7 +26,10 @@
 ///
 /// Pairs that share a vertex are left out: they always touch.
 
+#include <cstdint>
+#include <limits>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "fast/mesh.hpp"
@@ -39,6 +42,21 @@ struct BroadPhaseOptions {
   double min_separation = 0.0;
   /// Cores to use at most; 0: all of them. The result does not depend on it.
   int max_threads = 0;
+  /// More candidates are an error. Eight bytes each stay, and while they are found up to 24.
+  std::uint64_t max_candidates = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// Thrown where there are more candidates than are allowed or than fit into memory. Finding out how many
+/// takes no memory, and as long as the search would have taken.
+class TooManyCandidates : public std::runtime_error {
+ public:
+  explicit TooManyCandidates(std::uint64_t count);
+
+  /// How many there are.
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+
+ private:
+  std::uint64_t count_;
 };
 
 /// All pairs of a vertex and a face, none of its own vertices, whose swept boxes are within
@@ -48,7 +66,8 @@ struct BroadPhaseOptions {
 /// Independent of the caller's floating-point environment.
 /// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
 /// std::out_of_range naming the first face with an index that is no vertex's; std::invalid_argument
-/// for options that make no sense; std::length_error if there are more than 2^31−1 of a primitive.
+/// for options that make no sense; std::length_error if there are more than 2^31−1 of a primitive;
+/// TooManyCandidates.
 [[nodiscard]] std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
                                                             std::span<const Face> faces,
                                                             const BroadPhaseOptions& options = {});

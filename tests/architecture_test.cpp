@@ -16,6 +16,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
+
 namespace touchstone::tests {
 namespace {
 
@@ -96,10 +98,12 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/", "nlohmann/"},
     {"verify/", "oneapi/tbb/"},
     {"verify/", "zstd.h"},
-    // POSIX: files, memory maps, terminals, clocks, processes, shared libraries.
+    // POSIX and Linux: files, memory maps, terminals, clocks, processes, shared libraries.
     {"verify/", "dlfcn.h"},
     {"verify/", "fcntl.h"},
+    {"verify/", "linux/"},
     {"verify/", "poll.h"},
+    {"verify/", "sched.h"},
     {"verify/", "sys/"},
     {"verify/", "time.h"},
     {"verify/", "unistd.h"},
@@ -294,7 +298,7 @@ std::string read(const std::filesystem::path& path) {
 }
 
 Tree read_source_tree() {
-  const std::filesystem::path root = TOUCHSTONE_SOURCE_DIR;
+  const std::filesystem::path root = tests::source_folder();
   std::vector<std::string> folders(rooms.begin(), rooms.end());
   folders.emplace_back("tests");
   Tree tree;

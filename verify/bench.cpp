@@ -48,6 +48,18 @@ double time_of(std::size_t rounds, const Work& work) {
   return (thread_nanoseconds() - start) / static_cast<double>(rounds);
 }
 
+/// Processor time of a contender on these queries, as the mean of so many rounds.
+double time_of(std::size_t rounds, Contender& contender, Kind kind,
+               std::span<const Query> queries) {
+  double elsewhere = 0.0;
+  const double here = time_of(rounds, [&] {
+    contender.solve(kind, queries);
+    elsewhere += contender.nanoseconds_elsewhere().value_or(0.0);
+  });
+  const bool is_elsewhere = contender.nanoseconds_elsewhere().has_value();
+  return is_elsewhere ? elsewhere / static_cast<double>(rounds) : here;
+}
+
 std::size_t rounds_for(double nanoseconds) {
   return static_cast<std::size_t>(std::clamp(least_nanoseconds / nanoseconds, 1.0, 1e6));
 }
@@ -149,7 +161,10 @@ class Run {
 
   /// How many times as many queries would take as long as they may, by the pace of these.
   [[nodiscard]] double possible_growth(Entry& entry) const {
-    const double time = time_of(1, [&] { entry.contender->solve(group_.kind(), entry.queries); });
+    const Clock::time_point start = Clock::now();
+    double time = time_of(1, *entry.contender, group_.kind(), entry.queries);
+    // A child process may sleep.
+    if (entry.contender->nanoseconds_elsewhere()) time = std::max(time, nanoseconds_since(start));
     entry.rounds = rounds_for(time);
     return std::min(0.9 * 1e9 * options_.seconds / time, most_growth);
   }
@@ -179,8 +194,7 @@ class Run {
   }
 
   void time(Entry& entry) const {
-    const double time =
-        time_of(entry.rounds, [&] { entry.contender->solve(group_.kind(), entry.queries); });
+    const double time = time_of(entry.rounds, *entry.contender, group_.kind(), entry.queries);
     entry.times.repetitions.push_back(time / static_cast<double>(entry.queries.size()));
   }
 
@@ -266,8 +280,10 @@ class Run {
     for (const Truth& truth : truths) {
       while (i < entry.queries.size() && entry.position(i) < truth.index) ++i;
       if (i == entry.queries.size()) break;
-      if (entry.position(i) == truth.index) said.judgement.add(truth, entry.contender->answer(i));
+      if (entry.position(i) != truth.index) continue;
+      said.judgement.add(truth, entry.contender->answer(i), entry.contender->failure(i));
     }
+    said.judgement.add_unplaced_crashes(entry.contender->unplaced_crashes());
     for (const WrongAnswer& wrong : said.judgement.wrong_answers) {
       said.wrong_places.push_back(group_.place_of(wrong.index));
     }
@@ -296,7 +312,8 @@ class Run {
         const auto query = entry.queries.subspan(chosen[i], 1);
         const Clock::time_point before = Clock::now();
         entry.contender->solve(group_.kind(), query);
-        times[i] = std::min(times[i], nanoseconds_since(before));
+        times[i] = std::min(
+            times[i], entry.contender->nanoseconds_elsewhere().value_or(nanoseconds_since(before)));
         if (stopped()) return std::nullopt;
       }
       if (nanoseconds_since(start) > 1e9 * options_.seconds) break;

@@ -6,7 +6,8 @@
 /// **Speed.** Each repetition times every contender once and, among them, a pass that only reads
 /// the queries: the physical limit. The repetitions begin with another one each time, so that no
 /// contender always runs behind the same other one, and what counts is the median of the
-/// repetitions. All run in the calling thread, and time is its processor time. A contender that
+/// repetitions. All run in the calling thread, or in a child process that it waits for, and time is
+/// processor time there. A contender that
 /// would take longer than BenchOptions::seconds for all queries is timed on an evenly spread sample.
 /// Afterwards single queries are timed, one call each.
 ///

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "verify/methods/registry.hpp"
+#include "verify/printable.hpp"
 #include "verify/separation.hpp"
 
 namespace touchstone::verify {
@@ -20,7 +21,8 @@ constexpr std::string_view row_format =
     "{:<{}}  {:>10}  {:>8}  {:>9}  {:>9}  {:>11}  {:>8}  {:>8}  {:>9}  {:>9}  {:>8}  {:>11}  "
     "{:>9}  {:>6}  {:>9}  {:>9}  {:>9}\n";
 
-constexpr std::string_view step_row_format = "{:>7}  {:>11}  {:>10}  {:>10}  {:>13}  {:>15}\n";
+constexpr std::string_view step_row_format =
+    "{:>7}  {:<9}  {:>11}  {:>10}  {:>10}  {:>13}  {:>15}\n";
 
 /// Of a group, contender and fault so many answers are printed.
 constexpr std::size_t most_printed = 20;
@@ -49,8 +51,8 @@ void append_row(std::string& text, std::size_t width, const ContenderResult& con
   const auto single = [&](double SingleTimes::*time) {
     return contender.singles ? fmt::format("{:.0f}", (*contender.singles).*time) : "-";
   };
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), contender.name, width,
-                 number_text(contender.times.median(), "{:.1f}"),
+  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), printable(contender.name),
+                 width, number_text(contender.times.median(), "{:.1f}"),
                  number_text(passes(contender, group), "{:.2f}"), single(&SingleTimes::p50),
                  single(&SingleTimes::p99), single(&SingleTimes::max), contender.queries,
                  judged.queries, judged.count(Fault::false_negative),
@@ -85,14 +87,14 @@ void append_wrong_answers(std::string& text, const ContenderResult& contender,
     ++count;
     const QueryPlace& place = contender.wrong_places[i];
     text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n", to_string(wrong.fault),
-                        contender.name, place.source, to_string(group.kind), place.index,
-                        wrong.answer, wrong.truth);
+                        printable(contender.name), printable(place.source), to_string(group.kind),
+                        place.index, wrong.answer, wrong.truth);
   }
   for (std::size_t i = 0; i < fault_count; ++i) {
     const std::uint64_t all = contender.judgement.faults[i];
     if (printed[i] != most_printed || all == most_printed) continue;
     text += fmt::format("{}: {}: {}: and {} more\n", to_string(static_cast<Fault>(i)),
-                        contender.name, group.name, all - most_printed);
+                        printable(contender.name), printable(group.name), all - most_printed);
   }
 }
 
@@ -105,13 +107,13 @@ std::string separation_text(const Separation& separation) {
 void append_group(std::string& text, const BenchResult& group) {
   const bool judged_all = group.judged == group.queries;
   text += fmt::format(
-      "{}, {}{}: {} queries, {} collisions{}; memory pass {} ns/query{}\n", group.name,
+      "{}, {}{}: {} queries, {} collisions{}; memory pass {} ns/query{}\n", printable(group.name),
       to_string(group.kind), separation_text(group.separation), group.queries, group.collisions,
       judged_all ? "" : fmt::format(" among {} judged", group.judged),
       number_text(group.memory_pass.median(), "{:.2f}"), group.interrupted ? " (interrupted)" : "");
   std::size_t width = 6;
   for (const ContenderResult& contender : group.contenders) {
-    width = std::max(width, contender.name.size());
+    width = std::max(width, printable(contender.name).size());
   }
   append_header(text, width);
   for (const ContenderResult& contender : group.contenders) {
@@ -124,12 +126,24 @@ void append_group(std::string& text, const BenchResult& group) {
   text += '\n';
 }
 
+/// One clock's times of a step.
+void append_step_row(std::string& text, const StepTimes& times, std::string_view clock,
+                     double StepTime::*time) {
+  const auto milliseconds = [time](auto... parts) {
+    return fmt::format("{:.1f} ms", 1e3 * (... + (parts.*time)));
+  };
+  fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), times.threads, clock,
+                 milliseconds(times.broad_phase), milliseconds(times.collisions),
+                 milliseconds(times.earliest), milliseconds(times.broad_phase, times.collisions),
+                 milliseconds(times.broad_phase, times.earliest));
+}
+
 void append_step(std::string& text, const StepResult& step) {
   text += fmt::format(
       "{}{}: {} vertices, {} edges, {} faces; vertex-face {} candidates, {} collisions; edge-edge "
       "{} "
       "candidates, {} collisions{}\n",
-      step.name, separation_text(step.separation), step.vertices, step.edges, step.faces,
+      printable(step.name), separation_text(step.separation), step.vertices, step.edges, step.faces,
       step.vertex_face.candidates, step.vertex_face.collisions, step.edge_edge.candidates,
       step.edge_edge.collisions, step.interrupted ? " (interrupted)" : "");
   if (step.earliest) {
@@ -137,16 +151,11 @@ void append_step(std::string& text, const StepResult& step) {
                         step.earliest->toi_upper,
                         step.earliest_agrees ? "" : ": NOT that of the collisions");
   }
-  fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), "threads", "broad phase",
-                 "collisions", "earliest", "step, all", "step, earliest");
+  fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), "threads", "time",
+                 "broad phase", "collisions", "earliest", "step, all", "step, earliest");
   for (const StepTimes& times : step.times) {
-    const auto milliseconds = [](double seconds) {
-      return fmt::format("{:.1f} ms", 1e3 * seconds);
-    };
-    fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), times.threads,
-                   milliseconds(times.broad_phase), milliseconds(times.collisions),
-                   milliseconds(times.earliest), milliseconds(times.broad_phase + times.collisions),
-                   milliseconds(times.broad_phase + times.earliest));
+    append_step_row(text, times, "wall", &StepTime::wall);
+    append_step_row(text, times, "processor", &StepTime::processor);
   }
   text += '\n';
 }
@@ -159,6 +168,13 @@ std::string legend(const BenchReport& report) {
       "shortest of up to three,\n"
       "without the clock's own time. error: from toi_lower up to the exact time of impact.\n",
       report.options.repetitions);
+  if (report.step) {
+    text +=
+        "The table of whole steps has medians of as many repetitions: wall is the time from "
+        "beginning "
+        "to end, processor\n"
+        "that of all threads together, which the other tables have.\n";
+  }
   const auto is_sampled = [](const BenchResult& group) {
     return std::ranges::any_of(group.contenders, [&](const ContenderResult& contender) {
       return contender.queries < group.queries;
@@ -276,9 +292,12 @@ nlohmann::json json_of(const std::optional<StepResult>& step) {
   nlohmann::json times = nlohmann::json::array();
   for (const StepTimes& time : step->times) {
     times.push_back({{"threads", time.threads},
-                     {"broad_phase_s", time.broad_phase},
-                     {"collisions_s", time.collisions},
-                     {"earliest_s", time.earliest}});
+                     {"broad_phase_s", time.broad_phase.wall},
+                     {"collisions_s", time.collisions.wall},
+                     {"earliest_s", time.earliest.wall},
+                     {"broad_phase_processor_s", time.broad_phase.processor},
+                     {"collisions_processor_s", time.collisions.processor},
+                     {"earliest_processor_s", time.earliest.processor}});
   }
   nlohmann::json earliest;
   if (step->earliest) {
@@ -308,7 +327,7 @@ std::string to_text(const BenchReport& report) {
   std::string text;
   for (const BenchResult& group : report.groups) append_group(text, group);
   if (report.step) append_step(text, *report.step);
-  return report.groups.empty() ? text : text + legend(report);
+  return report.groups.empty() && !report.step ? text : text + legend(report);
 }
 
 nlohmann::json to_json(const BenchReport& report) {

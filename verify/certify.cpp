@@ -221,12 +221,16 @@ class BlockJudgement {
     Judgement& judgement = judgements_[respondent];
     const std::size_t last = std::min(first + part.count, complete_);
     auto missing = part.response.missing.begin();
+    auto failure = part.response.failures.begin();
     for (std::size_t i = first; i < last; ++i) {
       if (missing != part.response.missing.end() && first + *missing == i) {
         judgement.add_missing(block_.indices[i]);
         ++missing;
       } else {
-        judgement.add(truths_[i], answers[i]);
+        const bool has_failed =
+            failure != part.response.failures.end() && first + failure->position == i;
+        judgement.add(truths_[i], answers[i], has_failed ? &failure->failure : nullptr);
+        if (has_failed) ++failure;
         if (claims_too_much(*options_.respondents[respondent], i, answers[i])) {
           judgement.add_beyond_tolerance(truths_[i], answers[i]);
         }
@@ -240,13 +244,11 @@ class BlockJudgement {
   /// A yes to what never comes as near as that claims. What collides is near enough for any claim.
   [[nodiscard]] bool claims_too_much(const Respondent& respondent, std::size_t i,
                                      const fast::Answer& answer) const {
-    if (truths_[i].collides || answer.verdict != fast::Verdict::yes || !respondent.reach()) {
+    if (truths_[i].collides || answer.verdict != fast::Verdict::yes || failure_of(answer)) {
       return false;
     }
     const Query& query = block_.queries[i];
-    const Separation claimed{
-        .distance = respondent.reach()(block_.kind, query, answer, options_.separation),
-        .norm = Norm::linf};
+    const Separation claimed = respondent.reach()(block_.kind, query, answer, options_.separation);
     return is_valid(claimed) && !exact::decide(block_.kind, query, claimed).collides();
   }
 
@@ -264,8 +266,7 @@ class BlockJudgement {
 void add_methods(std::vector<MethodResult>& sum, const std::vector<MethodResult>& methods) {
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const MethodResult& method = methods[i];
-    if (i == sum.size())
-      sum.push_back({method.name, method.promise, method.timed, {}, method.checks_reach});
+    if (i == sum.size()) sum.push_back({method.name, method.promise, method.timed, {}});
     Judgement counts = method.judgement;
     counts.wrong_answers.clear();
     counts.first_missing.reset();
@@ -314,8 +315,8 @@ CertifyResult certify(QuerySource& source, const CertifyOptions& options) {
   result.name = source.name();
   result.kind = source.kind();
   for (const Respondent* respondent : options.respondents) {
-    result.methods.push_back({respondent->name(), respondent->promise(), respondent->timed(),
-                              Judgement{}, respondent->reach() != nullptr});
+    result.methods.push_back(
+        {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
   }
   const StreamResult ended = stream(
       source, [&](const Block& block) { return BlockJudgement(block, options, comparison); },

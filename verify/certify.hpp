@@ -66,7 +66,6 @@ struct MethodResult {
   fast::Promise promise = fast::Promise::none;  ///< what it is held to
   bool timed = false;                           ///< Is its processor time known?
   Judgement judgement;
-  bool checks_reach = false;  ///< Is it known what its tolerances claim?
 };
 
 /// The judgement on one source.

@@ -10,6 +10,7 @@
 
 #include "verify/csv.hpp"
 #include "verify/methods/registry.hpp"
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -29,7 +30,7 @@ std::string_view kind_text(const CertifyResult& result) {
 }
 
 void append_row(std::string& text, std::size_t width, const CertifyResult& result) {
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), result.name, width,
+  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), printable(result.name), width,
                  kind_text(result), result.queries, result.collisions, result.labels,
                  result.label_mismatches, result.tois, result.toi_mismatches,
                  fmt::format("{:.2f}", result.microseconds_per_query()));
@@ -62,7 +63,8 @@ void append_separations(std::string& text, const std::vector<CertifyResult>& res
     text += fmt::format("minimum separation {}\n", to_text(*separation));
   } else {
     for (const CertifyResult& result : results) {
-      text += fmt::format("minimum separation {}: {}\n", to_text(result.separation), result.name);
+      text += fmt::format("minimum separation {}: {}\n", to_text(result.separation),
+                          printable(result.name));
     }
   }
   const auto compares_collisions = [](const CertifyResult& result) {
@@ -94,7 +96,8 @@ std::string error_text(double error) {
   return std::isnan(error) ? "-" : fmt::format("{:.2e}", error);
 }
 
-/// Does the table of methods have a column of tolerances?
+/// Does the table of methods have a column of tolerances? It has if there is a separation, or somebody
+/// claims too much.
 enum class Tolerances : std::uint8_t { hidden, shown };
 
 void append_method_row(std::string& text, std::size_t width, const std::string& name,
@@ -109,9 +112,7 @@ void append_method_row(std::string& text, std::size_t width, const std::string& 
                  error_text(judged.toi_errors.quantile(0.99)), error_text(judged.toi_errors.max()));
   if (tolerances == Tolerances::hidden) return;
   text.pop_back();
-  text += fmt::format("  {:>10}\n", method.checks_reach
-                                        ? std::to_string(judged.count(Fault::beyond_tolerance))
-                                        : "-");
+  text += fmt::format("  {:>10}\n", judged.count(Fault::beyond_tolerance));
 }
 
 void append_wrong_answers(std::string& text, const CertifyResult& result,
@@ -122,21 +123,42 @@ void append_wrong_answers(std::string& text, const CertifyResult& result,
     if (!breaks(wrong.fault, method.promise) || count == most_printed) continue;
     ++count;
     text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n", to_string(wrong.fault),
-                        method.name, result.name, kind_text(result), wrong.index, wrong.answer,
-                        wrong.truth);
+                        printable(method.name), printable(result.name), kind_text(result),
+                        wrong.index, wrong.answer, wrong.truth);
   }
   for (std::size_t i = 0; i < fault_count; ++i) {
     if (printed[i] != most_printed || method.judgement.faults[i] == most_printed) continue;
     const auto fault = static_cast<Fault>(i);
-    text += fmt::format("{}: {}: {}: and {} more\n", to_string(fault), method.name, result.name,
-                        method.judgement.faults[i] - most_printed);
+    text += fmt::format("{}: {}: {}: and {} more\n", to_string(fault), printable(method.name),
+                        printable(result.name), method.judgement.faults[i] - most_printed);
   }
+}
+
+/// How often it gave no answer, by kind, if that is for other reasons than its own indecision.
+void append_failures(std::string& text, const MethodResult& method) {
+  std::string kinds;
+  bool is_only_undecided = true;
+  for (const FailureKind kind : all_failure_kinds) {
+    const std::uint64_t count = method.judgement.count(kind);
+    if (count == 0) continue;
+    kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, to_string(kind));
+    is_only_undecided = is_only_undecided && kind == FailureKind::undecided;
+  }
+  if (!is_only_undecided) text += fmt::format("no answer: {}: {}\n", method.name, kinds);
+}
+
+bool claims_too_much(const MethodResult& method) {
+  return method.judgement.count(Fault::beyond_tolerance) != 0;
 }
 
 void append_methods(std::string& text, std::size_t width, const std::vector<CertifyResult>& results,
                     const CertifyResult& sum) {
-  for (const MethodResult& method : sum.methods) width = std::max(width, method.name.size());
-  const Tolerances tolerances = has_separation(results) ? Tolerances::shown : Tolerances::hidden;
+  for (const MethodResult& method : sum.methods) {
+    width = std::max(width, printable(method.name).size());
+  }
+  const bool shows_tolerances =
+      has_separation(results) || std::ranges::any_of(sum.methods, claims_too_much);
+  const Tolerances tolerances = shows_tolerances ? Tolerances::shown : Tolerances::hidden;
   width += 2;
   text += '\n';
   fmt::format_to(std::back_inserter(text), fmt::runtime(method_row_format), "method", width, "kind",
@@ -148,15 +170,17 @@ void append_methods(std::string& text, std::size_t width, const std::vector<Cert
   }
   std::string wrong_answers;
   for (std::size_t i = 0; i < sum.methods.size(); ++i) {
-    append_method_row(text, width, sum.methods[i].name, "", sum.methods[i], tolerances);
+    append_method_row(text, width, printable(sum.methods[i].name), "", sum.methods[i], tolerances);
     for (const CertifyResult& result : results) {
       if (i >= result.methods.size()) continue;
       const MethodResult& method = result.methods[i];
       if (keeps(method.judgement, method.promise)) continue;
-      append_method_row(text, width, "  " + result.name, kind_text(result), method, tolerances);
+      append_method_row(text, width, "  " + printable(result.name), kind_text(result), method,
+                        tolerances);
       append_wrong_answers(wrong_answers, result, method);
     }
   }
+  for (const MethodResult& method : sum.methods) append_failures(text, method);
   text += wrong_answers;
 }
 
@@ -173,31 +197,35 @@ nlohmann::json to_json(const ToiErrors& errors) {
           {"max", errors.max()}};
 }
 
-nlohmann::json counts(const MethodResult& method, Tolerances tolerances) {
-  const Judgement& judged = method.judgement;
-  const bool has_time = method.timed && judged.queries != 0;
-  nlohmann::json json{{"name", method.name},
-                      {"promise", to_string(method.promise)},
-                      {"queries", judged.queries},
-                      {"false_negatives", judged.count(Fault::false_negative)},
-                      {"false_positives", judged.count(Fault::false_positive)},
-                      {"late_toi", judged.count(Fault::late_toi)},
-                      {"early_toi_upper", judged.count(Fault::early_toi_upper)},
-                      {"undecided", judged.undecided},
-                      {"errors", judged.count(Fault::error)},
-                      {"missing", judged.missing},
-                      {"ns_per_query", number_or_null(has_time, judged.nanoseconds_per_query())},
-                      {"toi_error", to_json(judged.toi_errors)}};
-  const std::uint64_t beyond_tolerance = judged.count(Fault::beyond_tolerance);
-  if (tolerances == Tolerances::shown || beyond_tolerance != 0) {
-    json["beyond_tolerance"] = beyond_tolerance;
-  }
+nlohmann::json failures_of(const Judgement& judged) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const FailureKind kind : all_failure_kinds) json[to_string(kind)] = judged.count(kind);
   return json;
 }
 
-nlohmann::json methods_of(const CertifyResult& result, Tolerances tolerances) {
+nlohmann::json counts(const MethodResult& method) {
+  const Judgement& judged = method.judgement;
+  const bool has_time = method.timed && judged.queries != 0;
+  return {{"name", method.name},
+          {"promise", to_string(method.promise)},
+          {"queries", judged.queries},
+          {"false_negatives", judged.count(Fault::false_negative)},
+          {"false_positives", judged.count(Fault::false_positive)},
+          {"late_toi", judged.count(Fault::late_toi)},
+          {"early_toi_upper", judged.count(Fault::early_toi_upper)},
+          {"undecided", judged.undecided},
+          {"errors", judged.count(Fault::error)},
+          {"failures", failures_of(judged)},
+          {"unplaced_crashes", judged.unplaced_crashes},
+          {"beyond_tolerance", judged.count(Fault::beyond_tolerance)},
+          {"missing", judged.missing},
+          {"ns_per_query", number_or_null(has_time, judged.nanoseconds_per_query())},
+          {"toi_error", to_json(judged.toi_errors)}};
+}
+
+nlohmann::json methods_of(const CertifyResult& result) {
   nlohmann::json json = nlohmann::json::array();
-  for (const MethodResult& method : result.methods) json.push_back(counts(method, tolerances));
+  for (const MethodResult& method : result.methods) json.push_back(counts(method));
   return json;
 }
 
@@ -218,7 +246,8 @@ void append_wrong_answers(nlohmann::json& methods, const CertifyResult& result) 
 
 std::string to_text(const std::vector<CertifyResult>& results) {
   std::size_t width = 5;
-  for (const CertifyResult& result : results) width = std::max(width, result.name.size());
+  for (const CertifyResult& result : results)
+    width = std::max(width, printable(result.name).size());
 
   std::string text;
   append_separations(text, results);
@@ -233,9 +262,9 @@ std::string to_text(const std::vector<CertifyResult>& results) {
 
   for (const CertifyResult& result : results) {
     for (const Mismatch& mismatch : result.mismatches) {
-      text += fmt::format("mismatch: {}: {} query {}: recorded {} {}, truth {}\n", result.name,
-                          kind_text(result), mismatch.index, name_of(mismatch.of),
-                          mismatch.recorded, mismatch.truth);
+      text += fmt::format("mismatch: {}: {} query {}: recorded {} {}, truth {}\n",
+                          printable(result.name), kind_text(result), mismatch.index,
+                          name_of(mismatch.of), mismatch.recorded, mismatch.truth);
     }
   }
   if (!sum.methods.empty()) append_methods(text, width, results, sum);
@@ -245,9 +274,8 @@ std::string to_text(const std::vector<CertifyResult>& results) {
 nlohmann::json to_json(const std::vector<CertifyResult>& results) {
   const CertifyResult sum = total(results);
   nlohmann::json json = counts(sum);
-  const Tolerances tolerances = has_separation(results) ? Tolerances::shown : Tolerances::hidden;
   if (const auto separation = separation_of(results)) json["separation"] = to_json(*separation);
-  json["methods"] = methods_of(sum, tolerances);
+  json["methods"] = methods_of(sum);
   if (sum.proofs.certificates() != 0) json["proofs"] = to_json(sum.proofs);
   for (nlohmann::json& method : json["methods"]) method["wrong_answers"] = nlohmann::json::array();
   json["mismatches"] = nlohmann::json::array();
@@ -260,7 +288,7 @@ nlohmann::json to_json(const std::vector<CertifyResult>& results) {
       file["separation"] = to_json(result.separation);
       file["compared"] = name_of(result.compared);
     }
-    file["methods"] = methods_of(result, tolerances);
+    file["methods"] = methods_of(result);
     if (result.error) file["error"] = *result.error;
     json["files"].push_back(std::move(file));
     append_wrong_answers(json["methods"], result);

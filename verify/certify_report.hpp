@@ -15,8 +15,9 @@ namespace touchstone::verify {
 /// says what was compared if the recorded answers are about another one. Then
 /// a line for each source and one for the total, then each mismatch with source, index and both
 /// answers. Where respondents were judged follow a line for each with its total, below it a line
-/// for each source where it broke its promise, and the answers that broke it: the first twenty of a
-/// fault and source, and how many more there are.
+/// for each source where it broke its promise, the number of its failures of each kind (if there are
+/// any but undecided answers of its own), and the answers that broke its promise: the first twenty of
+/// a fault and source, and how many more there are.
 [[nodiscard]] std::string to_text(const std::vector<CertifyResult>& results);
 
 /// The total's fields `queries`, `collisions`, `labels`, `label_mismatches`, `tois`,
@@ -32,7 +33,8 @@ namespace touchstone::verify {
 /// `methods`, in the total and in each file, is a list of `name`, `promise` (what it was held to:
 /// "none", "conservative", "exact"), `queries`, `false_negatives`, `false_positives` (undecided
 /// answers among them), `late_toi`, `early_toi_upper`, `undecided`, `errors`, `missing`,
-/// `beyond_tolerance` (only with a separation, or if there are any), `ns_per_query` (null where no time was taken), and `toi_error`: null where no time of impact
+/// `failures` (an object of the number of queries without an answer by FailureKind), `unplaced_crashes`
+/// (errors at no particular query), `beyond_tolerance`, `ns_per_query` (null where no time was taken), and `toi_error`: null where no time of impact
 /// was given, else `count`, `p50`, `p90`, `p99` and `max` of the distance from toi_lower to the
 /// exact time of impact, quantiles to 1.6%. In the total each has `wrong_answers`, a list of `file`,
 /// `index`, `kind`, `fault` ("false negative", "false positive", "late toi", "early toi_upper",

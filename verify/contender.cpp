@@ -125,6 +125,8 @@ std::vector<StageCount> count_stages(std::span<const fast::CertifiedResult> resu
 
 std::vector<StageCount> Contender::stages(Kind, std::span<const Query>) { return {}; }
 
+const Failure* Contender::failure(std::size_t) const { return nullptr; }
+
 std::unique_ptr<Contender> contend(const fast::Method& method, const fast::MethodOptions& options) {
   // Shares nothing: the caller keeps the method alive.
   const std::shared_ptr<const fast::Method> borrowed(std::shared_ptr<const fast::Method>(),

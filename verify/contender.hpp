@@ -15,6 +15,7 @@
 #include "exact/query.hpp"
 #include "fast/certified.hpp"
 #include "fast/method.hpp"
+#include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {
 
@@ -45,12 +46,25 @@ class Contender {
   /// Does it take its queries from elsewhere, and so can be asked for all of them only?
   [[nodiscard]] virtual bool only_as_a_whole() const { return false; }
 
-  /// Answers the queries, in this thread: the work that is timed. Memory of earlier calls is used
-  /// again.
+  /// Answers the queries, in this thread or in a child process that it waits for: the work that is
+  /// timed. Memory of earlier calls is used again.
   virtual void solve(Kind kind, std::span<const Query> queries) = 0;
+
+  /// Processor time of the latest call of solve() in nanoseconds, where that is not the time of this
+  /// thread.
+  [[nodiscard]] virtual std::optional<double> nanoseconds_elsewhere() const { return std::nullopt; }
 
   /// The answer to query i of the latest call of solve().
   [[nodiscard]] virtual fast::Answer answer(std::size_t i) const = 0;
+
+  /// Why there is no answer to query i, where more is known than the answer shows; else null.
+  [[nodiscard]] virtual const Failure* failure(std::size_t i) const;
+
+  /// Times its process ended at no particular query: see solver_process.hpp.
+  [[nodiscard]] virtual std::uint64_t unplaced_crashes() const { return 0; }
+
+  /// What it printed since the last call of this, where that is caught.
+  [[nodiscard]] virtual CapturedOutput take_output() { return {}; }
 
   /// Which stages end these queries, if it has stages; empty if not. Not timed.
   [[nodiscard]] virtual std::vector<StageCount> stages(Kind kind, std::span<const Query> queries);

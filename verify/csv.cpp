@@ -1,9 +1,30 @@
 #include "verify/csv.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <system_error>
+
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
+
+constexpr char apostrophe = '\'';
+
+bool is_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Would a spreadsheet compute the text, but for apostrophes in front?
+bool is_formula(std::string_view text) {
+  static constexpr std::string_view marks = "=+-@";
+  const std::size_t first = text.find_first_not_of(apostrophe);
+  return first != std::string_view::npos && text.size() > 1 &&
+         marks.find(text[first]) != std::string_view::npos && !is_number(text);
+}
 
 /// Takes a field that begins with a quote from the front of the record, the comma behind it
 /// excluded. Returns what is wrong with it.
@@ -33,13 +54,21 @@ CsvSplit::Fault take_field(std::string_view& record, std::string& field) {
 }  // namespace
 
 std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string field = printable(text);
+  if (is_formula(field)) field.insert(0, 1, apostrophe);
+  if (field.find_first_of(",\"") == std::string::npos) return field;
   std::string quoted = "\"";
-  for (const char c : text) {
+  for (const char c : field) {
     if (c == '"') quoted += '"';
     quoted += c;
   }
   return quoted + '"';
+}
+
+std::string text_of_field(std::string_view field) {
+  std::string text = printable(field);
+  if (text.starts_with(apostrophe) && is_formula(text)) text.erase(0, 1);
+  return text;
 }
 
 CsvSplit split_csv(std::string_view record, std::span<std::string> fields) {

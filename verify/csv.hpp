@@ -3,6 +3,10 @@
 /// \file
 /// Comma-separated values as RFC 4180 has them: a field with a comma, a quote or a line end in it
 /// stands in quotes, and quotes in it are doubled.
+///
+/// What is written is printable (printable.hpp), and no formula to a spreadsheet: a text that begins with
+/// = + - or @ and is no number gets an apostrophe in front, and so does one that begins with
+/// apostrophes and then with one of these.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,8 +16,12 @@
 
 namespace touchstone::verify {
 
-/// The text as one field, in quotes where it needs them.
+/// The text as one field: printable, no formula, in quotes where it needs them.
 [[nodiscard]] std::string csv_field(std::string_view text);
+
+/// The printable text that a field, given without its quotes, stands for: without the apostrophe that
+/// csv_field() put in front of a formula. Of what others wrote, the text made printable.
+[[nodiscard]] std::string text_of_field(std::string_view field);
 
 /// What split_csv found.
 struct CsvSplit {

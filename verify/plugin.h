@@ -60,16 +60,23 @@ struct touchstone_answer {
   int32_t verdict;   ///< one of touchstone_verdict
   double toi_lower;  ///< claimed: not above the exact time of first contact
   double toi_upper;  ///< claimed: not below the exact time of first contact
-  double tolerance;  ///< how near to contact a yes claims to be, in units of the coordinates
+  double tolerance;  ///< how near to contact a yes claims to be, in units of the coordinates: that
+                     ///< at some time the distance, in the norm asked for, is at most
+                     ///< min_separation + tolerance. A yes beyond that is a fault.
 };
 
 /// Defined by the plugin: returns touchstone_interface_version.
 int32_t touchstone_plugin_version(void);
 
-/// Defined by the plugin: the solver's name in reports, one line of text that stays valid.
+/// Defined by the plugin: the solver's name in reports, one line of UTF-8 text without control characters
+/// or invisible ones, that stays valid.
 const char* touchstone_plugin_name(void);
 
 /// Defined by the plugin: answers one query. May be called from several threads at once.
+///
+/// All three functions, and the library's constructors, run in a child process whose memory, and
+/// whose files' size, are limited, which may make threads and no processes (options of the command
+/// line change both), in a temporary working directory. What is printed is caught.
 ///
 /// \param kind one of touchstone_kind.
 /// \param coordinates 24 finite doubles: x, y, z of the four points at t=0, then of the same four

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exact/certificate_text.hpp"
+#include "verify/printable.hpp"
 #include "verify/stream.hpp"
 #include "verify/thread_clock.hpp"
 
@@ -106,7 +107,7 @@ ProofCounts& ProofCounts::operator+=(const ProofCounts& other) {
 }
 
 std::string certificate_label(std::string_view source, std::uint64_t index) {
-  return fmt::format("{}:{}", source, index);
+  return fmt::format("{}:{}", printable(source), index);
 }
 
 void append_certificate(Kind kind, const Query& query, const Decision& decision,

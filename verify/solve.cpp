@@ -27,21 +27,26 @@ class BlockAnswers {
       return !response.stopped;
     });
     complete_ = passes.complete();
+    for (std::size_t unit = 0; unit < responses_.size(); ++unit) {
+      for (const QueryFailure& found : responses_[unit].failures) {
+        failures_.push_back(
+            {.position = unit * Passes::unit + found.position, .failure = found.failure});
+      }
+    }
   }
 
   [[nodiscard]] bool complete() const { return complete_ == answers_.size(); }
 
   /// The serial stage.
   void add_to(SolveResult& result, const SolveOptions& options) const {
-    using fast::Verdict;
+    auto failure = failures_.begin();
     for (std::size_t i = 0; i < complete_; ++i) {
-      const fast::Answer& answer = answers_[i];
-      ++result.queries;
-      result.yes += answer.verdict == Verdict::yes ? 1U : 0U;
-      result.no += answer.verdict == Verdict::no ? 1U : 0U;
-      result.undecided += answer.verdict == Verdict::undecided ? 1U : 0U;
-      result.errors += answer.verdict == Verdict::error ? 1U : 0U;
-      if (options.on_answer) options.on_answer(block_.indices[i], answer);
+      const bool has_failed = failure != failures_.end() && failure->position == i;
+      add(answers_[i], has_failed ? &failure->failure : nullptr, result);
+      if (options.on_answer) {
+        options.on_answer(block_.indices[i], answers_[i], has_failed ? &failure->failure : nullptr);
+      }
+      if (has_failed) ++failure;
     }
     for (std::size_t part = 0; part * Passes::unit < complete_; ++part) {
       result.nanoseconds += responses_[part].nanoseconds;
@@ -50,9 +55,24 @@ class BlockAnswers {
   }
 
  private:
+  static void add(const fast::Answer& answer, const Failure* failure, SolveResult& result) {
+    using fast::Verdict;
+    Verdict verdict = answer.verdict;
+    if (const auto why = failure != nullptr ? std::optional(*failure) : failure_of(answer)) {
+      ++result.failures[static_cast<std::size_t>(why->kind)];
+      verdict = verdict_of(why->kind);
+    }
+    ++result.queries;
+    result.yes += verdict == Verdict::yes ? 1U : 0U;
+    result.no += verdict == Verdict::no ? 1U : 0U;
+    result.undecided += verdict == Verdict::undecided ? 1U : 0U;
+    result.errors += verdict == Verdict::error ? 1U : 0U;
+  }
+
   const Block& block_;
   std::vector<fast::Answer> answers_;
-  std::vector<Response> responses_;  // of the part that begins with a unit
+  std::vector<Response> responses_;     // of the part that begins with a unit
+  std::vector<QueryFailure> failures_;  // by position in the block
   std::size_t complete_ = 0;
 };
 
@@ -68,6 +88,7 @@ SolveResult& SolveResult::operator+=(const SolveResult& other) {
   no += other.no;
   undecided += other.undecided;
   errors += other.errors;
+  for (std::size_t i = 0; i < failures.size(); ++i) failures[i] += other.failures[i];
   unplaced_crashes += other.unplaced_crashes;
   nanoseconds += other.nanoseconds;
   skipped += other.skipped;

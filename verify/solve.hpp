@@ -3,6 +3,7 @@
 /// \file
 /// A solver let loose on a source, without a judge: its answers in the order of the queries.
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -21,8 +22,9 @@ struct SolveOptions {
   Separation separation = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
-  /// Called for every query with its index, in order, never from two threads at once.
-  std::function<void(std::uint64_t, const fast::Answer&)> on_answer = nullptr;
+  /// Called for every query with its index and, where more is known of it than the answer shows, its
+  /// failure (else null); in order, never from two threads at once.
+  std::function<void(std::uint64_t, const fast::Answer&, const Failure*)> on_answer = nullptr;
   /// Called now and then with the fraction of the source that is done; never from two threads at
   /// once.
   std::function<void(double)> on_progress = nullptr;
@@ -36,8 +38,10 @@ struct SolveResult {
   std::uint64_t yes = 0;
   std::uint64_t no = 0;
   std::uint64_t undecided = 0;
-  std::uint64_t errors = 0;  ///< answers that are errors
-  /// Processes that the solver ended at no particular query: see isolation.hpp.
+  std::uint64_t errors = 0;  ///< answers that are errors, or yes with times that are not finite
+  /// Queries without an answer, by FailureKind: undecided ones and errors.
+  std::array<std::uint64_t, failure_kinds> failures{};
+  /// Processes that the solver ended at no particular query: see solver_process.hpp.
   std::uint64_t unplaced_crashes = 0;
   double nanoseconds = 0.0;   ///< processor time of the solver, summed over the queries
   std::uint64_t skipped = 0;  ///< queries in error, left out

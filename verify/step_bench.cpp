@@ -9,16 +9,33 @@
 #include <utility>
 
 #include "verify/statistics.hpp"
+#include "verify/thread_clock.hpp"
 
 namespace touchstone::verify {
 namespace {
 
-template <class Work>
-double seconds(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
+/// The times of one part of a step, a repetition each.
+class Repetitions {
+ public:
+  template <class Work>
+  void add(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    const double processor_start = process_seconds();
+    work();
+    processor_.push_back(process_seconds() - processor_start);
+    wall_.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+
+  [[nodiscard]] bool empty() const { return wall_.empty(); }
+  [[nodiscard]] StepTime median() const {
+    return {.wall = verify::median(wall_), .processor = verify::median(processor_)};
+  }
+
+ private:
+  std::vector<double> wall_;
+  std::vector<double> processor_;
+};
 
 /// What one kind of candidates is and says.
 struct Part {
@@ -30,9 +47,9 @@ struct Part {
 /// The times of all repetitions with so many threads.
 struct Series {
   int threads = 1;
-  std::vector<double> broad_phase = {};
-  std::vector<double> collisions = {};
-  std::vector<double> earliest = {};
+  Repetitions broad_phase = {};
+  Repetitions collisions = {};
+  Repetitions earliest = {};
 };
 
 /// The earlier of two impacts, of which either may be missing.
@@ -76,9 +93,9 @@ class StepRun {
     for (const Series& series : series_) {
       if (series.earliest.empty()) continue;
       result.times.push_back({.threads = series.threads,
-                              .broad_phase = median(series.broad_phase),
-                              .collisions = median(series.collisions),
-                              .earliest = median(series.earliest)});
+                              .broad_phase = series.broad_phase.median(),
+                              .collisions = series.collisions.median(),
+                              .earliest = series.earliest.median()});
     }
     result.earliest_agrees = result.times.empty() || earliest_agrees();
     return result;
@@ -90,23 +107,23 @@ class StepRun {
   void repeat(Series& series) {
     fast::CertifiedOptions certified = options_.certified;
     certified.max_threads = series.threads;
-    series.broad_phase.push_back(seconds([&] {
+    series.broad_phase.add([&] {
       for (Part& part : parts_)
         part.pairs = find_candidates(mesh_, part.kind, series.threads,
                                      options_.certified.separation.distance);
-    }));
+    });
     for (Part& part : parts_) part.results.resize(part.pairs.size());
-    series.collisions.push_back(seconds([&] {
+    series.collisions.add([&] {
       for (Part& part : parts_) {
         fast::solve(mesh_.vertices, candidates(part), part.results, certified);
       }
-    }));
-    series.earliest.push_back(seconds([&] {
+    });
+    series.earliest.add([&] {
       earliest_ = std::nullopt;
       for (const Part& part : parts_) {
         earliest_ = earlier(earliest_, fast::earliest(mesh_.vertices, candidates(part), certified));
       }
-    }));
+    });
   }
 
   [[nodiscard]] fast::Candidates candidates(const Part& part) const {

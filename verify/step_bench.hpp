@@ -29,12 +29,18 @@ struct StepBenchOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Wall-clock seconds with so many threads, medians over the repetitions.
+/// Seconds that a part of a step takes, medians over the repetitions.
+struct StepTime {
+  double wall = 0.0;       ///< from beginning to end
+  double processor = 0.0;  ///< of all threads together
+};
+
+/// The times with so many threads.
 struct StepTimes {
   int threads = 0;
-  double broad_phase = 0.0;  ///< of both kinds
-  double collisions = 0.0;   ///< verdict and time of impact of all candidates of both kinds
-  double earliest = 0.0;     ///< the earliest contact of both kinds alone
+  StepTime broad_phase;  ///< of both kinds
+  StepTime collisions;   ///< verdict and time of impact of all candidates of both kinds
+  StepTime earliest;     ///< the earliest contact of both kinds alone
 };
 
 /// The counts of one kind.

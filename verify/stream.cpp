@@ -10,6 +10,8 @@
 #include <memory>
 #include <utility>
 
+#include "verify/terminal.hpp"
+
 namespace touchstone::verify {
 namespace {
 
@@ -68,6 +70,8 @@ class Stream {
       block.queries.push_back(query->query);
       block.indices.push_back(query->index);
       block.claims.push_back({query->collides, std::move(query->toi)});
+    } catch (const Interrupted&) {
+      ended_ = result_.interrupted = true;
     } catch (const std::exception& error) {
       result_.error = error.what();
       ended_ = true;

@@ -1,19 +1,32 @@
 #pragma once
 
 /// \file
-/// What a command does with a terminal and its user: show progress, and stop when asked.
+/// What a command does with a terminal and its user: print, show progress, and stop when asked.
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace touchstone::verify {
+
+/// Prints on standard output or standard error. Never throws: whoever reads the output may have gone,
+/// and the files of the run matter more. Once standard output has failed, no more is printed there.
+void print(std::FILE* stream, std::string_view text);
+
+/// Writes out what is printed but still buffered, as the last step of a program.
+/// \throws std::runtime_error if standard output did not take all that was printed; a reader that has
+/// closed its end of a pipe (as head does) has seen enough, and is no error.
+void finish_printing();
 
 /// A progress line on standard error: only on a terminal, only for what takes over a second,
 /// redrawn at most ten times a second, gone when the object is.
 class ProgressBar {
  public:
-  explicit ProgressBar(std::string title);
+  /// \param title made printable (printable.hpp)
+  explicit ProgressBar(std::string_view title);
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   ProgressBar(ProgressBar&&) = delete;
@@ -42,9 +55,24 @@ class ProgressBar {
 /// each to the process and to its group.
 inline constexpr int same_interrupt_milliseconds = 200;
 
-/// Turns true at the first interrupt or termination signal after this function was first called;
+/// Turns true at the first interrupt, termination or hangup signal after this function was first called;
 /// the next one (later than `same_interrupt_milliseconds`) ends the process at once, as if the
-/// function had never been called.
+/// function had never been called. A hangup that is ignored (as nohup has it) stays ignored.
 [[nodiscard]] const std::atomic<bool>& interrupted();
+
+/// Thrown where an interrupt ends a wait for input.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+/// Waits until a read from the descriptor does not block: there is something to read, the end or an
+/// error. Without a call of interrupted() before, signals act on the process as they ever do.
+/// \throws Interrupted if interrupted() is true or becomes so.
+void wait_for_input(int descriptor);
+
+/// Opens a pipe, device or file for appending. \returns its descriptor, or −1 with errno set.
+/// \throws Interrupted if interrupted() becomes true while a pipe has no reader yet.
+[[nodiscard]] int open_for_appending(const std::string& path);
 
 }  // namespace touchstone::verify

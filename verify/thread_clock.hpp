@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The clock that all times of solvers and of the oracle are taken with.
+/// Processor time: the clock that all times of solvers and of the oracle are taken with.
 
 #include <ctime>
 
@@ -12,6 +12,13 @@ namespace touchstone::verify {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) * 1e9 + static_cast<double>(now.tv_nsec);
+}
+
+/// Processor time of all threads of this process so far, in seconds.
+[[nodiscard]] inline double process_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
 }  // namespace touchstone::verify

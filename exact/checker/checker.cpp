@@ -8,9 +8,11 @@
 namespace touchstone::checker {
 namespace {
 
-constexpr std::string_view header = "touchstone-certificates 1";
+constexpr std::string_view header = "touchstone-certificates 2";
+constexpr std::string_view closing_word = "certificates";
+constexpr std::size_t max_shown_bytes = 40;
 
-void reject(Report& report, const Options& options, Rejection rejection) {
+void count_rejection(Report& report, const Options& options, Rejection rejection) {
   ++report.rejected;
   if (report.rejections.size() < options.max_rejections) {
     report.rejections.push_back(std::move(rejection));
@@ -23,7 +25,7 @@ std::uint64_t& accepted(Report& report, Claim claim) {
 }
 
 /// Checks the certificate that begins at the present line, and goes to where the next may begin: the
-/// line after it, or the next `query` line.
+/// line after it, or the next `query` line or closing line.
 void check_one(Reader& reader, Report& report, const Options& options) {
   const std::size_t first = reader.number();
   Certificate certificate;
@@ -34,15 +36,30 @@ void check_one(Reader& reader, Report& report, const Options& options) {
     ++accepted(report, certificate.claim);
   } catch (const Rejected& rejected) {
     const bool is_read = line_of_proof != 0;
-    reject(report, options,
-           {.line = is_read ? line_of_proof : reader.number(),
-            .label = printable(certificate.label),
-            .reason = rejected.reason});
+    count_rejection(report, options,
+                    {.line = is_read ? line_of_proof : reader.number(),
+                     .label = printable(certificate.label),
+                     .reason = rejected.reason});
     if (is_read) return;
-    while (!reader.at_end() && (reader.number() == first || reader.first_word() != "query")) {
-      reader.advance();
-    }
+    const auto may_begin = [&] {
+      return reader.first_word() == "query" || reader.first_word() == closing_word;
+    };
+    while (!reader.at_end() && (reader.number() == first || !may_begin())) reader.advance();
   }
+}
+
+/// Checks the end of a stream with so many `query` lines: the closing line, and nothing behind it.
+/// \throws Rejected if it is another, or missing.
+void check_end(Reader& reader, std::uint64_t queries) {
+  const std::string expected = std::string(closing_word) + ' ' + std::to_string(queries);
+  if (reader.at_end()) reject("the stream is cut: it has no closing line '" + expected + "'");
+  reader.begin(closing_word);
+  if (reader.text() != expected) {
+    reject("expected the closing line '" + expected + "', found '" +
+           printable(reader.text().substr(0, max_shown_bytes)) + "'");
+  }
+  reader.advance();
+  if (!reader.at_end()) reject("a line after the closing line");
 }
 
 }  // namespace
@@ -53,10 +70,20 @@ Report check(std::istream& certificates, const Options& options) {
   Reader reader(certificates);
   reader.advance();
   if (!reader.is_line() || reader.text() != header) {
-    reject(report, options, {1, "", "the first line is not '" + std::string(header) + "'"});
+    count_rejection(report, options,
+                    {1, "", "the first line is not '" + std::string(header) + "'"});
     return report;
   }
-  for (reader.advance(); !reader.at_end();) check_one(reader, report, options);
+  std::uint64_t queries = 0;
+  for (reader.advance(); !reader.at_end() && reader.first_word() != closing_word;) {
+    if (reader.first_word() == "query") ++queries;
+    check_one(reader, report, options);
+  }
+  try {
+    check_end(reader, queries);
+  } catch (const Rejected& rejected) {
+    count_rejection(report, options, {reader.number(), "", rejected.reason});
+  }
   return report;
 }
 

@@ -69,7 +69,8 @@ struct Report {
   std::uint64_t no_collision = 0;
   std::uint64_t collision = 0;
   std::uint64_t time_of_impact = 0;
-  /// Certificates that prove nothing, be it by their form or by their content.
+  /// Certificates that prove nothing, be it by their form or by their content; and one for a stream
+  /// that does not begin with its header, or one for a stream that does not end with the closing line.
   std::uint64_t rejected = 0;
   /// The first of them, in the order of the stream.
   std::vector<Rejection> rejections;
@@ -79,8 +80,9 @@ struct Report {
 };
 
 /// Reads a stream of certificates to its end and checks each. After a rejected one it goes on at the
-/// next `query` line; a stream whose first line is wrong is rejected as a whole, as one. Bounded
-/// memory and time a certificate, whatever the bytes. Thread-safe for different streams.
+/// next `query` line; a stream whose first line is wrong is rejected as a whole, as one. The closing
+/// line must give the number of certificates, so that neither an empty nor a cut stream is accepted.
+/// Bounded memory and time a certificate, whatever the bytes. Thread-safe for different streams.
 /// \throws std::runtime_error if the stream cannot be read.
 [[nodiscard]] Report check(std::istream& certificates, const Options& options = {});
 

@@ -17,7 +17,9 @@ constexpr std::string_view usage =
     "\n"
     "Checks the certificates in a file, or on standard input for '-': each is accepted only if it\n"
     "proves its claim. The format and what is proved: exact/CERTIFICATES.md.\n"
-    "Exit status: 0 all accepted, 1 at least one rejected, 2 unreadable input or wrong usage.\n"
+    "Exit status: 0 all accepted and the stream complete, 1 at least one rejected or the stream "
+    "cut,\n"
+    "2 unreadable input, unwritable output or wrong usage.\n"
     "\n"
     "Example: zstdcat proofs.cert.zst | touchstone-check -\n";
 
@@ -34,24 +36,34 @@ void print(const touchstone::checker::Report& report) {
   if (hidden > 0) std::cout << "  and " << hidden << " more\n";
 }
 
+/// \throws std::runtime_error if standard output did not take all that was printed.
+void flush_output() {
+  if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   // Without this std::cin takes an error for the end.
   std::ios::sync_with_stdio(false);
   const std::string path = argc == 2 ? argv[1] : "";
-  if (path.empty() || (path.front() == '-' && path != "-")) {
-    (path == "--help" ? std::cout : std::cerr) << usage;
-    return path == "--help" ? 0 : 2;
-  }
   try {
+    if (path == "--help") {
+      std::cout << usage;
+      flush_output();
+      return 0;
+    }
+    if (path.empty() || (path.front() == '-' && path != "-")) {
+      std::cerr << usage;
+      return 2;
+    }
     std::ifstream file;
     if (path != "-") file.open(path, std::ios::binary);
     if (!file) throw std::runtime_error("the file cannot be opened");
     std::istream& stream = path == "-" ? std::cin : file;
     const auto report = touchstone::checker::check(stream);
     print(report);
-    if (!std::cout.flush()) throw std::runtime_error("the report cannot be written");
+    flush_output();
     return report.all_accepted() ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << "touchstone-check: " << path << ": " << error.what() << '\n';

@@ -222,9 +222,9 @@ TEST(Prove, EveryPlaceOfAContactAtADistance) {
 TEST(Prove, WithoutADistanceTheTextIsAsWithoutASeparation) {
   for (const PosedQuery& posed : {over_triangle(1, 1, 3, -1), over_triangle(1, 1, 3, 1),
                                   tests::turning_triangle(4, 0, 1, 0.5), over_edge(7, 1, 3, -1)}) {
-    const std::string plain = tests::as_stream(tests::prove(posed));
+    const std::string plain = certificate_stream(tests::prove(posed));
     for (const Separation& zero : {Separation{0.0, Norm::l2}, Separation{-0.0, Norm::linf}}) {
-      EXPECT_EQ(tests::as_stream(tests::prove(posed, zero)), plain);
+      EXPECT_EQ(certificate_stream(tests::prove(posed, zero)), plain);
     }
   }
 }
@@ -340,10 +340,10 @@ TEST(Prove, IsIndependentOfTheRoundingMode) {
   for (int repetition = 0; repetition < 40; ++repetition) {
     const PosedQuery posed =
         tests::random_query(random, Kind::edge_edge, tests::Family::near_contact);
-    const std::string usual = tests::as_stream(tests::prove(posed));
+    const std::string usual = certificate_stream(tests::prove(posed));
     for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
       std::fesetround(mode);
-      const std::string other = tests::as_stream(tests::prove(posed));
+      const std::string other = certificate_stream(tests::prove(posed));
       std::fesetround(FE_TONEAREST);
       EXPECT_EQ(other, usual);
     }
@@ -373,7 +373,7 @@ class RoundTrip {
   }
 
   void expect_accepted(const std::string& name) const {
-    const checker::Report report = tests::check(text_);
+    const checker::Report report = tests::check(text_ + certificates_closing_line(queries()));
     EXPECT_EQ(report.time_of_impact, collisions_) << name;
     EXPECT_EQ(report.no_collision, misses_) << name;
     EXPECT_EQ(report.collision, 0U);

@@ -156,6 +156,19 @@ TEST(WriteCertificate, NamesTheLeastDistanceAndNoneOfZero) {
   }
 }
 
+TEST(CertificateStream, BeginsWithItsHeaderAndEndsWithItsCount) {
+  Certificate certificate;
+  certificate.pieces = {{0, 1, {.sort = Feature::Sort::positive_face}}};
+  std::string text;
+  write(text, certificate, "x:1");
+  EXPECT_EQ(certificate_stream(certificate, "x:1"),
+            std::string(certificates_header()) + text + "certificates 1\n");
+  EXPECT_EQ(certificates_closing_line(18446744073709551615U),
+            "certificates 18446744073709551615\n");
+  EXPECT_TRUE(tests::check(std::string(certificates_header()) + certificates_closing_line(0))
+                  .all_accepted());
+}
+
 TEST(WriteCertificate, KeepsLabelsToOneLineAndTheirLimit) {
   std::string text;
   write(text, Certificate{}, "a\nquery b\r\x7f");

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "exact/oracle.hpp"
+#include "tests/support/built_files.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "verify/dataset/dataset.hpp"
@@ -96,7 +97,7 @@ void register_file(const std::filesystem::path& folder, const std::filesystem::p
 void register_datasets() {
   const char* given = std::getenv("TOUCHSTONE_DATA");
   const std::filesystem::path folder =
-      given != nullptr ? given : TOUCHSTONE_SOURCE_DIR "/../shared/datasets";
+      given != nullptr ? given : tests::source_folder() + "/../shared/datasets";
   if (!std::filesystem::exists(folder)) {
     std::cerr << "no datasets at " << folder << '\n';
     return;

@@ -4,7 +4,8 @@
 /// The solver gets the definition and nothing else: unknown reals t, u, v in the domain and the
 /// three equations F = 0 with the coordinates as exact rationals. It answers whether there is a
 /// solution, and whether there is one before the oracle's time of impact. It is asked the hard
-/// queries first. The environment variable TOUCHSTONE_SOAK asks for ten times as many.
+/// queries first. The environment variable TOUCHSTONE_SOAK asks for fifty times as
+/// many random ones.
 
 #include <gtest/gtest.h>
 #include <z3++.h>
@@ -143,10 +144,10 @@ std::vector<PosedQuery> queries_to_ask(int scale) {
       queries.push_back(random_query(random, kind, family));
     }
   };
-  draw(Family::tiny_integers, 70 * scale);
-  draw(Family::small_integers, 70 * scale);
-  draw(Family::near_contact, 100 * scale);
-  draw(Family::full_significands, 40 * scale);
+  draw(Family::tiny_integers, 14 * scale);
+  draw(Family::small_integers, 14 * scale);
+  draw(Family::near_contact, 20 * scale);
+  draw(Family::full_significands, 8 * scale);
   return queries;
 }
 
@@ -222,7 +223,7 @@ TEST(OracleSmt, TheSolverWouldFindAContactBeforeAToiThatIsTooLate) {
 }
 
 TEST(OracleSmt, AgreesWithAnSmtSolver) {
-  const int scale = std::getenv("TOUCHSTONE_SOAK") == nullptr ? 1 : 10;
+  const int scale = std::getenv("TOUCHSTONE_SOAK") == nullptr ? 1 : 50;
   Tally tally;
   for (const PosedQuery& posed : queries_to_ask(scale)) {
     SCOPED_TRACE(posed);
@@ -231,11 +232,11 @@ TEST(OracleSmt, AgreesWithAnSmtSolver) {
     if (verdict.collides()) compare_toi(posed, verdict.impact->toi, tally);
   }
   print_summary(tally);
-  EXPECT_GE(tally.decided, 300U);
+  EXPECT_GE(tally.decided, 100U);
   EXPECT_LE(20 * tally.unknown, tally.decided + tally.unknown) << "more than 5% unknown";
-  EXPECT_GE(tally.tois, 60U);
+  EXPECT_GE(tally.tois, 20U);
   for (const auto& verdicts : tally.agreed) {
-    for (const std::size_t count : verdicts) EXPECT_GE(count, 40U);
+    for (const std::size_t count : verdicts) EXPECT_GE(count, 10U);
   }
 }
 

@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -455,6 +459,63 @@ TEST(BroadPhase, NamesThePrimitiveWithAnIndexOutOfRange) {
   EXPECT_EQ(message<std::out_of_range>([&] { (void)edge_edge_candidates(vertices, edges); }),
             "edge 0: vertex -1, but there are 4");
 }
+
+/// Unconnected edges that all have the same swept box: every pair is a candidate.
+std::pair<MovingVertices, std::vector<Edge>> crowd(std::int32_t count) {
+  Places points(2 * count, 3);
+  std::vector<Edge> edges;
+  for (std::int32_t i = 0; i < count; ++i) {
+    points.row(2 * i) << 0, 0, 0;
+    points.row(2 * i + 1) << 1, 1, 1;
+    edges.push_back({2 * i, 2 * i + 1});
+  }
+  return {MovingVertices(points, points), edges};
+}
+
+TEST(BroadPhase, CountsCandidatesThatAreTooMany) {
+  const auto [vertices, edges] = crowd(400);
+  static constexpr std::uint64_t all = 400U * 399U / 2U;
+  EXPECT_EQ(edge_edge_candidates(vertices, edges, {.max_candidates = all}).size(), all);
+  for (const int threads : {1, 0}) {
+    for (const std::uint64_t most : {std::uint64_t{0}, std::uint64_t{1}, all / 2, all - 1}) {
+      try {
+        static_cast<void>(edge_edge_candidates(vertices, edges,
+                                               {.max_threads = threads, .max_candidates = most}));
+        ADD_FAILURE() << most;
+      } catch (const TooManyCandidates& error) {
+        EXPECT_EQ(error.count(), all);
+        EXPECT_EQ(error.what(), std::string("79800 candidates are too many for the memory"));
+      }
+    }
+  }
+  EXPECT_TRUE(edge_edge_candidates(vertices, {}, {.max_candidates = 0}).empty());
+}
+
+#ifndef __SANITIZE_ADDRESS__
+/// Bytes of address space that this process has.
+std::uint64_t address_space() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+TEST(BroadPhase, CountsCandidatesThatDoNotFitIntoMemory) {
+  // 18 million pairs of eight bytes each, and room for 64 MiB.
+  const auto search = [] {
+    const auto [vertices, edges] = crowd(6000);
+    const rlim_t limit = address_space() + (std::uint64_t{64} << 20U);
+    const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
+    ::setrlimit(RLIMIT_AS, &limits);
+    try {
+      static_cast<void>(edge_edge_candidates(vertices, edges, {.max_threads = 1}));
+    } catch (const TooManyCandidates& error) {
+      _exit(error.count() == 6000U * 5999U / 2U ? 0 : 1);
+    }
+    _exit(2);
+  };
+  EXPECT_EXIT(search(), ::testing::ExitedWithCode(0), "");
+}
+#endif
 
 TEST(BroadPhase, RefusesOptionsThatMakeNoSense) {
   const Scene scene = vertex_beside_triangle(0);

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "verify/dataset/dataset.hpp"
 #include "verify/methods/registry.hpp"
 
@@ -48,7 +49,7 @@ std::string variable(const char* name, const std::string& otherwise) {
 QuerySets read_sets() {
   QuerySets sets;
   const std::filesystem::path data =
-      variable("TOUCHSTONE_DATA", TOUCHSTONE_SOURCE_DIR "/../shared/datasets");
+      variable("TOUCHSTONE_DATA", tests::source_folder() + "/../shared/datasets");
   if (!std::filesystem::exists(data)) std::cerr << "MISSING public data: " << data << '\n';
   for (const std::string name : {"handcrafted", "simulation"}) {
     const std::filesystem::path folder = data / name;

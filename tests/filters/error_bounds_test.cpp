@@ -1,4 +1,5 @@
 #include "filters/error_bounds.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ namespace touchstone::filters {
 namespace {
 
 TEST(ErrorBounds, StandAsTheDerivationGivesThem) {
-  std::ifstream file(TOUCHSTONE_SOURCE_DIR "/filters/error_bounds.hpp", std::ios::binary);
+  std::ifstream file(tests::source_folder() + "/filters/error_bounds.hpp", std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(text, error_bounds_header())
       << "write it anew: touchstone derive --emit filters/error_bounds.hpp";

@@ -11,6 +11,7 @@
 #include "filters/derivation/shipped_bound.hpp"
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
+#include "tests/support/built_files.hpp"
 
 namespace touchstone::filters {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using researcher::Orientation;
 
 std::string read(const std::string& path) {
-  std::ifstream file(TOUCHSTONE_SOURCE_DIR "/" + path, std::ios::binary);
+  std::ifstream file(tests::source_folder() + "/" + path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

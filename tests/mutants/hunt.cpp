@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "verify/fuzz/shrink.hpp"
+#include "verify/fuzz/recheck.hpp"
 #include "verify/methods/registry.hpp"
 
 namespace touchstone::tests {
@@ -58,8 +58,9 @@ Hunt hunt(const Mutant& mutant, const HuntOptions& options) {
 
 Query simplest(const Mutant& mutant, const verify::Finding& finding) {
   const Named method(mutant);
-  return verify::shrink(finding.kind, finding.query,
-                        verify::still_fails(method, finding, fuzz_options(mutant)));
+  verify::Finding simpler = finding;
+  verify::simplify(method, fuzz_options(mutant), {}, simpler);
+  return simpler.simplest.query;
 }
 
 }  // namespace touchstone::tests

@@ -27,7 +27,7 @@ struct Hunt {
 /// Hunts one mutant: the fuzzer as anyone runs it, with its default generators and no queries to begin with.
 [[nodiscard]] Hunt hunt(const Mutant& mutant, const HuntOptions& options);
 
-/// The simplest query in which the mutant does the same wrong (verify/fuzz/shrink.hpp).
+/// The simplest query in which the mutant does the same wrong (verify/fuzz/recheck.hpp).
 [[nodiscard]] Query simplest(const Mutant& mutant, const verify::Finding& finding);
 
 }  // namespace touchstone::tests

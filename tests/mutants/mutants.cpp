@@ -13,33 +13,10 @@
 
 #include "fast/certified.hpp"
 #include "fast/certified/exact_stage.hpp"
-#include "fast/certified/kernel.hpp"
 #include "fast/filter.hpp"
 #include "fast/tight_inclusion.hpp"
-#include "tests/mutants/filter_factors.hpp"
-
-namespace touchstone::fast {
-
-// What CMakeLists.txt here and in tests/fast/ makes, each with one fault.
-extern const BoxKernel box_of_wrong_sign, box_in_float, box_of_squared_width, box_of_least_width,
-    box_of_one_sided_distance, box_of_swapped_corners;
-extern const CertifiedKernel kernel_with_factors, kernel_without_product_error;
-extern const CertifiedKernel fault_in_axis, fault_in_direction, fault_in_determinant,
-    fault_in_bound, fault_in_rejection, fault_in_agreement, fault_in_zero, fault_in_refinement,
-    fault_in_axis_distance, fault_in_widening, fault_in_shift, fault_in_step, fault_in_witness;
-
-using MakeSearch = std::unique_ptr<Method>(const TightInclusionOptions&);
-MakeSearch search_without_domain_edge, search_in_part_of_triangle, search_of_edges_as_triangle,
-    search_split_off_by_one, search_remembers_late, search_gives_upper_time, search_out_of_order,
-    search_claims_its_tolerance, search_forgets_the_remembered;
-
-using DecideExactly = std::optional<ExactImpact>(Kind, const Query&, const Separation&, double,
-                                                 double);
-DecideExactly exact_without_last_bound, exact_without_parallel_case, fault_on_boundary,
-    fault_on_line, fault_in_enclosure, fault_in_neighbour, fault_in_filter, fault_in_general,
-    fault_in_side, fault_in_vertex, fault_in_face, fault_in_cube, fault_in_dip, fault_in_horizon;
-
-}  // namespace touchstone::fast
+#include "tests/faults/filter_factors.hpp"
+#include "tests/faults/planted_faults.hpp"
 
 namespace touchstone::tests {
 namespace {
@@ -137,18 +114,23 @@ PerAxis filter_of_first_axis(Kind kind, const Query& query, double separation) {
   return {right[0], right[0], right[0]};
 }
 
-Make with_box(const fast::BoxKernel& kernel) {
-  return [&kernel] { return fast::tight_inclusion_method({.kernel = &kernel}); };
+// Of a part that this build does not plant there is no mutant.
+
+Make with_box(const fast::BoxKernel* kernel) {
+  if (kernel == nullptr) return nullptr;
+  return [kernel] { return fast::tight_inclusion_method({.kernel = kernel}); };
 }
 
 Make with_search(fast::MakeSearch* make) {
+  if (make == nullptr) return nullptr;
   return [make] { return make({}); };
 }
 
 // ---- Mutants of the certified solver ------------------------------------------------------------
 
-Make with_kernel(const fast::CertifiedKernel& kernel) {
-  return [&kernel] { return fast::certified_method({.kernel = &kernel}); };
+Make with_kernel(const fast::CertifiedKernel* kernel) {
+  if (kernel == nullptr) return nullptr;
+  return [kernel] { return fast::certified_method({.kernel = kernel}); };
 }
 
 /// The certified solver, each query by itself.
@@ -172,7 +154,8 @@ Answer answer_of(const fast::CertifiedResult& result) {
 }
 
 /// With another last stage.
-Make with_exact_stage(fast::DecideExactly* decide) {
+Make with_exact_stage(fast::DecideDistance* decide) {
+  if (decide == nullptr) return nullptr;
   return with_alteration([decide](Kind kind, const Query& query, const MethodOptions& options) {
     const fast::CertifiedOptions all = certified_options(options);
     const fast::CertifiedResult right = fast::certified(kind, query, all);
@@ -264,45 +247,45 @@ std::vector<Mutant> filters_of_tight_inclusion() {
 std::vector<Mutant> parts_of_tight_inclusion() {
   return {
       {"box_of_wrong_sign", tight_inclusion, "a box is dropped below +filter, not below −filter",
-       with_box(fast::box_of_wrong_sign)},
+       with_box(&fast::box_of_wrong_sign)},
       {"box_in_float", tight_inclusion, "products are rounded to float",
-       with_box(fast::box_in_float)},
+       with_box(&fast::box_in_float)},
       {"box_of_squared_width", tight_inclusion,
-       "a box's width is a sum of squares without the root", with_box(fast::box_of_squared_width)},
+       "a box's width is a sum of squares without the root", with_box(&fast::box_of_squared_width)},
       {"box_of_least_width", tight_inclusion,
        "a box's width is the least of 0 and its sides, min for max",
-       with_box(fast::box_of_least_width)},
+       with_box(&fast::box_of_least_width)},
       {"box_of_one_sided_distance", tight_inclusion, "the separation is forgotten on one side",
-       with_box(fast::box_of_one_sided_distance), near},
+       with_box(&fast::box_of_one_sided_distance), near},
       {"box_of_swapped_corners", tight_inclusion,
        "one corner of a triangle's box has the weight of another",
-       with_box(fast::box_of_swapped_corners)},
+       with_box(&fast::box_of_swapped_corners)},
       {"search_without_domain_edge",
        tight_inclusion,
        "boxes that begin on u+v=1 are dropped",
-       with_search(fast::search_without_domain_edge),
+       with_search(&fast::search_without_domain_edge),
        {},
        "Such a box has one point in the domain, its lower corner. The lower half it was split "
        "from, or a "
        "box on the same side of that, is closed and has that point too, at the same times."},
       {"search_in_part_of_triangle", tight_inclusion, "boxes that begin beyond u+v=3/4 are dropped",
-       with_search(fast::search_in_part_of_triangle)},
+       with_search(&fast::search_in_part_of_triangle)},
       {"search_of_edges_as_triangle", tight_inclusion, "two edges are looked at where u+v ≤ 1 only",
-       with_search(fast::search_of_edges_as_triangle)},
+       with_search(&fast::search_of_edges_as_triangle)},
       {"search_split_off_by_one", tight_inclusion, "the upper half begins a whole width later",
-       with_search(fast::search_split_off_by_one)},
+       with_search(&fast::search_split_off_by_one)},
       {"search_remembers_late", tight_inclusion, "a small box is remembered with its upper time",
-       with_search(fast::search_remembers_late)},
+       with_search(&fast::search_remembers_late)},
       {"search_gives_upper_time", tight_inclusion, "a box's upper time is returned",
-       with_search(fast::search_gives_upper_time)},
+       with_search(&fast::search_gives_upper_time)},
       {"search_out_of_order", tight_inclusion, "upper halves in t wait for the end of the level",
-       with_search(fast::search_out_of_order)},
+       with_search(&fast::search_out_of_order)},
       {"search_claims_its_tolerance", tight_inclusion,
        "what runs out of checks claims δ all the same",
-       with_search(fast::search_claims_its_tolerance)},
+       with_search(&fast::search_claims_its_tolerance)},
       {"search_forgets_the_remembered", tight_inclusion,
        "a remembered box after t=1/2 is forgotten",
-       with_search(fast::search_forgets_the_remembered)},
+       with_search(&fast::search_forgets_the_remembered)},
   };
 }
 
@@ -333,79 +316,79 @@ std::vector<Mutant> filters_of_certified() {
        "far beyond the bound."},
       {"kernel_without_product_error", certified,
        "the error of a product is lost, as by contraction to a fused operation",
-       with_kernel(fast::kernel_without_product_error)},
+       with_kernel(&fast::kernel_without_product_error)},
   };
 }
 
 std::vector<Mutant> kernels_of_certified() {
   return {
       {"axis_of_start", certified, "stage axis looks at t=0 only",
-       with_kernel(fast::fault_in_axis)},
+       with_kernel(&fast::fault_in_axis)},
       {"direction_wrong_sign", certified, "stage direction asks for a gap above −bound",
-       with_kernel(fast::fault_in_direction)},
+       with_kernel(&fast::fault_in_direction)},
       {"determinant_of_ends", certified, "the determinant's middle coefficients are left out",
-       with_kernel(fast::fault_in_determinant)},
+       with_kernel(&fast::fault_in_determinant)},
       {"determinant_without_bound", certified, "the determinant has no bound",
-       with_kernel(fast::fault_in_bound)},
+       with_kernel(&fast::fault_in_bound)},
       {"rejection_by_one", certified, "one sign of an orientation is enough to reject",
-       with_kernel(fast::fault_in_rejection)},
+       with_kernel(&fast::fault_in_rejection)},
       {"agreement_of_one", certified, "one sign of an orientation is enough for a contact",
-       with_kernel(fast::fault_in_agreement)},
+       with_kernel(&fast::fault_in_agreement)},
       {"zero_without_orientation", certified, "a zero of the determinant is a contact",
-       with_kernel(fast::fault_in_zero)},
+       with_kernel(&fast::fault_in_zero)},
       {"refinement_unproved", certified, "the enclosure is not proved",
-       with_kernel(fast::fault_in_refinement)},
+       with_kernel(&fast::fault_in_refinement)},
       {"axis_without_distance", certified, "stage axis forgets the distance",
-       with_kernel(fast::fault_in_axis_distance), near},
+       with_kernel(&fast::fault_in_axis_distance), near},
       {"bounds_not_widened", certified, "bounds are not widened by the distance",
-       with_kernel(fast::fault_in_widening), near},
+       with_kernel(&fast::fault_in_widening), near},
       {"bounds_widened_too_little", certified,
        "bounds are widened for the ends' coefficients, not the middle ones",
-       with_kernel(fast::fault_in_shift), near},
+       with_kernel(&fast::fault_in_shift), near},
       {"step_of_one_end", certified, "a step is free if it begins so",
-       with_kernel(fast::fault_in_step), near},
+       with_kernel(&fast::fault_in_step), near},
       {"witness_unproved", certified, "a time of impact that is too early is not noticed",
-       with_kernel(fast::fault_in_witness), near_in_l2},
+       with_kernel(&fast::fault_in_witness), near_in_l2},
   };
 }
 
 std::vector<Mutant> last_stages_of_certified() {
   return {
       {"exact_without_boundary", certified, "contact on the boundary is none",
-       with_exact_stage(fast::fault_on_boundary)},
+       with_exact_stage(&fast::fault_on_boundary)},
       {"exact_line_without_ends", certified, "on a line contact at an end is none",
-       with_exact_stage(fast::fault_on_line)},
+       with_exact_stage(&fast::fault_on_line)},
       {"exact_enclosure_reversed", certified, "the search for a root goes the wrong way",
-       with_exact_stage(fast::fault_in_enclosure)},
+       with_exact_stage(&fast::fault_in_enclosure)},
       {"exact_neighbour", certified,
        "a root at the end of the searched interval is taken for the one before",
-       with_exact_stage(fast::fault_in_neighbour)},
+       with_exact_stage(&fast::fault_in_neighbour)},
       {"exact_filter_8192", certified, "the filter of signs is 8192 times too small",
-       with_exact_stage(fast::fault_in_filter)},
+       with_exact_stage(&fast::fault_in_filter)},
       {"exact_general_early", certified, "the general case gives the lower time twice",
-       with_exact_stage(fast::fault_in_general)},
+       with_exact_stage(&fast::fault_in_general)},
       {"exact_without_last_bound", certified, "the last side of the domain is forgotten",
-       with_exact_stage(fast::exact_without_last_bound)},
+       with_exact_stage(&fast::exact_without_last_bound)},
       {"exact_without_parallel_case", certified, "the case of a normal that is 0 is missing",
-       with_exact_stage(fast::exact_without_parallel_case)},
+       with_exact_stage(&fast::exact_without_parallel_case)},
       {"exact_side_without_distance", certified, "a side is as near as its line is zero",
-       with_exact_stage(fast::fault_in_side), near_in_l2},
+       with_exact_stage(&fast::fault_in_side), near_in_l2},
       {"exact_vertex_off", certified, "the beginning of a side is not subtracted",
-       with_exact_stage(fast::fault_in_vertex), near_in_l2},
+       with_exact_stage(&fast::fault_in_vertex), near_in_l2},
       {"exact_face_without_distance", certified, "a face is as near as its plane is zero",
-       with_exact_stage(fast::fault_in_face), near_in_l2},
+       with_exact_stage(&fast::fault_in_face), near_in_l2},
       {"exact_cube_of_size_zero", certified, "the cube of L∞ has no size",
-       with_exact_stage(fast::fault_in_cube), near},
+       with_exact_stage(&fast::fault_in_cube), near},
       {"exact_form_cut_late",
        certified,
        "a form is looked at up to an end that has moved since",
-       with_exact_stage(fast::fault_in_dip),
+       with_exact_stage(&fast::fault_in_dip),
        near,
        {},
        "A form of a separator must be negative for a moment only, of 2^-40 of the step or less, "
        "just before the root of another form that ends the separator."},
       {"exact_horizon", certified, "what is near from the first contact on only is none",
-       with_exact_stage(fast::fault_in_horizon), near},
+       with_exact_stage(&fast::fault_in_horizon), near},
       {"root_at_start_missing", certified, "contact at t=0 is none",
        with_alteration(without_start)},
       {"root_at_end_missing", certified, "contact at t=1 is none", with_alteration(without_end)},
@@ -425,6 +408,7 @@ std::vector<Mutant> all_mutants() {
                   kernels_of_certified(), last_stages_of_certified()}) {
     std::ranges::move(some, std::back_inserter(all));
   }
+  std::erase_if(all, [](const Mutant& mutant) { return !mutant.make; });
   return all;
 }
 

@@ -31,7 +31,7 @@ struct Mutant {
   std::string_view rare = {};
 };
 
-/// All of them, always in the same order.
+/// All whose parts this build plants (tests/faults), always in the same order.
 [[nodiscard]] const std::vector<Mutant>& mutants();
 
 /// \throws std::invalid_argument if none has the name.

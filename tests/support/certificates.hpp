@@ -34,13 +34,6 @@ namespace touchstone::tests {
   return exact::prove(posed.kind, posed.query, separation, verdict, options);
 }
 
-/// A certificate as a stream of its own.
-[[nodiscard]] inline std::string as_stream(const exact::Certificate& certificate) {
-  std::string text(exact::certificates_header());
-  exact::write(text, certificate);
-  return text;
-}
-
 /// What the checker says of a stream.
 [[nodiscard]] inline checker::Report check(const std::string& stream) {
   std::istringstream in(stream);
@@ -49,7 +42,7 @@ namespace touchstone::tests {
 
 /// Why the checker rejects the certificate; empty if it accepts it.
 [[nodiscard]] inline std::string rejection(const exact::Certificate& certificate) {
-  const checker::Report report = check(as_stream(certificate));
+  const checker::Report report = check(exact::certificate_stream(certificate));
   if (report.all_accepted() && report.accepted() == 1) return {};
   return report.rejections.empty() ? "nothing accepted" : report.rejections.front().reason;
 }

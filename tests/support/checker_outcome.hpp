@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -14,7 +15,7 @@
 
 namespace touchstone::tests {
 
-inline constexpr std::string_view certificate_header = "touchstone-certificates 1\n";
+inline constexpr std::string_view certificate_header = "touchstone-certificates 2\n";
 
 [[nodiscard]] inline checker::Report check_text(const std::string& text,
                                                 const checker::Options& options = {}) {
@@ -22,9 +23,20 @@ inline constexpr std::string_view certificate_header = "touchstone-certificates 
   return checker::check(stream, options);
 }
 
-/// What became of a stream of one certificate: its claim if it is accepted, else "LINE: REASON".
+/// The stream with its closing line: the text of the certificates with one for all `query` lines.
+[[nodiscard]] inline std::string closed(const std::string& text) {
+  std::size_t queries = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.substr(0, line.find(' ')) == "query") ++queries;
+  }
+  return text + "certificates " + std::to_string(queries) + "\n";
+}
+
+/// What became of a stream of one certificate without its closing line: its claim if it is accepted,
+/// else "LINE: REASON".
 [[nodiscard]] inline std::string outcome(const std::string& text) {
-  const checker::Report report = check_text(text);
+  const checker::Report report = check_text(closed(text));
   if (report.accepted() + report.rejected != 1) return "not one certificate";
   EXPECT_EQ(report.rejections.size(), report.rejected);
   if (report.rejected == 1) {

@@ -4,6 +4,7 @@
 /// What nearly every test program includes, to be precompiled (tests/CMakeLists.txt). A test still includes what
 /// it uses.
 
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -17,6 +18,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
 #include <span>

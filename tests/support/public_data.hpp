@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "verify/dataset/dataset.hpp"
 
 namespace touchstone::tests {
@@ -19,7 +20,7 @@ namespace touchstone::tests {
   const char* const variable = std::getenv("TOUCHSTONE_DATA");  // NOLINT(concurrency-mt-unsafe)
   std::filesystem::path folder =
       variable != nullptr ? std::filesystem::path(variable)
-                          : std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "../shared/datasets";
+                          : std::filesystem::path(tests::source_folder()) / "../shared/datasets";
   if (std::filesystem::exists(folder)) return folder;
   std::printf("MISSING public data: %s (set TOUCHSTONE_DATA)\n", folder.c_str());
   return {};

@@ -66,6 +66,17 @@ TEST(CertifyReport, TextHasARowASourceTheTotalAndEachMismatch) {
             "mismatch: b,c/edge-edge.csv: edge-edge query 1: recorded toi 2.5E-1, truth 5E-1");
 }
 
+TEST(CertifyReport, TextShowsNamesOnOneLine) {
+  std::vector<CertifyResult> named = results();
+  named[1].name = "x\x1b[2J\ntotal 9\u202e";
+  const std::string text = to_text(named);
+  EXPECT_NE(text.find("\nx\\x1b[2J\\x0atotal 9\\u202e  edge-edge "), std::string::npos) << text;
+  EXPECT_NE(text.find("mismatch: x\\x1b[2J\\x0atotal 9\\u202e: edge-edge query 0"),
+            std::string::npos);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_EQ(text.find("\ntotal 9"), std::string::npos);
+}
+
 TEST(CertifyReport, JsonHasTotalFilesAndMismatches) {
   const nlohmann::json json = to_json(results());
   EXPECT_EQ(json.at("queries"), 10);
@@ -151,21 +162,22 @@ std::vector<std::string> method_lines(const std::vector<CertifyResult>& judged) 
 TEST(CertifyReport, TextHasTheTotalOfEachMethodAndWhereItBrokeItsPromise) {
   using Words = std::vector<std::string>;
   const auto lines = method_lines(judged_results(Promise::conservative));
-  ASSERT_EQ(lines.size(), 4U + 20 + 1 + 3);
+  ASSERT_EQ(lines.size(), 5U + 20 + 1 + 3);
   EXPECT_EQ(words(lines[1]), (Words{"careful", "2", "0", "0", "0", "0", "0", "0", "12.5",
                                     "2.50e-01", "2.50e-01", "2.50e-01"}));
   EXPECT_EQ(words(lines[2]), (Words{"hasty", "30", "23", "1", "1", "1", "1", "1", "-", "2.50e-01",
                                     "2.50e-01", "2.50e-01"}));
   EXPECT_EQ(words(lines[3]), (Words{"b,c/edge-edge.csv", "edge-edge", "29", "23", "1", "1", "1",
                                     "1", "1", "-", "2.50e-01", "2.50e-01", "2.50e-01"}));
-  EXPECT_EQ(lines[4],
+  EXPECT_EQ(lines[4], "no answer: hasty: 1 no_verdict, 1 undecided");
+  EXPECT_EQ(lines[5],
             "false negative: hasty: b,c/edge-edge.csv: edge-edge query 4: answer no, truth "
             "collision at 0.5");
-  EXPECT_EQ(lines[23], lines[4]);
-  EXPECT_EQ(lines[24],
+  EXPECT_EQ(lines[24], lines[5]);
+  EXPECT_EQ(lines[25],
             "late toi: hasty: b,c/edge-edge.csv: edge-edge query 4: answer toi_lower 0.75, truth "
             "collision at 0.5");
-  EXPECT_EQ(lines[27], "false negative: hasty: b,c/edge-edge.csv: and 3 more");
+  EXPECT_EQ(lines[28], "false negative: hasty: b,c/edge-edge.csv: and 3 more");
 }
 
 TEST(CertifyReport, TextListsFalsePositivesOfThoseHeldToExactness) {
@@ -186,6 +198,8 @@ TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
   const nlohmann::json json = to_json(judged_results(Promise::conservative));
   ASSERT_EQ(json.at("methods").size(), 2U);
   nlohmann::json careful = json.at("methods")[0], hasty = json.at("methods")[1];
+  nlohmann::json no_failures;
+  for (const FailureKind kind : all_failure_kinds) no_failures[to_string(kind)] = 0;
   EXPECT_EQ(
       careful,
       (nlohmann::json{
@@ -198,6 +212,9 @@ TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
           {"early_toi_upper", 0},
           {"undecided", 0},
           {"errors", 0},
+          {"failures", no_failures},
+          {"unplaced_crashes", 0},
+          {"beyond_tolerance", 0},
           {"missing", 0},
           {"ns_per_query", 12.5},
           {"toi_error", {{"count", 2}, {"p50", 0.25}, {"p90", 0.25}, {"p99", 0.25}, {"max", 0.25}}},
@@ -209,6 +226,8 @@ TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
   EXPECT_EQ(hasty.at("early_toi_upper"), 1);
   EXPECT_EQ(hasty.at("undecided"), 1);
   EXPECT_EQ(hasty.at("errors"), 1);
+  EXPECT_EQ(hasty.at("failures").at("no_verdict"), 1);
+  EXPECT_EQ(hasty.at("failures").at("undecided"), 1);
   EXPECT_EQ(hasty.at("missing"), 1);
   EXPECT_TRUE(hasty.at("ns_per_query").is_null());
   ASSERT_EQ(hasty.at("wrong_answers").size(), 27U) << "false positives too";
@@ -229,10 +248,7 @@ constexpr Separation near{.distance = 1e-8, .norm = Norm::l2};
 
 std::vector<CertifyResult> separated_results() {
   std::vector<CertifyResult> all = judged_results(Promise::conservative);
-  for (CertifyResult& result : all) {
-    result.separation = near;
-    result.methods[0].checks_reach = true;
-  }
+  for (CertifyResult& result : all) result.separation = near;
   return all;
 }
 
@@ -258,14 +274,14 @@ TEST(CertifyReport, JsonHasTheSeparationOfFilesAndOfTheTotalIfItIsOne) {
   EXPECT_EQ(to_json(all).at("files")[1].at("separation").at("norm"), "linf");
 }
 
-TEST(CertifyReport, TolerancesHaveAColumnWithASeparation) {
+TEST(CertifyReport, TolerancesHaveAColumnWithASeparationOrAFault) {
   std::vector<CertifyResult> all = separated_results();
   all[0].methods[0].judgement.add_beyond_tolerance(miss,
                                                    {.verdict = Verdict::yes, .tolerance = 0.5});
   const auto lines = method_lines(all);
   EXPECT_TRUE(lines[0].ends_with("  beyond tol"));
   EXPECT_EQ(words(lines[1]).back(), "1");
-  EXPECT_EQ(words(lines[3]).back(), "-") << "it is not known what the hasty one's claim";
+  EXPECT_EQ(words(lines[3]).back(), "0");
   EXPECT_EQ(lines[0].size(), lines[1].size());
   const auto fault = std::ranges::find_if(
       lines, [](const std::string& line) { return line.starts_with("beyond tolerance: "); });
@@ -275,8 +291,11 @@ TEST(CertifyReport, TolerancesHaveAColumnWithASeparation) {
             "tolerance 0.5, truth no collision");
   EXPECT_EQ(to_json(all).at("methods")[0].at("beyond_tolerance"), 1);
   EXPECT_EQ(to_json(all).at("methods")[1].at("beyond_tolerance"), 0);
-  EXPECT_FALSE(
-      to_json(judged_results(Promise::none)).at("methods")[0].contains("beyond_tolerance"));
+  for (CertifyResult& result : all) result.separation = {};
+  EXPECT_TRUE(method_lines(all)[0].ends_with("  beyond tol"));
+  all = judged_results(Promise::none);
+  EXPECT_FALSE(method_lines(all)[0].ends_with("  beyond tol"));
+  EXPECT_EQ(to_json(all).at("methods")[0].at("beyond_tolerance"), 0);
 }
 
 TEST(CertifyReport, TruthIsCsvWhoseDoublesComeBack) {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "verify/certify.hpp"
 #include "verify/dataset/dataset.hpp"
 #include "verify/dataset/separation_file.hpp"
@@ -18,7 +19,7 @@ namespace touchstone::verify {
 namespace {
 
 std::vector<std::filesystem::path> corpus() {
-  return find_datasets({{std::filesystem::path(TOUCHSTONE_SOURCE_DIR) / "tests" / "corpus"}});
+  return find_datasets({{std::filesystem::path(tests::source_folder()) / "tests" / "corpus"}});
 }
 
 std::vector<std::unique_ptr<Respondent>> respondents() {

@@ -27,8 +27,38 @@ TEST(CsvField, QuotesWhereItMust) {
   EXPECT_EQ(csv_field(""), "");
   EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
   EXPECT_EQ(csv_field("a\"b"), "\"a\"\"b\"");
-  EXPECT_EQ(csv_field("a\nb"), "\"a\nb\"");
-  EXPECT_EQ(csv_field("a\rb"), "\"a\rb\"");
+}
+
+TEST(CsvField, IsPrintable) {
+  EXPECT_EQ(csv_field("a\nb"), "a\\x0ab");
+  EXPECT_EQ(csv_field("a\r,b"), "\"a\\x0d,b\"");
+  EXPECT_EQ(csv_field("\x1b[31m"), "\\x1b[31m");
+  EXPECT_EQ(csv_field("caf\xe9"), "caf\\xe9");
+  EXPECT_EQ(csv_field("\u202eabc"), "\\u202eabc");
+}
+
+TEST(CsvField, IsNoFormula) {
+  EXPECT_EQ(csv_field("=1+1"), "'=1+1");
+  EXPECT_EQ(csv_field("+x"), "'+x");
+  EXPECT_EQ(csv_field("-x"), "'-x");
+  EXPECT_EQ(csv_field("@SUM(A1)"), "'@SUM(A1)");
+  EXPECT_EQ(csv_field("=HYPERLINK(\"a\",1)"), "\"'=HYPERLINK(\"\"a\"\",1)\"");
+  EXPECT_EQ(csv_field("'=1"), "''=1");
+  EXPECT_EQ(csv_field("'a"), "'a");
+  for (const std::string number : {"-1", "+1.5", "-1e-300", "-inf", "-"}) {
+    EXPECT_EQ(csv_field(number), number);
+  }
+}
+
+TEST(TextOfField, IsWhatTheFieldWasMadeOf) {
+  for (const std::string text :
+       {"a b", "=1+1", "'=1+1", "''-x", "'a", "-1", "-x", "a'=b", "", "'"}) {
+    const std::string field = csv_field(text);
+    EXPECT_EQ(text_of_field(field), text);
+  }
+  EXPECT_EQ(text_of_field(csv_field("a\nb")), "a\\x0ab");
+  EXPECT_EQ(text_of_field("a\nb"), "a\\x0ab") << "as others write it";
+  EXPECT_EQ(text_of_field("=1+1"), "=1+1") << "as others write it";
 }
 
 TEST(SplitCsv, SplitsAtCommas) {
@@ -73,9 +103,8 @@ TEST(SplitCsv, NamesTheFieldAtFault) {
   }
 }
 
-TEST(SplitCsv, UndoesCsvField) {
-  for (const std::string_view text :
-       {"", "a", " ", ",", "\"", "\"\"", ",\"", "\",\"", "a\nb", "\r\n", "é,ü"}) {
+TEST(SplitCsv, UndoesTheQuotesOfCsvField) {
+  for (const std::string_view text : {"", "a", " ", ",", "\"", "\"\"", ",\"", "\",\"", "é,ü"}) {
     EXPECT_EQ(fields_of(csv_field(text) + "," + csv_field(text)),
               (Fields{std::string(text), std::string(text)}));
   }

@@ -40,7 +40,8 @@ TEST(Solve, CountsAndHandsOutTheAnswersInOrder) {
   for (const unsigned threads : {1U, 3U}) {
     MemorySource source(Kind::edge_edge, scripted(10000));
     std::uint64_t next = 0;
-    const auto on_answer = [&](std::uint64_t index, const Answer& answer) {
+    const auto on_answer = [&](std::uint64_t index, const Answer& answer, const Failure* failure) {
+      ASSERT_EQ(failure, nullptr);
       ASSERT_EQ(index, next + 10);
       ASSERT_EQ(answer.verdict, static_cast<Verdict>(next % 5 % 4));
       ASSERT_EQ(answer.toi_lower, static_cast<double>(next));
@@ -54,6 +55,8 @@ TEST(Solve, CountsAndHandsOutTheAnswersInOrder) {
     EXPECT_EQ(result.yes, 2000U);
     EXPECT_EQ(result.undecided, 2000U);
     EXPECT_EQ(result.errors, 2000U);
+    EXPECT_EQ(result.failures[static_cast<std::size_t>(FailureKind::no_verdict)], 2000U);
+    EXPECT_EQ(result.failures[static_cast<std::size_t>(FailureKind::undecided)], 2000U);
     EXPECT_EQ(result.skipped, 3U);
     EXPECT_EQ(result.rounded, 5U);
     EXPECT_GT(result.nanoseconds_per_query(), 0.0);
@@ -76,7 +79,8 @@ TEST(Solve, AnErrorOrAStopLosesNothingBeforeIt) {
   std::uint64_t seen = 0;
   const SolveResult stopped = solve(
       source, *respondent,
-      {.on_answer = [&](std::uint64_t, const Answer&) { stop = ++seen > 100; }, .stop = &stop});
+      {.on_answer = [&](std::uint64_t, const Answer&, const Failure*) { stop = ++seen > 100; },
+       .stop = &stop});
   EXPECT_TRUE(stopped.interrupted);
   EXPECT_EQ(stopped.queries, seen);
   EXPECT_GT(seen, 100U);

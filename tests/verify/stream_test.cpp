@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tests/support/memory_source.hpp"
+#include "verify/terminal.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -86,6 +87,34 @@ TEST(Stream, AnErrorOfTheSourceLosesNothingBeforeIt) {
   EXPECT_EQ(collected.indices.size(), Block::size + 5);
   EXPECT_EQ(collected.result.error, "row is broken");
   EXPECT_FALSE(collected.result.interrupted);
+}
+
+/// A source whose wait for query number 5 an interrupt ends.
+class InterruptedSource final : public QuerySource {
+ public:
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Kind kind() const override { return Kind::edge_edge; }
+  [[nodiscard]] std::optional<RecordedQuery> next() override {
+    if (position_ == 5) throw Interrupted();
+    return RecordedQuery{.query = {}, .index = position_++, .collides = {}, .toi = {}};
+  }
+  [[nodiscard]] double progress() const override { return 0.0; }
+
+ private:
+  std::string name_ = "interrupted";
+  std::uint64_t position_ = 0;
+};
+
+TEST(Stream, AnInterruptOfTheSourceIsNoErrorAndLosesNothingBeforeIt) {
+  InterruptedSource source;
+  std::size_t queries = 0;
+  const auto work = [&](const Block& block) -> BlockResult {
+    return {.in_order = [&] { queries += block.queries.size(); }};
+  };
+  const StreamResult result = stream(source, work, {});
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_FALSE(result.error);
+  EXPECT_EQ(queries, 5U);
 }
 
 TEST(Stream, AnExceptionOfTheWorkEndsItAndIsTold) {

@@ -30,5 +30,15 @@ TEST(ThreadClock, IsTheThreadsOwn) {
   EXPECT_LT(thread_nanoseconds() - start, 50e6);
 }
 
+TEST(ProcessClock, CountsAllThreads) {
+  const double start = process_seconds();
+  std::thread worker([] {
+    const double own_start = thread_nanoseconds();
+    while (thread_nanoseconds() < own_start + 20e6) continue;
+  });
+  worker.join();
+  EXPECT_GE(process_seconds() - start, 0.02);
+}
+
 }  // namespace
 }  // namespace touchstone::verify

@@ -26,11 +26,11 @@
 #include "verify/cli/respondents.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/contender.hpp"
-#include "verify/methods/plugin.hpp"
 #include "verify/methods/registry.hpp"
 #include "verify/moving_mesh.hpp"
 #include "verify/query_group.hpp"
 #include "verify/separation.hpp"
+#include "verify/solvers/process_contender.hpp"
 #include "verify/step_bench.hpp"
 #include "verify/terminal.hpp"
 #include "verify/workload.hpp"
@@ -85,7 +85,9 @@ class BenchRun {
           throw std::runtime_error(file.string() + ": named for input and output");
       }
     }
-    for (const fs::path& path : arguments.solvers.plugins) plugins_.push_back(load_plugin(path));
+    for (const fs::path& path : arguments.solvers.plugins) {
+      plugins_.push_back(arguments.solvers.load(path));
+    }
     report_.options = arguments.bench;
     report_.options.threads = arguments.sources.threads;
     report_.options.stop = &interrupted();
@@ -100,11 +102,10 @@ class BenchRun {
       for (const fs::path& path : arguments_.sources.paths) bench_path(path);
     }
     if (json_) {
-      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-      json_.write(to_json(report_).dump(2, ' ', false, replace_bad_utf8) + "\n");
+      json_.write(json_document(to_json(report_)));
     }
     json_.close();
-    fmt::print(json_.is_standard_output() ? stderr : stdout, "{}", to_text(report_));
+    print(json_.is_standard_output() ? stderr : stdout, to_text(report_));
     return status();
   }
 
@@ -118,7 +119,10 @@ class BenchRun {
       contenders.push_back(name == certified_name ? contend_certified(options, certified_)
                                                   : contend(find_method(name), options));
     }
-    for (const auto& plugin : plugins_) contenders.push_back(contend(*plugin, options));
+    for (const auto& plugin : plugins_) {
+      contenders.push_back(
+          std::make_unique<ProcessContender>(*plugin, options, arguments_.solvers.process()));
+    }
     return contenders;
   }
 
@@ -130,6 +134,10 @@ class BenchRun {
     options.separation = separation;
     options.on_progress = [&bar](double fraction) { bar.update(fraction); };
     report_.groups.push_back(bench(group, contenders, options));
+    bar.clear();
+    for (const auto& contender : contenders) {
+      report_output(contender->name(), contender->take_output(), arguments_.solvers.show_output);
+    }
   }
 
   /// The candidates of a mesh, from index pairs too.
@@ -277,18 +285,18 @@ void add_bench_command(CLI::App& app, Status& status) {
       "bench", "Time solvers beside a pass that only reads the queries, and judge their answers");
   add_source_options(*command, arguments->sources);
   add_solver_options(*command, arguments->solvers);
-  // One query at a time could be limited only in a process of its own.
-  command->remove_option(command->get_option("--query-limit"));
   add_bench_options(*command, *arguments);
   command->footer(
       "Without PATH the built-in workload: two patches of triangle mesh that move through each\n"
-      "other, and the generated hard set. The queries of a PATH are one group a kind. Solvers run "
-      "in\n"
-      "this process, one thread, plugins too: one that crashes ends the run (certify names the "
-      "query).\n"
+      "other, and the generated hard set. The queries of a PATH are one group a kind. Our solvers "
+      "run\n"
+      "in this process, in one thread; plugins in child processes, where a crash, or a query "
+      "beyond\n"
+      "--query-limit, costs one answer.\n"
       "With --step the candidates of our broad phase are the queries, and the whole step is timed "
       "from\n"
-      "broad phase to the times of impact, with one thread and with --threads.\n"
+      "broad phase to the times of impact, with one thread and with --threads: wall and processor "
+      "time.\n"
       "With --min-separation candidates are the pairs whose boxes come that near.\n"
       "Exit status: 0 all is well, 1 a solver gave an answer that its promise excludes, 2 bad "
       "input or\n"

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -78,11 +80,38 @@ void require_separate_files(const Arguments& arguments, const Files& files,
   }
 }
 
-Found find(const MovingMesh& mesh, Kind kind, const fast::BroadPhaseOptions& options) {
+/// So many candidates of a kind fit into the memory that is free now; no limit where the system does
+/// not say.
+std::uint64_t candidates_in_free_memory() {
+  static constexpr std::uint64_t bytes_each = 24;
+  std::ifstream file("/proc/meminfo");
+  for (std::string word; file >> word;) {
+    std::uint64_t kibibytes = 0;
+    if (word == "MemAvailable:" && file >> kibibytes) return kibibytes * 1024 / bytes_each;
+  }
+  return std::numeric_limits<std::uint64_t>::max();
+}
+
+/// \throws std::runtime_error saying how many candidates there are, and what to do, if they are too many.
+std::vector<fast::IndexPair> find_pairs(const MovingMesh& mesh, Kind kind,
+                                        const fast::BroadPhaseOptions& options) {
+  try {
+    return kind == Kind::vertex_face
+               ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
+               : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);
+  } catch (const fast::TooManyCandidates& error) {
+    throw std::runtime_error(fmt::format(
+        "{}: {} {} candidates, more than the {} that fit into memory: take frames that are nearer "
+        "in "
+        "time, a smaller --min-separation or a part of the mesh, or allow more by --max-candidates",
+        mesh.name, error.count(), to_string(kind), options.max_candidates));
+  }
+}
+
+Found find(const MovingMesh& mesh, Kind kind, fast::BroadPhaseOptions options) {
   const auto start = std::chrono::steady_clock::now();
-  std::vector<fast::IndexPair> pairs =
-      kind == Kind::vertex_face ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
-                                : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);
+  if (options.max_candidates == 0) options.max_candidates = candidates_in_free_memory();
+  std::vector<fast::IndexPair> pairs = find_pairs(mesh, kind, options);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   return {.kind = kind, .pairs = std::move(pairs), .seconds = time.count()};
 }
@@ -117,14 +146,14 @@ nlohmann::json summary(const MovingMesh& mesh, const std::vector<Found>& all) {
 }
 
 void print_table(std::FILE* stream, const MovingMesh& mesh, const std::vector<Found>& all) {
-  fmt::print(stream, "{:<12}  {:>10}\n", "mesh", "count");
-  fmt::print(stream, "{:<12}  {:>10}\n", "vertices", mesh.vertices.size());
-  fmt::print(stream, "{:<12}  {:>10}\n", "edges", mesh.edges.size());
-  fmt::print(stream, "{:<12}  {:>10}\n\n", "faces", mesh.faces.size());
-  fmt::print(stream, "{:<12}  {:>10}  {:>8}\n", "candidates", "count", "seconds");
+  print(stream, fmt::format("{:<12}  {:>10}\n", "mesh", "count"));
+  print(stream, fmt::format("{:<12}  {:>10}\n", "vertices", mesh.vertices.size()));
+  print(stream, fmt::format("{:<12}  {:>10}\n", "edges", mesh.edges.size()));
+  print(stream, fmt::format("{:<12}  {:>10}\n\n", "faces", mesh.faces.size()));
+  print(stream, fmt::format("{:<12}  {:>10}  {:>8}\n", "candidates", "count", "seconds"));
   for (const Found& found : all) {
-    fmt::print(stream, "{:<12}  {:>10}  {:>8.3f}\n", to_string(found.kind), found.pairs.size(),
-               found.seconds);
+    print(stream, fmt::format("{:<12}  {:>10}  {:>8.3f}\n", to_string(found.kind),
+                              found.pairs.size(), found.seconds));
   }
 }
 
@@ -143,7 +172,7 @@ Status candidates(const Arguments& arguments) {
   write_index_pairs(files.edge_edge_pairs, all[1].pairs);
   write_queries(files.vertex_face, mesh, all[0]);
   write_queries(files.edge_edge, mesh, all[1]);
-  if (json) json.write(summary(mesh, all).dump(2) + "\n");
+  if (json) json.write(json_document(summary(mesh, all)));
   json.close();
   print_table(json.is_standard_output() ? stderr : stdout, mesh, all);
   return interrupted() ? Status::interrupted : Status::all_well;
@@ -169,6 +198,13 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--max-threads", arguments.broad_phase.max_threads, "Cores to use; 0: all")
       ->capture_default_str()
       ->check(whole_number(0, INT_MAX));
+  command
+      .add_option(
+          "--max-candidates", arguments.broad_phase.max_candidates,
+          "More of a kind are an error that says how many there are; 0: as many as fit into "
+          "the free memory")
+      ->default_val(0)
+      ->check(whole_number(0, UINT64_MAX));
   command.add_option("--json", arguments.json_file, "Write the summary as JSON")->type_name("FILE");
 }
 

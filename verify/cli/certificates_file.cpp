@@ -18,7 +18,8 @@ void CertificatesFile::write(std::string_view certificates) {
   }
 }
 
-void CertificatesFile::close() {
+void CertificatesFile::close(std::uint64_t certificates) {
+  write(exact::certificates_closing_line(certificates));
   if (output_ && !output_.failed() && compressor_) put(compressor_->finish());
   output_.close();
 }

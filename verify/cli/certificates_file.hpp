@@ -34,8 +34,8 @@ class CertificatesFile {
   /// Appends whole certificates.
   void write(std::string_view certificates);
 
-  /// Completes the stream and the file.
-  void close();
+  /// Completes the stream, of so many certificates, and the file.
+  void close(std::uint64_t certificates);
 
  private:
   void put(std::string_view bytes);

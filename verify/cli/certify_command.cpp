@@ -76,12 +76,12 @@ class CertifyRun {
          .stopped = [this] { return stopped(); },
          .is_output = [this](const fs::path& path) { return is_output(path); }});
     report_answers();
+    respondents_.report_output(arguments_.judged.show_output);
     // Files first: a closed standard output must not cost them.
     truth_.close();
-    proof_.close();
+    proof_.close(sum_.proofs.certificates());
     if (json_) {
-      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-      json_.write(to_json(results_).dump(2, ' ', false, replace_bad_utf8) + "\n");
+      json_.write(json_document(to_json(results_)));
     }
     json_.close();
     print_summary();
@@ -101,8 +101,8 @@ class CertifyRun {
     const bool is_standard_output =
         json_.is_standard_output() || truth_.is_standard_output() || proof_.is_standard_output();
     std::FILE* const stream = is_standard_output ? stderr : stdout;
-    fmt::print(stream, "{}", to_text(results_));
-    if (proof_) fmt::print(stream, "\n{}", to_text(sum_.proofs));
+    print(stream, to_text(results_));
+    if (proof_) print(stream, fmt::format("\n{}", to_text(sum_.proofs)));
     report_beyond_limits(sum_.proofs);
   }
 
@@ -135,8 +135,8 @@ class CertifyRun {
     result.separation = arguments_.sources.separation.given();
     result.fail(error.what());
     for (const Respondent* respondent : respondents_.all()) {
-      result.methods.push_back({respondent->name(), respondent->promise(), respondent->timed(),
-                                Judgement{}, respondent->reach() != nullptr});
+      result.methods.push_back(
+          {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
     }
     add(std::move(result));
   }
@@ -201,7 +201,7 @@ void add_judged_options(CLI::App& command, RespondentArguments& judged) {
   command
       .add_option("--results", judged.results,
                   "Judge the answers of this file: file,index,kind,verdict,toi_lower,toi_upper,"
-                  "tolerance (as touchstone solve writes it)")
+                  "tolerance and maybe failure (as touchstone solve writes it)")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command.add_flag("--exact", judged.exact,
@@ -241,9 +241,9 @@ void add_certify_command(CLI::App& app, Status& status) {
       "and written).\n"
       "With --min-separation the truth is about that distance; of what is recorded about contact "
       "only\n"
-      "what follows is compared: a collision must collide, no later. A yes of Tight-Inclusion is "
-      "held\n"
-      "to its tolerance: the primitives must come within it, the distance and twice the filter.\n"
+      "what follows is compared: a collision must collide, no later.\n"
+      "A yes is held to the tolerance it comes with: the primitives must come within it and the\n"
+      "distance (of Tight-Inclusion twice its filter, too).\n"
       "Example: touchstone certify data/handcrafted --json result.json --truth truth.csv\n"
       "Example: touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion");
   command->callback([arguments, command, &status] {

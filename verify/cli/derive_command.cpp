@@ -117,10 +117,10 @@ Status derive(const Arguments& arguments) {
     result = filters::derive(options);
   }
   if (header) header.write(filters::error_bounds_header());
-  if (json) json.write(to_json(arguments, result).dump(2) + "\n");
+  if (json) json.write(json_document(to_json(arguments, result)));
   header.close();
   json.close();
-  fmt::print("{}", to_table(result));
+  print(stdout, to_table(result));
   return status_of(arguments, result);
 }
 

@@ -21,13 +21,11 @@
 #include "verify/dataset/csv_dataset.hpp"
 #include "verify/dataset/dataset.hpp"
 #include "verify/dataset/separation_file.hpp"
-#include "verify/decision.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
 #include "verify/fuzz/reproduce.hpp"
-#include "verify/fuzz/shrink.hpp"
-#include "verify/methods/plugin.hpp"
 #include "verify/methods/registry.hpp"
+#include "verify/printable.hpp"
 #include "verify/separation.hpp"
 #include "verify/terminal.hpp"
 
@@ -38,7 +36,7 @@ namespace fs = std::filesystem;
 
 constexpr double default_seconds = 60.0;
 constexpr double longest_run = 1e7;
-/// Seconds for making a finding simpler.
+/// Seconds for making a finding simpler, at most.
 constexpr double shrink_seconds = 5.0;
 
 struct Arguments {
@@ -49,6 +47,7 @@ struct Arguments {
   std::uint64_t seed = default_seed;
   std::uint64_t most_findings = 20;
   std::string kind;
+  std::vector<std::string> only;
   std::vector<fs::path> corpus;
   std::string out_file;
   std::string json_file;
@@ -56,6 +55,12 @@ struct Arguments {
   [[nodiscard]] std::vector<Kind> kinds() const {
     if (kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
     return {kind_from_string(kind)};
+  }
+
+  [[nodiscard]] std::vector<FindingKind> sought() const {
+    std::vector<FindingKind> result;
+    for (const std::string& name : only) result.push_back(finding_kind_from_string(name).value());
+    return result;
   }
 };
 
@@ -188,30 +193,41 @@ class FuzzRun {
     options_.method = arguments.solver.options;
     if (arguments.solver.exact) options_.promise = fast::Promise::exact;
     options_.query_limit_seconds = arguments.solver.query_limit;
+    options_.limits = arguments.solver.limits();
     options_.most_findings = arguments.most_findings;
+    options_.shrink_seconds = shrink_seconds;
+    options_.only = arguments.sought();
     options_.corpus = read_corpus(arguments);
     options_.kinds = arguments.kinds();
     options_.stop = &interrupted();
     options_.on_progress = [this](const FuzzProgress& progress) { show(progress); };
     options_.on_finding = [this](const Finding& finding) { add(finding); };
+    asked_ = {.method = std::string(method_->name()),
+              .plugin = plugin_ ? fs::absolute(arguments.solver.plugins.front()) : fs::path(),
+              .promise = options_.promise.value_or(method_->promise()),
+              .options = method_options(options_),
+              .query_limit_seconds = options_.query_limit_seconds,
+              .limits = options_.limits};
   }
 
   Status run() {
-    const FuzzReport report{.method = std::string(method_->name()),
-                            .promise = options_.promise.value_or(method_->promise()),
+    const FuzzReport report{.solver = asked_,
                             .seed = options_.seed,
-                            .separation = options_.separation,
+                            .seconds = options_.seconds,
+                            .queries = options_.most_queries,
+                            .only = options_.only,
                             .result = fuzz(*method_, options_)};
     bar_.clear();
-    report_unplaced_crashes(report.method, report.result.unplaced_crashes);
+    report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
+    report_output(asked_.method, report.result.output, arguments_.solver.show_output);
     const std::vector<fs::path> written = found_.close();
     if (json_) {
-      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-      json_.write(with_shrunk(to_json(report)).dump(2, ' ', false, replace_bad_utf8) + "\n");
+      json_.write(json_document(to_json(report)));
     }
     json_.close();
-    fmt::print(out(), "{}", to_text(report));
-    for (const fs::path& file : written) fmt::print(out(), "written: {}\n", file.string());
+    print(out(), to_text(report));
+    for (const fs::path& file : written)
+      print(out(), fmt::format("written: {}\n", printable(file.string())));
     return status(report.result);
   }
 
@@ -226,7 +242,7 @@ class FuzzRun {
       options_.reach = reach_of(method_->name());
       return;
     }
-    plugin_ = load_plugin(solver.plugins.front());
+    plugin_ = solver.load(solver.plugins.front());
     method_ = plugin_.get();
   }
 
@@ -242,59 +258,31 @@ class FuzzRun {
     bar_.update(fraction);
   }
 
-  /// Makes a finding simpler, if it is wrong alone too, and prints it.
   void add(const Finding& finding) {
     bar_.clear();
-    fmt::print(out(), "{}", to_text(finding));
-    const auto fails = still_fails(*method_, finding, options_);
-    const auto fails_uninterrupted = [&fails](const Query& query) {
-      return !interrupted() && fails(query);
-    };
-    Finding shrunk = finding;
-    if (fails_uninterrupted(finding.query)) {
-      shrunk.query =
-          shrink(finding.kind, finding.query, fails_uninterrupted, {.seconds = shrink_seconds});
-      shrunk.collides = Decision(finding.kind, shrunk.query, finding.separation).collides();
-    } else {
-      fmt::print(out(), "  asked alone, it is not wrong\n");
+    print(out(), to_text(finding, asked_));
+    const FailingCase& simplest = finding.simplest;
+    const FailingCase& original = finding.original;
+    found_.write(finding.kind, simplest.query, simplest.collides);
+    if (simplest.query != original.query) {
+      found_.write(finding.kind, original.query, original.collides);
     }
-    print_query(shrunk);
-    std::fflush(out());
-    found_.write(shrunk.kind, shrunk.query, shrunk.collides);
-    if (shrunk.query != finding.query) found_.write(finding.kind, finding.query, finding.collides);
-    shrunk_.push_back(shrunk);
-  }
-
-  void print_query(const Finding& shrunk) const {
-    const auto& plugins = arguments_.solver.plugins;
-    const Reproduction reproduction{.kind = shrunk.kind,
-                                    .query = shrunk.query,
-                                    .separation = shrunk.separation,
-                                    .collides = shrunk.collides,
-                                    .method = shrunk.method,
-                                    .what = std::string(to_string(shrunk.what)),
-                                    .plugin = plugins.empty() ? fs::path() : plugins.front(),
-                                    .exact_plugin = arguments_.solver.exact};
-    fmt::print(out(), "\n{}\nAs rows of a dataset, {} {}:\n{}\nAs a test:\n{}\n",
-               as_points(shrunk.kind, shrunk.query), to_string(shrunk.kind),
-               shrunk.collides ? "that collides" : "that does not collide",
-               as_csv(shrunk.query, shrunk.collides), as_cpp_test(reproduction));
-  }
-
-  /// Adds to each finding the simplest query, as `shrunk`.
-  [[nodiscard]] nlohmann::json with_shrunk(nlohmann::json report) const {
-    for (std::size_t i = 0; i < shrunk_.size(); ++i) {
-      const nlohmann::json shrunk = to_json(shrunk_[i]);
-      report.at("findings").at(i)["shrunk"] = {{"coordinates", shrunk.at("coordinates")},
-                                               {"collides", shrunk_[i].collides}};
-    }
-    return report;
   }
 
   [[nodiscard]] Status status(const FuzzResult& result) const {
-    if (result.all_findings != 0 || result.unplaced_crashes != 0) return Status::wrong_answers;
+    const bool seeks_ends =
+        seeks(options_, FindingKind::crash) || seeks(options_, FindingKind::exit);
+    if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
+      return Status::wrong_answers;
+    }
     if (json_.failed()) return Status::bad_input;
-    return result.interrupted ? Status::interrupted : Status::all_well;
+    if (result.ended_by == FuzzEnd::interrupt) return Status::interrupted;
+    if (result.queries != 0) return Status::all_well;
+    report_error(fmt::format(
+        "nothing was judged: {} answered no query in {} s; give it more --seconds, or a "
+        "--query-limit below them to find the query that holds it up",
+        asked_.method, options_.seconds));
+    return Status::bad_input;
   }
 
   const Arguments& arguments_;
@@ -304,8 +292,16 @@ class FuzzRun {
   std::unique_ptr<fast::Method> plugin_;
   const fast::Method* method_ = nullptr;
   FuzzOptions options_;
-  std::vector<Finding> shrunk_;
+  SolverCall asked_;
 };
+
+std::vector<std::string> finding_kind_names() {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < finding_kinds; ++i) {
+    names.emplace_back(to_string(static_cast<FindingKind>(i)));
+  }
+  return names;
+}
 
 void add_search_options(CLI::App& command, Arguments& arguments) {
   command
@@ -325,6 +321,12 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
       ->check(whole_number(0, UINT32_MAX));
   command.add_option("--kind", arguments.kind, "Only queries of this kind")
       ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
+  command
+      .add_option("--only", arguments.only,
+                  "Seek findings of this kind only; others are counted and no more")
+      ->type_name("KIND")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(finding_kind_names()));
   command
       .add_option("--corpus", arguments.corpus,
                   "Dataset files (.csv, .npy) or folders, whose queries are mutated")
@@ -347,7 +349,6 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
-  arguments->solver.query_limit = FuzzOptions{}.query_limit_seconds;
   add_solver_options(*command, arguments->solver);
   command->add_flag("--exact", arguments->solver.exact,
                     "Hold the solver to exactness: false positives are findings too");
@@ -356,15 +357,19 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   add_output_options(*command, *arguments);
   command->footer(
       "The solver (one --method or --plugin) runs in a child process. Sought are false\n"
-      "negatives, times of impact that exclude the true one, crashes, hangs, numbers that are\n"
-      "none, a yes that claims more nearness than there is, and of what calls itself exact\n"
-      "false positives and other answers to exact images of a query. The certified solver\n"
-      "judges, the oracle one answer in a hundred again and every finding; of method certified\n"
-      "the oracle judges all. Findings are made as simple as they go, and printed as points, as\n"
-      "rows of a dataset and as a C++ test. A seed and --queries determine them.\n"
-      "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, 130 interrupted with\n"
-      "nothing found.\n"
+      "negatives, times of impact that exclude the true one, a yes beyond the tolerance that it\n"
+      "states, crashes, exits, exceptions, missing verdicts, numbers that are not finite, hangs,\n"
+      "and of what calls itself exact false positives, undecided and other answers to exact\n"
+      "images of a query. --only KIND, several times if need be, seeks that alone. The\n"
+      "certified solver judges, the oracle one answer in a hundred again and every finding; of\n"
+      "method certified the oracle judges all. Findings are made as simple as they go, and\n"
+      "printed as points, as a command that asks again with all that the solver was asked with,\n"
+      "and as a C++ test.\n"
+      "A seed and --queries determine them. --seconds bounds all of that.\n"
+      "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, or nothing was judged,\n"
+      "130 interrupted with nothing found.\n"
       "Example: touchstone fuzz --method tight_inclusion --seconds 600 --json result.json\n"
+      "Example: touchstone fuzz --plugin ./libsolver.so --only false_negative --only late_toi\n"
       "Example: touchstone fuzz --plugin ./libsolver.so --exact --out found.csv --corpus data");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);

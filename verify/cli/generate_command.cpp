@@ -17,6 +17,7 @@
 #include "verify/dataset/separation_file.hpp"
 #include "verify/dataset/toi_writer.hpp"
 #include "verify/families/families.hpp"
+#include "verify/printable.hpp"
 #include "verify/separation.hpp"
 #include "verify/terminal.hpp"
 
@@ -53,7 +54,7 @@ std::vector<Family> chosen(const std::vector<std::string>& names, const Separati
 
 void list_families(const std::vector<Family>& chosen_families) {
   for (const Family& family : chosen_families)
-    fmt::print("{}\n    {}\n", family.name, family.reason);
+    print(stdout, fmt::format("{}\n    {}\n", family.name, family.reason));
 }
 
 /// The query without what is known of it at another separation.
@@ -164,13 +165,14 @@ Status generate(const Arguments& arguments) {
         written.is_known ? nlohmann::json(written.collisions) : nlohmann::json();
     if (!is_contact(separation)) json.back()["separation"] = to_json(separation);
   }
-  if (json_output) json_output.write(json.dump(2) + "\n");
+  if (json_output) json_output.write(json_document(json));
   json_output.close();
-  fmt::print("{} queries, {} of them collisions{}, in {} files below {}\n", queries, collisions,
-             is_contact(separation)
-                 ? ""
-                 : " at minimum separation " + to_text(separation) + " by construction",
-             files.size(), arguments.folder);
+  print(stdout, fmt::format("{} queries, {} of them collisions{}, in {} files below {}\n", queries,
+                            collisions,
+                            is_contact(separation) ? ""
+                                                   : " at minimum separation " +
+                                                         to_text(separation) + " by construction",
+                            files.size(), printable(arguments.folder)));
   return interrupted() ? Status::interrupted : Status::all_well;
 }
 

@@ -1,16 +1,34 @@
 // The command line: one subcommand a job.
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
 #include <cstdio>
 #include <exception>
-#include <stdexcept>
+#include <sstream>
 
 #include "fast/arithmetic_check.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/printable.hpp"
+#include "verify/terminal.hpp"
 
 namespace {
 
+using touchstone::verify::print;
 using touchstone::verify::cli::Status;
+
+/// No file that is opened later may become a standard stream that was closed when the program began, and
+/// take what is printed. Writing to what stands in fails, as it would have.
+void open_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) >= 0) continue;
+    // The lowest free number is given out, and that is this one.
+    [[maybe_unused]] const int opened =
+        ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
 
 int run(int argc, char** argv) {
   CLI::App app{"Touchstone: whether and when two moving primitives touch, exactly."};
@@ -18,6 +36,11 @@ int run(int argc, char** argv) {
       "Exit status: 0 all is well, 1 wrong answers found, 2 bad input or usage, 130 interrupted.\n"
       "Example: touchstone certify path/to/queries");
   app.set_version_flag("--version", TOUCHSTONE_VERSION);
+  // What was on the command line stands in the message.
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return touchstone::verify::printable(error.what()) +
+           "\nRun with --help for more information.\n";
+  });
   app.require_subcommand(1);
   Status status = Status::all_well;
   touchstone::verify::cli::add_certify_command(app, status);
@@ -33,7 +56,11 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
+    // Help and version are exceptions, too.
+    std::ostringstream help, reason;
+    const int code = app.exit(error, help, reason);
+    print(stdout, help.str());
+    print(stderr, reason.str());
     return static_cast<int>(code == 0 ? Status::all_well : Status::bad_input);
   }
   return static_cast<int>(status);
@@ -43,12 +70,16 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    open_standard_streams();
+    // Then a write to a pipe without a reader fails, which print() knows how to bear.
+    std::signal(SIGPIPE, SIG_IGN);
     touchstone::fast::require_strict_arithmetic();
     const int status = run(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      throw std::runtime_error("standard output: cannot be written");
-    }
+    touchstone::verify::finish_printing();
     return status;
+  } catch (const touchstone::verify::Interrupted& interrupt) {
+    touchstone::verify::cli::report_error(interrupt.what());
+    return static_cast<int>(Status::interrupted);
   } catch (const std::exception& error) {
     touchstone::verify::cli::report_error(error.what());
     return static_cast<int>(Status::bad_input);

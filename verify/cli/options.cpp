@@ -2,15 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cstdio>
 #include <exception>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 
 #include "verify/dataset/separation_file.hpp"
+#include "verify/printable.hpp"
 #include "verify/separation.hpp"
+#include "verify/terminal.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -117,19 +121,26 @@ void add_separation_options(CLI::App& command, SeparationArguments& arguments) {
 }
 
 void report_error(std::string_view message) {
-  fmt::print(stderr, "touchstone: error: {}\n", message);
+  print(stderr, fmt::format("touchstone: error: {}\n", printable(message)));
 }
 
 void report_warning(std::string_view message) {
-  fmt::print(stderr, "touchstone: warning: {}\n", message);
+  print(stderr, fmt::format("touchstone: warning: {}\n", printable(message)));
+}
+
+std::string json_document(const nlohmann::json& json) {
+  static constexpr auto replace = nlohmann::json::error_handler_t::replace;
+  static constexpr bool only_ascii = true;
+  return json.dump(2, ' ', only_ascii, replace) + "\n";
 }
 
 OptionalOutput::OptionalOutput(const std::string& name) : name_(name) {
   if (name.empty()) return;
   if (is_device(name)) {
     // Never truncates: standard output may be a file that others have written to.
-    device_.open(name, std::ios::binary | std::ios::app);
-    if (!device_) throw std::runtime_error(name + ": cannot be opened for writing");
+    const int descriptor = open_for_appending(name);
+    if (descriptor >= 0) device_.reset(::fdopen(descriptor, "a"));
+    if (!device_) throw failure("cannot be opened for writing");
   } else {
     file_ = std::make_unique<OutputFile>(behind_links(name));
   }
@@ -147,19 +158,21 @@ bool OptionalOutput::is_standard_output() const {
 void OptionalOutput::write(std::string_view text) {
   if (file_) {
     file_->write(text);
-  } else {
-    device_ << text;
-    if (!device_) throw std::runtime_error(name_ + ": cannot be written");
+  } else if (std::fwrite(text.data(), 1, text.size(), device_.get()) != text.size()) {
+    throw failure("cannot be written");
   }
 }
 
 void OptionalOutput::close() {
   if (file_) {
     file_->close();
-  } else if (device_.is_open()) {
-    device_.close();
-    if (!device_) throw std::runtime_error(name_ + ": cannot be written");
+  } else if (device_ && std::fclose(device_.release()) != 0) {
+    throw failure("cannot be written");
   }
+}
+
+std::runtime_error OptionalOutput::failure(const std::string& what) const {
+  return std::runtime_error(name_ + ": " + what + ": " + std::generic_category().message(errno));
 }
 
 void ReportedOutput::write(std::string_view text) {

@@ -5,10 +5,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -50,11 +52,15 @@ CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& dista
 /// Adds --min-separation and --norm; the arguments must live until the command line is parsed.
 void add_separation_options(CLI::App& command, SeparationArguments& arguments);
 
-/// Prints "touchstone: error: …" on standard error.
+/// Prints "touchstone: error: …" on standard error, printable (printable.hpp).
 void report_error(std::string_view message);
 
-/// Prints "touchstone: warning: …" on standard error.
+/// Prints "touchstone: warning: …" on standard error, printable.
 void report_warning(std::string_view message);
+
+/// JSON as it is written to a file: in ASCII, so that no name in it acts on a terminal. What is no UTF-8
+/// becomes U+FFFD.
+[[nodiscard]] std::string json_document(const nlohmann::json& json);
 
 /// A file to write to if the user named one. It is opened before the work begins, so that a bad name
 /// costs nothing, and takes its name when it is complete, so that nothing older is lost before.
@@ -80,9 +86,16 @@ class OptionalOutput {
   void close();
 
  private:
+  struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  /// With the reason that the system has given. \pre errno is set
+  [[nodiscard]] std::runtime_error failure(const std::string& what) const;
+
   std::string name_;
   std::unique_ptr<OutputFile> file_;
-  std::ofstream device_;
+  std::unique_ptr<std::FILE, CloseFile> device_;
 };
 
 /// An output whose failure is reported, once, and costs nothing else: the work goes on without it.

@@ -67,8 +67,8 @@ class ProveRun {
          .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); },
          .is_output = [this](const fs::path& path) { return out_.is(path) || json_.is(path); }});
-    out_.close();
-    if (json_) json_.write(summary().dump(2) + "\n");
+    out_.close(sum_.counts.certificates());
+    if (json_) json_.write(json_document(summary()));
     json_.close();
     report_beyond_limits(sum_.counts);
     print_summary();
@@ -132,13 +132,15 @@ class ProveRun {
     std::FILE* const stream =
         out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
     if (const auto separation = common_separation(separations_)) {
-      fmt::print(stream, "minimum separation {}\n", to_text(*separation));
+      print(stream, fmt::format("minimum separation {}\n", to_text(*separation)));
     }
-    fmt::print(stream, "{}", to_text(sum_.counts));
-    fmt::print(stream, "oracle {:.2f} µs/query, file {} bytes\n", oracle_microseconds(),
-               out_.bytes());
-    if (sum_.skipped != 0) fmt::print(stream, "{} queries in error skipped\n", sum_.skipped);
-    if (sum_.rounded != 0) fmt::print(stream, "{} coordinates rounded to double\n", sum_.rounded);
+    print(stream, to_text(sum_.counts));
+    print(stream, fmt::format("oracle {:.2f} µs/query, file {} bytes\n", oracle_microseconds(),
+                              out_.bytes()));
+    if (sum_.skipped != 0)
+      print(stream, fmt::format("{} queries in error skipped\n", sum_.skipped));
+    if (sum_.rounded != 0)
+      print(stream, fmt::format("{} coordinates rounded to double\n", sum_.rounded));
   }
 
   [[nodiscard]] Status status() const {

@@ -22,9 +22,11 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/sources.hpp"
+#include "verify/dataset/input_file.hpp"
 #include "verify/families/families.hpp"
 #include "verify/methods/registry.hpp"
 #include "verify/moving_mesh.hpp"
+#include "verify/printable.hpp"
 #include "verify/query_group.hpp"
 #include "verify/report/measurement_json.hpp"
 #include "verify/report/page.hpp"
@@ -117,9 +119,9 @@ class ReportRun {
   }
 
   [[nodiscard]] Measurements read() const {
-    std::ifstream file(arguments_.from_file, std::ios::binary);
-    if (!file) throw std::runtime_error(arguments_.from_file + ": cannot be read");
-    const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+    static constexpr std::size_t most_bytes = std::size_t{1} << 30U;
+    const nlohmann::json json =
+        nlohmann::json::parse(read_file(arguments_.from_file, most_bytes), nullptr, false);
     try {
       return measurements_from_json(json);
     } catch (const std::runtime_error& error) {
@@ -206,17 +208,16 @@ class ReportRun {
   // ---- Output -----------------------------------------------------------------------------------
 
   void write(const Measurements& measurements) {
-    static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
     // The measurements first: all else can be made from them.
-    if (json_) json_.write(to_json(measurements).dump(1, ' ', false, replace_bad_utf8) + "\n");
+    if (json_) json_.write(json_document(to_json(measurements)));
     json_.close();
     if (page_) page_.write(report_page(measurements));
     page_.close();
     if (results_) results_.write(results_document(measurements));
     results_.close();
     if (page_ && !page_.failed()) {
-      fmt::print(page_.is_standard_output() ? stderr : stdout, "{}\n",
-                 fs::absolute(arguments_.page_file).string());
+      print(page_.is_standard_output() ? stderr : stdout,
+            fmt::format("{}\n", printable(fs::absolute(arguments_.page_file).string())));
     }
   }
 

@@ -21,6 +21,8 @@ namespace {
 constexpr std::string_view no_method = "none";
 constexpr double longest_limit = 1e6;
 constexpr std::int64_t built_in_max_checks = 100'000;
+constexpr double bytes_of_gibibyte = 0x1p30;
+constexpr double most_gibibytes = 1e6;
 
 std::string method_names() {
   std::string names;
@@ -29,6 +31,13 @@ std::string method_names() {
     names += method->name();
   }
   return names;
+}
+
+std::string printable(std::string_view text) {
+  std::string result(text);
+  std::ranges::replace_if(
+      result, [](char c) { return c < ' ' || c > '~'; }, '?');
+  return result;
 }
 
 std::vector<const fast::Method*> named_methods(const std::vector<std::string>& names) {
@@ -54,9 +63,24 @@ void add_solver_options(CLI::App& command, RespondentArguments& arguments) {
       ->allow_extra_args(false);
   command
       .add_option("--query-limit", arguments.query_limit,
-                  "Seconds a query may take; beyond, it is undecided (0: no limit)")
+                  "Seconds that a query may take of a solver in a child process; beyond, it is "
+                  "undecided (0: no limit)")
       ->capture_default_str()
       ->check(real_number(0.0, longest_limit));
+  command
+      .add_option_function<double>(
+          "--memory-limit",
+          [&arguments](double gibibytes) {
+            arguments.memory_limit = static_cast<std::uint64_t>(gibibytes * bytes_of_gibibyte);
+          },
+          fmt::format("GiB of memory that a solver's process may take (default {:g}, 0: no limit)",
+                      static_cast<double>(arguments.memory_limit) / bytes_of_gibibyte))
+      ->type_name("GIB")
+      ->check(real_number(0.0, most_gibibytes));
+  command.add_flag("--allow-processes", arguments.allow_processes,
+                   "Let a solver's process make processes of its own; without it, fork() fails");
+  command.add_flag("--show-output", arguments.show_output,
+                   "Print on standard error what plugins print");
   command
       .add_option("--tolerance", arguments.options.tolerance,
                   "What tolerance-driven methods aim at, in units of the coordinates")
@@ -77,6 +101,18 @@ std::vector<std::filesystem::path> RespondentArguments::files() const {
   return all;
 }
 
+ChildLimits RespondentArguments::limits() const {
+  return {.memory_bytes = memory_limit, .may_fork = allow_processes};
+}
+
+std::unique_ptr<fast::Method> RespondentArguments::load(const std::filesystem::path& plugin) const {
+  return load_plugin(plugin, {.limits = limits(), .stop = &interrupted()});
+}
+
+SolverProcessOptions RespondentArguments::process() const {
+  return {.query_limit_seconds = query_limit, .stop = &interrupted(), .limits = limits()};
+}
+
 void settle_solver_options(const CLI::App& command, bool built_in_set,
                            RespondentArguments& arguments) {
   const auto is_given = [&](const std::string& name) {
@@ -87,10 +123,29 @@ void settle_solver_options(const CLI::App& command, bool built_in_set,
     if (!is_given("--max-checks")) arguments.options.max_checks = built_in_max_checks;
     return;
   }
-  for (const std::string name : {"--exact", "--query-limit", "--tolerance", "--max-checks"}) {
+  for (const std::string name : {"--exact", "--query-limit", "--memory-limit", "--allow-processes",
+                                 "--show-output", "--tolerance", "--max-checks"}) {
     if (arguments.empty() && is_given(name)) {
       throw std::invalid_argument(name + " is for solvers, and none is named");
     }
+  }
+}
+
+void report_output(std::string_view solver, const CapturedOutput& output, bool show) {
+  if (output.text.empty()) return;
+  const std::uint64_t bytes = output.text.size() + output.dropped;
+  if (!show) {
+    report_warning(fmt::format("{} printed {} bytes; --show-output shows them", solver, bytes));
+    return;
+  }
+  std::string_view rest = output.text;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    fmt::print(stderr, "{}: {}\n", solver, printable(rest.substr(0, end)));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  if (output.dropped != 0) {
+    fmt::print(stderr, "{}: and {} bytes more\n", solver, output.dropped);
   }
 }
 
@@ -101,17 +156,16 @@ void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
 }
 
 Respondents::Respondents(const RespondentArguments& arguments) {
-  const IsolationOptions isolation{.query_limit_seconds = arguments.query_limit,
-                                   .stop = &interrupted()};
+  const SolverProcessOptions process = arguments.process();
   for (const fast::Method* method : named_methods(arguments.methods)) {
-    add(arguments.query_limit > 0.0 ? respond_isolated(*method, arguments.options, isolation)
+    add(arguments.query_limit > 0.0 ? respond_isolated(*method, arguments.options, process)
                                     : respond_in_process(*method, arguments.options),
         arguments.exact);
     respondents_.back()->set_reach(reach_of(method->name()));
   }
   for (const std::filesystem::path& path : arguments.plugins) {
-    plugins_.push_back(load_plugin(path));
-    add(respond_isolated(*plugins_.back(), arguments.options, isolation), arguments.exact);
+    plugins_.push_back(arguments.load(path));
+    add(respond_isolated(*plugins_.back(), arguments.options, process), arguments.exact);
   }
   for (const std::filesystem::path& path : arguments.results) {
     results_.push_back({path, load_answers(path)});
@@ -134,6 +188,12 @@ std::vector<const Respondent*> Respondents::all() const {
   result.reserve(respondents_.size());
   for (const auto& respondent : respondents_) result.push_back(respondent.get());
   return result;
+}
+
+void Respondents::report_output(bool show) const {
+  for (const auto& respondent : respondents_) {
+    cli::report_output(respondent->name(), respondent->output(), show);
+  }
 }
 
 std::vector<std::string> Respondents::warnings() const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fast/method.hpp"
+#include "verify/fuzz/fuzz.hpp"
 #include "verify/methods/answers.hpp"
 #include "verify/methods/respondent.hpp"
 
@@ -24,17 +25,31 @@ struct RespondentArguments {
   std::vector<std::filesystem::path> plugins;
   std::vector<std::filesystem::path> results;
   /// Wall-clock seconds a query; 0: no limit.
-  double query_limit = 0.0;
+  double query_limit = FuzzOptions{}.query_limit_seconds;
   bool exact = false;
+  /// Bytes of memory that a solver's process may take; 0: no limit.
+  std::uint64_t memory_limit = ChildLimits{}.memory_bytes;
+  bool allow_processes = false;
+  bool show_output = false;
   fast::MethodOptions options;
 
   /// Files that are read.
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
+  /// What the process of a solver may take.
+  [[nodiscard]] ChildLimits limits() const;
+
+  /// The plugin at a path, loaded in a child process. \throws DatasetError as load_plugin does.
+  [[nodiscard]] std::unique_ptr<fast::Method> load(const std::filesystem::path& plugin) const;
+
+  /// How the process of a solver is to be used: until interrupted.
+  [[nodiscard]] SolverProcessOptions process() const;
+
   [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
 };
 
-/// Adds --method, --plugin, --query-limit, --tolerance and --max-checks; the arguments must live
+/// Adds --method, --plugin, --query-limit, --memory-limit, --allow-processes, --show-output,
+/// --tolerance and --max-checks; the arguments must live
 /// until the command line is parsed.
 void add_solver_options(CLI::App& command, RespondentArguments& arguments);
 
@@ -43,6 +58,10 @@ void add_solver_options(CLI::App& command, RespondentArguments& arguments);
 /// \throws std::invalid_argument if an option of solvers is given and no solver is asked.
 void settle_solver_options(const CLI::App& command, bool built_in_set,
                            RespondentArguments& arguments);
+
+/// Prints on standard error what a solver printed if that is asked for, line by line behind its name,
+/// unprintable characters as '?'; else how to see it. Nothing if it printed nothing.
+void report_output(std::string_view solver, const CapturedOutput& output, bool show);
 
 /// Says on standard error that a solver ended its process so often, unless that is never.
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes);
@@ -58,6 +77,9 @@ class Respondents {
   explicit Respondents(const RespondentArguments& arguments);
 
   [[nodiscard]] std::vector<const Respondent*> all() const;
+
+  /// What they printed. Not to be called while one of them is asked.
+  void report_output(bool show) const;
 
   /// Files of answers with answers to queries that were never asked: a warning text each.
   [[nodiscard]] std::vector<std::string> warnings() const;

@@ -74,11 +74,11 @@ class SolveRun {
          .is_output = [this](const fs::path& path) { return is_output(path); }});
     out_.close();
     if (json_) {
-      static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-      json_.write(summary().dump(2, ' ', false, replace_bad_utf8) + "\n");
+      json_.write(json_document(summary()));
     }
     json_.close();
     report_unplaced_crashes(solver_.name(), sum_.unplaced_crashes);
+    respondents_.report_output(arguments_.solver.show_output);
     print_summary();
     return status();
   }
@@ -92,13 +92,22 @@ class SolveRun {
     std::FILE* const stream =
         out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
     if (const auto separation = the_separation()) {
-      fmt::print(stream, "minimum separation {}\n", to_text(*separation));
+      print(stream, fmt::format("minimum separation {}\n", to_text(*separation)));
     }
-    fmt::print(stream, "{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
-               solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
-               sum_.nanoseconds_per_query());
-    if (sum_.skipped != 0) fmt::print(stream, "{} queries in error skipped\n", sum_.skipped);
-    if (sum_.rounded != 0) fmt::print(stream, "{} coordinates rounded to double\n", sum_.rounded);
+    print(stream,
+          fmt::format("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
+                      solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
+                      sum_.nanoseconds_per_query()));
+    for (const FailureKind kind : all_failure_kinds) {
+      const std::uint64_t count = sum_.failures[static_cast<std::size_t>(kind)];
+      if (count != 0) print(stream, fmt::format("no answer: {} {}\n", count, to_string(kind)));
+    }
+    if (sum_.skipped != 0) {
+      print(stream, fmt::format("{} queries in error skipped\n", sum_.skipped));
+    }
+    if (sum_.rounded != 0) {
+      print(stream, fmt::format("{} coordinates rounded to double\n", sum_.rounded));
+    }
   }
 
   void solve_source(QuerySource& source, const Progress& progress) {
@@ -108,8 +117,9 @@ class SolveRun {
     options.threads = arguments_.sources.threads;
     options.stop = &interrupted();
     options.on_progress = progress;
-    options.on_answer = [&](std::uint64_t index, const fast::Answer& answer) {
-      out_.write(answer_row(source.name(), index, source.kind(), answer));
+    options.on_answer = [&](std::uint64_t index, const fast::Answer& answer,
+                            const Failure* failure) {
+      out_.write(answer_row(source.name(), index, source.kind(), answer, failure));
       // An exception ends the solving at once; the failure itself is reported already.
       if (out_.failed()) throw std::runtime_error("answers cannot be written");
     };
@@ -141,6 +151,9 @@ class SolveRun {
                         {"rounded", sum_.rounded},
                         {"reading_errors", reading_errors_},
                         {"interrupted", sum_.interrupted}};
+    for (const FailureKind kind : all_failure_kinds) {
+      json["failures"][to_string(kind)] = sum_.failures[static_cast<std::size_t>(kind)];
+    }
     if (const auto separation = the_separation()) json["separation"] = to_json(*separation);
     return json;
   }
@@ -186,7 +199,7 @@ void add_solve_command(CLI::App& app, Status& status) {
   add_problem_options(*command, arguments->solver.options);
   command
       ->add_option("--out", arguments->out_file,
-                   "Write file,index,kind,verdict,toi_lower,toi_upper,tolerance")
+                   "Write file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure")
       ->type_name("FILE")
       ->required();
   command->add_option("--json", arguments->json_file, "Write the summary as JSON")

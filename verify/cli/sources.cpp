@@ -1,5 +1,7 @@
 #include "verify/cli/sources.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <set>
 #include <stdexcept>
@@ -61,13 +63,32 @@ void check_outputs(const fs::path& file, const SourceHandlers& handlers) {
   }
 }
 
+/// Names what a search leaves out, not all of it where there is much.
+class LeftOutReport {
+ public:
+  void add(const DatasetError& left_out) {
+    if (++count_ <= most_named) report_warning(left_out.what());
+  }
+
+  void finish() const {
+    if (count_ > most_named) report_warning(fmt::format("left out: {} more", count_ - most_named));
+  }
+
+ private:
+  static constexpr std::size_t most_named = 8;
+
+  std::size_t count_ = 0;
+};
+
 /// The dataset files of all paths, each once; empty if stopped.
 std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceHandlers& handlers) {
+  LeftOutReport left_out;
+  const LeftOut on_left_out = [&](const DatasetError& error) { left_out.add(error); };
   std::vector<fs::path> files;
   std::set<fs::path> seen;
   for (const fs::path& path : arguments.paths) {
     try {
-      for (const fs::path& file : find_datasets({&path, 1})) {
+      for (const fs::path& file : find_datasets({&path, 1}, on_left_out)) {
         check_outputs(file, handlers);
         if (seen.insert(fs::weakly_canonical(file)).second) files.push_back(file);
       }
@@ -76,6 +97,7 @@ std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceH
       if (handlers.stopped()) return {};
     }
   }
+  left_out.finish();
   return files;
 }
 
@@ -105,12 +127,13 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
       .add_option("--kind", arguments.kind,
                   "Kind of all queries, where the paths do not say it: vertex-face or edge-edge")
       ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
-  command.add_flag(
-      "--round", arguments.round,
-      "Accept coordinates that are no doubles, rounded to the nearest, and count them");
+  command.add_flag("--round", arguments.round,
+                   "Take the nearest double for coordinates (fractions or decimals) that are none, "
+                   "and count them");
   command.add_flag(
       "--keep-going", arguments.keep_going,
-      "Skip queries and files in error, name and count them (no longer all well: exit status 2)");
+      "Skip queries and files in error, and the rest of a CSV file behind a line that is no row; "
+      "name and count them (no longer all well: exit status 2)");
   command.add_option("--threads", arguments.threads, "Cores to use (0: all)")
       ->capture_default_str();
   command.add_option("--seed", arguments.seed, "Seed of the built-in set")
@@ -131,10 +154,14 @@ Separation separation_for(const SourceArguments& arguments, const QuerySource& s
 }
 
 void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers) {
-  if (arguments.built_in_set()) {
-    for_each_family(arguments, handlers);
-  } else {
-    for_each_file(arguments, handlers);
+  try {
+    if (arguments.built_in_set()) {
+      for_each_family(arguments, handlers);
+    } else {
+      for_each_file(arguments, handlers);
+    }
+  } catch (const Interrupted&) {
+    // The command goes on with what it has, as after an interrupt between two queries.
   }
 }
 

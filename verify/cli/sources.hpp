@@ -54,8 +54,9 @@ struct SourceHandlers {
                                         const QuerySource& source);
 
 /// Opens and hands over the sources one after the other: the families of the built-in set (of
-/// that with a separation, if one is asked for), or the dataset files of all paths, each once. Queries skipped with keep_going are reported on standard
-/// error. \throws std::runtime_error if an input, or a file of labels or times of
+/// that with a separation, if one is asked for), or the dataset files of all paths, each once.
+/// Queries skipped with keep_going, and what a search of folders leaves out, are reported on
+/// standard error. An interrupt ends it wherever it is. \throws std::runtime_error if an input, or a file of labels or times of
 /// impact beside one, is an output.
 void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers);
 

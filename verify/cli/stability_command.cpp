@@ -91,14 +91,14 @@ Status run(const Arguments& arguments) {
   for (const MethodResult& method : result.total.methods) {
     report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
   }
+  respondents.report_output(arguments.judged.show_output);
   // Files first: a closed standard output must not cost them.
-  static constexpr auto replace_bad_utf8 = nlohmann::json::error_handler_t::replace;
-  if (json) json.write(to_json(result).dump(2, ' ', false, replace_bad_utf8) + "\n");
+  if (json) json.write(json_document(to_json(result)));
   json.close();
   if (picture) picture.write(heat_map(result));
   picture.close();
   const bool is_standard_output = json.is_standard_output() || picture.is_standard_output();
-  fmt::print(is_standard_output ? stderr : stdout, "{}", to_text(result));
+  print(is_standard_output ? stderr : stdout, to_text(result));
   if (has_wrong_answers(result)) return Status::wrong_answers;
   if (json.failed() || picture.failed()) return Status::bad_input;
   return interrupted() ? Status::interrupted : Status::all_well;

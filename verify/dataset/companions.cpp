@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "verify/csv.hpp"
 #include "verify/dataset/separation_file.hpp"
 
 namespace touchstone::verify {
@@ -18,6 +19,12 @@ constexpr int end_of_file = -1;
 bool is_word_character(int c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' ||
          c == '-' || c == '.';
+}
+
+/// Splits a line of two columns; false if it is none.
+bool split_fields(std::string_view line, std::array<std::string, 2>& fields) {
+  const CsvSplit split = split_csv(line, fields);
+  return split.count == fields.size() && split.fault == CsvSplit::Fault::none;
 }
 
 std::optional<std::uint64_t> parse_number(std::string_view text) {
@@ -153,9 +160,9 @@ void LabelReader::fail(const std::string& reason) {
 ToiReader::ToiReader(std::filesystem::path path) : lines_(std::move(path)) {
   const std::optional<Line> header = lines_.next();
   if (!header) throw DatasetError(lines_.path(), {}, "expected the header query,toi");
-  const std::size_t comma = header->text.find(',');
-  if (comma == std::string_view::npos || trimmed(header->text.substr(0, comma)) != "query" ||
-      trimmed(header->text.substr(comma + 1)) != "toi") {
+  std::array<std::string, 2> fields;
+  if (!split_fields(header->text, fields) || trimmed(fields[0]) != "query" ||
+      trimmed(fields[1]) != "toi") {
     throw DatasetError(lines_.path(), {.line = 1}, "expected the header query,toi");
   }
 }
@@ -201,19 +208,16 @@ std::optional<ToiReader::Entry> ToiReader::next_entry() {
   const std::optional<Line> line = lines_.next();
   if (!line) return std::nullopt;
   if (line->too_long) fail({.line = line->number}, "line longer than 1 MiB");
-  const std::size_t comma = line->text.find(',');
-  if (comma == std::string_view::npos ||
-      line->text.find(',', comma + 1) != std::string_view::npos) {
+  std::array<std::string, 2> fields;
+  if (!split_fields(line->text, fields)) {
     fail({.line = line->number}, "expected two columns, query and toi");
   }
-  const std::string_view query_text = trimmed(line->text.substr(0, comma));
+  const std::string_view query_text = trimmed(fields[0]);
   const std::optional<std::uint64_t> query = parse_number(query_text);
   const FilePosition position{.line = line->number, .column = 1};
   if (!query) fail(position, "not a query number: " + quote(query_text));
   if (entry_ && *query <= entry_->query) fail(position, "query numbers do not ascend");
-  return Entry{.query = *query,
-               .decimal = std::string(trimmed(line->text.substr(comma + 1))),
-               .line = line->number};
+  return Entry{.query = *query, .decimal = std::string(trimmed(fields[1])), .line = line->number};
 }
 
 void ToiReader::fail(FilePosition position, const std::string& reason) const {

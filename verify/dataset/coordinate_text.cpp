@@ -45,15 +45,34 @@ std::optional<double> machine_quotient(std::string_view numerator, std::string_v
   return std::ldexp(static_cast<double>(*n), -std::countr_zero(*d));
 }
 
-exact::Integer any_integer(std::string_view text, Part part) {
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The text as an integer of any length, or nothing if it is none.
+std::optional<exact::Integer> any_integer(std::string_view text) {
   const bool has_sign = text.starts_with('-') || text.starts_with('+');
   const std::string_view digits = text.substr(has_sign ? 1 : 0);
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) {
-    throw CoordinateError(part, "not an integer: " + quote(text));
-  }
+  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
   exact::Integer magnitude(std::string(digits), 10);
   return text.starts_with('-') ? exact::Integer(-magnitude) : magnitude;
+}
+
+/// Is it NaN or infinity, as the standard library and NumPy write them?
+bool is_not_finite(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end && !std::isfinite(value);
+}
+
+exact::Rational any_number(std::string_view text, Part part) {
+  try {
+    return exact::rational_from_decimal(text);
+  } catch (const std::invalid_argument&) {
+    const std::string_view reason =
+        is_not_finite(text) ? "not a finite number: " : "not a number: ";
+    throw CoordinateError(part, std::string(reason) + quote(text));
+  }
 }
 
 /// The quotient if it is a double and the denominator a power of two: odd · 2^exponent, where `odd`
@@ -81,17 +100,24 @@ ParsedCoordinate parse_coordinate(std::string_view numerator, std::string_view d
   if (const auto value = machine_quotient(numerator, denominator)) {
     return {.value = *value, .exact = true};
   }
-  const exact::Integer n = any_integer(numerator, Part::numerator);
-  const exact::Integer d = any_integer(denominator, Part::denominator);
-  if (d == 0) throw CoordinateError(Part::denominator, "zero denominator");
-  if (const auto value = dyadic_quotient(n, d)) return {.value = *value, .exact = true};
-  exact::Rational quotient(n, d);
-  quotient.canonicalize();
+  const std::optional<exact::Integer> n = any_integer(numerator), d = any_integer(denominator);
+  if (n && d && *d != 0) {
+    if (const auto value = dyadic_quotient(*n, *d)) return {.value = *value, .exact = true};
+  }
+  exact::Rational quotient = any_number(numerator, Part::numerator);
+  const exact::Rational divisor = any_number(denominator, Part::denominator);
+  if (divisor == 0) throw CoordinateError(Part::denominator, "zero denominator");
+  quotient /= divisor;
   const double value = exact::round_to_nearest(quotient);
   if (std::isinf(value)) {
     throw CoordinateError(Part::numerator, "beyond the range of double");
   }
   return {.value = value, .exact = exact::Rational(value) == quotient};
+}
+
+bool is_numeric(std::string_view text) {
+  const std::size_t start = text.find_first_not_of("+-.");
+  return (start != std::string_view::npos && is_digit(text[start])) || is_not_finite(text);
 }
 
 void append_coordinate(std::string& text, double value) {

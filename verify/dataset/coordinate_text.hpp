@@ -1,14 +1,15 @@
 #pragma once
 
 /// \file
-/// Coordinates as the CSV datasets write them: a pair of integers of any length whose quotient is a
-/// double.
+/// Coordinates as the CSV datasets write them: a numerator and a denominator, each an integer or a
+/// decimal of any length, whose quotient is a double. A coordinate in one field has the denominator
+/// 1.
 ///
-/// Most pairs are a numerator of at most 63 bits over a power of two of at most 63, and for these
+/// Most pairs are integers, a numerator of at most 63 bits over a power of two of at most 63, and for these
 /// machine integers are enough: n / 2^k with n = odd · 2^j is a double if `odd` has at most 53
 /// bits, since |n| / 2^k lies in [2^-63, 2^63], far from both ends of the range. Longer powers of
-/// two, small coordinates, need the same comparison of bits on long integers. All other pairs go
-/// through rationals, where the nearest double is compared with the number itself.
+/// two, small coordinates, need the same comparison of bits on long integers. All other pairs, and
+/// all decimals, go through rationals, where the nearest double is compared with the number itself.
 
 #include <stdexcept>
 #include <string>
@@ -26,7 +27,7 @@ struct ParsedCoordinate {
 /// A pair that is no coordinate.
 class CoordinateError : public std::invalid_argument {
  public:
-  /// Which of the two integers is at fault.
+  /// Which of the two numbers is at fault.
   enum class Part { numerator, denominator };
 
   CoordinateError(Part part, const std::string& reason)
@@ -37,11 +38,16 @@ class CoordinateError : public std::invalid_argument {
   Part part_;
 };
 
-/// The quotient of two decimal integers: an optional sign, then digits; nothing else.
-/// \throws CoordinateError if one is no integer, the denominator is zero, or the double nearest to
-/// the quotient is infinite.
+/// The quotient of two numbers: an optional sign, then digits, among them perhaps a point, then
+/// perhaps an exponent ("-1.25e-3") of at most 10000; nothing else.
+/// \throws CoordinateError if one is no such number, the denominator is zero, or the double nearest
+/// to the quotient is infinite.
 [[nodiscard]] ParsedCoordinate parse_coordinate(std::string_view numerator,
                                                 std::string_view denominator);
+
+/// Does a text stand for a number, well-formed or not: does it begin like one, or is it NaN or
+/// infinity?
+[[nodiscard]] bool is_numeric(std::string_view text);
 
 /// Appends "numerator,denominator" in lowest terms, denominator positive; −0 is written as "0,1".
 /// \throws std::invalid_argument if the value is not finite.

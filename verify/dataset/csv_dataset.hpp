@@ -2,15 +2,25 @@
 
 /// \file
 /// The CSV formats of the public benchmarks: eight rows a query, in the order of Query; a row holds
-/// x, y and z as numerator, denominator pairs of integers, and in the 2021 format (seven columns) a
-/// label, 1 if they collide, the same on all eight rows. The 2023 format (six columns) has its
-/// labels elsewhere (companions.hpp).
+/// x, y and z, and after them perhaps a label, 1 if they collide, the same on all eight rows.
 ///
-/// Rows are counted, never resynchronised: query i is made of the lines 8i+1 to 8i+8 whatever
-/// stands in them, so a faulty row costs its query and no other. (A row missing or one too many
-/// puts all that follow out of step; nothing in the format tells the two cases apart.) The number
-/// of columns is that of the first row; if the whole first query is left out for an error, of the
-/// next one.
+///     columns  a row                                               e.g.
+///     6        numerator, denominator of x, of y and of z          the 2023 benchmark
+///     7        the same and the label                              the 2021 benchmark
+///     3        x, y and z                                          spreadsheets, NumPy's savetxt
+///     4        the same and the label
+///
+/// Each number is an integer or a decimal (coordinate_text.hpp; newer data has a decimal over 1).
+/// Labels may also lie elsewhere (companions.hpp). Fields may stand in quotes. Before the first row
+/// there may be a header line, as many names as there are columns, which are not looked at, and
+/// between two queries blank lines and the header again.
+///
+/// Which query a row belongs to is known by counting only. A row with a faulty number costs its
+/// query. A line that is no row (blank or a header inside a query, of another number of columns, or
+/// without any number) may stand for a row or not, and labels that differ inside a query say that a
+/// row is missing or one too many: behind these nothing tells where queries begin, and the rest of
+/// the file is left out, so that no query is ever put together of two. (A row missing or one too
+/// many that leaves no other trace shows at the end only, as a truncated query.)
 
 #include <array>
 #include <cstddef>
@@ -36,35 +46,38 @@ class CsvDataset final : public DatasetSource {
   [[nodiscard]] std::uint64_t rounded() const override { return rounded_; }
 
  private:
-  static constexpr std::size_t coordinate_columns = 6;
-  static constexpr std::size_t labelled_columns = 7;
+  static constexpr std::size_t most_columns = 7;
 
-  /// The fields of a line; only the first seven are kept.
-  struct Fields {
-    std::array<std::string_view, labelled_columns> text;
-    std::size_t count;
-  };
-
-  /// What the rows of one query add up to.
+  /// The rows of one query so far.
   struct Rows {
     StoredQuery query;
-    std::size_t columns;
     std::uint64_t rounded;
   };
 
-  [[nodiscard]] bool at_end() override { return lines_.at_end(); }
+  [[nodiscard]] bool at_end() override;
   [[nodiscard]] StoredQuery read(std::uint64_t index) override;
 
-  [[nodiscard]] static Fields split(std::string_view line);
-  void read_row(const Line& line, std::size_t row, Rows& rows) const;
-  void check_columns(const Line& line, const Fields& fields, Rows& rows) const;
-  void read_point(const Line& line, const Fields& fields, std::size_t row, Rows& rows) const;
-  void read_label(const Line& line, const Fields& fields, Rows& rows) const;
+  [[nodiscard]] bool is_header(std::string_view line);
+  void split_row(const Line& line);
+  /// Return the fault of a row that costs its query, if there is one.
+  [[nodiscard]] std::optional<DatasetError> read_label(const Line& line, Rows& rows);
+  [[nodiscard]] std::optional<DatasetError> read_point(const Line& line, std::size_t row,
+                                                       Rows& rows) const;
+  /// Counted from 0; without the spaces around it.
+  [[nodiscard]] std::string_view field(std::size_t column) const;
   [[nodiscard]] DatasetError error(const Line& line, std::size_t column,
                                    const std::string& reason) const;
+  /// Gives up at a line behind which rows cannot be counted.
+  [[noreturn]] void lose_count(const Line& line, std::size_t column, const std::string& reason);
 
   LineReader lines_;
+  /// The first line of the next query, if at_end() has come upon it.
+  std::optional<Line> ahead_;
+  /// The file's, empty if it has none.
+  std::string header_;
   std::optional<std::size_t> columns_;
+  /// Of the line at hand.
+  std::array<std::string, most_columns> fields_;
   std::uint64_t rounded_ = 0;
 };
 

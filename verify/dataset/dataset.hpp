@@ -3,9 +3,8 @@
 /// \file
 /// Recorded queries on disk: finding the files, telling their kind, opening them as streams.
 ///
-/// Formats: CSV with eight rows a query, six integers (numerator, denominator pairs) and in the
-/// 2021 benchmark a label a row (csv_dataset.hpp); NumPy arrays of shape (N, 8, 3)
-/// (npy_dataset.hpp). Labels and times of impact may lie in files of their own beside either
+/// Formats: CSV with eight rows a query, each x, y and z as numbers or as numerator and denominator,
+/// and perhaps a label (csv_dataset.hpp); NumPy arrays of shape (N, 8, 3) (npy_dataset.hpp). Labels and times of impact may lie in files of their own beside either
 /// (companions.hpp).
 
 #include <filesystem>
@@ -35,23 +34,30 @@ struct DatasetOptions {
   std::function<void(const DatasetError&)> on_skip = nullptr;
 };
 
+/// Called with each file, folder or link that a search leaves out, and why.
+using LeftOut = std::function<void(const DatasetError&)>;
+
 /// The dataset files that the paths stand for: a file stands for itself, a folder for all files
-/// *.csv and *.npy below it, in the order of their names; symbolic links to folders below it are
-/// not followed. What accompanies datasets is left out: folders called toi, mma_bool, boxes or
-/// frames, and files named *_toi.csv. \throws DatasetError for a path that does not exist or cannot
-/// be read, or a folder without any dataset.
+/// *.csv and *.npy below it, in the order of their names. Symbolic links are followed, but no folder
+/// below a path is searched twice. What accompanies datasets is left out: folders called toi,
+/// mma_bool, boxes or frames, and files named *_toi.csv.
+/// \param on_left_out told of all else that is left out, and of files in those folders that have a
+/// dataset's name
+/// \throws DatasetError for a path that does not exist or cannot be read, or a folder without any
+/// dataset.
 [[nodiscard]] std::vector<std::filesystem::path> find_datasets(
-    std::span<const std::filesystem::path> paths);
+    std::span<const std::filesystem::path> paths, const LeftOut& on_left_out = nullptr);
 
 /// The kind of the queries of a file: the deepest part of the path that contains "vertex-face" or
-/// "edge-edge", else the ending "vf" or "ee" of its name without extension, else the working
-/// directory's parts.
+/// "edge-edge" without a letter beside it, else the ending "vf" or "ee" of its name without
+/// extension, where only digits ("326vf"), only a separator and digits ("x_ee", "x-326vf") or
+/// nothing stands before it, else the working directory's parts.
 /// \throws DatasetError if the path says none, or both in one part.
 [[nodiscard]] Kind kind_from_path(const std::filesystem::path& path);
 
 /// Opens a .csv or .npy file.
 /// \throws DatasetError, with and without keep_going, if the file cannot be read, its kind or its
-/// format is unknown, it has no queries, or a companion file cannot be read.
+/// format is unknown, a CSV file has no queries, or a companion file cannot be read.
 [[nodiscard]] std::unique_ptr<QuerySource> open_dataset(const std::filesystem::path& path,
                                                         const DatasetOptions& options = {});
 

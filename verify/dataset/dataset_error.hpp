@@ -3,6 +3,7 @@
 /// \file
 /// The one error of all dataset readers and writers: where it is, and what is wrong there.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
@@ -22,16 +23,23 @@ struct FilePosition {
 };
 
 /// Bad data, or a file that cannot be read or written. what() is "path:line:column: reason",
-/// without the parts that are 0.
+/// without the parts that are 0. Path and reason may come from outside, so what() has a bounded
+/// length: "..." ends what was cut.
 class DatasetError : public std::runtime_error {
  public:
-  DatasetError(std::filesystem::path path, FilePosition position, std::string reason);
+  /// Bytes that a reason may have.
+  static constexpr std::size_t longest_reason = 1000;
+  /// Bytes that a path may have in what(): those of the system's longest path.
+  static constexpr std::size_t longest_path = 4096;
+
+  DatasetError(std::filesystem::path path, FilePosition position, const std::string& reason);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// Line counted from 1, 0 if the error belongs to no line.
   [[nodiscard]] std::uint64_t line() const { return position_.line; }
   /// Column as FilePosition counts it, 0 if the error belongs to no column.
   [[nodiscard]] std::uint64_t column() const { return position_.column; }
+  /// Not longer than longest_reason and the "..." behind it.
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
@@ -39,6 +47,10 @@ class DatasetError : public std::runtime_error {
   FilePosition position_;
   std::string reason_;
 };
+
+/// The longest beginning of a text that has at most so many bytes and cuts no character of UTF-8 in
+/// two.
+[[nodiscard]] std::string_view beginning(std::string_view text, std::size_t longest);
 
 /// The text in double quotes for a message: cut after 40 bytes, unprintable bytes as '?'.
 [[nodiscard]] std::string quote(std::string_view text);

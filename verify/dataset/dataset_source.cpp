@@ -24,8 +24,11 @@ std::optional<RecordedQuery> DatasetSource::next() {
     } catch (const DatasetError& error) {
       fault = error;
     }
-    if (fault) skip(*fault);
-    if (ended_) finish();
+    if (fault) {
+      skip(*fault);
+    } else {
+      finish();
+    }
   }
   return std::nullopt;
 }
@@ -36,14 +39,18 @@ std::optional<RecordedQuery> DatasetSource::read_record() {
   const StoredQuery stored = read(index);
   RecordedTruth truth = companions_.at(index);
   if (stored.label && truth.collides && *stored.label != *truth.collides) {
-    static constexpr std::uint64_t label_column = 7;
-    throw DatasetError(path_, {.line = stored.line, .column = label_column},
+    throw DatasetError(path_, stored.label_position,
                        "label differs from that in " + companions_.label_path().string());
   }
   return RecordedQuery{.query = stored.query,
                        .index = index,
                        .collides = stored.label ? stored.label : truth.collides,
                        .toi = std::move(truth.toi)};
+}
+
+void DatasetSource::give_up(const DatasetError& fault) {
+  ended_ = true;
+  throw DatasetError(fault);
 }
 
 /// Companions must not go on where the queries end.

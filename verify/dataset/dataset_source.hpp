@@ -5,7 +5,8 @@
 ///
 /// A format only says whether there is another query and reads it. Here the queries are numbered,
 /// joined with what their companion files say, and, with keep_going, left out one by one if they
-/// are in error. The companions are asked by number, so a query left out leaves its label behind
+/// are in error. A format that no longer knows where queries begin gives up: the rest of the file
+/// is left out. The companions are asked by number, so a query left out leaves its label behind
 /// unread and cannot put the labels of the others out of step.
 
 #include <cstdint>
@@ -33,12 +34,16 @@ class DatasetSource : public QuerySource {
   struct StoredQuery {
     Query query;
     std::optional<bool> label;
-    /// Its first line, 0 in a binary format.
-    std::uint64_t line;
+    /// Where the label stands first.
+    FilePosition label_position;
   };
 
   /// \throws DatasetError if the kind is unknown, or a companion file or the separation's cannot be read.
   DatasetSource(const std::filesystem::path& path, DatasetOptions options);
+
+  /// Ends the stream with this error, with and without keep_going: for a fault behind which nothing
+  /// tells where the next query is. What companions hold beyond is not looked at.
+  [[noreturn]] void give_up(const DatasetError& fault);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const DatasetOptions& options() const { return options_; }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "verify/dataset/dataset_error.hpp"
+#include "verify/terminal.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -24,7 +25,9 @@ std::string last_system_error() { return std::generic_category().message(errno);
 }  // namespace
 
 InputFile::InputFile(std::filesystem::path path)
-    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
+    : path_(std::move(path)),
+      // The open of a pipe does not wait for its writer: read() does, where an interrupt ends it.
+      descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (descriptor_ < 0) throw DatasetError(path_, {}, "cannot open: " + last_system_error());
   struct stat status {};
   const bool known = ::fstat(descriptor_, &status) == 0;
@@ -41,12 +44,13 @@ InputFile::~InputFile() { ::close(descriptor_); }
 std::size_t InputFile::read(std::span<char> buffer) {
   if (failed_) return 0;
   for (;;) {
+    wait_for_input(descriptor_);
     const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
     if (count >= 0) {
       consumed_ += static_cast<std::uint64_t>(count);
       return static_cast<std::size_t>(count);
     }
-    if (errno == EINTR) continue;
+    if (errno == EINTR || errno == EAGAIN) continue;
     failed_ = true;
     throw DatasetError(path_, {}, "cannot read: " + last_system_error());
   }
@@ -110,12 +114,18 @@ Line LineReader::take_line(std::size_t length, std::size_t terminator) {
 }
 
 void LineReader::pass_over_line() {
+  std::size_t length = 0;
   do {
     const char* const from = buffer_.get() + begin_;
     const void* const newline = std::memchr(from, '\n', end_ - begin_);
     if (newline != nullptr) {
       begin_ += static_cast<std::size_t>(static_cast<const char*>(newline) - from) + 1;
       return;
+    }
+    length += end_ - begin_;
+    if (length > longest_passed_line) {
+      throw DatasetError(path(), {.line = line_number_ + 1},
+                         "no line end within 64 MiB: not a text file");
     }
     begin_ = end_;
   } while (fill());
@@ -130,6 +140,21 @@ bool LineReader::fill() {
   const std::size_t count = file_.read({buffer_.get() + end_, room});
   end_ += count;
   return count > 0;
+}
+
+std::string read_file(const std::filesystem::path& path, std::size_t limit) {
+  InputFile file(path);
+  std::string bytes;
+  for (std::size_t count = 1; count > 0;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + chunk);
+    count = file.read({bytes.data() + before, chunk});
+    bytes.resize(before + count);
+    if (bytes.size() > limit) {
+      throw DatasetError(path, {}, "has more than " + std::to_string(limit) + " bytes");
+    }
+  }
+  return bytes;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -4,7 +4,8 @@
 /// Files read front to back in bounded memory.
 ///
 /// LineReader keeps no more of its file than one chunk and one line, and a line has an upper limit:
-/// a file without line ends cannot fill the memory, it is one line that is too long.
+/// a file without line ends cannot fill the memory, it is one line that is too long. A line may be passed
+/// over up to a second limit: a device without an end is an error.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace touchstone::verify {
@@ -19,6 +21,7 @@ namespace touchstone::verify {
 /// A file open for reading. Owns its descriptor.
 class InputFile {
  public:
+  /// Does not wait for the writer of a pipe: read() does.
   /// \throws DatasetError if the file cannot be opened or is a folder.
   explicit InputFile(std::filesystem::path path);
   InputFile(const InputFile&) = delete;
@@ -29,7 +32,8 @@ class InputFile {
 
   /// Reads at least one byte into the buffer, or none at the end of the file. Returns how many.
   /// \throws DatasetError if the system reports an error; the file then counts as ended, so that a
-  /// reader that keeps going cannot stay at the same error for ever.
+  /// reader that keeps going cannot stay at the same error for ever. Interrupted (terminal.hpp) if
+  /// the user interrupts, also while there is nothing to read yet.
   [[nodiscard]] std::size_t read(std::span<char> buffer);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -64,16 +68,20 @@ class LineReader {
  public:
   /// Bytes that a line may have without its line end.
   static constexpr std::size_t longest_line = std::size_t{1} << 20U;
+  /// Bytes that a line without an end may have that is passed over.
+  static constexpr std::size_t longest_passed_line = std::size_t{64} << 20U;
 
   /// \throws DatasetError if the file cannot be opened.
   explicit LineReader(std::filesystem::path path);
 
   /// The next line, or nothing at the end.
-  /// \throws DatasetError if the system reports an error on reading.
+  /// \throws DatasetError if the system reports an error on reading, or the file has a line longer
+  /// than longest_passed_line. Interrupted as InputFile::read.
   [[nodiscard]] std::optional<Line> next();
 
   /// True if next() has no more lines. Invalidates the text of the last line.
-  /// \throws DatasetError if the system reports an error on reading.
+  /// \throws DatasetError if the system reports an error on reading, or the file has a line longer
+  /// than longest_passed_line. Interrupted as InputFile::read.
   [[nodiscard]] bool at_end();
 
   [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
@@ -94,6 +102,10 @@ class LineReader {
   std::optional<Line> ahead_;
   std::uint64_t blank_lines_ahead_ = 0;
 };
+
+/// The bytes of a file. \throws DatasetError if it cannot be read or has more than `limit` bytes,
+/// Interrupted as InputFile::read.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
 /// The text without spaces and tabs at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);

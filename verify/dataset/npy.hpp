@@ -3,46 +3,50 @@
 /// \file
 /// NumPy's .npy files of queries: little-endian float64 of shape (N, 8, 3), in C order.
 ///
-/// Such an array has the layout of N consecutive Query objects, so a mapped file *is* the queries:
-/// nothing is parsed or copied. The file begins with "\x93NUMPY", two bytes of version (1 to 3),
+/// Such an array has the layout of N consecutive Query objects, so its bytes *are* the queries:
+/// nothing is parsed. An array of no queries, shape (0, 8, 3), is one as well. The file begins with "\x93NUMPY", two bytes of version (1 to 3),
 /// the length of the header (2 bytes in version 1, else 4, little-endian) and the header: a Python
 /// dictionary of exactly descr, fortran_order and shape.
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <span>
+#include <vector>
 
 #include "exact/query.hpp"
+#include "verify/dataset/input_file.hpp"
 #include "verify/dataset/output_file.hpp"
 
 namespace touchstone::verify {
 
-/// A .npy file mapped into memory, read-only. Holds for as long as the file is not shortened by
-/// somebody else: the system ends a process that reads mapped pages that are gone.
-class NpyFile {
+/// Reads such a file front to back, a block of queries at a time. The file is not mapped into
+/// memory: the system ends a process that reads mapped pages of a file that has become shorter.
+class NpyReader {
  public:
-  /// \throws DatasetError if the file cannot be read, is not such an array, has no queries, or its
-  /// size does not fit its shape.
-  explicit NpyFile(const std::filesystem::path& path);
-  NpyFile(const NpyFile&) = delete;
-  NpyFile& operator=(const NpyFile&) = delete;
-  NpyFile(NpyFile&& other) noexcept;
-  NpyFile& operator=(NpyFile&& other) noexcept;
-  ~NpyFile();
+  /// \throws DatasetError if the file cannot be read, is not such an array, or its size does not
+  /// fit its shape.
+  explicit NpyReader(const std::filesystem::path& path);
 
-  /// The file's own memory. Coordinates are as they are in the file: not checked for NaN and
-  /// infinities.
-  [[nodiscard]] std::span<const Query> queries() const { return queries_; }
+  /// Number of queries, as the header says it.
+  [[nodiscard]] std::uint64_t count() const { return count_; }
 
-  /// Takes the pages that lie wholly before this query out of the process's memory. They stay
-  /// readable (the system fetches them again); this only keeps memory small in one pass.
-  void release_before(std::size_t query) const;
+  /// Number of the query that next() returns.
+  [[nodiscard]] std::uint64_t position() const { return position_; }
+
+  /// The next query, valid until the next call. Coordinates are as they are in the file: not
+  /// checked for NaN and infinities.
+  /// \pre position() < count().
+  /// \throws DatasetError if the system reports an error, or the file has become shorter.
+  [[nodiscard]] const Query& next();
 
  private:
-  /// The whole file; unmaps it at the end.
-  std::span<std::byte> mapping_;
-  std::span<const Query> queries_;
+  void fill();
+
+  InputFile file_;
+  std::uint64_t count_ = 0;
+  std::uint64_t position_ = 0;
+  std::vector<Query> block_;
+  std::size_t next_in_block_ = 0;
 };
 
 /// Writes such a file as a stream; the number of queries is filled in at the end.

@@ -6,23 +6,16 @@
 #include <string_view>
 
 namespace touchstone::verify {
-namespace {
-
-// About 3 MB between two releases: a system call a thousand queries would not be felt, this less.
-constexpr std::uint64_t release_interval = 16384;
-
-}  // namespace
-
 NpyDataset::NpyDataset(const std::filesystem::path& path, const DatasetOptions& options)
     : DatasetSource(path, options), file_(path) {}
 
 double NpyDataset::progress() const {
-  return static_cast<double>(position_) / static_cast<double>(file_.queries().size());
+  if (file_.count() == 0) return 1.0;
+  return static_cast<double>(file_.position()) / static_cast<double>(file_.count());
 }
 
 DatasetSource::StoredQuery NpyDataset::read(std::uint64_t index) {
-  if (position_ % release_interval == 0) file_.release_before(position_);
-  const Query& query = file_.queries()[position_++];
+  const Query& query = read_query();
   for (std::size_t row = 0; row < query_points; ++row) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (std::isfinite(query.coordinates.at(3 * row + axis))) continue;
@@ -31,7 +24,15 @@ DatasetSource::StoredQuery NpyDataset::read(std::uint64_t index) {
                          fmt::format("query {}, point {}, {}: not finite", index, row, axes[axis]));
     }
   }
-  return {.query = query, .label = std::nullopt, .line = 0};
+  return {.query = query, .label = std::nullopt, .label_position = {}};
+}
+
+const Query& NpyDataset::read_query() {
+  try {
+    return file_.next();
+  } catch (const DatasetError& fault) {
+    give_up(fault);
+  }
 }
 
 }  // namespace touchstone::verify

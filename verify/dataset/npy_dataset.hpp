@@ -2,7 +2,7 @@
 
 /// \file
 /// The queries of a .npy file as a stream, joined with their companions. Coordinates are checked
-/// here; memory stays small because pages that were read are given back on the way.
+/// here. A file that becomes shorter ends the stream with an error, also with keep_going.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,11 +21,11 @@ class NpyDataset final : public DatasetSource {
   [[nodiscard]] double progress() const override;
 
  private:
-  [[nodiscard]] bool at_end() override { return position_ == file_.queries().size(); }
+  [[nodiscard]] bool at_end() override { return file_.position() == file_.count(); }
   [[nodiscard]] StoredQuery read(std::uint64_t index) override;
+  [[nodiscard]] const Query& read_query();
 
-  NpyFile file_;
-  std::uint64_t position_ = 0;
+  NpyReader file_;
 };
 
 }  // namespace touchstone::verify

@@ -4,8 +4,12 @@
 /// Files that appear whole or not at all.
 ///
 /// The data goes to a temporary name in the target's folder and takes the target's name when it is
-/// complete; a file that was there before stays as it was until then. The temporary name has an
-/// extension of its own, so that a search for datasets does not find what an interrupted run left.
+/// complete; a file that was there before stays as it was until then. The temporary name,
+/// <name>.touchstone.partial-<process>-<number> with <name> cut to what a file's name may have, has an
+/// extension of its own, so that a search for datasets does not find what a killed run left.
+///
+/// Who writes a temporary file holds a lock (flock) on it, which ends with the process however that
+/// ends. Who begins to write into a folder removes the temporary files there that nobody holds.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +22,7 @@ namespace touchstone::verify {
 /// A file open for writing, buffered. Without close() nothing remains of it.
 class OutputFile {
  public:
+  /// Also removes what killed runs left in the target's folder.
   /// \throws DatasetError if no file can be made in the target's folder.
   explicit OutputFile(std::filesystem::path path);
   OutputFile(const OutputFile&) = delete;
@@ -42,6 +47,7 @@ class OutputFile {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
+  [[nodiscard]] bool lock() const;
   void flush();
   [[noreturn]] void fail() const;
 

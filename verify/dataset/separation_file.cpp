@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cstddef>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "verify/dataset/dataset_error.hpp"
+#include "verify/dataset/input_file.hpp"
 #include "verify/dataset/output_file.hpp"
 
 namespace touchstone::verify {
@@ -18,6 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view file_name = "separation.json";
+constexpr std::size_t most_bytes = std::size_t{1} << 16U;
+constexpr const char* distance_key = "min_separation";
+constexpr const char* norm_key = "norm";
 
 /// Is there a digit other than 0 before the exponent?
 bool has_value(std::string_view text) {
@@ -26,11 +30,22 @@ bool has_value(std::string_view text) {
   return text.substr(0, end).find_first_of("123456789abcdefABCDEF") != std::string_view::npos;
 }
 
-std::string read_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file.is_open() || file.bad()) throw DatasetError(path, {}, "cannot read");
-  return text;
+/// Parses the file; of its keys at the top none may be unknown or come twice.
+nlohmann::json parse(const fs::path& path) {
+  std::set<std::string> seen;
+  const auto check_key = [&](int depth, nlohmann::json::parse_event_t event,
+                             const nlohmann::json& value) {
+    if (event != nlohmann::json::parse_event_t::key || depth != 1) return true;
+    const auto key = value.get<std::string>();
+    if (key != distance_key && key != norm_key) {
+      throw DatasetError(
+          path, {},
+          fmt::format("unknown key {}, expected {} and {}", quote(key), distance_key, norm_key));
+    }
+    if (!seen.insert(key).second) throw DatasetError(path, {}, "repeated key " + quote(key));
+    return true;
+  };
+  return nlohmann::json::parse(read_file(path, most_bytes), check_key);
 }
 
 }  // namespace
@@ -58,10 +73,10 @@ std::optional<fs::path> find_separation_file(const fs::path& dataset) {
 
 Separation read_separation(const fs::path& path) {
   try {
-    const nlohmann::json json = nlohmann::json::parse(read_text(path));
-    const auto distance = distance_from_text(json.at("min_separation").get<std::string>());
+    const nlohmann::json json = parse(path);
+    const auto distance = distance_from_text(json.at(distance_key).get<std::string>());
     if (!distance) throw DatasetError(path, {}, "min_separation is no finite number from 0 on");
-    return {.distance = *distance, .norm = norm_from_string(json.at("norm").get<std::string>())};
+    return {.distance = *distance, .norm = norm_from_string(json.at(norm_key).get<std::string>())};
   } catch (const nlohmann::json::exception& error) {
     throw DatasetError(path, {}, std::string("is no separation: ") + error.what());
   } catch (const std::invalid_argument& error) {

@@ -23,7 +23,8 @@ namespace touchstone::verify {
 [[nodiscard]] std::optional<std::filesystem::path> find_separation_file(
     const std::filesystem::path& dataset);
 
-/// \throws DatasetError if it cannot be read or is none.
+/// \throws DatasetError if it cannot be read, or is anything but an object of these two keys, once
+/// each.
 [[nodiscard]] Separation read_separation(const std::filesystem::path& path);
 
 /// The separation that the recorded answers of a dataset are about. \throws DatasetError as above.

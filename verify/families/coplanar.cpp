@@ -156,7 +156,7 @@ KnownQuery isolated_instant(Recipe& recipe) {
   return known;
 }
 
-constexpr std::array<Definition, 3> definitions{{
+constexpr std::array<Definition, 3> coplanar_list{{
     {{"coplanar-interval",
       "All points share z, so the plane decides: the vertex (or end) crosses the line of a side at "
       "a "
@@ -177,6 +177,6 @@ constexpr std::array<Definition, 3> definitions{{
 
 }  // namespace
 
-std::span<const Definition> coplanar_definitions() { return definitions; }
+std::span<const Definition> coplanar_definitions() { return coplanar_list; }
 
 }  // namespace touchstone::verify::builtin

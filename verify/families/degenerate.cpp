@@ -191,7 +191,7 @@ KnownQuery collinear_edges(Recipe& recipe) {
   return collision(query, toi, Contact{Rational(0), Rational(0)});
 }
 
-constexpr std::array<Definition, 6> definitions{{
+constexpr std::array<Definition, 6> degenerate_list{{
     {{"point-point",
       "Both primitives are points; their relative path is a line that passes 0 at the dyadic time, "
       "or is moved off 0 by a vector that is not parallel to it.",
@@ -231,6 +231,6 @@ constexpr std::array<Definition, 6> definitions{{
 
 }  // namespace
 
-std::span<const Definition> degenerate_definitions() { return definitions; }
+std::span<const Definition> degenerate_definitions() { return degenerate_list; }
 
 }  // namespace touchstone::verify::builtin

@@ -183,7 +183,7 @@ KnownQuery no_motion(Recipe& recipe) {
   return touches ? collision(query, Rational(0), weights.contact()) : miss(query);
 }
 
-constexpr std::array<Definition, 6> definitions{{
+constexpr std::array<Definition, 6> dyadic_list{{
     {{"interior-dyadic",
       "Rigid relative motion across a plane has one contact of the infinite plane or lines; it is "
       "placed at a dyadic (t,u,v) on an integer grid, inside the domain or just outside.",
@@ -216,6 +216,6 @@ constexpr std::array<Definition, 6> definitions{{
 
 }  // namespace
 
-std::span<const Definition> dyadic_definitions() { return definitions; }
+std::span<const Definition> dyadic_definitions() { return dyadic_list; }
 
 }  // namespace touchstone::verify::builtin

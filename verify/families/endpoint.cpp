@@ -16,7 +16,6 @@ using exact::Rational;
 
 namespace {
 
-constexpr Zone anywhere{-3.0, 3.0};
 constexpr Zone lower{-1.5, -1.0};
 constexpr Zone upper{1.0, 1.5};
 
@@ -135,7 +134,7 @@ KnownQuery swap_at_half(Recipe& recipe) {
   return miss_along(query, 1, 1.0);
 }
 
-constexpr std::array<Definition, 3> definitions{{
+constexpr std::array<Definition, 3> endpoint_list{{
     {{"contact-at-end",
       "Two points have the same doubles at t=1 and x separates everything before; or flat "
       "primitives "
@@ -157,6 +156,6 @@ constexpr std::array<Definition, 3> definitions{{
 
 }  // namespace
 
-std::span<const Definition> endpoint_definitions() { return definitions; }
+std::span<const Definition> endpoint_definitions() { return endpoint_list; }
 
 }  // namespace touchstone::verify::builtin

@@ -30,7 +30,6 @@ namespace {
 constexpr Zone centre{-0.5, 0.5};
 constexpr Zone positive{1.0, 3.0};
 constexpr Zone negative{-3.0, -1.0};
-constexpr Zone anywhere{-3.0, 3.0};
 
 /// Two lines of one axis; their difference is α, β or γ.
 struct Pair {
@@ -231,7 +230,7 @@ KnownQuery triple_root(Recipe& recipe) {
   return from_pairs(recipe, pairs, recipe.variant % 3 == 2, sampler);
 }
 
-constexpr std::array<Definition, 4> definitions{{
+constexpr std::array<Definition, 4> product_list{{
     {{"two-roots",
       "Shared coordinates make the determinant a product of differences of known lines with two "
       "rational roots; the verdict at each follows from signs.",
@@ -254,6 +253,6 @@ constexpr std::array<Definition, 4> definitions{{
 
 }  // namespace
 
-std::span<const Definition> product_definitions() { return definitions; }
+std::span<const Definition> product_definitions() { return product_list; }
 
 }  // namespace touchstone::verify::builtin

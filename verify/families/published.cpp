@@ -1,5 +1,5 @@
 /// \file
-/// The configurations printed in the appendices of Wang et al. 2021, generalised. Query 0 of each
+/// The configurations printed in the appendices of [wang2021], generalised. Query 0 of each
 /// family and vertex_face is the printed one, bit for bit; edge_edge has analogues.
 
 #include <array>
@@ -173,7 +173,7 @@ KnownQuery sliding_degenerate(Recipe& recipe) {
   return collision(query, toi, planar_contact(recipe.kind, query, *toi, {0, 1}));
 }
 
-constexpr std::array<Definition, 3> definitions{{
+constexpr std::array<Definition, 3> published_list{{
     {{"hourglass",
       "Two vertices of a flat sinking face exchange their corners; contact is possible only at the "
       "rational time of equal heights, and (u,v) solves two linear equations there.",
@@ -193,6 +193,6 @@ constexpr std::array<Definition, 3> definitions{{
 
 }  // namespace
 
-std::span<const Definition> published_definitions() { return definitions; }
+std::span<const Definition> published_definitions() { return published_list; }
 
 }  // namespace touchstone::verify::builtin

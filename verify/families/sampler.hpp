@@ -32,6 +32,9 @@ struct Zone {
   double high;
 };
 
+/// All of the scene.
+inline constexpr Zone anywhere{-3.0, 3.0};
+
 /// The t at which two lines are equal, exactly, if there is exactly one in [0,1].
 [[nodiscard]] std::optional<exact::Rational> meeting_time(const Line& a, const Line& b);
 

@@ -69,7 +69,7 @@ KnownQuery extreme_range(Recipe& recipe) {
   return level_outcome(recipe.kind, offset, first, second, query);
 }
 
-constexpr std::array<Definition, 3> definitions{{
+constexpr std::array<Definition, 3> scaled_list{{
     {{"scaled",
       "A query of another family times 2^200 or 2^-200, which is exact and changes neither the "
       "verdict nor the time of impact.",
@@ -91,6 +91,6 @@ constexpr std::array<Definition, 3> definitions{{
 
 }  // namespace
 
-std::span<const Definition> scaled_definitions() { return definitions; }
+std::span<const Definition> scaled_definitions() { return scaled_list; }
 
 }  // namespace touchstone::verify::builtin

@@ -408,7 +408,7 @@ KnownQuery tilted(Recipe& recipe) {
   return outcome(query, arrival(offset, recipe.separation));
 }
 
-constexpr std::array<Definition, 7> definitions{{
+constexpr std::array<Definition, 7> separated_list{{
     {{"separation-approach",
       "Flat primitives whose projections always meet are as far apart as their heights; the height "
       "goes from 2d or 4d to 0 or below, so it is d at a known time.",
@@ -450,6 +450,6 @@ constexpr std::array<Definition, 7> definitions{{
 
 }  // namespace
 
-std::span<const Definition> separated_definitions() { return definitions; }
+std::span<const Definition> separated_definitions() { return separated_list; }
 
 }  // namespace touchstone::verify::builtin

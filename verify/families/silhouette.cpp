@@ -77,7 +77,7 @@ KnownQuery needle_triangle(Recipe& recipe) {
   return level_outcome(recipe.kind, Offset::none, first, second, query);
 }
 
-constexpr std::array<Definition, 4> definitions{{
+constexpr std::array<Definition, 4> silhouette_list{{
     {{"silhouette-edge",
       "Flat primitives touch only when their heights, lines between known doubles, cross; vertex "
       "and side share x, and one unit in the last place away x separates everything.",
@@ -106,6 +106,6 @@ constexpr std::array<Definition, 4> definitions{{
 
 }  // namespace
 
-std::span<const Definition> silhouette_definitions() { return definitions; }
+std::span<const Definition> silhouette_definitions() { return silhouette_list; }
 
 }  // namespace touchstone::verify::builtin

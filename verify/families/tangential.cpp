@@ -111,7 +111,7 @@ KnownQuery tangential(Recipe& recipe) {
   return collision(query, toi, planar_contact(recipe.kind, query, toi, {0, 1}));
 }
 
-constexpr std::array<Definition, 1> definitions{{
+constexpr std::array<Definition, 1> tangential_list{{
     {{"tangential",
       "The height of the vertex over the face (of edge over edge) is a constant times (t−τ)², "
       "exactly "
@@ -122,6 +122,6 @@ constexpr std::array<Definition, 1> definitions{{
 
 }  // namespace
 
-std::span<const Definition> tangential_definitions() { return definitions; }
+std::span<const Definition> tangential_definitions() { return tangential_list; }
 
 }  // namespace touchstone::verify::builtin

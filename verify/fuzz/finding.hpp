@@ -3,44 +3,89 @@
 /// \file
 /// What the fuzzer finds: an answer of a solver that is wrong, or none at all.
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/solvers/failure.hpp"
 
 namespace touchstone::verify {
 
-/// What is wrong.
+/// What is wrong: an answer, or that there is none.
 enum class FindingKind : std::uint8_t {
-  false_negative,   ///< no, but they collide
-  late_toi,         ///< toi_lower is above the exact time of impact
-  early_toi_upper,  ///< toi_upper is below the exact time of impact
-  beyond_promise,   ///< a false positive of what calls itself exact, or beyond its tolerance
-  asymmetry,        ///< another answer than to what the query is an exact image of, and wrong
-  crash,            ///< it ends its process, or answers error to a valid query
-  hang,             ///< it takes longer than the limit
-  not_finite,       ///< yes with bounds or a tolerance that are none
+  false_negative,    ///< no, but they collide
+  false_positive,    ///< yes of what calls itself exact, but they do not collide
+  late_toi,          ///< toi_lower is above the exact time of impact
+  early_toi_upper,   ///< toi_upper is below the exact time of impact
+  beyond_tolerance,  ///< yes, but they never come as near as its tolerance claims
+  asymmetry,         ///< another answer than to what the query is an exact image of, and wrong
+  // Those of FailureKind (solvers/failure.hpp).
+  crash,       ///< a signal ends its process
+  exit,        ///< it ends its process with an exit status
+  exception,   ///< it throws
+  no_verdict,  ///< it answers error to a valid query, or sets no verdict
+  not_finite,  ///< yes with bounds or a tolerance that are none
+  hang,        ///< it takes longer than the limit
+  undecided    ///< of what calls itself exact, though they do not collide
 };
-inline constexpr std::size_t finding_kinds = 8;
+inline constexpr std::size_t finding_kinds = 13;
 
 /// "false_negative", "late_toi" and so on, as above.
 [[nodiscard]] std::string_view to_string(FindingKind what);
+
+/// The kind of that name, if there is one.
+[[nodiscard]] std::optional<FindingKind> finding_kind_from_string(std::string_view name);
+
+/// A failure as a finding.
+[[nodiscard]] FindingKind finding_kind_of(FailureKind kind);
+
+/// A query that a solver answers wrongly, its answer, and the truth: all of the same query.
+struct FailingCase {
+  Query query{};
+  fast::Answer answer = {};
+  bool collides = false;    ///< the truth
+  std::string truth = {};   ///< "no collision", or "collision between … and …"
+  std::string detail = {};  ///< what is wrong, in words
+  /// The proof of the truth, as a stream of one certificate (exact/CERTIFICATES.md); empty if beyond
+  /// the format's limits.
+  std::string certificate = {};
+};
+
+/// What became of the attempt to make a finding's query simpler.
+enum class Shrinking : std::uint8_t {
+  not_tried,
+  complete,        ///< no step leads to a simpler query that fails
+  cut_short,       ///< the time was over before
+  not_reproduced,  ///< asked alone, the solver is not wrong
+};
+
+/// "not tried", "complete", "cut short" or "not reproduced".
+[[nodiscard]] std::string_view to_string(Shrinking shrinking);
+
+/// Bounds of a time of impact that a solver gives with nearly every collision, and not with this.
+struct MissingBounds {
+  bool lower = false;
+  bool upper = false;
+
+  [[nodiscard]] bool any() const { return lower || upper; }
+};
 
 /// Something that a solver does wrong, confirmed by the oracle.
 struct Finding {
   FindingKind what = FindingKind::false_negative;
   Kind kind = Kind::vertex_face;
-  Query query{};
   Separation separation = {};
-  std::string method;  ///< that is wrong: the one asked, or "certified" where the judge is
-  fast::Answer answer = {};
-  bool collides = false;  ///< the truth
-  std::string truth;      ///< as to_text(Truth) says it
-  std::string detail;     ///< what is wrong, in words
-  /// Of the truth, as text (exact/CERTIFICATES.md); empty if beyond its limits.
-  std::string certificate;
+  std::string method;         ///< that is wrong: the one asked, or "certified" where the judge is
+  FailingCase original = {};  ///< as it was found
+  FailingCase simplest =
+      {};  ///< the simplest query with the same fault: the original if none was found
+  Shrinking shrinking = Shrinking::not_tried;
+  /// Of what is wrong only in that.
+  MissingBounds missing = {};
   double seconds = 0.0;       ///< wall-clock time of the run when it was found
   std::uint64_t queries = 0;  ///< asked by then, itself included
   std::string generator;      ///< that made the query

@@ -3,27 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <memory>
 #include <span>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
-#include "exact/certificate.hpp"
 #include "fast/certified.hpp"
 #include "verify/decision.hpp"
 #include "verify/fuzz/draws.hpp"
-#include "verify/fuzz/examinee.hpp"
 #include "verify/fuzz/generators.hpp"
+#include "verify/fuzz/recheck.hpp"
 #include "verify/fuzz/referee.hpp"
 #include "verify/fuzz/signature.hpp"
 #include "verify/fuzz/steering.hpp"
 #include "verify/fuzz/symmetry.hpp"
-#include "verify/prove.hpp"
+#include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -33,9 +30,6 @@ using draws::one_in;
 using fast::Answer;
 using fast::CertifiedResult;
 using fast::Verdict;
-using Clock = std::chrono::steady_clock;
-
-constexpr std::string_view judge_name = "certified";
 
 /// Queries of a block before the images: little enough that slow solvers end in time and are
 /// steered early.
@@ -46,6 +40,8 @@ constexpr std::size_t slice_queries = 16;
 constexpr std::size_t judged_together = 64;
 /// What is answered when the time is over has so long to be judged.
 constexpr double seconds_to_judge = 1.0;
+/// Of the time left, the share that may go into making one finding simpler.
+constexpr double shrink_share = 0.1;
 /// One in so many queries is asked again as an image.
 constexpr std::size_t queries_an_image = 8;
 /// Of a class of findings so many are kept.
@@ -57,10 +53,6 @@ constexpr double check_work = 0.05;
 
 /// What a finding is worth beside a query of a new signature.
 constexpr double finding_reward = 50.0;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Far from overflow and underflow: what is made from it is not a query of zeros.
 bool is_moderate(const Query& query) {
@@ -185,49 +177,31 @@ bool contradict(const Answer& a, const Answer& b, bool same_time) {
   return same_time && (a.toi_lower > b.toi_upper || b.toi_lower > a.toi_upper);
 }
 
-/// The certificate of a verdict as text, or nothing where it would be too long.
-std::string prove(Kind kind, const Query& query, const Decision& decision,
-                  std::string_view generator) {
-  std::string text;
-  ProofCounts counts;
-  append_certificate(kind, query, decision, generator, {}, text, counts);
-  return text;
-}
-
 /// One run.
 class Run {
  public:
   Run(const fast::Method& method, const FuzzOptions& options)
       : options_(options),
+        method_(method),
         name_(method.name()),
-        standard_{.promise = options.promise.value_or(method.promise()),
-                  .separation = options.separation,
-                  .reach = options.reach},
+        standard_(standard_of(method, options)),
         oracle_share_(name_ == judge_name ? 1.0 : options.oracle_share),
         generators_(generators(options.separation)),
         maker_(options, generators_),
-        examinee_(method, examinee_options(options)),
+        solver_(method, process_options(options)),
+        method_options_(method_options(options)),
         random_(builtin::mix(options.seed) + 2) {
     for (const Generator& generator : generators_) {
       result_.generators.push_back({.name = std::string(generator.name)});
     }
   }
 
-  /// What a child process is to be asked with.
-  static ExamineeOptions examinee_options(const FuzzOptions& options) {
-    ExamineeOptions result{.method = options.method,
-                           .query_limit_seconds = options.query_limit_seconds,
-                           .stop = options.stop};
-    result.method.min_separation = options.separation.distance;
-    result.method.norm = options.separation.norm;
-    return result;
-  }
-
   FuzzResult run() {
     while (!is_over()) run_block();
-    result_.interrupted = is_stopped();
+    result_.ended_by = ended_by();
+    result_.output = solver_.take_output();
     result_.seconds = seconds();
-    result_.other_seconds = result_.seconds - result_.method_seconds;
+    result_.other_seconds = result_.seconds - result_.method_seconds - result_.shrink_seconds;
     return std::move(result_);
   }
 
@@ -236,18 +210,21 @@ class Run {
     return options_.stop != nullptr && options_.stop->load();
   }
 
-  /// Wall-clock time of the run so far, without what was called back.
-  [[nodiscard]] double seconds() const { return seconds_since(start_) - called_back_; }
+  /// Wall-clock time of the run so far.
+  [[nodiscard]] double seconds() const { return options_.clock() - start_; }
 
   [[nodiscard]] bool is_over() const {
-    return must_end(0.0) ||
-           (options_.most_queries != 0 && result_.queries >= options_.most_queries);
+    return is_stopped() || has_found_enough() || has_asked_enough() || end_.is_over();
   }
 
-  /// Must it end, even in the middle of a block, if it may take so many seconds more than given?
-  [[nodiscard]] bool must_end(double more_seconds) const {
-    return is_stopped() || has_found_enough() ||
-           (options_.seconds > 0.0 && seconds() >= options_.seconds + more_seconds);
+  [[nodiscard]] FuzzEnd ended_by() const {
+    if (is_stopped()) return FuzzEnd::interrupt;
+    if (has_found_enough()) return FuzzEnd::findings;
+    return has_asked_enough() ? FuzzEnd::queries : FuzzEnd::time;
+  }
+
+  [[nodiscard]] bool has_asked_enough() const {
+    return options_.most_queries != 0 && result_.queries >= options_.most_queries;
   }
 
   [[nodiscard]] bool has_found_enough() const {
@@ -261,45 +238,69 @@ class Run {
           std::min<std::uint64_t>(block_.queries.size(), options_.most_queries - result_.queries));
     }
     answers_.assign(block_.queries.size(), Answer{});
+    const double asked = seconds();
     // A block of a slow method may take minutes.
-    constexpr double least = 1e-3;
-    const double left =
-        options_.seconds > 0.0 ? std::max(least, options_.seconds - seconds()) : 0.0;
-    const Clock::time_point asked = Clock::now();
-    const Sitting sitting = examinee_.answer(block_.kind, block_.queries, answers_, left);
-    result_.method_seconds += seconds_since(asked);
-    result_.unplaced_crashes += sitting.unplaced;
-    judge(sitting);
+    const SolverRun run =
+        solver_.solve(block_.kind, block_.queries, answers_, method_options_, solver_seconds(end_));
+    result_.method_seconds += seconds() - asked;
+    result_.unplaced_crashes += run.unplaced_crashes;
+    if (end_.is_over() || is_stopped()) result_.unanswered = block_.queries.size() - run.answered;
+    judge(run);
     if (options_.on_progress) {
       options_.on_progress(
           {.seconds = seconds(), .queries = result_.queries, .findings = result_.all_findings});
     }
   }
 
-  void judge(const Sitting& sitting) {
-    const std::span<const Query> queries = std::span(block_.queries).first(sitting.answered);
-    judged_.assign(queries.size(), CertifiedResult{});
-    incidents_ = sitting.incidents;
-    // In parts: with a distance and extreme coordinates a query may take a second.
-    for (std::size_t first = 0; first < queries.size() && !must_end(seconds_to_judge);
-         first += judged_together) {
-      const std::size_t count = std::min(judged_together, queries.size() - first);
-      fast::solve(block_.kind, queries.subspan(first, count),
-                  std::span(judged_).subspan(first, count),
-                  {.separation = options_.separation, .max_threads = 1});
-      for (std::size_t i = first; i < first + count && !has_found_enough(); ++i) {
-        judge_query(i, incident_at(i));
-      }
+  /// Judges what is answered, and all of it unless the run must end: however late the answers come,
+  /// there is time to judge some, and what ended or held up the solver is reported in any case.
+  void judge(const SolverRun& run) {
+    judged_.assign(run.answered, CertifiedResult{});
+    failures_ = run.failures;
+    judging_end_ = end_.at_least(seconds_to_judge);
+    std::size_t done = 0;
+    while (done < judged_.size() && may_judge(done)) done = judge_part(done);
+    std::size_t late = 0;
+    for (const auto& [position, failure] : failures_) {
+      if (position < done || has_found_enough()) continue;
+      judge_together(position, 1);
+      judge_query(position, &failure);
+      ++late;
     }
+    result_.unjudged += judged_.size() - done - late;
+  }
+
+  /// May another query be judged if so many of the block are?
+  [[nodiscard]] bool may_judge(std::size_t done) const {
+    return !is_stopped() && !has_found_enough() && (done == 0 || !judging_end_.is_over());
+  }
+
+  /// Judges some queries from number `first` on. Returns the number of the next one.
+  std::size_t judge_part(std::size_t first) {
+    // In parts: with a distance and extreme coordinates a query may take a second.
+    const std::size_t end = std::min(first + judged_together, judged_.size());
+    judge_together(first, end - first);
+    std::size_t i = first;
+    while (i < end && may_judge(i)) {
+      judge_query(i, failure_at(i));
+      ++i;
+    }
+    return i;
+  }
+
+  void judge_together(std::size_t first, std::size_t count) {
+    fast::solve(block_.kind, std::span<const Query>(block_.queries).subspan(first, count),
+                std::span(judged_).subspan(first, count),
+                {.separation = options_.separation, .max_threads = 1});
   }
 
   /// What happened at a query, or null.
-  [[nodiscard]] const Incident* incident_at(std::size_t i) const {
-    const auto found = std::ranges::lower_bound(incidents_, i, {}, &Incident::position);
-    return found != incidents_.end() && found->position == i ? &*found : nullptr;
+  [[nodiscard]] const Failure* failure_at(std::size_t i) const {
+    const auto found = std::ranges::lower_bound(failures_, i, {}, &QueryFailure::position);
+    return found != failures_.end() && found->position == i ? &found->failure : nullptr;
   }
 
-  void judge_query(std::size_t i, const Incident* incident) {
+  void judge_query(std::size_t i, const Failure* failure) {
     GeneratorStatistics& statistics = result_.generators[block_.arms[i]];
     ++result_.queries;
     ++statistics.queries;
@@ -310,8 +311,8 @@ class Run {
     }
     double work = 0.0;
     double reward = 0.0;
-    if (incident != nullptr) {
-      reward += report_incident(i, incident->hang);
+    if (failure != nullptr) {
+      reward += report_failure(i, *failure);
     } else {
       reward += examine_answer(i, work);
     }
@@ -330,9 +331,8 @@ class Run {
   double examine_answer(std::size_t i, double& work) {
     const Query& query = block_.queries[i];
     const bool is_drawn = random_.unit() < oracle_share_;
-    const bool lacks_bound =
-        answers_[i].verdict == Verdict::yes && lacks_habitual_bound(answers_[i]);
-    if (!is_drawn && !lacks_bound &&
+    const MissingBounds missing = missing_bounds(answers_[i]);
+    if (!is_drawn && !missing.any() &&
         is_beyond_doubt(block_.kind, query, judged_[i], answers_[i], standard_)) {
       return 0.0;
     }
@@ -343,21 +343,24 @@ class Run {
     double reward = 0.0;
     if (name_ != judge_name) {
       const auto of_judge = accuse_judge(truth, judged_[i]);
-      if (of_judge) reward += report(i, *of_judge, judge_name, decision);
+      if (of_judge) reward += report(i, {*of_judge, judge_name}, decision);
     }
     auto accusation = accuse(block_.kind, query, truth, answers_[i], standard_);
-    if (!accusation && lacks_bound) {
-      accusation = {FindingKind::not_finite, "a bound that it gives with other collisions is NaN"};
+    if (!accusation && missing.any()) {
+      accusation = {FindingKind::not_finite,
+                    fmt::format("{} is NaN, which it gives with other collisions",
+                                missing.lower ? "toi_lower" : "toi_upper")};
+      return reward + report(i, {*accusation, name_, missing}, decision);
     }
     if (!accusation) return reward;
     explain_asymmetry(i, *accusation);
-    return reward + report(i, *accusation, name_, decision);
+    return reward + report(i, {*accusation, name_}, decision);
   }
 
-  /// \pre the answer is a yes
-  bool lacks_habitual_bound(const Answer& answer) {
-    const bool lacks_lower = lower_habit_.is_missing(answer.toi_lower);
-    return upper_habit_.is_missing(answer.toi_upper) || lacks_lower;
+  MissingBounds missing_bounds(const Answer& answer) {
+    if (answer.verdict != Verdict::yes) return {};
+    return {.lower = lower_habit_.is_missing(answer.toi_lower),
+            .upper = upper_habit_.is_missing(answer.toi_upper)};
   }
 
   /// If the query is an image and what it is an image of has an answer that contradicts: of what
@@ -365,8 +368,7 @@ class Run {
   void explain_asymmetry(std::size_t i, Accusation& accusation) const {
     const Image* const image = block_.image(i);
     if (image == nullptr || standard_.promise != fast::Promise::exact) return;
-    const bool origin_has_answer = std::ranges::none_of(
-        incidents_, [&](const Incident& other) { return other.position == image->origin; });
+    const bool origin_has_answer = failure_at(image->origin) == nullptr;
     const Answer& other = answers_[image->origin];
     if (!origin_has_answer || !contradict(answers_[i], other, !image->symmetry.reversed)) return;
     accusation.what = FindingKind::asymmetry;
@@ -374,72 +376,79 @@ class Run {
                                      to_text(image->symmetry), to_text(other));
   }
 
-  double report_incident(std::size_t i, bool hang) {
-    answers_[i] = {.verdict = hang ? Verdict::undecided : Verdict::error};
+  double report_failure(std::size_t i, const Failure& failure) {
     ++result_.judged_by_oracle;
-    const Accusation accusation =
-        hang ? Accusation{FindingKind::hang,
-                          fmt::format("takes more than {} s", options_.query_limit_seconds)}
-             : Accusation{FindingKind::crash, "ends its process"};
-    return report(i, accusation, name_,
+    return report(i, {accuse_failure(failure, options_.query_limit_seconds), name_},
                   Decision(block_.kind, block_.queries[i], options_.separation));
   }
 
+  /// Who does what wrong.
+  struct Charge {
+    Accusation accusation;
+    std::string_view method;
+    MissingBounds missing = {};
+  };
+
   /// Counts a finding, keeps the first of a class. Returns the reward, less for what is not new.
-  double report(std::size_t i, const Accusation& accusation, std::string_view method,
-                const Decision& decision) {
+  double report(std::size_t i, const Charge& charge, const Decision& decision) {
+    if (!seeks(options_, charge.accusation.what)) {
+      ++result_.other_findings;
+      return 0.0;
+    }
     ++result_.all_findings;
     ++result_.generators[block_.arms[i]].findings;
-    const Class what{std::string(method), accusation.what, block_.kind, judged_[i].stage,
-                     block_.arms[i]};
+    const Class what{std::string(charge.method), charge.accusation.what, block_.kind,
+                     judged_[i].stage, block_.arms[i]};
     const std::uint64_t before = classes_[what]++;
-    if (before < kept_of_class && !has_found_enough()) keep(i, accusation, method, decision);
+    if (before < kept_of_class && !has_found_enough()) keep(i, charge, decision);
     return finding_reward / (1.0 + static_cast<double>(before));
   }
 
-  void keep(std::size_t i, const Accusation& accusation, std::string_view method,
-            const Decision& decision) {
-    const bool of_judge = method == judge_name && name_ != judge_name;
-    const Query& query = block_.queries[i];
+  void keep(std::size_t i, const Charge& charge, const Decision& decision) {
+    const bool of_judge = charge.method == judge_name && name_ != judge_name;
     const std::string& generator = result_.generators[block_.arms[i]].name;
-    const CertifiedResult& judged = judged_[i];
-    const Answer answer = of_judge ? Answer{.verdict = judged.verdict,
-                                            .toi_lower = judged.toi_lower,
-                                            .toi_upper = judged.toi_upper,
-                                            .tolerance = Answer::none}
-                                   : answers_[i];
-    result_.findings.push_back({.what = accusation.what,
-                                .kind = block_.kind,
-                                .query = query,
-                                .separation = options_.separation,
-                                .method = std::string(method),
-                                .answer = answer,
-                                .collides = decision.collides(),
-                                .truth = to_text(truth_of(0, decision)),
-                                .detail = accusation.detail,
-                                .certificate = prove(block_.kind, query, decision, generator),
-                                .seconds = seconds(),
-                                .queries = result_.queries,
-                                .generator = generator});
-    if (!options_.on_finding) return;
-    const Clock::time_point called = Clock::now();
-    options_.on_finding(result_.findings.back());
-    called_back_ += seconds_since(called);
+    Finding finding{.what = charge.accusation.what,
+                    .kind = block_.kind,
+                    .separation = options_.separation,
+                    .method = std::string(charge.method),
+                    .original = failing_case(block_.kind, block_.queries[i],
+                                             of_judge ? answer_of(judged_[i]) : answers_[i],
+                                             decision, charge.accusation.detail, generator),
+                    .missing = charge.missing,
+                    .seconds = seconds(),
+                    .queries = result_.queries,
+                    .generator = generator};
+    finding.simplest = finding.original;
+    make_simpler(finding);
+    result_.findings.push_back(std::move(finding));
+    if (options_.on_finding) options_.on_finding(result_.findings.back());
+  }
+
+  void make_simpler(Finding& finding) {
+    if (options_.shrink_seconds == 0.0) return;
+    const double begin = seconds();
+    const double most =
+        std::min(options_.shrink_seconds, shrink_share * judging_end_.seconds_left());
+    simplify(method_, options_, judging_end_.at_most(most), finding);
+    result_.shrink_seconds += seconds() - begin;
   }
 
   /// What makes two findings alike: who, what, and found in which way.
   using Class = std::tuple<std::string, FindingKind, Kind, fast::Stage, std::size_t>;
 
   const FuzzOptions& options_;
+  const fast::Method& method_;
   std::string name_;
   Standard standard_;
   double oracle_share_;
   std::vector<Generator> generators_;
   BlockMaker maker_;
-  Examinee examinee_;
+  SolverProcess solver_;
+  fast::MethodOptions method_options_;
   Random random_;
-  Clock::time_point start_ = Clock::now();
-  double called_back_ = 0.0;
+  double start_ = options_.clock();
+  Deadline end_{options_.seconds > 0.0 ? options_.seconds : std::numeric_limits<double>::infinity(),
+                options_.clock};
   SignatureTable signatures_;
   BoundHabit lower_habit_;
   BoundHabit upper_habit_;
@@ -449,13 +458,14 @@ class Run {
   Block block_;
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
-  std::vector<Incident> incidents_;
+  std::vector<QueryFailure> failures_;
+  Deadline judging_end_;
 };
 
 void check(const FuzzOptions& options) {
   // Written so that NaN fails too.
-  if (!(options.seconds >= 0.0) || !(options.query_limit_seconds >= 0.0) ||
-      !std::isfinite(options.query_limit_seconds)) {
+  if (!(options.seconds >= 0.0) || !(options.shrink_seconds >= 0.0) ||
+      !(options.query_limit_seconds >= 0.0) || !std::isfinite(options.query_limit_seconds)) {
     throw std::invalid_argument("fuzz: times must not be negative");
   }
   if (!(options.oracle_share >= 0.0 && options.oracle_share <= 1.0)) {
@@ -472,59 +482,31 @@ void check(const FuzzOptions& options) {
   }
 }
 
-/// Asks again, for shrinking.
-class Retrial {
- public:
-  Retrial(const fast::Method& method, Finding finding, const FuzzOptions& options)
-      : finding_(std::move(finding)),
-        standard_{.promise = options.promise.value_or(method.promise()),
-                  .separation = options.separation,
-                  .reach = options.reach},
-        of_judge_(finding_.method == judge_name && method.name() != judge_name),
-        examinee_(method, Run::examinee_options(options)) {}
-
-  bool operator()(const Query& query) {
-    if (!draws::is_finite(query)) return false;
-    const auto truth = [&] {
-      return truth_of(0, Decision(finding_.kind, query, standard_.separation));
-    };
-    if (of_judge_) {
-      const CertifiedResult judged =
-          fast::certified(finding_.kind, query, {.separation = standard_.separation});
-      const auto accusation = accuse_judge(truth(), judged);
-      return accusation && accusation->what == finding_.what;
-    }
-    Answer answer;
-    const Sitting sitting = examinee_.answer(finding_.kind, {&query, 1}, {&answer, 1});
-    if (!sitting.incidents.empty()) {
-      return finding_.what ==
-             (sitting.incidents.front().hang ? FindingKind::hang : FindingKind::crash);
-    }
-    if (sitting.answered == 0) return false;
-    if (lacks_same_bound(answer)) return true;
-    const auto accusation = accuse(finding_.kind, query, truth(), answer, standard_);
-    if (!accusation) return false;
-    return accusation->what == finding_.what || finding_.what == FindingKind::asymmetry;
-  }
-
- private:
-  /// Was the finding a missing bound, and are the same ones missing here?
-  [[nodiscard]] bool lacks_same_bound(const Answer& answer) const {
-    const Answer& found = finding_.answer;
-    if (finding_.what != FindingKind::not_finite || answer.verdict != Verdict::yes) return false;
-    const bool had_bad_number =
-        std::isinf(found.toi_lower) || std::isinf(found.toi_upper) || found.tolerance < 0.0;
-    return !had_bad_number && std::isnan(found.toi_lower) == std::isnan(answer.toi_lower) &&
-           std::isnan(found.toi_upper) == std::isnan(answer.toi_upper);
-  }
-
-  Finding finding_;
-  Standard standard_;
-  bool of_judge_;
-  Examinee examinee_;
-};
-
 }  // namespace
+
+bool seeks(const FuzzOptions& options, FindingKind what) {
+  return options.only.empty() || std::ranges::find(options.only, what) != options.only.end();
+}
+
+fast::MethodOptions method_options(const FuzzOptions& options) {
+  fast::MethodOptions result = options.method;
+  result.min_separation = options.separation.distance;
+  result.norm = options.separation.norm;
+  return result;
+}
+
+std::string_view to_string(FuzzEnd end) {
+  switch (end) {
+    case FuzzEnd::time:
+      return "time";
+    case FuzzEnd::queries:
+      return "queries";
+    case FuzzEnd::findings:
+      return "findings";
+    default:
+      return "interrupt";
+  }
+}
 
 double FuzzResult::queries_per_second() const {
   return seconds > 0.0 ? static_cast<double>(queries) / seconds : 0.0;
@@ -537,12 +519,6 @@ double FuzzResult::judged_per_second() const {
 FuzzResult fuzz(const fast::Method& method, const FuzzOptions& options) {
   check(options);
   return Run(method, options).run();
-}
-
-std::function<bool(const Query&)> still_fails(const fast::Method& method, const Finding& finding,
-                                              const FuzzOptions& options) {
-  const auto retrial = std::make_shared<Retrial>(method, finding, options);
-  return [retrial](const Query& query) { return (*retrial)(query); };
 }
 
 }  // namespace touchstone::verify

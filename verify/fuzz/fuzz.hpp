@@ -4,7 +4,7 @@
 /// The search for wrong answers of one solver.
 ///
 /// Blocks of queries come from generators (generators.hpp) that the steering (steering.hpp) prefers
-/// by what they have brought so far. The solver answers them in a child process (examinee.hpp), the
+/// by what they have brought so far. The solver answers them in a child process (solver_process.hpp), the
 /// certified solver judges (referee.hpp), and the oracle judges a share again and everything that
 /// is suspect. Some queries are asked once more as an exact image (symmetry.hpp).
 ///
@@ -18,12 +18,15 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/methods/reach.hpp"
+#include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify {
 
@@ -41,7 +44,8 @@ struct FuzzProgress {
 };
 
 struct FuzzOptions {
-  /// Wall-clock seconds; 0: no limit. What is answered by then is judged for a second more.
+  /// Wall-clock seconds, with all that is done about findings; 0: no limit. What is answered by then
+  /// is judged, for a second more.
   double seconds = 0.0;
   /// Queries asked, images included; 0: no limit. The run ends exactly there.
   std::uint64_t most_queries = 0;
@@ -52,13 +56,20 @@ struct FuzzOptions {
   fast::MethodOptions method = {};
   /// What the method is held to, if not to its own promise.
   std::optional<fast::Promise> promise = std::nullopt;
-  /// What the method's tolerances claim; null: nothing is known of it.
-  Reach reach = nullptr;
+  /// What the method's tolerances claim.
+  Reach reach = stated_reach;
   /// Wall-clock seconds a query may take; 0: no limit. Exact arithmetic takes one where coordinates from
   /// 2^-1074 to 2^1023 meet a distance in L2.
   double query_limit_seconds = 10.0;
+  /// What the method's process may take.
+  ChildLimits limits = {};
   /// Findings that are kept (one or a few of a class) after which the run ends; 0: never.
   std::size_t most_findings = 0;
+  /// Wall-clock seconds for making the query of a finding simpler, or a tenth of what is left of the
+  /// run if that is less; 0: it stays as it is.
+  double shrink_seconds = 0.0;
+  /// Kinds of findings that are sought; empty: all. Others are counted and nothing else.
+  std::vector<FindingKind> only = {};
   /// Queries to mutate.
   std::vector<CorpusQuery> corpus = {};
   /// Kinds of queries to ask; not empty.
@@ -70,9 +81,23 @@ struct FuzzOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Called now and then.
   std::function<void(const FuzzProgress&)> on_progress = nullptr;
-  /// Called with every finding that is kept, when it is found. Its time is none of the run's.
+  /// Called with every finding that is kept, when it is found and made simpler.
   std::function<void(const Finding&)> on_finding = nullptr;
+  /// The clock of all times above but the query limit's.
+  SecondsClock clock = steady_seconds;
 };
+
+/// Is that kind of findings sought?
+[[nodiscard]] bool seeks(const FuzzOptions& options, FindingKind what);
+
+/// What the method of a run is asked with.
+[[nodiscard]] fast::MethodOptions method_options(const FuzzOptions& options);
+
+/// What ended a run.
+enum class FuzzEnd : std::uint8_t { time, queries, findings, interrupt };
+
+/// "time", "queries", "findings" or "interrupt".
+[[nodiscard]] std::string_view to_string(FuzzEnd end);
 
 /// What one generator has brought.
 struct GeneratorStatistics {
@@ -85,22 +110,27 @@ struct GeneratorStatistics {
 
 struct FuzzResult {
   std::uint64_t queries = 0;           ///< asked and judged, images included
-  std::uint64_t images = 0;            ///< of these
+  std::uint64_t unjudged = 0;          ///< answered, but the run was over before they were judged
+  std::uint64_t unanswered = 0;        ///< asked, but the run was over before they were answered
+  std::uint64_t images = 0;            ///< of those judged
   std::uint64_t collisions = 0;        ///< of these, by the judge
   std::uint64_t judged_by_oracle = 0;  ///< its share, and what was suspect
   double seconds = 0.0;                ///< wall clock
   double method_seconds = 0.0;         ///< of these, waiting for the method
+  double shrink_seconds = 0.0;         ///< of these, making findings simpler
   double other_seconds = 0.0;          ///< generating and judging: the rest
   std::vector<Finding> findings;       ///< in order; the first of each class
   std::uint64_t all_findings = 0;      ///< kept or not
+  std::uint64_t other_findings = 0;    ///< of kinds that were not sought, beside all these
   /// Times the method ended its process at queries none of which does it alone.
   std::uint64_t unplaced_crashes = 0;
+  CapturedOutput output;  ///< what the method printed
   std::vector<GeneratorStatistics> generators;
-  bool interrupted = false;
+  FuzzEnd ended_by = FuzzEnd::time;
 
   /// 0 if there are none or they took no time.
   [[nodiscard]] double queries_per_second() const;
-  /// Without the method's time.
+  /// Without the method's time and that of making findings simpler.
   [[nodiscard]] double judged_per_second() const;
 };
 
@@ -109,13 +139,5 @@ struct FuzzResult {
 /// \throws std::invalid_argument for options out of range; std::system_error if no process can be
 /// made.
 [[nodiscard]] FuzzResult fuzz(const fast::Method& method, const FuzzOptions& options);
-
-/// Does the method do the same wrong to another query? For shrinking: each call asks the method
-/// alone, in a child process, and the oracle. What was found by an image is wrong in any way. Of a
-/// finding against the judge, the judge is asked. The method must live as long as the function.
-/// \param options those of the run
-[[nodiscard]] std::function<bool(const Query&)> still_fails(const fast::Method& method,
-                                                            const Finding& finding,
-                                                            const FuzzOptions& options);
 
 }  // namespace touchstone::verify

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "verify/fuzz/referee.hpp"
 #include "verify/methods/answers.hpp"
 #include "verify/methods/registry.hpp"
 #include "verify/separation.hpp"
@@ -34,52 +35,135 @@ std::string generator_table(const FuzzResult& result) {
   return text;
 }
 
+/// Whether the simplest query is the simplest there is, where that needs to be said.
+std::string_view shrinking_text(Shrinking shrinking) {
+  switch (shrinking) {
+    case Shrinking::cut_short:
+      return "  (the time was over before it was made simpler, or as simple as it goes)\n";
+    case Shrinking::not_reproduced:
+      return "  (asked alone, it is not wrong)\n";
+    default:
+      return "";
+  }
+}
+
+std::string case_text(Kind kind, const FailingCase& failing) {
+  return fmt::format("  {}\n  answer: {}\n  truth: {}\n\n{}", failing.detail,
+                     to_text(failing.answer), failing.truth, as_points(kind, failing.query));
+}
+
+/// Why the run ended, if it ended before all was done that was asked for.
+std::string end_text(const FuzzReport& report) {
+  const FuzzResult& result = report.result;
+  std::string text;
+  if (result.ended_by == FuzzEnd::time && report.queries != 0) {
+    text += fmt::format("\nended by the time: {} of {} queries judged in {} s\n", result.queries,
+                        report.queries, report.seconds);
+  }
+  if (result.ended_by != FuzzEnd::findings && result.unjudged != 0) {
+    text +=
+        fmt::format("\n{} queries more were answered, too late to be judged\n", result.unjudged);
+  }
+  if (result.unanswered != 0) {
+    text +=
+        fmt::format("\n{} queries more were asked, and not answered in time\n", result.unanswered);
+  }
+  return text;
+}
+
+nlohmann::json answer_json(const fast::Answer& answer) {
+  return {{"verdict", to_string(answer.verdict)},
+          {"toi_lower", number_or_null(answer.toi_lower)},
+          {"toi_upper", number_or_null(answer.toi_upper)},
+          {"tolerance", number_or_null(answer.tolerance)}};
+}
+
+nlohmann::json case_json(const FailingCase& failing) {
+  return {{"coordinates", coordinates_of(failing.query)},
+          {"answer", answer_json(failing.answer)},
+          {"collides", failing.collides},
+          {"truth", failing.truth},
+          {"detail", failing.detail},
+          {"certificate",
+           failing.certificate.empty() ? nlohmann::json() : nlohmann::json(failing.certificate)}};
+}
+
+nlohmann::json solver_json(const SolverCall& solver) {
+  return {
+      {"method", solver.method},
+      {"plugin", solver.plugin.empty() ? nlohmann::json() : nlohmann::json(solver.plugin.string())},
+      {"promise", to_string(solver.promise)},
+      {"tolerance", solver.options.tolerance},
+      {"max_checks", solver.options.max_checks},
+      {"min_separation", solver.options.min_separation},
+      {"norm", to_string(solver.options.norm)},
+      {"t_max", solver.options.t_max},
+      {"query_limit", solver.query_limit_seconds},
+      {"memory_limit", solver.limits.memory_bytes},
+      {"allow_processes", solver.limits.may_fork}};
+}
+
+Separation separation_of(const SolverCall& solver) {
+  return {.distance = solver.options.min_separation, .norm = solver.options.norm};
+}
+
 }  // namespace
 
-std::string to_text(const Finding& finding) {
+std::string to_text(const Finding& finding, const SolverCall& asked) {
   std::string about(to_string(finding.kind));
   if (!is_contact(finding.separation)) {
     about += " at minimum separation " + to_text(finding.separation);
   }
-  return fmt::format("{} of {}, {} ({}, after {:.2f} s and {} queries)\n  {}\n  truth: {}\n",
-                     to_string(finding.what), finding.method, about, finding.generator,
-                     finding.seconds, finding.queries, finding.detail, finding.truth);
+  std::string text =
+      fmt::format("{} of {}, {} ({}, after {:.2f} s and {} queries)\n", to_string(finding.what),
+                  finding.method, about, finding.generator, finding.seconds, finding.queries);
+  text += case_text(finding.kind, finding.simplest);
+  text += shrinking_text(finding.shrinking);
+  if (finding.simplest.query != finding.original.query) {
+    text += fmt::format("\nMade simpler from\n{}", case_text(finding.kind, finding.original));
+  }
+  const Reproduction reproduction = reproduction_of(finding, asked);
+  text += fmt::format("\nTo ask again:\n{}\nAs a test:\n{}\n", as_command(reproduction),
+                      as_cpp_test(reproduction));
+  return text;
 }
 
 std::string to_text(const FuzzReport& report) {
   const FuzzResult& result = report.result;
+  const Separation separation = separation_of(report.solver);
   std::string text = fmt::format(
       "{} ({}), seed {}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
       "{:.0f} queries a second, {:.0f} without the method's own time; {} judged by the oracle\n\n",
-      report.method, to_string(report.promise), report.seed,
-      is_contact(report.separation) ? "" : ", minimum separation " + to_text(report.separation),
-      result.queries, result.seconds, result.images, result.collisions, result.queries_per_second(),
+      report.solver.method, to_string(report.solver.promise), report.seed,
+      is_contact(separation) ? "" : ", minimum separation " + to_text(separation), result.queries,
+      result.seconds, result.images, result.collisions, result.queries_per_second(),
       result.judged_per_second(), result.judged_by_oracle);
   text += generator_table(result);
+  text += end_text(report);
   text += result.all_findings == 0 ? "\nno findings\n"
                                    : fmt::format("\n{} findings, {} with all that are like them\n",
                                                  result.findings.size(), result.all_findings);
+  if (result.other_findings != 0) {
+    text += fmt::format("{} of kinds that were not sought\n", result.other_findings);
+  }
   return text;
 }
 
-nlohmann::json to_json(const Finding& finding) {
-  return {{"what", to_string(finding.what)},
-          {"kind", to_string(finding.kind)},
-          {"separation", to_json(finding.separation)},
-          {"method", finding.method},
-          {"collides", finding.collides},
-          {"truth", finding.truth},
-          {"detail", finding.detail},
-          {"answer",
-           {{"verdict", to_string(finding.answer.verdict)},
-            {"toi_lower", number_or_null(finding.answer.toi_lower)},
-            {"toi_upper", number_or_null(finding.answer.toi_upper)},
-            {"tolerance", number_or_null(finding.answer.tolerance)}}},
-          {"generator", finding.generator},
-          {"seconds", finding.seconds},
-          {"queries", finding.queries},
-          {"coordinates", coordinates_of(finding.query)},
-          {"certificate", finding.certificate}};
+nlohmann::json to_json(const Finding& finding, const SolverCall& asked) {
+  const Reproduction reproduction = reproduction_of(finding, asked);
+  nlohmann::json json = case_json(finding.simplest);
+  json.update({{"what", to_string(finding.what)},
+               {"kind", to_string(finding.kind)},
+               {"separation", to_json(finding.separation)},
+               {"method", finding.method},
+               {"generator", finding.generator},
+               {"seconds", finding.seconds},
+               {"queries", finding.queries},
+               {"shrinking", to_string(finding.shrinking)},
+               {"original", case_json(finding.original)},
+               {"solver", solver_json(reproduction.solver)},
+               {"command", as_command(reproduction)}});
+  return json;
 }
 
 nlohmann::json to_json(const FuzzReport& report) {
@@ -92,24 +176,37 @@ nlohmann::json to_json(const FuzzReport& report) {
                           {"signatures", generator.signatures},
                           {"findings", generator.findings}});
   }
-  nlohmann::json findings = nlohmann::json::array();
-  for (const Finding& finding : result.findings) findings.push_back(to_json(finding));
-  return {{"method", report.method},
-          {"promise", to_string(report.promise)},
+  nlohmann::json findings = nlohmann::json::array(), only = nlohmann::json::array();
+  for (const FindingKind kind : report.only) only.push_back(to_string(kind));
+  for (const Finding& finding : result.findings) {
+    findings.push_back(to_json(finding, report.solver));
+  }
+  return {{"solver", solver_json(report.solver)},
+          {"method", report.solver.method},
+          {"promise", to_string(report.solver.promise)},
           {"seed", report.seed},
-          {"separation", to_json(report.separation)},
+          {"separation", to_json(separation_of(report.solver))},
+          {"asked",
+           {{"seconds", report.seconds > 0.0 ? nlohmann::json(report.seconds) : nlohmann::json()},
+            {"queries", report.queries != 0 ? nlohmann::json(report.queries) : nlohmann::json()},
+            {"only", only}}},
+          {"ended_by", to_string(result.ended_by)},
           {"queries", result.queries},
+          {"unjudged", result.unjudged},
+          {"unanswered", result.unanswered},
           {"images", result.images},
           {"collisions", result.collisions},
           {"judged_by_oracle", result.judged_by_oracle},
           {"seconds", result.seconds},
           {"method_seconds", result.method_seconds},
+          {"shrink_seconds", result.shrink_seconds},
           {"other_seconds", result.other_seconds},
           {"queries_per_second", result.queries_per_second()},
           {"judged_per_second", result.judged_per_second()},
           {"all_findings", result.all_findings},
+          {"other_findings", result.other_findings},
           {"unplaced_crashes", result.unplaced_crashes},
-          {"interrupted", result.interrupted},
+          {"interrupted", result.ended_by == FuzzEnd::interrupt},
           {"generators", generators},
           {"findings", findings}};
 }

@@ -7,6 +7,7 @@
 
 #include "exact/distance_oracle.hpp"
 #include "verify/methods/answers.hpp"
+#include "verify/separation.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -21,12 +22,11 @@ bool has_bad_number(const Answer& answer) {
   return std::isinf(answer.toi_lower) || std::isinf(answer.toi_upper) || answer.tolerance < 0.0;
 }
 
-/// How near, in L∞, they come by what a yes claims, if it claims anything.
+/// How near they come by what a yes claims, if it claims anything.
 std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& answer,
                                    const Standard& standard) {
   if (!standard.reach) return std::nullopt;
-  const Separation claimed{.distance = standard.reach(kind, query, answer, standard.separation),
-                           .norm = Norm::linf};
+  const Separation claimed = standard.reach(kind, query, answer, standard.separation);
   return is_valid(claimed) ? std::optional(claimed) : std::nullopt;
 }
 
@@ -35,9 +35,9 @@ std::optional<Accusation> accuse_reach(Kind kind, const Query& query, const Answ
                                        const Standard& standard) {
   const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
   if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
-  return Accusation{FindingKind::beyond_promise,
-                    fmt::format("{}, but they never come within {} in L∞, as that claims",
-                                to_text(answer), claimed->distance)};
+  return Accusation{FindingKind::beyond_tolerance,
+                    fmt::format("{}, but they never come within {}, as that claims",
+                                to_text(answer), to_text(*claimed))};
 }
 
 std::optional<Accusation> accuse_toi(const Truth& truth, const Answer& answer) {
@@ -65,7 +65,9 @@ bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judge
     if (standard.promise == Promise::exact) return false;
     if (!is_yes) return true;
     const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
-    return !claimed || is_seen_within(kind, query, answer.toi_lower, claimed->distance) ||
+    return !claimed ||
+           (claimed->norm == Norm::linf &&
+            is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
            fast::certified(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
   }
   if (answer.verdict == Verdict::no) return false;
@@ -76,9 +78,7 @@ bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judge
 
 std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& truth,
                                  const Answer& answer, const Standard& standard) {
-  if (answer.verdict == Verdict::error) {
-    return Accusation{FindingKind::crash, "error, of a valid query"};
-  }
+  if (answer.verdict == Verdict::error) return accuse_failure(failure_of(answer).value(), 0.0);
   if (answer.verdict == Verdict::yes && has_bad_number(answer)) {
     return Accusation{FindingKind::not_finite, to_text(answer)};
   }
@@ -90,11 +90,24 @@ std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& tru
   }
   if (answer.verdict == Verdict::no) return std::nullopt;
   if (standard.promise == Promise::exact) {
-    return Accusation{FindingKind::beyond_promise,
-                      to_text(answer) + ", but they do not collide, and it promises exactness"};
+    return Accusation{
+        answer.verdict == Verdict::yes ? FindingKind::false_positive : FindingKind::undecided,
+        to_text(answer) + ", but they do not collide, and it promises exactness"};
   }
   return answer.verdict == Verdict::yes ? accuse_reach(kind, query, answer, standard)
                                         : std::nullopt;
+}
+
+Accusation accuse_failure(const Failure& failure, double limit_seconds) {
+  const FindingKind what = finding_kind_of(failure.kind);
+  switch (failure.kind) {
+    case FailureKind::hang:
+      return {what, fmt::format("takes more than {} s", limit_seconds)};
+    case FailureKind::no_verdict:
+      return {what, "error or no verdict, of a valid query"};
+    default:
+      return {what, to_text(failure)};
+  }
 }
 
 std::optional<Accusation> accuse_judge(const Truth& truth, const CertifiedResult& judged) {

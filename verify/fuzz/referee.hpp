@@ -17,6 +17,7 @@
 #include "verify/fuzz/finding.hpp"
 #include "verify/methods/judge.hpp"
 #include "verify/methods/reach.hpp"
+#include "verify/solvers/failure.hpp"
 
 namespace touchstone::verify {
 
@@ -41,17 +42,20 @@ struct Accusation {
                                    const Standard& standard);
 
 /// What is wrong with the answer to a valid query, if anything is:
-/// - crash: the verdict is `error`;
-/// - false_negative: no, but they collide;
-/// - beyond_promise: yes or undecided though they do not collide, of what promises exactness; yes,
-///   but they
-///   never come as near as its tolerance claims, in L∞;
+/// - no_verdict: the verdict is `error`;
 /// - not_finite: yes with an infinite bound, or a tolerance below 0;
+/// - false_negative: no, but they collide;
+/// - false_positive, undecided: though they do not collide, of what promises exactness;
+/// - beyond_tolerance: yes, but they never come as near as its tolerance claims;
 /// - late_toi, early_toi_upper: yes with a bound on the wrong side of the exact time of impact.
 /// \param truth of the query at the standard's separation
 [[nodiscard]] std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& truth,
                                                const fast::Answer& answer,
                                                const Standard& standard);
+
+/// What is wrong with a solver that gave no answer, or none that can be.
+/// \param limit_seconds that a query may take
+[[nodiscard]] Accusation accuse_failure(const Failure& failure, double limit_seconds);
 
 /// Does the oracle's truth contradict what the certified solver found?
 [[nodiscard]] std::optional<Accusation> accuse_judge(const Truth& truth,

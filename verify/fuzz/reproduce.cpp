@@ -6,12 +6,15 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 #include "verify/dataset/csv_dataset.hpp"
 #include "verify/families/random.hpp"
+#include "verify/fuzz/recheck.hpp"
+#include "verify/methods/registry.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -61,9 +64,9 @@ std::string fingerprint(const Reproduction& found) {
   const auto add = [&](std::uint64_t bits) {
     hash = builtin::mix(hash + bits + 0x9e3779b97f4a7c15ULL);
   };
-  for (const double x : found.query.coordinates) add(std::bit_cast<std::uint64_t>(x));
-  add(std::bit_cast<std::uint64_t>(found.separation.distance));
-  add(static_cast<std::uint64_t>(found.separation.norm));
+  for (const double x : found.failing.query.coordinates) add(std::bit_cast<std::uint64_t>(x));
+  add(std::bit_cast<std::uint64_t>(found.solver.options.min_separation));
+  add(static_cast<std::uint64_t>(found.solver.options.norm));
   return fmt::format("{:08x}", hash >> 32U);
 }
 
@@ -85,19 +88,76 @@ std::string_view enumerator(Kind kind) {
   return kind == Kind::vertex_face ? "Kind::vertex_face" : "Kind::edge_edge";
 }
 
-/// The test itself: what it asks, and whom.
-std::string call_as_code(const Reproduction& found) {
-  if (found.plugin.empty()) {
-    return fmt::format("expect_no_fault(verify::find_method({}));", literal(found.method));
+std::string options_as_code(const fast::MethodOptions& options) {
+  return fmt::format(
+      "      .tolerance = {},  // {}\n      .max_checks = {},\n"
+      "      .min_separation = {},  // {}\n      .norm = Norm::{},\n      .t_max = {},  // {}\n",
+      hexadecimal(options.tolerance), options.tolerance, options.max_checks,
+      hexadecimal(options.min_separation), options.min_separation, to_string(options.norm),
+      hexadecimal(options.t_max), options.t_max);
+}
+
+/// The test itself: whom it asks.
+std::string call_as_code(const SolverCall& solver) {
+  if (solver.plugin.empty()) {
+    return fmt::format("expect_no_fault(verify::find_method({}));", literal(solver.method));
   }
-  const std::string_view options = found.exact_plugin ? ", {.promise = fast::Promise::exact}" : "";
-  return fmt::format("expect_no_fault(*verify::load_plugin({}{}));", literal(found.plugin.string()),
-                     options);
+  return fmt::format("expect_no_fault(*verify::load_plugin({}));", literal(solver.plugin.string()));
+}
+
+/// Of a yes, numbers that it must have: those without which it was found to be wrong.
+std::string numbers_as_code(const Reproduction& found) {
+  const fast::Answer& answer = found.failing.answer;
+  std::string result;
+  if (found.missing.lower || std::isinf(answer.toi_lower)) {
+    result += "  EXPECT_TRUE(std::isfinite(answer.toi_lower));\n";
+  }
+  if (found.missing.upper || std::isinf(answer.toi_upper)) {
+    result += "  EXPECT_TRUE(std::isfinite(answer.toi_upper));\n";
+  }
+  if (answer.tolerance < 0.0) result += "  EXPECT_FALSE(answer.tolerance < 0.0);\n";
+  return result;
+}
+
+double gibibytes(const ChildLimits& limits) {
+  constexpr int bits = 30;
+  return std::ldexp(static_cast<double>(limits.memory_bytes), -bits);
+}
+
+std::string in_shell_quotes(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      result += R"('\'')";
+    } else {
+      result += c;
+    }
+  }
+  return result + '\'';
+}
+
+/// The options of the command line that ask for what the solver was asked for.
+std::string options_as_words(const SolverCall& solver) {
+  const fast::MethodOptions& options = solver.options;
+  std::string words = solver.plugin.empty()
+                          ? fmt::format("--method {}", solver.method)
+                          : fmt::format("--plugin {}", in_shell_quotes(solver.plugin.string()));
+  words += fmt::format(" --tolerance {} --max-checks {} --min-separation {} --norm {}",
+                       options.tolerance, std::max<std::int64_t>(options.max_checks, 0),
+                       options.min_separation, to_string(options.norm));
+  words += fmt::format(" --query-limit {}", solver.query_limit_seconds);
+  if (solver.limits.memory_bytes != ChildLimits{}.memory_bytes) {
+    words += fmt::format(" --memory-limit {}", gibibytes(solver.limits));
+  }
+  if (solver.limits.may_fork) words += " --allow-processes";
+  return solver.promise == fast::Promise::exact ? words + " --exact" : words;
 }
 
 constexpr std::string_view includes =
     "// Written by touchstone.\n// clang-format off\n#include <gtest/gtest.h>\n"
     R"(
+#include <cmath>
+
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/decision.hpp"
@@ -107,25 +167,23 @@ constexpr std::string_view includes =
 )";
 
 constexpr std::string_view judging = R"(
-/// Asks the method and holds its answer against the oracle, and against what the method promises.
+/// Asks the method and holds its answer against the oracle, and against what the method is held to.
 void expect_no_fault(const fast::Method& method) {
   fast::Answer answer;
-  method.solve(kind, {&query, 1}, {&answer, 1},
-               {.min_separation = separation.distance, .norm = separation.norm});
+  method.solve(kind, {&query, 1}, {&answer, 1}, options);
   const verify::Decision truth(kind, query, separation);
   EXPECT_EQ(truth.collides(), collides);
   verify::Judgement judgement;
   judgement.add(verify::truth_of(0, truth), answer);
   const verify::Reach reach = verify::reach_of(method.name());
-  if (reach && answer.verdict == fast::Verdict::yes) {
-    const Separation near{.distance = reach(kind, query, answer, separation), .norm = Norm::linf};
+  if (answer.verdict == fast::Verdict::yes) {
+    const Separation near = reach(kind, query, answer, separation);
     EXPECT_TRUE(!is_valid(near) || verify::Decision(kind, query, near).collides());
   }
   for (const verify::WrongAnswer& wrong : judgement.wrong_answers) {
-    EXPECT_FALSE(verify::breaks(wrong.fault, method.promise()))
+    EXPECT_FALSE(verify::breaks(wrong.fault, promise))
         << verify::to_string(wrong.fault) << ": " << wrong.answer << ", but " << wrong.truth;
   }
-}
 )";
 
 }  // namespace
@@ -147,24 +205,56 @@ std::string as_csv(const Query& query, std::optional<bool> collides) {
   return csv_rows(query, collides);
 }
 
+Reproduction reproduction_of(const Finding& finding, const SolverCall& asked) {
+  Reproduction result{.what = finding.what,
+                      .kind = finding.kind,
+                      .failing = finding.simplest,
+                      .missing = finding.missing,
+                      .solver = asked};
+  if (finding.method != asked.method) {
+    result.solver.method = finding.method;
+    result.solver.plugin.clear();
+    result.solver.promise = fast::Promise::exact;
+  }
+  return result;
+}
+
 std::string as_cpp_test(const Reproduction& found) {
+  const std::string_view what = to_string(found.what);
   const std::string name =
-      identifier(fmt::format("{}_{}_{}", found.method, found.what, fingerprint(found)));
+      identifier(fmt::format("{}_{}_{}", found.solver.method, what, fingerprint(found)));
   std::string result(includes);
   const std::string space = fmt::format("touchstone::reproduction_{}", fingerprint(found));
   result += fmt::format("\nnamespace {} {{\n\n", space);
-  result += fmt::format("// {}: {}. The primitives {}.\n", one_line(found.method),
-                        one_line(found.what), found.collides ? "collide" : "do not collide");
+  result += fmt::format("// {}: {}. The primitives {}.\n", one_line(found.solver.method), what,
+                        found.failing.collides ? "collide" : "do not collide");
+  if (found.what == FindingKind::hang) result += "// Run it with a limit of time.\n";
   result += fmt::format("constexpr Kind kind = {};\n", enumerator(found.kind));
-  result += fmt::format("constexpr Separation separation{{.distance = {}, .norm = Norm::{}}};\n",
-                        hexadecimal(found.separation.distance), to_string(found.separation.norm));
-  result += fmt::format("constexpr bool collides = {};\n", found.collides);
+  result += fmt::format("constexpr fast::MethodOptions options{{\n{}}};\n",
+                        options_as_code(found.solver.options));
+  result +=
+      "constexpr Separation separation{.distance = options.min_separation, .norm = "
+      "options.norm};\n";
+  result += fmt::format("constexpr fast::Promise promise = fast::Promise::{};\n",
+                        to_string(found.solver.promise));
+  result += fmt::format("constexpr bool collides = {};\n", found.failing.collides);
   result += fmt::format("constexpr Query query{{{{\n{}}}}};\n",
-                        coordinates_as_code(found.kind, found.query));
+                        coordinates_as_code(found.kind, found.failing.query));
   result += judging;
-  result += fmt::format("\nTEST(Reproduction, {}) {{\n  {}\n}}\n", name, call_as_code(found));
+  result += numbers_as_code(found);
+  result +=
+      fmt::format("}}\n\nTEST(Reproduction, {}) {{\n  {}\n}}\n", name, call_as_code(found.solver));
   result += fmt::format("\n}}  // namespace {}\n", space);
   return result;
+}
+
+std::string as_command(const Reproduction& found) {
+  const std::string file = fmt::format("{}-{}.csv", fingerprint(found), to_string(found.kind));
+  // Without more, a label is about contact itself.
+  std::optional<bool> label;
+  if (found.solver.options.min_separation == 0.0) label = found.failing.collides;
+  return fmt::format("cat > {0} <<'END'\n{1}END\ntouchstone certify {0} {2}\n", file,
+                     as_csv(found.failing.query, label), options_as_words(found.solver));
 }
 
 }  // namespace touchstone::verify

@@ -1,13 +1,17 @@
 #pragma once
 
 /// \file
-/// A query as a person reads it, as a dataset holds it, and as a test that shows what is wrong.
+/// A query as a person reads it, as a dataset holds it, and as a test and a command that show what is
+/// wrong.
 
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/fuzz/finding.hpp"
+#include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify {
 
@@ -19,27 +23,45 @@ namespace touchstone::verify {
 /// \throws std::invalid_argument if a coordinate is not finite.
 [[nodiscard]] std::string as_csv(const Query& query, std::optional<bool> collides = std::nullopt);
 
-/// What a method answered wrongly.
-struct Reproduction {
-  Kind kind = Kind::vertex_face;
-  Query query{};
-  Separation separation;
-  /// The truth: does it collide at this separation?
-  bool collides = false;
+/// A solver, and what it is asked with besides the query.
+struct SolverCall {
   /// The name of one of methods(), or what a plugin calls itself.
   std::string method;
-  /// What is wrong, in some words: "false negative".
-  std::string what;
   /// The plugin's library; empty for one of methods().
   std::filesystem::path plugin = {};
-  /// Is the plugin held to exactness?
-  bool exact_plugin = false;
+  /// What it is held to.
+  fast::Promise promise = fast::Promise::conservative;
+  /// With the separation that counts as contact.
+  fast::MethodOptions options = {};
+  /// Wall-clock seconds that a query may take; 0: no limit.
+  double query_limit_seconds = 0.0;
+  /// What its process may take.
+  ChildLimits limits = {};
 };
+
+/// What a solver answered wrongly.
+struct Reproduction {
+  FindingKind what = FindingKind::false_negative;
+  Kind kind = Kind::vertex_face;
+  FailingCase failing;
+  /// Of what is wrong only in that.
+  MissingBounds missing = {};
+  SolverCall solver;
+};
+
+/// The reproduction of a finding's simplest query.
+/// \param asked the solver of the run; a finding against the judge is about `certified` instead
+[[nodiscard]] Reproduction reproduction_of(const Finding& finding, const SolverCall& asked);
 
 /// The text of a C++ file: a function that asks a method and judges its answer, and a GoogleTest that
 /// calls it. It includes headers of this library and links touchstone::verify; it fails where the
-/// method's answer breaks what the method promises, and passes where it does not.
+/// method's answer breaks what the method is held to, and passes where it does not.
 /// \pre all coordinates are finite.
 [[nodiscard]] std::string as_cpp_test(const Reproduction& found);
+
+/// Commands for a POSIX shell that write the query as a dataset and ask the solver again, with all
+/// that it was asked with; `touchstone certify` then judges it.
+/// \pre all coordinates are finite.
+[[nodiscard]] std::string as_command(const Reproduction& found);
 
 }  // namespace touchstone::verify

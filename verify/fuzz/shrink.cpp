@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -156,15 +155,14 @@ class Shrinker {
   }
 
  private:
-  [[nodiscard]] bool is_over() const {
-    if (calls_ >= options_.most_calls) return true;
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin_;
-    return options_.seconds > 0.0 && passed.count() >= options_.seconds;
+  [[nodiscard]] bool is_over() {
+    over_ = over_ || calls_ >= options_.most_calls || (options_.must_end && options_.must_end());
+    return over_;
   }
 
   /// Keeps the query if it is simpler and still fails.
   bool attempt(const Query& simpler) {
-    if (!is_finite(simpler)) return false;
+    if (over_ || !is_finite(simpler)) return false;
     const Complexity of_simpler = complexity(kind_, simpler);
     if (of_simpler >= complexity_ || is_over()) return false;
     if (!seen_.insert(hash_of(simpler)).second) return false;
@@ -370,12 +368,12 @@ class Shrinker {
   Kind kind_;
   const std::function<bool(const Query&)>& still_fails_;
   const ShrinkOptions& options_;
-  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   Query query_;
   Complexity complexity_;
   /// Hashes of what has been asked. Where two are the same, a query is left out.
   std::unordered_set<std::uint64_t> seen_;
   std::uint64_t calls_ = 0;
+  bool over_ = false;
 };
 
 }  // namespace

@@ -50,13 +50,12 @@ struct Complexity {
 struct ShrinkOptions {
   /// So often still_fails is called at most; 0: never.
   std::uint64_t most_calls = 50'000;
-  /// Wall-clock seconds after which no call is begun; 0: no limit. Where it is reached the result
-  /// depends on the machine.
-  double seconds = 10.0;
+  /// May be null. Once true, no call is begun.
+  std::function<bool()> must_end = nullptr;
 };
 
 /// The last of a chain of ever simpler queries for which `still_fails` holds; `query` itself if none
-/// is found. A function of the arguments alone, as long as still_fails is one and the time suffices.
+/// is found. A function of the arguments alone, as long as still_fails is one and must_end does not end it.
 /// Never asks about `query`, nor twice about another one. \pre all coordinates are finite.
 /// \throws what still_fails throws.
 [[nodiscard]] Query shrink(Kind kind, const Query& query,

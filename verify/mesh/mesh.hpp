@@ -14,7 +14,8 @@
 
 namespace touchstone::verify {
 
-/// A mesh at rest. Indices are in range and coordinates finite wherever a reader made it.
+/// A mesh at rest. Wherever a reader made it, it has a vertex, indices are in range and coordinates
+/// finite.
 struct Mesh {
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> vertices;
   std::vector<fast::Face> faces;

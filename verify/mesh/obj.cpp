@@ -29,6 +29,10 @@ class ObjReader {
       if (line->too_long) fail("line too long");
       read_line(line->text.substr(0, line->text.find('#')));
     }
+    if (vertices_.empty()) {
+      throw DatasetError(path_, {},
+                         "no vertex (a line \"v x y z\"): an empty mesh, or not an OBJ file");
+    }
     require_vertices(faces_, face_lines_);
     require_vertices(edges_, edge_lines_);
     return make_mesh(vertices_, std::move(faces_), edges_);

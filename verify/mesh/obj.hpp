@@ -14,8 +14,8 @@
 namespace touchstone::verify {
 
 /// Reads a mesh.
-/// \throws DatasetError with the line, if the file cannot be read, a coordinate is no finite number,
-/// a face has not three corners, or a corner is no vertex.
+/// \throws DatasetError with the line, if the file cannot be read, it has no vertex, a coordinate is
+/// no finite number, a face has not three corners, or a corner is no vertex.
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& path);
 
 }  // namespace touchstone::verify

@@ -342,6 +342,7 @@ class BodyReader {
     }
     input_.end_elements();
     if (!values_.at_end()) input_.fail("data after the last element");
+    if (vertices_.empty()) input_.fail("no vertex: the header says element vertex 0");
     return make_mesh(vertices_, std::move(faces_), edges_);
   }
 

@@ -17,7 +17,7 @@ namespace touchstone::verify {
 
 /// Reads a mesh in any of the formats ascii, binary_little_endian and binary_big_endian 1.0.
 /// \throws DatasetError with the line, or with the element and the byte where it begins, if the
-/// file cannot be read, the header is malformed or lacks what is read, data is missing or left over,
+/// file cannot be read, the header is malformed or lacks what is read, there is no vertex, data is missing or left over,
 /// a coordinate is not finite, a face has not three vertices, or an index is no vertex's.
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& path);
 

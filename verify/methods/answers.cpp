@@ -8,17 +8,20 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <system_error>
 
 #include "verify/csv.hpp"
 #include "verify/dataset/dataset_error.hpp"
 #include "verify/dataset/input_file.hpp"
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
 
-constexpr std::string_view header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance";
+constexpr std::string_view header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure";
+constexpr std::string_view header_without_failure = header.substr(0, header.rfind(','));
 
 /// Numbers of the fields, counted from 1 as errors name them; 0 for the whole line.
 enum class Column : std::uint64_t {
@@ -29,15 +32,16 @@ enum class Column : std::uint64_t {
   verdict,
   toi_lower,
   toi_upper,
-  tolerance
+  tolerance,
+  failure
 };
-constexpr std::size_t columns = 7;
+constexpr std::size_t most_columns = 8;
 
 /// What a record of several lines may have in all: only long names with line ends make such records,
 /// and a stray quote is to be found before the end of the file.
 constexpr std::size_t longest_record = std::size_t{1} << 16U;
 
-using Fields = std::array<std::string, columns>;
+using Fields = std::array<std::string, most_columns>;
 
 std::string number_text(double value) {
   return std::isnan(value) ? std::string() : fmt::format("{}", value);
@@ -62,10 +66,16 @@ std::string_view to_string(fast::Verdict verdict) {
 std::string answers_header() { return std::string(header) + "\n"; }
 
 std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
-                       const fast::Answer& answer) {
-  return fmt::format("{},{},{},{},{},{},{}\n", csv_field(file), index, to_string(kind),
-                     to_string(answer.verdict), number_text(answer.toi_lower),
-                     number_text(answer.toi_upper), number_text(answer.tolerance));
+                       const fast::Answer& answer, const Failure* failure) {
+  const std::optional<Failure> why =
+      failure != nullptr ? std::optional(*failure) : failure_of(answer);
+  fast::Answer said = answer;
+  if (why && why->kind == FailureKind::not_finite) said = {.verdict = verdict_of(why->kind)};
+  const bool says_all = !why || why->kind == FailureKind::undecided;
+  return fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(file), index, to_string(kind),
+                     to_string(said.verdict), number_text(said.toi_lower),
+                     number_text(said.toi_upper), number_text(said.tolerance),
+                     says_all ? std::string() : csv_field(to_text(*why)));
 }
 
 /// Reads the file front to back, then puts the rows in order.
@@ -76,6 +86,7 @@ class AnswersReader {
   RecordedAnswers read() {
     if (!next_record() || !is_header())
       fail(Column::none, fmt::format("first line must be {}", header));
+    columns_ = split_.count;
     while (next_record()) add_row();
     for (auto& [key, rows] : answers_.rows_) {
       if (!std::ranges::is_sorted(rows, {}, &Row::index)) std::ranges::sort(rows, before);
@@ -124,8 +135,9 @@ class AnswersReader {
   }
 
   [[nodiscard]] bool is_header() const {
-    if (split_.count != columns) return false;
-    return fmt::format("{}", fmt::join(fields_, ",")) == header;
+    const std::size_t count = std::min(split_.count, most_columns);
+    const std::string line = fmt::format("{}", fmt::join(std::span(fields_).first(count), ","));
+    return split_.count == count && (line == header || line == header_without_failure);
   }
 
   [[nodiscard]] const std::string& raw(Column column) const {
@@ -134,8 +146,8 @@ class AnswersReader {
   [[nodiscard]] std::string_view field(Column column) const { return trimmed(raw(column)); }
 
   void add_row() {
-    if (split_.count != columns) {
-      fail(Column::none, fmt::format("{} columns, expected {}", split_.count, columns));
+    if (split_.count != columns_) {
+      fail(Column::none, fmt::format("{} columns, expected {}", split_.count, columns_));
     }
     static constexpr std::uint64_t last_line = std::numeric_limits<std::uint32_t>::max();
     const fast::Verdict verdict = read_verdict();
@@ -146,15 +158,16 @@ class AnswersReader {
                     .tolerance = read_tolerance(),
                     .line = static_cast<std::uint32_t>(std::min(line_number_, last_line)),
                     .verdict = verdict,
+                    .failure = read_failure(verdict),
                     .asked = false});
   }
 
   /// The group of the row at hand: nearly always that of the row before.
   RecordedAnswers::Rows& rows_of(Kind kind) {
-    if (group_ == nullptr || group_->first.second != kind ||
-        group_->first.first != raw(Column::file)) {
-      if (raw(Column::file).empty()) fail(Column::file, "no file name");
-      group_ = &*answers_.rows_.try_emplace({raw(Column::file), kind}).first;
+    if (group_ == nullptr || group_->first.second != kind || group_field_ != raw(Column::file)) {
+      group_field_ = raw(Column::file);
+      if (group_field_.empty()) fail(Column::file, "no file name");
+      group_ = &*answers_.rows_.try_emplace({text_of_field(group_field_), kind}).first;
     }
     return group_->second;
   }
@@ -216,6 +229,20 @@ class AnswersReader {
     return *value;
   }
 
+  /// Nothing where the field is empty or not there.
+  [[nodiscard]] std::optional<FailureKind> read_failure(fast::Verdict verdict) const {
+    if (columns_ < most_columns || field(Column::failure).empty()) return std::nullopt;
+    const std::optional<Failure> failure = failure_from_text(field(Column::failure));
+    if (!failure) {
+      fail(Column::failure, "must be a kind of failure or empty: " + quote(field(Column::failure)));
+    }
+    if (verdict_of(failure->kind) != verdict) {
+      fail(Column::failure, fmt::format("a failure of kind {} is no answer {}",
+                                        to_string(failure->kind), to_string(verdict)));
+    }
+    return failure->kind;
+  }
+
   void check_unique(const RecordedAnswers::Key& key, const RecordedAnswers::Rows& rows) {
     const auto first = std::ranges::adjacent_find(rows, {}, &Row::index);
     if (first == rows.end()) return;
@@ -229,21 +256,26 @@ class AnswersReader {
   std::uint64_t line_number_ = 0;
   Fields fields_;
   CsvSplit split_;
+  std::size_t columns_ = most_columns;
   RecordedAnswers answers_;
   std::pair<const RecordedAnswers::Key, RecordedAnswers::Rows>* group_ = nullptr;
+  std::string group_field_;  // that named the group
 };
 
-std::optional<fast::Answer> RecordedAnswers::answer_to(std::string_view file, Kind kind,
-                                                       std::uint64_t index) const {
-  const auto group = rows_.find(std::pair(file, kind));
+std::optional<RecordedAnswer> RecordedAnswers::answer_to(std::string_view file, Kind kind,
+                                                         std::uint64_t index) const {
+  // The file has names as csv_field() writes them.
+  const std::string name = is_printable(file) ? std::string() : printable(file);
+  const auto group = rows_.find(std::pair(name.empty() ? file : std::string_view(name), kind));
   if (group == rows_.end()) return std::nullopt;
   const auto row = std::ranges::lower_bound(group->second, index, {}, &Row::index);
   if (row == group->second.end() || row->index != index) return std::nullopt;
   std::atomic_ref(row->asked).store(true, std::memory_order_relaxed);
-  return fast::Answer{.verdict = row->verdict,
-                      .toi_lower = row->toi_lower,
-                      .toi_upper = row->toi_upper,
-                      .tolerance = row->tolerance};
+  return RecordedAnswer{.answer = {.verdict = row->verdict,
+                                   .toi_lower = row->toi_lower,
+                                   .toi_upper = row->toi_upper,
+                                   .tolerance = row->tolerance},
+                        .failure = row->failure};
 }
 
 std::vector<RecordedAnswers::Group> RecordedAnswers::groups() const {

@@ -3,9 +3,11 @@
 /// \file
 /// The file of a solver's answers, from us or from anywhere: CSV, a row a query,
 ///
-///     file,index,kind,verdict,toi_lower,toi_upper,tolerance
+///     file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure
 ///
-/// verdict: yes, no, undecided or error. The last three fields are empty where a solver gives none.
+/// file: its path, printable (printable.hpp). verdict: yes, no, undecided or error. The three fields behind
+/// are empty where a solver gives none. failure: why there is no answer (failure.hpp: "crash: SIGSEGV",
+/// "hang", …), else empty; a file may do without this column.
 /// A query is known by all of file, index and kind: the families of the built-in set have queries
 /// of both kinds under one name.
 
@@ -22,6 +24,7 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/solvers/failure.hpp"
 
 namespace touchstone::verify {
 
@@ -32,8 +35,17 @@ namespace touchstone::verify {
 [[nodiscard]] std::string answers_header();
 
 /// A row of the file, with its line end. Numbers have as many digits as give the same double again.
+/// \param failure why there is no answer; null: as the answer shows (failure_of), of which what is not
+/// finite becomes an error and "undecided" is not said twice
 [[nodiscard]] std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
-                                     const fast::Answer& answer);
+                                     const fast::Answer& answer, const Failure* failure = nullptr);
+
+/// An answer of such a file.
+struct RecordedAnswer {
+  fast::Answer answer = {};
+  /// Its kind, if one was recorded.
+  std::optional<FailureKind> failure = std::nullopt;
+};
 
 /// Answers read from such a file. Forty bytes an answer.
 class RecordedAnswers {
@@ -51,8 +63,8 @@ class RecordedAnswers {
 
   /// The answer to a query, if there is one, which then counts as asked for. May be called from
   /// several threads at once.
-  [[nodiscard]] std::optional<fast::Answer> answer_to(std::string_view file, Kind kind,
-                                                      std::uint64_t index) const;
+  [[nodiscard]] std::optional<RecordedAnswer> answer_to(std::string_view file, Kind kind,
+                                                        std::uint64_t index) const;
 
   /// All names and kinds with what is there of each, ordered by name and kind. Not to be called
   /// while another thread is in answer_to().
@@ -71,6 +83,7 @@ class RecordedAnswers {
     double toi_lower, toi_upper, tolerance;
     std::uint32_t line;
     fast::Verdict verdict;
+    std::optional<FailureKind> failure;
     mutable bool asked;
   };
   static_assert(sizeof(Row) == 40);
@@ -90,10 +103,10 @@ class RecordedAnswers {
   std::map<Key, Rows, KeyLess> rows_;
 };
 
-/// Reads a file of answers. The header must have these columns in this order; rows may come in any
+/// Reads a file of answers. The header must have these columns in this order, the last one or not; rows may come in any
 /// order, lines may end in LF or CRLF, and names (or any other field) may stand in quotes, where a
 /// line end counts as LF. Times of impact are finite decimal numbers or empty; no range is asked of
-/// them, since to judge them is the judge's task. Times with any other verdict than yes may be any
+/// them, since to judge them is the judge's task. A failure must go with the verdict (verdict_of). Times with any other verdict than yes may be any
 /// number and are dropped: solvers write 1, infinity or the last step there. Tolerances are numbers
 /// from 0 on, or empty; one of "inf" claims nothing.
 /// \throws DatasetError naming line, column (number of the field) and reason if anything else is

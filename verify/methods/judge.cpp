@@ -98,19 +98,24 @@ double Judgement::nanoseconds_per_query() const {
   return queries == 0 ? 0.0 : nanoseconds / static_cast<double>(queries);
 }
 
-void Judgement::add(const Truth& truth, const fast::Answer& answer) {
+void Judgement::add(const Truth& truth, const fast::Answer& answer, const Failure* failure) {
   using fast::Verdict;
   ++queries;
   checks += answer.checks;
-  if (answer.verdict == Verdict::error) {
-    add_fault(Fault::error, truth, answer);
-    return;
+  Verdict verdict = answer.verdict;
+  if (const auto why = failure != nullptr ? std::optional(*failure) : failure_of(answer)) {
+    ++failures[static_cast<std::size_t>(why->kind)];
+    verdict = verdict_of(why->kind);
+    if (verdict == Verdict::error) {
+      add_fault(Fault::error, truth, answer, *why);
+      return;
+    }
   }
-  undecided += answer.verdict == Verdict::undecided ? 1U : 0U;
+  undecided += verdict == Verdict::undecided ? 1U : 0U;
   if (truth.collides) {
-    if (answer.verdict == Verdict::no) add_fault(Fault::false_negative, truth, answer);
-    if (answer.verdict == Verdict::yes) add_toi(truth, answer);
-  } else if (answer.verdict != Verdict::no) {
+    if (verdict == Verdict::no) add_fault(Fault::false_negative, truth, answer);
+    if (verdict == Verdict::yes) add_toi(truth, answer);
+  } else if (verdict != Verdict::no) {
     add_fault(Fault::false_positive, truth, answer);
   }
 }
@@ -125,10 +130,13 @@ void Judgement::add_toi(const Truth& truth, const fast::Answer& answer) {
   toi_errors.add(std::max(upper - answer.toi_lower, answer.toi_lower - lower));
 }
 
-void Judgement::add_fault(Fault fault, const Truth& truth, const fast::Answer& answer) {
+void Judgement::add_fault(Fault fault, const Truth& truth, const fast::Answer& answer,
+                          const Failure& failure) {
   auto& count = faults[static_cast<std::size_t>(fault)];
   if (++count > most_kept) return;
-  wrong_answers.push_back({fault, truth.index, answer_text(fault, answer), to_text(truth)});
+  wrong_answers.push_back({fault, truth.index,
+                           fault == Fault::error ? to_text(failure) : answer_text(fault, answer),
+                           to_text(truth)});
 }
 
 void Judgement::add_beyond_tolerance(const Truth& truth, const fast::Answer& answer) {
@@ -153,6 +161,7 @@ Judgement& Judgement::operator+=(const Judgement& next) {
     }
   }
   for (std::size_t i = 0; i < faults.size(); ++i) faults[i] += next.faults[i];
+  for (std::size_t i = 0; i < failures.size(); ++i) failures[i] += next.failures[i];
   queries += next.queries;
   missing += next.missing;
   if (!first_missing) first_missing = next.first_missing;

@@ -8,7 +8,8 @@
 ///   negative, and one about a query that does not collide is a false positive, as a yes is. It is
 ///   counted as undecided in any case.
 /// - Truth is about the separation that was asked for, in the norm that was asked for.
-/// - An error is an answer to nothing: it is counted as an error and as nothing else.
+/// - A failure (solvers/failure.hpp) is counted by its kind. Those that are not taken for undecided are
+///   errors, answers to nothing, and counted as nothing else.
 /// - Times of impact are judged for a yes to a query that does collide, and only where the method
 ///   gives them. All comparisons are exact: the truth is enclosed by neighbouring doubles, or is
 ///   one, so a double t is above it iff t > lower, and below it iff t < upper.
@@ -25,6 +26,7 @@
 #include "exact/number.hpp"
 #include "fast/method.hpp"
 #include "verify/decision.hpp"
+#include "verify/solvers/failure.hpp"
 
 namespace touchstone::verify {
 
@@ -99,9 +101,11 @@ struct Judgement {
   std::uint64_t missing = 0;  ///< not answered (in recorded answers), and not in `queries`
   std::optional<std::uint64_t> first_missing;  ///< index of the first of these
   std::array<std::uint64_t, fault_count> faults{};
-  /// Of the errors, processes that the method ended at no particular query: see isolation.hpp.
+  /// Queries without an answer, by FailureKind.
+  std::array<std::uint64_t, failure_kinds> failures{};
+  /// Of the errors, processes that the method ended at no particular query: see solver_process.hpp.
   std::uint64_t unplaced_crashes = 0;
-  std::uint64_t undecided = 0;
+  std::uint64_t undecided = 0;  ///< by itself, or for the limit of time
   std::uint64_t checks = 0;  ///< steps of the method, summed over the queries, where it counts them
   double nanoseconds = 0.0;  ///< processor time of the method, summed over the queries
   ToiErrors toi_errors;
@@ -111,12 +115,16 @@ struct Judgement {
   [[nodiscard]] std::uint64_t count(Fault fault) const {
     return faults[static_cast<std::size_t>(fault)];
   }
+  [[nodiscard]] std::uint64_t count(FailureKind kind) const {
+    return failures[static_cast<std::size_t>(kind)];
+  }
 
   /// Mean time of the method; 0 if there are no queries.
   [[nodiscard]] double nanoseconds_per_query() const;
 
   /// Judges an answer. \pre truth.toi is there if it collides.
-  void add(const Truth& truth, const fast::Answer& answer);
+  /// \param failure why there is none; null: as the answer shows
+  void add(const Truth& truth, const fast::Answer& answer, const Failure* failure = nullptr);
 
   /// Notes that a yes claims more nearness than there is.
   void add_beyond_tolerance(const Truth& truth, const fast::Answer& answer);
@@ -131,7 +139,8 @@ struct Judgement {
   Judgement& operator+=(const Judgement& next);
 
  private:
-  void add_fault(Fault fault, const Truth& truth, const fast::Answer& answer);
+  void add_fault(Fault fault, const Truth& truth, const fast::Answer& answer,
+                 const Failure& failure = {});
   void add_toi(const Truth& truth, const fast::Answer& answer);
 };
 

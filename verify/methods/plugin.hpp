@@ -3,30 +3,42 @@
 /// \file
 /// Anyone's solver as a Method: a shared library that speaks the interface of verify/plugin.h.
 ///
-/// What a library answers is checked here, so that no judge sees an answer that is none. What it
-/// does to the process is not: whoever judges a plugin calls it through solve_isolated().
+/// The library is never loaded in this process, unless this process calls solve(): it is asked for
+/// its version and its name in a child process, and solve() loads it where it is first called, which
+/// is for a child to do (SolverProcess). What it answers is handed on as it is.
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 
 #include "fast/method.hpp"
+#include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify {
 
 struct PluginOptions {
   /// What the library is held to; the interface has no way to say it.
   fast::Promise promise = fast::Promise::conservative;
+  /// What the child process may take that asks for the name.
+  ChildLimits limits = {};
+  /// Wall-clock seconds that it may take.
+  double load_seconds = 60.0;
+  /// May be null. Once true, loading ends with an error.
+  const std::atomic<bool>* stop = nullptr;
 };
 
-/// Loads a plugin. A path without a slash is a file in the working directory: no search takes
-/// place. The library stays loaded as long as the method lives.
+/// Loads a plugin, in a child process. A path without a slash is a file in the working directory: no
+/// search takes place.
 ///
-/// The method's name is what the library calls itself. It answers Verdict::error where the library
-/// throws a C++ exception, gives a verdict that is none, or says yes with an infinite time of
-/// impact. Times of impact with any other verdict than yes are dropped, and so is a tolerance that
-/// is none (negative or NaN).
+/// The method's name is what the library calls itself. solve() loads the library into the process
+/// that calls it, where it stays as long as the method lives. It throws what the library throws, and
+/// answers Verdict::error for a verdict that is none. Times of impact with any other verdict than yes
+/// are dropped, and so is a tolerance that is none (negative or NaN); infinite times of impact are
+/// not: failure_of() tells of them.
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
-/// made for a version of the interface that this program does not know, or has no printable name.
+/// made for a version of the interface that this program does not know, has no printable name, or
+/// ends its process, throws or takes too long on the way; std::system_error if no process can be
+/// made.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                                         const PluginOptions& options = {});
 

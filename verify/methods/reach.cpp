@@ -40,15 +40,24 @@ double value_on_axis(Kind kind, const Query& query, std::size_t axis, double t, 
 
 }  // namespace
 
-double tight_inclusion_reach(Kind kind, const Query& query, const fast::Answer& answer,
-                             const Separation& separation, fast::ErrorModel model) {
+Separation stated_reach(Kind, const Query&, const fast::Answer& answer,
+                        const Separation& separation) {
+  if (std::isnan(answer.tolerance)) return {.distance = infinity, .norm = separation.norm};
+  const double sum = answer.tolerance + separation.distance;
+  // The sum with 0 is exact, and 0 is what exact solvers claim.
+  const bool is_exact = answer.tolerance == 0.0 || separation.distance == 0.0;
+  return {.distance = is_exact ? sum : up(sum), .norm = separation.norm};
+}
+
+Separation tight_inclusion_reach(Kind kind, const Query& query, const fast::Answer& answer,
+                                 const Separation& separation, fast::ErrorModel model) {
   const std::array<double, 3> x_max = greatest_coordinates(query);
   const double d = separation.distance;
   if (std::isnan(answer.tolerance) || std::max(std::ranges::max(x_max), d) > greatest_unscaled) {
-    return infinity;
+    return {.distance = infinity, .norm = Norm::linf};
   }
   const double filter = std::ranges::max(fast::error_filter(kind, x_max, d, model));
-  return up(up(up(answer.tolerance) + d) + 2.0 * filter);
+  return {.distance = up(up(up(answer.tolerance) + d) + 2.0 * filter), .norm = Norm::linf};
 }
 
 bool is_seen_within(Kind kind, const Query& query, double t, double distance) {

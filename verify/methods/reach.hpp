@@ -1,9 +1,13 @@
 #pragma once
 
 /// \file
-/// How near the primitives really come by what a yes of Tight-Inclusion claims.
+/// How near the primitives really come by what a yes with a tolerance claims.
 ///
-/// **Claim.** A yes with tolerance τ, asked for the separation d, means that the primitives come
+/// In general (verify/plugin.h): a yes with tolerance τ, asked for the separation d in a norm, claims that the
+/// primitives come within d + τ of each other in that norm at some time.
+///
+/// **Claim of Tight-Inclusion,** which works in L∞ and leaves rounding errors out of its tolerance. A
+/// yes with tolerance τ, asked for the separation d, means that the primitives come
 /// within τ + d + 2ε of each other in L∞ at some time, ε being the greatest filter of an axis.
 /// Proof: the answer's box of parameters was not dropped, so on each axis not all corner values are
 /// beyond d + ε on one side; and either the box is at most τ wide, so that no corner value is beyond
@@ -19,15 +23,20 @@
 
 namespace touchstone::verify {
 
-/// How near, in L∞ and in units of the coordinates, the primitives come at some time by what a yes
-/// to the query claims; infinite where it claims nothing.
-using Reach = std::function<double(Kind, const Query&, const fast::Answer&, const Separation&)>;
+/// How near, in units of the coordinates and in which norm, the primitives come at some time by what
+/// a yes to the query claims; infinite, hence no valid separation, where it claims nothing.
+using Reach = std::function<Separation(Kind, const Query&, const fast::Answer&, const Separation&)>;
+
+/// What a tolerance claims in general, rounded up. Infinite for an answer without a tolerance.
+[[nodiscard]] Separation stated_reach(Kind kind, const Query& query, const fast::Answer& answer,
+                                      const Separation& separation);
 
 /// The claim of Tight-Inclusion, rounded up. Infinite for an answer without a tolerance, and for
 /// coordinates or separations beyond 2^1016, which it scales down first.
-[[nodiscard]] double tight_inclusion_reach(Kind kind, const Query& query,
-                                           const fast::Answer& answer, const Separation& separation,
-                                           fast::ErrorModel model);
+[[nodiscard]] Separation tight_inclusion_reach(Kind kind, const Query& query,
+                                               const fast::Answer& answer,
+                                               const Separation& separation,
+                                               fast::ErrorModel model);
 
 /// Is it seen at a glance, in floating point with proved bounds, that the primitives are within the
 /// distance in L∞ at time t? False says nothing.

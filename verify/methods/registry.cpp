@@ -97,7 +97,7 @@ Reach reach_of(std::string_view name) {
   // The published filter bounds the errors of the released order of operations too, and is not below
   // the released one: so what a yes with the released filter claims follows from it.
   const bool published = name == "tight_inclusion_published" || name == "tight_inclusion_released";
-  if (name != "tight_inclusion" && !published) return nullptr;
+  if (name != "tight_inclusion" && !published) return stated_reach;
   return
       [model = published ? fast::ErrorModel::published : fast::ErrorModel::derived](
           Kind kind, const Query& query, const fast::Answer& answer, const Separation& separation) {

@@ -28,7 +28,7 @@ namespace touchstone::verify {
 /// \throws std::invalid_argument, with the names there are, if there is none.
 [[nodiscard]] const fast::Method& find_method(std::string_view name);
 
-/// What the tolerances of the method of that name claim; null if nothing.
+/// What the tolerances of the method of that name claim.
 [[nodiscard]] Reach reach_of(std::string_view name);
 
 /// "none", "conservative" or "exact".

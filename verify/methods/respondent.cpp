@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <mutex>
 #include <utility>
 
 #include "verify/thread_clock.hpp"
@@ -10,9 +11,9 @@
 namespace touchstone::verify {
 namespace {
 
+/// What a span of queries should take.
+constexpr double span_seconds = 0.01;
 constexpr double longest_span = 1e6;
-/// A child costs milliseconds: it is to solve much longer, and to begin with as much as it gets.
-constexpr Respondent::Pacing isolated_pacing{.span_seconds = 0.5, .first_guess = 0.0};
 
 fast::MethodOptions with_separation(fast::MethodOptions options, const Questions& questions) {
   options.min_separation = questions.separation.distance;
@@ -21,15 +22,21 @@ fast::MethodOptions with_separation(fast::MethodOptions options, const Questions
 }
 
 /// Solves one by one; what throws is in error.
-void solve_despite_exceptions(const fast::Method& method, const Questions& questions,
-                              std::span<fast::Answer> answers, const fast::MethodOptions& options) {
+std::vector<QueryFailure> solve_despite_exceptions(const fast::Method& method,
+                                                   const Questions& questions,
+                                                   std::span<fast::Answer> answers,
+                                                   const fast::MethodOptions& options) {
+  std::vector<QueryFailure> failures;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     try {
       method.solve(questions.kind, questions.queries.subspan(i, 1), answers.subspan(i, 1), options);
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
       answers[i] = {.verdict = fast::Verdict::error};
+      failures.push_back(
+          {.position = i, .failure = {.kind = FailureKind::exception, .what = error.what()}});
     }
   }
+  return failures;
 }
 
 class InProcess final : public Respondent {
@@ -43,14 +50,16 @@ class InProcess final : public Respondent {
   [[nodiscard]] Response solve(const Questions& questions,
                                std::span<fast::Answer> answers) const override {
     const fast::MethodOptions options = with_separation(options_, questions);
+    Response response;
     const double start = thread_nanoseconds();
     try {
       method_.solve(questions.kind, questions.queries, answers, options);
     } catch (const std::exception&) {
       std::ranges::fill(answers, fast::Answer{});
-      solve_despite_exceptions(method_, questions, answers, options);
+      response.failures = solve_despite_exceptions(method_, questions, answers, options);
     }
-    return {.nanoseconds = thread_nanoseconds() - start};
+    response.nanoseconds = thread_nanoseconds() - start;
+    return response;
   }
 
   const fast::Method& method_;
@@ -60,26 +69,56 @@ class InProcess final : public Respondent {
 class Isolated final : public Respondent {
  public:
   Isolated(const fast::Method& method, const fast::MethodOptions& options,
-           const IsolationOptions& isolation)
-      : Respondent(std::string(method.name()), method.promise(), true, isolated_pacing),
+           const SolverProcessOptions& process)
+      : Respondent(std::string(method.name()), method.promise(), true),
         method_(method),
         options_(options),
-        isolation_(isolation) {}
+        process_(process) {}
+
+  [[nodiscard]] CapturedOutput output() const override {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& process : idle_) {
+      const CapturedOutput more = process->take_output();
+      output_.append(more.text.data(), more.text.size());
+      output_.dropped += more.dropped;
+    }
+    return output_;
+  }
 
  private:
   [[nodiscard]] Response solve(const Questions& questions,
                                std::span<fast::Answer> answers) const override {
-    const IsolatedSolve solved = solve_isolated(method_, questions.kind, questions.queries, answers,
-                                                with_separation(options_, questions), isolation_);
-    return {.nanoseconds = 1e9 * solved.processor_seconds,
-            .seconds = solved.wall_seconds,
-            .unplaced_crashes = solved.unplaced_crashes,
-            .stopped = solved.stopped};
+    std::unique_ptr<SolverProcess> process = take();
+    SolverRun run = process->solve(questions.kind, questions.queries, answers,
+                                   with_separation(options_, questions));
+    give_back(std::move(process));
+    return {.nanoseconds = 1e9 * run.processor_seconds,
+            .seconds = run.wall_seconds,
+            .failures = std::move(run.failures),
+            .unplaced_crashes = run.unplaced_crashes,
+            .stopped = run.answered < answers.size()};
+  }
+
+  /// A process that nobody else asks.
+  [[nodiscard]] std::unique_ptr<SolverProcess> take() const {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.empty()) return std::make_unique<SolverProcess>(method_, process_);
+    std::unique_ptr<SolverProcess> process = std::move(idle_.back());
+    idle_.pop_back();
+    return process;
+  }
+
+  void give_back(std::unique_ptr<SolverProcess> process) const {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(process));
   }
 
   const fast::Method& method_;
   fast::MethodOptions options_;
-  IsolationOptions isolation_;
+  SolverProcessOptions process_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<SolverProcess>> idle_;
+  mutable CapturedOutput output_;
 };
 
 class Recorded final : public Respondent {
@@ -94,10 +133,13 @@ class Recorded final : public Respondent {
     for (std::size_t i = 0; i < answers.size(); ++i) {
       const auto answer =
           answers_.answer_to(questions.source, questions.kind, questions.indices[i]);
-      if (answer) {
-        answers[i] = *answer;
-      } else {
+      if (!answer) {
         response.missing.push_back(i);
+        continue;
+      }
+      answers[i] = answer->answer;
+      if (answer->failure) {
+        response.failures.push_back({.position = i, .failure = {.kind = *answer->failure}});
       }
     }
     return response;
@@ -108,12 +150,8 @@ class Recorded final : public Respondent {
 
 }  // namespace
 
-Respondent::Respondent(std::string name, fast::Promise promise, bool timed, const Pacing& pacing)
-    : name_(std::move(name)),
-      promise_(promise),
-      timed_(timed),
-      span_seconds_(pacing.span_seconds),
-      pace_(pacing.first_guess) {}
+Respondent::Respondent(std::string name, fast::Promise promise, bool timed)
+    : name_(std::move(name)), promise_(promise), timed_(timed) {}
 
 Response Respondent::answer(const Questions& questions, std::span<fast::Answer> answers) const {
   using Clock = std::chrono::steady_clock;
@@ -127,7 +165,7 @@ Response Respondent::answer(const Questions& questions, std::span<fast::Answer> 
 }
 
 std::size_t Respondent::good_span() const {
-  const double queries = span_seconds_ / std::max(pace_.load(), span_seconds_ / longest_span);
+  const double queries = span_seconds / std::max(pace_.load(), span_seconds / longest_span);
   return std::max<std::size_t>(1, static_cast<std::size_t>(queries));
 }
 
@@ -138,8 +176,8 @@ std::unique_ptr<Respondent> respond_in_process(const fast::Method& method,
 
 std::unique_ptr<Respondent> respond_isolated(const fast::Method& method,
                                              const fast::MethodOptions& options,
-                                             const IsolationOptions& isolation) {
-  return std::make_unique<Isolated>(method, options, isolation);
+                                             const SolverProcessOptions& process) {
+  return std::make_unique<Isolated>(method, options, process);
 }
 
 std::unique_ptr<Respondent> respond_recorded(std::string name, const RecordedAnswers& answers) {

@@ -17,8 +17,9 @@
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/methods/answers.hpp"
-#include "verify/methods/isolation.hpp"
 #include "verify/methods/reach.hpp"
+#include "verify/solvers/failure.hpp"
+#include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {
 
@@ -39,7 +40,10 @@ struct Response {
   std::optional<double> seconds = std::nullopt;
   /// Positions in the span of the queries without an answer, ascending.
   std::vector<std::size_t> missing = {};
-  /// Processes that it ended at no particular query: see isolation.hpp.
+  /// Of queries without an answer, ascending, where more is known than the answers show: those
+  /// without a failure here may have one that failure_of() tells of.
+  std::vector<QueryFailure> failures = {};
+  /// Processes that it ended at no particular query: see solver_process.hpp.
   std::uint64_t unplaced_crashes = 0;
   /// Was it stopped? The answers are then no answers.
   bool stopped = false;
@@ -48,16 +52,8 @@ struct Response {
 /// Answers queries. Safe to use from several threads at once.
 class Respondent {
  public:
-  /// How long the spans of queries should be that it is asked.
-  struct Pacing {
-    double span_seconds = 0.01;  ///< wall-clock time of a span
-    double first_guess = 1.0;    ///< wall-clock seconds a query
-  };
-
   /// \param timed Is its processor time known?
-  Respondent(std::string name, fast::Promise promise, bool timed)
-      : Respondent(std::move(name), promise, timed, Pacing{}) {}
-  Respondent(std::string name, fast::Promise promise, bool timed, const Pacing& pacing);
+  Respondent(std::string name, fast::Promise promise, bool timed);
   Respondent(const Respondent&) = delete;
   Respondent& operator=(const Respondent&) = delete;
   Respondent(Respondent&&) = delete;
@@ -71,7 +67,7 @@ class Respondent {
   [[nodiscard]] fast::Promise promise() const { return promise_; }
   void hold_to(fast::Promise promise) { promise_ = promise; }
   [[nodiscard]] bool timed() const { return timed_; }
-  /// What its tolerances claim; null if nothing is known of it.
+  /// What its tolerances claim.
   [[nodiscard]] const Reach& reach() const { return reach_; }
   void set_reach(Reach reach) { reach_ = std::move(reach); }
 
@@ -80,10 +76,13 @@ class Respondent {
   [[nodiscard]] Response answer(const Questions& questions, std::span<fast::Answer> answers) const;
 
   /// How many queries to ask at once, by the pace of the latest answers: as many as take some
-  /// milliseconds, in child processes half a second. Few for slow solvers, so that all cores have
-  /// work and an interrupt costs little; many for fast ones, so that neither clock nor child process
-  /// shows in the time. The making of child processes is no part of the pace.
+  /// milliseconds. Few for slow solvers, so that all cores have work and an interrupt costs little;
+  /// many for fast ones, so that neither clock nor child process shows in the time. The making of
+  /// child processes is no part of the pace.
   [[nodiscard]] std::size_t good_span() const;
+
+  /// What it printed, where that is caught. Not to be called while another thread is in answer().
+  [[nodiscard]] virtual CapturedOutput output() const { return {}; }
 
  private:
   [[nodiscard]] virtual Response solve(const Questions& questions,
@@ -92,10 +91,9 @@ class Respondent {
   std::string name_;
   fast::Promise promise_;
   bool timed_;
-  Reach reach_;
-  double span_seconds_;
+  Reach reach_ = stated_reach;
   /// Wall-clock seconds a query, of the latest span; a guess before there is one.
-  mutable std::atomic<double> pace_;
+  mutable std::atomic<double> pace_ = 1.0;
 };
 
 /// A method in this process. A query it throws an exception at is answered Verdict::error. The time
@@ -104,10 +102,10 @@ class Respondent {
 [[nodiscard]] std::unique_ptr<Respondent> respond_in_process(const fast::Method& method,
                                                              const fast::MethodOptions& options);
 
-/// A method in child processes: see isolation.hpp.
+/// A method in child processes, one for each thread that asks at the same time.
 [[nodiscard]] std::unique_ptr<Respondent> respond_isolated(const fast::Method& method,
                                                            const fast::MethodOptions& options,
-                                                           const IsolationOptions& isolation);
+                                                           const SolverProcessOptions& process);
 
 /// Recorded answers, looked up by source, kind and index. They promise nothing.
 [[nodiscard]] std::unique_ptr<Respondent> respond_recorded(std::string name,

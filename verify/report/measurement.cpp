@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "verify/printable.hpp"
+
 namespace touchstone::verify {
 namespace {
 
@@ -64,6 +66,22 @@ std::vector<const Measurement*> of_experiment(const Measurements& measurements,
     if (measurement.experiment == experiment) chosen.push_back(&measurement);
   }
   return chosen;
+}
+
+Measurements with_printable_texts(Measurements measurements) {
+  const auto clean = [](std::string& text) { text = printable(text); };
+  clean(measurements.command);
+  clean(measurements.machine);
+  for (Measurement& measurement : measurements.all) {
+    clean(measurement.group);
+    clean(measurement.method);
+    for (StageShare& share : measurement.stages) clean(share.stage);
+  }
+  for (StabilityMark& mark : measurements.stability) {
+    for (std::string* text : {&mark.method, &mark.hardness, &mark.measure, &mark.worst})
+      clean(*text);
+  }
+  return measurements;
 }
 
 bool has_wrong_answers(const Measurements& measurements) {

@@ -141,6 +141,9 @@ struct Measurements {
   bool interrupted = false;
 };
 
+/// The same with all names and texts printable (printable.hpp): for what people read.
+[[nodiscard]] Measurements with_printable_texts(Measurements measurements);
+
 /// The measurements of one experiment, in their order. They point into `measurements`.
 [[nodiscard]] std::vector<const Measurement*> of_experiment(const Measurements& measurements,
                                                             Experiment experiment);

@@ -51,7 +51,8 @@ std::string script_json(const nlohmann::json& json) {
 
 class Writer {
  public:
-  explicit Writer(const Measurements& measurements) : measurements_(measurements) {}
+  explicit Writer(const Measurements& measurements)
+      : measurements_(with_printable_texts(measurements)) {}
 
   [[nodiscard]] std::string page() {
     const std::vector<Figure> figures = figures_of(measurements_);
@@ -195,7 +196,7 @@ class Writer {
                          d3_script(), page_script());
   }
 
-  const Measurements& measurements_;
+  Measurements measurements_;
   std::string text_;
 };
 

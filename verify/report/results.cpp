@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "verify/printable.hpp"
 #include "verify/report/figures.hpp"
 #include "verify/report/tables.hpp"
 
@@ -71,15 +75,44 @@ constexpr std::string_view plainest_miss =
     "is "
     "no.\n";
 
+/// The last part of an absolute path, without a slash at its end.
+std::string last_part(std::string_view path) {
+  while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);
+  return path.size() == 1 ? "/" : std::string(path.substr(path.rfind('/') + 1));
+}
+
+/// A command line, its words quoted as a shell takes them, with the last parts alone of absolute
+/// paths: the folders of the machine that measured are of no use to a reader.
+std::string without_folders(std::string_view command) {
+  std::string result;
+  bool quoted = false, word_begins = true;
+  while (!command.empty()) {
+    std::size_t length = 1;
+    if (word_begins && command.front() == '/') {
+      length = std::min(command.find_first_of(quoted ? "'" : " '"), command.size());
+      result += last_part(command.substr(0, length));
+      word_begins = false;
+    } else {
+      const char c = command.front();
+      if (c == '\'') quoted = !quoted;
+      word_begins = c == '\'' || c == '=' || (c == ' ' && !quoted);
+      result += c;
+    }
+    command.remove_prefix(length);
+  }
+  return result;
+}
+
 class Writer {
  public:
-  explicit Writer(const Measurements& measurements) : measurements_(measurements) {}
+  explicit Writer(const Measurements& measurements)
+      : measurements_(with_printable_texts(measurements)) {}
 
   [[nodiscard]] std::string document() {
     text_ = "# Results\n\n";
-    text_ += fmt::format(
-        "Written by `./run results`; not edited by hand. Made on {} by\n\n```\n{}\n```\n\n",
-        measurements_.machine, measurements_.command);
+    text_ += fmt::format("Written by `./run results`; not edited by hand. Made on {} by\n\n{}\n",
+                         markdown_escaped(measurements_.machine),
+                         markdown_code_block(without_folders(measurements_.command)));
     if (measurements_.interrupted) text_ += "**Interrupted: not all is here.**\n\n";
     text_ +=
         "The truth is the exact oracle's. Published: Wang et al. 2021, \"A Large Scale Benchmark "
@@ -104,7 +137,7 @@ class Writer {
     std::string names;
     for (const Measurement* m : of_experiment(measurements_, Experiment::field)) {
       if (fmt::format("{}, {}", m->group, to_string(m->kind)) != place || !test(*m)) continue;
-      names += fmt::format("{}`{}`", names.empty() ? "" : ", ", m->method);
+      names += (names.empty() ? "" : ", ") + markdown_code(m->method);
     }
     return names.empty() ? "none" : names;
   }
@@ -113,7 +146,7 @@ class Writer {
   void write_sentences() {
     text_ += "## In sentences\n\n";
     for (const Table& table : field_tables(measurements_)) {
-      text_ += fmt::format("- **{}**: ", table.title);
+      text_ += fmt::format("- **{}**: ", markdown_escaped(table.title));
       text_ += fmt::format(
           "with false negatives: {}. Without false positives: {}. ",
           names_where(table.title, [](const Measurement& m) { return m.false_negatives != 0; }),
@@ -138,10 +171,10 @@ class Writer {
       for (const FigurePanel& panel : figure.panels) {
         std::string names;
         for (const FigurePoint& point : panel.front) {
-          names += (names.empty() ? "" : ", ") + point.label;
+          names += (names.empty() ? "" : ", ") + markdown_escaped(point.label);
         }
         comparisons[names.empty() ? "none" : names].push_back(
-            fmt::format("{} ({})", what, panel.title));
+            fmt::format("{} ({})", what, markdown_escaped(panel.title)));
       }
     }
     if (comparisons.empty()) return;
@@ -163,7 +196,7 @@ class Writer {
     if (tables.empty()) return;
     text_ += fmt::format("## {}\n\n", title);
     for (const Table& table : tables) {
-      text_ += fmt::format("### {}\n\n{}\n", table.title, to_markdown(table));
+      text_ += fmt::format("### {}\n\n{}\n", markdown_escaped(table.title), to_markdown(table));
     }
   }
 
@@ -207,7 +240,7 @@ class Writer {
     }
   }
 
-  const Measurements& measurements_;
+  Measurements measurements_;
   std::string text_;
 };
 

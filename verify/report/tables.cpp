@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "verify/csv.hpp"
+#include "verify/printable.hpp"
 #include "verify/report/published.hpp"
 
 namespace touchstone::verify {
@@ -252,8 +253,7 @@ std::string to_markdown(const Table& table) {
     std::string result = "|";
     for (const std::string& text : texts) {
       result += ' ';
-      for (const char c : text) result += c == '|' ? "\\|" : std::string(1, c);
-      result += " |";
+      result += markdown_escaped(text) + " |";
     }
     return result + "\n";
   };

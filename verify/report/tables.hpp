@@ -43,10 +43,10 @@ struct Table {
 /// "12.3", "0.00456", "12300": three digits, more for whole numbers from 1000; "–" for NaN.
 [[nodiscard]] std::string short_number(double value);
 
-/// As a table of Markdown, with "|" escaped.
+/// As a table of Markdown, with what could be markup escaped.
 [[nodiscard]] std::string to_markdown(const Table& table);
 
-/// As RFC 4180 has it, the first record being the columns.
+/// As RFC 4180 [rfc4180] has it, the first record being the columns.
 [[nodiscard]] std::string to_csv(const Table& table);
 
 }  // namespace touchstone::verify

@@ -4,35 +4,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <iterator>
+
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
-
-unsigned byte_at(std::string_view text, std::size_t i) {
-  return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-}
-
-/// Length of the well-formed UTF-8 sequence in front that is a character of XML; 0 if there is none.
-std::size_t character_length(std::string_view text) {
-  const unsigned lead = byte_at(text, 0);
-  if (lead < 0x80) return lead >= 0x20 || lead == '\t' || lead == '\n' ? 1 : 0;
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  if (lead < 0xC2 || lead > 0xF4) return 0;
-  std::uint32_t code = lead & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    const unsigned next = byte_at(text, i);
-    if ((next & 0xC0U) != 0x80U) return 0;
-    code = code << 6U | (next & 0x3FU);
-  }
-  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xD800 && code < 0xE000;
-  const bool beyond = code > 0x10FFFF || code == 0xFFFE || code == 0xFFFF;
-  return overlong || surrogate || beyond ? 0 : length;
-}
 
 std::string_view entity(char c) {
   switch (c) {
@@ -56,16 +35,17 @@ std::string_view entity(char c) {
 std::string xml_escaped(std::string_view text) {
   std::string result;
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
+    const Character character = first_character(text);
     const std::string_view markup = entity(text.front());
-    if (length == 0) {
+    const bool is_space = text.front() == '\t' || text.front() == '\n';
+    if (!is_space && !is_printable(character)) {
       result += replacement;
     } else if (!markup.empty()) {
       result += markup;
     } else {
-      result += text.substr(0, length);
+      result += text.substr(0, character.length);
     }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
+    text.remove_prefix(std::max<std::size_t>(character.length, 1));
   }
   return result;
 }

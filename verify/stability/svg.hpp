@@ -9,8 +9,8 @@
 
 namespace touchstone::verify {
 
-/// The text as it may stand in XML, in an attribute too: markup escaped, and what is no UTF-8 or no
-/// character of XML replaced by U+FFFD.
+/// The text as it may stand in XML, in an attribute too: markup escaped, and what is not printable
+/// (printable.hpp) replaced by U+FFFD, but for tabs and line ends.
 [[nodiscard]] std::string xml_escaped(std::string_view text);
 
 /// A rectangle in units of the picture, from its upper left corner.

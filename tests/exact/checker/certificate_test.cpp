@@ -26,7 +26,7 @@ using Lines = std::vector<std::string>;
 
 /// A certificate with every kind of line; line n is element n−1.
 const Lines& sample() {
-  static const Lines lines{"touchstone-certificates 1",
+  static const Lines lines{"touchstone-certificates 2",
                            "query vertex_face",
                            "label simulation/cloth.csv:17",
                            "point 1 1 1",
@@ -106,9 +106,13 @@ TEST(Form, EveryLineIsNeededToItsEnd) {
           << line;
     }
     Lines cut(sample().begin(), sample().begin() + static_cast<std::ptrdiff_t>(n) - 1);
-    EXPECT_EQ(outcome(joined(cut)),
-              n == 2 ? "not one certificate"
-                     : std::to_string(n - 1) + ": the stream ends within a certificate");
+    const Report report = tests::check_text(joined(cut));
+    EXPECT_EQ(report.accepted(), 0U);
+    ASSERT_EQ(report.rejected, n == 2 ? 1U : 2U);
+    EXPECT_EQ(report.rejections[0].line, n - 1);
+    EXPECT_EQ(report.rejections[0].reason,
+              n == 2 ? "the stream is cut: it has no closing line 'certificates 0'"
+                     : "the stream ends within a certificate");
   }
 }
 

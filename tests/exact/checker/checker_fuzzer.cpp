@@ -4,7 +4,7 @@
 /// The fuzzer's own mutations seldom leave a certificate readable, so half of ours are of its words:
 /// replaced by words of the format or of the same certificate, lines swapped, doubled or left out.
 /// What is accepted is held against a second look: nothing is accepted without a `claim` and an `end`
-/// line each, and the counts agree with the reasons.
+/// line each, no stream without a closing line of its number, and the counts agree with the reasons.
 
 #include <algorithm>
 #include <array>
@@ -46,7 +46,7 @@ class Mutator {
 
   std::string mutate(std::string_view text) {
     Words lines = cut(text, '\n');
-    if (lines.empty()) return "touchstone-certificates 1\n";
+    if (lines.empty()) return "touchstone-certificates 2\n";
     const std::size_t at = below(lines.size()), other = below(lines.size());
     switch (below(6)) {
       case 0:
@@ -109,6 +109,7 @@ class Mutator {
                                          "vertex_face",
                                          "edge_edge",
                                          "nan",
+                                         "certificates",
                                          ""});
     Words words = cut(line, ' ');
     const Words from = cut(other, ' ');
@@ -160,6 +161,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(report.no_collision <= count_lines(lines, "claim no_collision\n"));
   require(report.collision <= count_lines(lines, "claim collision\n"));
   require(report.time_of_impact <= count_lines(lines, "claim time_of_impact "));
+  require(!report.all_accepted() ||
+          count_lines(lines, "certificates " + std::to_string(report.accepted()) + "\n") > 0);
   require(report.rejections.size() == std::min<std::uint64_t>(report.rejected, 3));
   for (const auto& rejection : report.rejections) {
     require(rejection.line >= 1 && rejection.line <= lines.size() + 1 && !rejection.reason.empty());

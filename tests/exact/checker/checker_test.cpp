@@ -3,6 +3,7 @@
 /// that are no certificates; the corpus of the fuzzer, and the examples of the manual.
 
 #include "exact/checker/checker.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,34 +65,78 @@ std::vector<std::string> rejections(const Report& report) {
 
 using Texts = std::vector<std::string>;
 
+/// The report on certificates behind which the closing line stands.
+Report check_closed(const std::string& text, const Options& options = {}) {
+  return check_text(tests::closed(text), options);
+}
+
 TEST(Check, CountsByClaim) {
-  const Report report = check_text(header + miss + hit + impact + hit + miss + miss + lie);
+  const Report report = check_closed(header + miss + hit + impact + hit + miss + miss + lie);
   EXPECT_EQ(report.no_collision, 3U);
   EXPECT_EQ(report.collision, 2U);
   EXPECT_EQ(report.time_of_impact, 1U);
   EXPECT_EQ(report.accepted(), 6U);
   EXPECT_EQ(report.rejected, 1U);
   EXPECT_FALSE(report.all_accepted());
-  EXPECT_TRUE(check_text(header + miss + hit).all_accepted());
+  EXPECT_TRUE(check_closed(header + miss + hit).all_accepted());
 }
 
 TEST(Check, AcceptsAStreamWithoutCertificates) {
-  const Report report = check_text(header + "\n# nothing\n");
+  const Report report = check_text(header + "\n# nothing\ncertificates 0\n");
   EXPECT_TRUE(report.all_accepted());
   EXPECT_EQ(report.accepted(), 0U);
 }
 
+TEST(Check, RejectsAStreamWithoutItsClosingLine) {
+  const std::string missing = " : the stream is cut: it has no closing line 'certificates ";
+  EXPECT_EQ(rejections(check_text(header)), Texts{"1" + missing + "0'"});
+  EXPECT_EQ(rejections(check_text(header + "\n# nothing\n")), Texts{"3" + missing + "0'"});
+  const Report cut = check_text(header + miss + hit);
+  EXPECT_EQ(cut.accepted(), 2U);
+  EXPECT_EQ(rejections(cut), Texts{"26" + missing + "2'"});
+  EXPECT_EQ(rejections(check_text(header + miss + "certificates 1")),
+            Texts{"14 : the last line is not ended by a newline"});
+}
+
+TEST(Check, HoldsTheClosingLineToTheNumberOfCertificates) {
+  const std::string begin = header + miss;
+  EXPECT_TRUE(check_text(begin + "certificates 1\n\n# the end\n").all_accepted());
+  for (const std::string& other :
+       {"certificates 0"s, "certificates 2"s, "certificates 01"s, "certificates -1"s,
+        "certificates 1 "s, "certificates 1\r"s, "certificates  1"s, "certificates"s,
+        "certificates 1 1"s, "certificates 18446744073709551617"s}) {
+    const Report report = check_text(begin + other + "\n");
+    EXPECT_EQ(report.accepted(), 1U) << other;
+    ASSERT_EQ(report.rejected, 1U) << other;
+    EXPECT_TRUE(report.rejections[0].reason.starts_with(
+        "expected the closing line 'certificates 1', found 'certificates"))
+        << report.rejections[0].reason;
+  }
+  EXPECT_EQ(rejections(check_text(begin + "certificate 1\n")),
+            (Texts{"14 : expected 'query', found 'certificate'",
+                   "14 : the stream is cut: it has no closing line 'certificates 1'"}));
+  // A rejected certificate is one of those that the closing line counts.
+  EXPECT_EQ(check_text(begin + "query x\ncertificates 2\n").rejected, 1U);
+  EXPECT_EQ(check_text(begin + "query x\ncertificates 1\n").rejected, 2U);
+}
+
+TEST(Check, ReadsNothingBehindTheClosingLine) {
+  const Report report = check_text(tests::closed(header + miss) + miss + header + lie);
+  EXPECT_EQ(report.accepted(), 1U);
+  EXPECT_EQ(rejections(report), Texts{"15 : a line after the closing line"});
+}
+
 TEST(Check, RejectsAStreamOfAnotherKindAsAWhole) {
   for (const std::string& first :
-       {""s, "\n"s, "touchstone-certificates 1"s, "touchstone-certificates 1\r\n"s,
-        "touchstone-certificates 2\n"s, "touchstone-certificates 1 \n"s,
-        " touchstone-certificates 1\n"s, "touchstone-certificates\n"s,
-        "Touchstone-certificates 1\n"s, "\xef\xbb\xbftouchstone-certificates 1\n"s,
-        "# comment\n" + header, "\n" + header, "touchstone-certificates 1\0\n"s,
+       {""s, "\n"s, "touchstone-certificates 2"s, "touchstone-certificates 2\r\n"s,
+        "touchstone-certificates 1\n"s, "touchstone-certificates 2 \n"s,
+        " touchstone-certificates 2\n"s, "touchstone-certificates\n"s,
+        "Touchstone-certificates 2\n"s, "\xef\xbb\xbftouchstone-certificates 2\n"s,
+        "# comment\n" + header, "\n" + header, "touchstone-certificates 2\0\n"s,
         std::string(70'000, 'x') + "\n"}) {
     const Report report = check_text(std::string(first).append(miss).append(lie));
     EXPECT_EQ(report.accepted(), 0U) << first;
-    EXPECT_EQ(rejections(report), Texts{"1 : the first line is not 'touchstone-certificates 1'"})
+    EXPECT_EQ(rejections(report), Texts{"1 : the first line is not 'touchstone-certificates 2'"})
         << first;
   }
 }
@@ -100,8 +145,8 @@ TEST(Check, GoesOnAfterARejection) {
   const std::string broken = "query vertex_face\nlabel one\npoint 1 1 x\nclaim no_collision\nend\n";
   const std::string endless = "query vertex_face\nlabel two\n" + points_of_miss +
                               "claim no_collision\nseparate 0 1 face +\n";
-  const Report report = check_text(header + broken + miss + endless + hit + "stray 1\nstray 2\n" +
-                                   "query\n" + miss + "query x\nquery y\n" + impact);
+  const Report report = check_closed(header + broken + miss + endless + hit + "stray 1\nstray 2\n" +
+                                     "query\n" + miss + "query x\nquery y\n" + impact);
   EXPECT_EQ(report.accepted(), 4U);
   EXPECT_EQ(rejections(report),
             (Texts{"4 one: not a number: 'x'", "31 two: expected 'end', found 'query'",
@@ -115,7 +160,7 @@ TEST(Check, FindsALieAmongTruths) {
   for (int n = 0; n < 50; ++n) text += miss;
   text += lie;
   for (int n = 0; n < 50; ++n) text += impact;
-  const Report report = check_text(text);
+  const Report report = check_closed(text);
   EXPECT_EQ(report.accepted(), 100U);
   EXPECT_EQ(rejections(report), Texts{"612 : a polynomial is not positive at a point"});
 }
@@ -124,29 +169,30 @@ TEST(Check, FindsALieAmongTruths) {
 TEST(Check, ForgetsTheCertificateBefore) {
   const std::string without_proof =
       "query vertex_face\n" + points_of_miss + "claim no_collision\nend\n";
-  EXPECT_EQ(rejections(check_text(header + miss + without_proof)), Texts{"23 : there is no piece"});
+  EXPECT_EQ(rejections(check_closed(header + miss + without_proof)),
+            Texts{"23 : there is no piece"});
   const std::string labelled = "query vertex_face\nlabel first\n" + miss.substr(18);
-  EXPECT_EQ(rejections(check_text(header + labelled + lie)),
+  EXPECT_EQ(rejections(check_closed(header + labelled + lie)),
             Texts{"25 : a polynomial is not positive at a point"});
 }
 
 TEST(Check, KeepsTheFirstRejections) {
   std::string text = header;
   for (int n = 0; n < 250; ++n) text += "query " + std::to_string(n) + "\n";
-  const Report usual = check_text(text);
+  const Report usual = check_closed(text);
   EXPECT_EQ(usual.rejected, 250U);
   EXPECT_EQ(usual.rejections.size(), 100U);
   EXPECT_EQ(usual.rejections.back().reason, "unknown word: '99'");
-  const Report two = check_text(text, {.max_rejections = 2});
+  const Report two = check_closed(text, {.max_rejections = 2});
   EXPECT_EQ(two.rejected, 250U);
   EXPECT_EQ(rejections(two), (Texts{"2 : unknown word: '0'", "3 : unknown word: '1'"}));
-  EXPECT_EQ(check_text(text, {.max_rejections = 0}).rejected, 250U);
+  EXPECT_EQ(check_closed(text, {.max_rejections = 0}).rejected, 250U);
 }
 
 TEST(Check, ShowsLabelsSafely) {
   const std::string named =
       "query vertex_face\nlabel a \x1b[2Jb\t\xc3\xa9\0\r\n"s + "point x\nend\n";
-  EXPECT_EQ(rejections(check_text(header + named)),
+  EXPECT_EQ(rejections(check_closed(header + named)),
             Texts{"4 a \\x1b[2Jb\\x09\\xc3\\xa9\\x00\\x0d: not a number: 'x'"});
 }
 
@@ -154,34 +200,36 @@ TEST(Check, RejectsTheEndingsOfOtherSystems) {
   std::string text = header + miss, carriage = text;
   for (std::size_t at = 0; (at = carriage.find('\n', at)) != std::string::npos; at += 2)
     carriage.insert(at, "\r");
-  EXPECT_FALSE(check_text(carriage).all_accepted());
-  EXPECT_FALSE(check_text(header + carriage.substr(header.size() + 1)).all_accepted());
+  EXPECT_FALSE(check_closed(carriage).all_accepted());
+  EXPECT_FALSE(check_closed(header + carriage.substr(header.size() + 1)).all_accepted());
   std::ranges::replace(text, '\n', '\r');
-  EXPECT_FALSE(check_text(text).all_accepted());
+  EXPECT_FALSE(check_closed(text).all_accepted());
 }
 
 TEST(Check, WantsTheLastLineEnded) {
   const std::string text = header + miss;
   EXPECT_EQ(rejections(check_text(text.substr(0, text.size() - 1))),
-            Texts{"13 : the last line is not ended by a newline"});
+            (Texts{"13 : the last line is not ended by a newline",
+                   "13 : the stream is cut: it has no closing line 'certificates 1'"}));
 }
 
-/// Cut anywhere, a stream proves at most what was complete.
-TEST(Check, AcceptsNothingFromACutStream) {
-  const std::string text = header + miss + hit;
+/// Cut anywhere, a stream is not accepted, and proves at most what was complete.
+TEST(Check, AcceptsNoCutStream) {
+  const std::string text = tests::closed(header + miss + hit);
   for (std::size_t length = 0; length < text.size(); ++length) {
     const Report report = check_text(text.substr(0, length));
-    const std::uint64_t complete = length >= header.size() + miss.size() ? 1 : 0;
+    const std::uint64_t complete = (length >= header.size() + miss.size() ? 1U : 0U) +
+                                   (length >= header.size() + miss.size() + hit.size() ? 1U : 0U);
     EXPECT_EQ(report.accepted(), complete) << length;
-    const bool at_seam = length == header.size() || length == header.size() + miss.size();
-    EXPECT_EQ(report.rejected, at_seam ? 0U : 1U) << length;
+    EXPECT_FALSE(report.all_accepted()) << length;
   }
+  EXPECT_TRUE(check_text(text).all_accepted());
 }
 
 /// Any byte in the place of any byte: where it is accepted, nothing but a label or the way of
 /// writing changed, or the claim is still true. The query: v moves from (1,1,1) to (1,1,2).
 TEST(Check, SurvivesEveryByte) {
-  const std::string text = header + miss;
+  const std::string text = tests::closed(header + miss);
   for (std::size_t at = 0; at < text.size(); ++at) {
     for (int byte = 0; byte < 256; ++byte) {
       std::string altered = text;
@@ -191,7 +239,8 @@ TEST(Check, SurvivesEveryByte) {
       // The piece, the claim and the frame admit no change that is still accepted.
       const bool is_point = text.compare(text.rfind('\n', at) + 1, 5, "point") == 0;
       if (altered != text && !is_point) {
-        ASSERT_EQ(report.accepted(), 0U) << altered;
+        ASSERT_FALSE(report.all_accepted()) << altered;
+        ASSERT_EQ(report.accepted(), at < header.size() + miss.size() ? 0U : 1U) << altered;
       }
     }
   }
@@ -205,7 +254,7 @@ TEST(Check, DoesNotDependOnTheLocale) {
   };
   const std::locale before =
       std::locale::global(std::locale(std::locale::classic(), new Punctuation));
-  const Report report = check_text(header + miss + hit + impact + lie);
+  const Report report = check_closed(header + miss + hit + impact + lie);
   std::locale::global(before);
   EXPECT_EQ(report.accepted(), 3U);
   EXPECT_EQ(rejections(report), Texts{"51 : a polynomial is not positive at a point"});
@@ -268,13 +317,14 @@ std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-const std::filesystem::path root = TOUCHSTONE_SOURCE_DIR;
+const std::filesystem::path root = tests::source_folder();
 
 /// What becomes of each file of the fuzzer's corpus: accepted / rejected.
 TEST(Corpus, HasTheOutcomeThatItShould) {
   const std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> expected{
       {"contacts.cert", {7, 0}}, {"features.cert", {6, 0}},  {"numbers.cert", {2, 0}},
-      {"false.cert", {0, 7}},    {"broken.cert", {1, 6}},    {"wrong_header.cert", {0, 1}},
+      {"false.cert", {0, 7}},    {"broken.cert", {1, 7}},    {"wrong_header.cert", {0, 1}},
+      {"cut.cert", {2, 1}},      {"empty.cert", {0, 0}},     {"miscounted.cert", {2, 1}},
       {"deep.cert", {1, 1}},     {"distances.cert", {8, 0}}, {"false_distances.cert", {0, 6}}};
   std::size_t found = 0;
   for (const auto& entry :

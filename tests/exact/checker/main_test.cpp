@@ -12,6 +12,8 @@
 #include <string>
 #include <utility>
 
+#include "tests/support/built_files.hpp"
+
 namespace touchstone::checker {
 namespace {
 
@@ -21,9 +23,9 @@ struct Outcome {
   std::string output;
 };
 
-/// Runs touchstone-check with these arguments, as a shell reads them.
+/// Runs touchstone-check with these arguments and redirections, as a shell reads them.
 Outcome run(const std::string& arguments) {
-  const std::string command = std::string(TOUCHSTONE_CHECK) + " " + arguments + " 2>&1";
+  const std::string command = "{ " + tests::checker_program() + " " + arguments + "; } 2>&1";
   std::FILE* const pipe = popen(command.c_str(), "r");  // NOLINT(cert-env33-c)
   Outcome outcome;
   if (pipe == nullptr) return outcome;
@@ -35,7 +37,7 @@ Outcome run(const std::string& arguments) {
   return outcome;
 }
 
-const std::string corpus = TOUCHSTONE_SOURCE_DIR "/tests/exact/checker/corpus/";
+const std::string corpus = tests::source_folder() + "/tests/exact/checker/corpus/";
 
 TEST(Command, AcceptsAFile) {
   const auto [status, output] = run(corpus + "contacts.cert");
@@ -56,14 +58,15 @@ TEST(Command, NamesLinesLabelsAndReasons) {
   EXPECT_EQ(status, 1);
   EXPECT_EQ(output,
             "accepted         1\n  no_collision   1\n  collision      0\n  time_of_impact "
-            "0\nrejected         6\n"
+            "0\nrejected         7\n"
             "  line 10: expected 'point', found 'claim'\n"
             "  line 14: not a number: 'nan'\n"
             "  line 37: expected 'end', found 'query'\n"
             "  line 59: unknown word: '*'\n"
             "  line 62: a number with more than 16384 bits: "
             "'9999999999999999999999999999999999999999...'\n"
-            "  line 75 (\\x1b[2J): the last line is not ended by a newline\n");
+            "  line 75 (\\x1b[2J): the last line is not ended by a newline\n"
+            "  line 75: the stream is cut: it has no closing line 'certificates 7'\n");
 }
 
 TEST(Command, SaysHowManyRejectionsItDoesNotShow) {
@@ -71,8 +74,9 @@ TEST(Command, SaysHowManyRejectionsItDoesNotShow) {
       ::testing::TempDir() + "touchstone_check_" + std::to_string(getpid()) + ".cert";
   {
     std::ofstream file(path, std::ios::binary);
-    file << "touchstone-certificates 1\n";
+    file << "touchstone-certificates 2\n";
     for (int n = 0; n < 103; ++n) file << "query\n";
+    file << "certificates 103\n";
   }
   const auto [status, output] = run(path);
   std::filesystem::remove(path);
@@ -93,7 +97,25 @@ TEST(Command, TellsBadInputFromRejection) {
     EXPECT_EQ(output, reason);
   }
   EXPECT_EQ(run("/dev/null").status, 1);
-  EXPECT_EQ(run(corpus + "contacts.cert > /dev/full").status, 2);
+}
+
+TEST(Command, FailsIfItsOutputCannotBeWritten) {
+  for (const std::string& arguments : {corpus + "contacts.cert", std::string("--help")}) {
+    const auto [status, output] = run(arguments + " 2>&1 > /dev/full");
+    EXPECT_EQ(status, 2) << arguments;
+    EXPECT_TRUE(output.ends_with(": standard output cannot be written\n")) << output;
+  }
+}
+
+TEST(Command, TellsAnEmptyOrCutStreamFromACompleteOne) {
+  EXPECT_EQ(run(corpus + "empty.cert").status, 0);
+  const auto [status, output] = run("- < " + corpus + "cut.cert");
+  EXPECT_EQ(status, 1);
+  EXPECT_NE(output.find("the stream is cut: it has no closing line 'certificates 2'"),
+            std::string::npos)
+      << output;
+  EXPECT_EQ(run("/dev/null").status, 1);
+  EXPECT_EQ(run(corpus + "miscounted.cert").status, 1);
 }
 
 TEST(Command, KnowsItsUsage) {

@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
+#include "tests/verify/methods/plugins/misbehaviour.hpp"
 
 // `touchstone bench` as users meet it: by running the tool.
 
@@ -22,8 +24,8 @@ class Bench : public tests::FolderTest {
  protected:
   /// Runs the tool, after shell words such as a limit of time; its exit status.
   [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" TOUCHSTONE_TOOL "' bench " + arguments + " >'" +
-                                path("out") + "' 2>'" + path("err") + "'";
+    const std::string command = before + " '" + tests::touchstone_program() + "' bench " +
+                                arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
     const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -57,7 +59,7 @@ bool contains(const std::string& text, const std::string& part) {
 TEST_F(Bench, HelpHasAnExample) {
   EXPECT_EQ(run("--help"), 0);
   EXPECT_TRUE(contains(read("out"), "Example: touchstone bench ")) << read("out");
-  EXPECT_FALSE(contains(read("out"), "--query-limit"));
+  EXPECT_TRUE(contains(read("out"), "--query-limit"));
 }
 
 TEST_F(Bench, TimesAndJudgesTheGivenQueries) {
@@ -119,13 +121,30 @@ TEST_F(Bench, AFileHasItsOwnGroup) {
 
 TEST_F(Bench, ABrokenPromiseExitsWithOne) {
   const std::string file = write("a_vf.csv", falling_vertex("-3"));
-  EXPECT_EQ(run(file + quick + "--plugin '" TOUCHSTONE_BOX_OVERLAP "' --json " + quoted("json")), 0)
+  EXPECT_EQ(run(file + quick + "--plugin '" + tests::plugin_library("box_overlap") + "' --json " +
+                quoted("json")),
+            0)
       << read("err");
-  EXPECT_EQ(run(file + quick + "--plugin '" TOUCHSTONE_MISBEHAVING "' --json " + quoted("json")), 1)
+  EXPECT_EQ(run(file + quick + "--plugin '" + tests::plugin_library("misbehaving") + "' --json " +
+                quoted("json")),
+            1)
       << read("out") << read("err");
   EXPECT_TRUE(json().at("groups")[0].at("methods")[0].at("broke_promise").get<bool>());
   EXPECT_TRUE(contains(read("out"), path("a_vf.csv") + ": vertex-face query 0: answer"))
       << read("out");
+}
+
+TEST_F(Bench, APluginThatCrashesCostsAnAnswer) {
+  std::string crashing = falling_vertex("-3");
+  const std::string what = std::to_string(static_cast<int>(tests::Misbehaviour::writes_to_null));
+  crashing.replace(0, 1, what);
+  const std::string file = write("a_vf.csv", falling_vertex("-3") + crashing);
+  EXPECT_EQ(run(file + quick + "--plugin '" + tests::plugin_library("misbehaving") +
+                "' --method certified --json " + quoted("json")),
+            1)
+      << read("out") << read("err");
+  EXPECT_TRUE(contains(read("out"), "vertex-face query 1: answer crash: SIGSEGV")) << read("out");
+  EXPECT_EQ(json().at("groups")[0].at("methods").size(), 2U);
 }
 
 TEST_F(Bench, TheBuiltInWorkloadIsPatchesAndTheHardSet) {
@@ -171,6 +190,7 @@ TEST_F(Bench, AStepIsTimedFromEndToEnd) {
   EXPECT_EQ(step.at("earliest_agrees"), true);
   ASSERT_EQ(step.at("times").size(), 2U);
   EXPECT_EQ(step.at("times")[1].at("threads"), 2);
+  EXPECT_GT(step.at("times")[1].at("collisions_processor_s"), 0.0);
   EXPECT_TRUE(contains(read("out"), "before-after: 6 vertices, 6 edges, 2 faces; ")) << read("out");
 }
 
@@ -181,7 +201,7 @@ TEST_F(Bench, BadUsageExitsWithTwo) {
   for (const std::string& arguments :
        {std::string("--nonsense"), file + " --method nonsense", file + " --repetitions 0",
         file + " --seconds 0", file + " --judge -1", file + " --kernel nonsense",
-        file + " --query-limit 1", file + " --step x y", std::string("--step x"),
+        file + " --query-limit -1", file + " --step x y", std::string("--step x"),
         file + " --plugin " + quoted("missing.so"), file + json_to_input, quoted("missing"),
         "--step " + quoted("missing0.ply") + " " + quoted("missing1.ply")}) {
     EXPECT_EQ(run(arguments), 2) << arguments << read("err");

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "exact/oracle.hpp"
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 #include "verify/dataset/npy.hpp"
 
@@ -38,6 +39,14 @@ struct Outcome {
   std::string err;
 };
 
+/// All queries of a .npy file.
+std::vector<Query> npy_queries(const fs::path& path) {
+  NpyReader npy(path);
+  std::vector<Query> queries;
+  while (npy.position() < npy.count()) queries.push_back(npy.next());
+  return queries;
+}
+
 class CandidatesCommand : public tests::FolderTest {
  protected:
   [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
@@ -47,7 +56,7 @@ class CandidatesCommand : public tests::FolderTest {
 
   /// Runs `touchstone candidates …` to its end.
   [[nodiscard]] Outcome run(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words{TOUCHSTONE_TOOL, "candidates"};
+    std::vector<std::string> words{tests::touchstone_program(), "candidates"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -59,7 +68,8 @@ class CandidatesCommand : public tests::FolderTest {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
     pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, TOUCHSTONE_TOOL, &actions, nullptr, pointers.data(), environ),
+    EXPECT_EQ(posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
+                          pointers.data(), environ),
               0);
     posix_spawn_file_actions_destroy(&actions);
     int status = 0;
@@ -96,6 +106,18 @@ std::string falling_triangle(const std::string& z) {
          "\nf 1 2 3\nf 4 5 6\n";
 }
 
+TEST_F(CandidatesCommand, SaysHowManyCandidatesAreTooMany) {
+  const std::string before = write("0.obj", falling_triangle("1"));
+  const std::string after = write("1.obj", falling_triangle("-1"));
+  const Outcome refused = run({before, after, "--out", path("step"), "--max-candidates", "2"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(contains(refused.err, "0-1: 3 vertex-face candidates, more than the 2 "))
+      << refused.err;
+  EXPECT_TRUE(contains(refused.err, "--max-candidates")) << refused.err;
+  EXPECT_EQ(files("step"), 0U);
+  EXPECT_EQ(run({before, after, "--out", path("step"), "--max-candidates", "3"}).status, 0);
+}
+
 TEST_F(CandidatesCommand, WritesQueriesThatTheirPairsName) {
   const auto outcome =
       run({write("0.obj", falling_triangle("1")), write("1.obj", falling_triangle("-1")), "--out",
@@ -107,14 +129,15 @@ TEST_F(CandidatesCommand, WritesQueriesThatTheirPairsName) {
   EXPECT_EQ(pairs("step_vf_pairs.npy"), (Pairs{{3, 0}, {4, 0}, {5, 0}}));
   EXPECT_EQ(pairs("step_edges.npy"), (Pairs{{0, 1}, {0, 2}, {1, 2}, {3, 4}, {3, 5}, {4, 5}}));
   EXPECT_EQ(pairs("step_ee_pairs.npy"), (Pairs{{2, 3}, {2, 4}, {2, 5}}));
-  const NpyFile vertex_face(path("step_vf.npy")), edge_edge(path("step_ee.npy"));
-  ASSERT_EQ(vertex_face.queries().size(), 3U);
-  ASSERT_EQ(edge_edge.queries().size(), 3U);
-  EXPECT_EQ(vertex_face.queries()[1],
+  const std::vector<Query> vertex_face = npy_queries(path("step_vf.npy"));
+  const std::vector<Query> edge_edge = npy_queries(path("step_ee.npy"));
+  ASSERT_EQ(vertex_face.size(), 3U);
+  ASSERT_EQ(edge_edge.size(), 3U);
+  EXPECT_EQ(vertex_face[1],
             (Query{{2, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0, 2, 1, -1, 0, 0, 0, 4, 0, 0, 0, 4, 0}}));
-  EXPECT_EQ(edge_edge.queries()[2],
+  EXPECT_EQ(edge_edge[2],
             (Query{{4, 0, 0, 0, 4, 0, 2, 1, 1, 1, 2, 1, 4, 0, 0, 0, 4, 0, 2, 1, -1, 1, 2, -1}}));
-  for (const Query& query : vertex_face.queries()) {
+  for (const Query& query : vertex_face) {
     EXPECT_TRUE(exact::decide(Kind::vertex_face, query).collides());
   }
   const auto summary = nlohmann::json::parse(read_file(path("summary.json")));

@@ -1,12 +1,15 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,8 +17,10 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 #include "tests/verify/methods/plugins/misbehaviour.hpp"
+#include "verify/dataset/npy.hpp"
 
 // The commands (verify/cli/commands.hpp) are tested as users meet them: by running the tool.
 
@@ -35,7 +40,7 @@ class Tool : public tests::FolderTest {
  protected:
   /// Starts the tool with its output in files of the test's folder.
   [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words{TOUCHSTONE_TOOL};
+    std::vector<std::string> words{tests::touchstone_program()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -47,8 +52,8 @@ class Tool : public tests::FolderTest {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
     pid_t process = 0;
-    const int error =
-        posix_spawn(&process, TOUCHSTONE_TOOL, &actions, nullptr, pointers.data(), environ);
+    const int error = posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
+                                  pointers.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     EXPECT_EQ(error, 0);
     return process;
@@ -149,9 +154,10 @@ TEST_F(Tool, UsageErrorsExitWithTwo) {
         {"solve", "--method", "tight_inclusion", "--count", "1", "--out", ""},
         {"solve", "--method", "none", "--out", path("x")},
         {"solve", "--method", "nonsense", "--out", path("x")},
-        {"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--method", "tight_inclusion", "--out",
-         path("x")},
-        {"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("x"), "--t-max", "2"},
+        {"solve", "--plugin", tests::plugin_library("box_overlap"), "--method", "tight_inclusion",
+         "--out", path("x")},
+        {"solve", "--plugin", tests::plugin_library("box_overlap"), "--out", path("x"), "--t-max",
+         "2"},
         {"generate"},
         {"generate", "--out", path("x"), "--family", "nonsense"}}) {
     const Outcome usage = run(arguments);
@@ -211,6 +217,73 @@ TEST_F(Tool, KeepGoingSkipsNamesAndCountsAndStillExitsWithTwo) {
   EXPECT_EQ(json("result.json").at("skipped"), 1);
 }
 
+TEST_F(Tool, KeepGoingDecidesNoQueryThatIsPutTogetherOfTwo) {
+  std::string second = falling_vertex("1");
+  second.insert(second.find('\n') + 1, "\n");
+  const std::string file =
+      write("a_vf.csv", falling_vertex("1") + second + falling_vertex("1") + falling_vertex("1"));
+  const Outcome certify = run({"certify", file, "--keep-going", "--truth", path("truth.csv"),
+                               "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 2);
+  EXPECT_TRUE(contains(certify.err, file + ":10: blank line inside a query; the rest of the file"))
+      << certify.err;
+  EXPECT_EQ(json("result.json").at("queries"), 1);
+  EXPECT_EQ(json("result.json").at("skipped"), 1);
+  EXPECT_EQ(read_file(path("truth.csv")), "file,index,kind,collides,toi_lower,toi_upper\n" + file +
+                                              ",0,vertex-face,1,0.25,0.25\n");
+}
+
+TEST_F(Tool, AnArrayThatBecomesShorterIsNamedAndWhatIsDoneIsWritten) {
+  constexpr std::size_t queries = 16000, left = 12000;
+  const fs::path array = path("a_vf.npy");
+  NpyWriter writer(array);
+  for (std::size_t i = 0; i < queries; ++i) {
+    writer.write(Query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
+                        1, 1, -3, 0, 0, 0, 4, 0, 0, 0, 4, 0}});
+  }
+  writer.close();
+  ASSERT_EQ(::mkfifo(path("truth").c_str(), 0600), 0);
+  const pid_t process = start({"certify", array.string(), "--threads", "1", "--truth",
+                               path("truth"), "--json", path("result.json")});
+  // Two blocks of 2,048 queries are under way at most, and the pipe holds the truth of some
+  // thousand: when its first bytes are there, the array is being read, and not near the cut.
+  const int truth = ::open(path("truth").c_str(), O_RDONLY);
+  std::array<char, 4096> buffer{};
+  ssize_t count = ::read(truth, buffer.data(), buffer.size());
+  ASSERT_GT(count, 0);
+  fs::resize_file(array, 128 + left * sizeof(Query));
+  std::size_t lines = 0;
+  for (; count > 0; count = ::read(truth, buffer.data(), buffer.size())) {
+    lines += static_cast<std::size_t>(std::count(buffer.begin(), buffer.begin() + count, '\n'));
+  }
+  ::close(truth);
+  const Outcome certify = finish(process);
+  EXPECT_EQ(certify.status, 2);
+  EXPECT_TRUE(contains(certify.err, array.string() +
+                                        ": has become shorter while it was read: query 12000 of "
+                                        "16000 is missing"))
+      << certify.err;
+  EXPECT_EQ(lines, left + 1);
+  EXPECT_EQ(json("result.json").at("queries"), left);
+  EXPECT_TRUE(contains(certify.out, "total")) << certify.out;
+}
+
+TEST_F(Tool, AnArrayOfNoQueriesIsADataset) {
+  NpyWriter(path("none_vf.npy")).close();
+  const std::string file = path("none_vf.npy");
+  const Outcome certify =
+      run({"certify", file, "--method", "certified", "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 0) << certify.err;
+  EXPECT_EQ(certify.err, "");
+  EXPECT_FALSE(contains(certify.out, "nan")) << certify.out;
+  EXPECT_EQ(json("result.json").at("queries"), 0);
+  EXPECT_EQ(json("result.json").at("errors"), 0);
+  EXPECT_EQ(run({"solve", file, "--method", "certified", "--out", path("answers.csv")}).status, 0);
+  EXPECT_EQ(read_file(path("answers.csv")),
+            "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n");
+  EXPECT_EQ(run({"prove", file, "--out", path("proofs.cert")}).status, 0);
+}
+
 TEST_F(Tool, WrongAnswersOutrankBadInput) {
   const std::string file = write("wrong_vf.csv", falling_vertex("0") + "1,2,3\n");
   EXPECT_EQ(run({"certify", file}).status, 1);
@@ -231,6 +304,20 @@ TEST_F(Tool, RoundAcceptsAndCountsWhatIsNoDouble) {
   EXPECT_TRUE(contains(strict.err, file + ":1:1: ")) << strict.err;
   EXPECT_EQ(run({"certify", file, "--round", "--json", path("result.json")}).status, 0);
   EXPECT_EQ(json("result.json").at("rounded"), 1);
+}
+
+TEST_F(Tool, DecimalsAreReadAndTheErrorSaysHowToRoundThem) {
+  const std::string rows =
+      "-0.00058163201902061701,1,-0.057847701013088226,1,-0.65621602535247803,1\n"
+      "0.25,1,0.5,1,1e0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
+  const std::string file = write("decimals_vf.csv", rows + rows);
+  const Outcome strict = run({"certify", file});
+  EXPECT_EQ(strict.status, 2);
+  EXPECT_TRUE(contains(strict.err, file + ":1:1: not exactly a double (--round takes the nearest)"))
+      << strict.err;
+  EXPECT_EQ(run({"certify", file, "--round", "--json", path("result.json")}).status, 0);
+  EXPECT_EQ(json("result.json").at("queries"), 1);
+  EXPECT_EQ(json("result.json").at("rounded"), 6);
 }
 
 TEST_F(Tool, UnwritableOutputIsAnErrorBeforeTheWork) {
@@ -256,7 +343,8 @@ TEST_F(Tool, OutputsMustNotBeWhatAccompaniesInputsNorPlugins) {
   const std::string file = write("queries/a_vf.csv", falling_vertex("1"));
   const std::string tois = write("toi/a_vf_toi.csv", "query,toi\n0,0.25\n");
   const std::string labels = write("mma_bool/a_vf_mma_bool.json", "[true]\n");
-  const std::string plugin = write("box_overlap.so", read_file(TOUCHSTONE_BOX_OVERLAP));
+  const std::string plugin =
+      write("box_overlap.so", read_file(tests::plugin_library("box_overlap")));
   for (const std::string& victim : {tois, labels, plugin}) {
     const std::string before = read_file(victim);
     for (const std::vector<std::string>& words :
@@ -291,11 +379,12 @@ TEST_F(Tool, OutputsGoWhereSymbolicLinksPoint) {
 
 TEST_F(Tool, AnswersOnStandardOutputAreNothingButAnswers) {
   const std::string file = write("queries_vf.csv", falling_vertex("1"));
-  const Outcome solve =
-      run({"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", "/dev/stdout"});
+  const Outcome solve = run(
+      {"solve", file, "--plugin", tests::plugin_library("box_overlap"), "--out", "/dev/stdout"});
   EXPECT_EQ(solve.status, 0) << solve.err;
-  EXPECT_EQ(solve.out, std::string("file,index,kind,verdict,toi_lower,toi_upper,tolerance\n") +
-                           file + ",0,vertex-face,yes,0,,\n");
+  EXPECT_EQ(solve.out,
+            std::string("file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n") + file +
+                ",0,vertex-face,yes,0,,,\n");
   EXPECT_TRUE(contains(solve.err, "box_overlap: 1 queries")) << solve.err;
   const Outcome certify = run({"certify", file, "--json", "/dev/stdout"});
   EXPECT_EQ(certify.status, 0);
@@ -420,7 +509,9 @@ TEST_F(Tool, AnInterruptKeepsWhatIsDone) {
 
 // ---- Solvers ------------------------------------------------------------------------------------
 
-constexpr const char* answers_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
+/// What solve writes; files may do without the last column.
+const std::string full_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n";
+const std::string answers_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
 
 /// A vertex-face file of a hit at t=1/4, and a miss that the boxes do not tell from a hit.
 std::string hit_and_miss() {
@@ -465,7 +556,8 @@ TEST_F(Tool, RecordedAnswersAreJudgedInEveryColumn) {
 
 TEST_F(Tool, ExactHoldsToFalsePositives) {
   const std::string file = write("queries_vf.csv", hit_and_miss());
-  const std::vector<std::string> lenient{"certify", file, "--plugin", TOUCHSTONE_BOX_OVERLAP};
+  const std::vector<std::string> lenient{"certify", file, "--plugin",
+                                         tests::plugin_library("box_overlap")};
   EXPECT_EQ(run(lenient).status, 0);
   std::vector<std::string> strict = lenient;
   strict.emplace_back("--exact");
@@ -478,9 +570,8 @@ TEST_F(Tool, ExactHoldsToFalsePositives) {
 
 TEST_F(Tool, MissingAnswersAreBadInputAndNamed) {
   const std::string file = write("queries_vf.csv", hit_and_miss());
-  const std::string answers =
-      write("answers.csv",
-            answers_header + file + ",0,vertex-face,yes,,,\n" + file + ",7,vertex-face,yes,,,\n");
+  const std::string answers = write("answers.csv", full_header + file + ",0,vertex-face,yes,,,,\n" +
+                                                       file + ",7,vertex-face,yes,,,,\n");
   const Outcome certify =
       run({"certify", file, "--results", answers, "--json", path("result.json")});
   EXPECT_EQ(certify.status, 2);
@@ -499,24 +590,163 @@ TEST_F(Tool, AnswersMustNotBeOutputs) {
   EXPECT_EQ(read_file(answers), answers_header);
 }
 
+/// A query that tells the plugin what to do: the first coordinate does, and puts the vertex beside the
+/// triangle.
+std::string misbehave(tests::Misbehaviour what) {
+  return falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
+}
+
+TEST_F(Tool, KindsOfFailureAreToldApart) {
+  using tests::Misbehaviour;
+  std::string text;
+  for (const auto what :
+       {Misbehaviour::writes_to_null, Misbehaviour::exits_with_3, Misbehaviour::throws,
+        Misbehaviour::leaves_answer_alone, Misbehaviour::infinite_toi_lower, Misbehaviour::hangs,
+        Misbehaviour::is_undecided, Misbehaviour::says_no}) {
+    text += misbehave(what);
+  }
+  const std::string file = write("queries_vf.csv", text);
+  const std::vector<std::string> failures{"crash: SIGSEGV",
+                                          "exit: status 3",
+                                          "exception: thrown by a plugin",
+                                          "no_verdict",
+                                          "not_finite: toi_lower -inf",
+                                          "hang"};
+  const Outcome solve =
+      run({"solve", file, "--plugin", tests::plugin_library("misbehaving"), "--query-limit", "0.3",
+           "--out", path("answers.csv"), "--json", path("summary.json")});
+  const std::string answers = read_file(path("answers.csv"));
+  for (const std::string& failure : failures) {
+    EXPECT_TRUE(contains(answers, "," + failure + "\n")) << answers;
+  }
+  const Outcome certify = run({"certify", file, "--plugin", tests::plugin_library("misbehaving"),
+                               "--query-limit", "0.3", "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 1);
+  EXPECT_TRUE(contains(certify.out,
+                       "no answer: misbehaving: 1 crash, 1 exit, 1 exception, 1 no_verdict, 1 "
+                       "not_finite, 1 hang, 1 undecided\n"))
+      << certify.out;
+  // A hang is taken for a collision, and no wrong answer.
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_TRUE(contains(certify.out, "answer " + failures[i] + ", truth")) << certify.out;
+  }
+  const nlohmann::json counts{{"crash", 1},      {"exit", 1}, {"exception", 1}, {"no_verdict", 1},
+                              {"not_finite", 1}, {"hang", 1}, {"undecided", 1}};
+  EXPECT_EQ(json("summary.json").at("failures"), counts);
+  EXPECT_EQ(json("result.json").at("methods")[0].at("failures"), counts);
+  EXPECT_EQ(json("result.json").at("methods")[0].at("errors"), 5);
+  // And as a file of answers.
+  const Outcome again =
+      run({"certify", file, "--results", path("answers.csv"), "--json", path("again.json")});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_EQ(json("again.json").at("methods")[0].at("failures"), counts);
+}
+
+TEST_F(Tool, APluginThatEndsItsProcessOnLoadingIsBadInput) {
+  const std::string file = write("queries_vf.csv", falling_vertex("1"));
+  for (const std::string how : {"constructor exits", "version exits", "name crashes"}) {
+    ASSERT_EQ(::setenv("TOUCHSTONE_TEST_LOADING", how.c_str(), 1), 0);
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"certify", file},
+                                                    {"solve", file, "--out", path("answers.csv")},
+                                                    {"bench", file},
+                                                    {"stability", "--count", "1"},
+                                                    {"fuzz", "--queries", "1"}}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"--plugin", tests::plugin_library("bad_loading")});
+      const Outcome outcome = run(words);
+      EXPECT_EQ(outcome.status, 2) << how << " " << command.front();
+      EXPECT_TRUE(contains(outcome.err, "bad_loading.so: cannot load: ")) << outcome.err;
+    }
+  }
+  ::unsetenv("TOUCHSTONE_TEST_LOADING");
+}
+
+TEST_F(Tool, WhatAPluginPrintsIsNoneOfOurs) {
+  const std::string file = write("queries_vf.csv", misbehave(tests::Misbehaviour::prints));
+  const std::vector<std::string> certify{"certify", file, "--plugin",
+                                         tests::plugin_library("misbehaving")};
+  const Outcome quiet = run(certify);
+  EXPECT_FALSE(contains(quiet.out + quiet.err, "printed by a plugin")) << quiet.out;
+  EXPECT_TRUE(contains(quiet.err, "misbehaving printed 38 bytes; --show-output shows them"))
+      << quiet.err;
+  std::vector<std::string> shown = certify;
+  shown.emplace_back("--show-output");
+  const Outcome loud = run(shown);
+  EXPECT_FALSE(contains(loud.out, "printed by a plugin")) << loud.out;
+  EXPECT_TRUE(contains(loud.err, "misbehaving: printed by a plugin?[31m\n")) << loud.err;
+  EXPECT_TRUE(contains(loud.err, "misbehaving: and as error\n")) << loud.err;
+}
+
+TEST_F(Tool, APluginWritesIntoAFolderOfItsOwn) {
+  const std::string file = write("queries_vf.csv", misbehave(tests::Misbehaviour::writes_a_file));
+  EXPECT_EQ(run({"solve", file, "--plugin", tests::plugin_library("misbehaving"), "--out",
+                 path("answers.csv")})
+                .status,
+            0);
+  EXPECT_TRUE(contains(read_file(path("answers.csv")), ",no,"));
+  EXPECT_FALSE(std::filesystem::exists("written_by_a_plugin"));
+}
+
+/// Bounded: what is not refused makes few, and allocates little.
+TEST_F(Tool, APluginThatForksOrAllocatesWithoutEndCostsAQuery) {
+  using tests::Misbehaviour;
+  const std::string file =
+      write("queries_vf.csv", misbehave(Misbehaviour::forks) + misbehave(Misbehaviour::allocates) +
+                                  misbehave(Misbehaviour::says_no));
+  const std::vector<std::string> solve{"solve",    file,
+                                       "--plugin", tests::plugin_library("misbehaving"),
+                                       "--out",    path("answers.csv")};
+  std::vector<std::string> limited = solve;
+  limited.insert(limited.end(), {"--memory-limit", "0.25"});
+  EXPECT_EQ(run(limited).status, 0);
+  const std::string answers = read_file(path("answers.csv"));
+  EXPECT_TRUE(contains(answers, ",error,,,,exception: fork is refused\n")) << answers;
+#ifndef TOUCHSTONE_SANITIZED
+  EXPECT_TRUE(contains(answers, ",error,,,,exception: std::bad_alloc\n")) << answers;
+#endif
+  EXPECT_TRUE(contains(answers, ",2,vertex-face,no,")) << answers;
+  std::vector<std::string> free = solve;
+  free.insert(free.end(), {"--memory-limit", "0", "--allow-processes"});
+  EXPECT_EQ(run(free).status, 0);
+  EXPECT_FALSE(contains(read_file(path("answers.csv")), "error"));
+}
+
+/// A yes beyond its tolerance: the plugin says yes with tolerance 0 to what never touches.
+TEST_F(Tool, AYesIsHeldToItsTolerance) {
+  const std::string file =
+      write("queries_vf.csv", misbehave(tests::Misbehaviour::yes_with_tolerance_0));
+  const Outcome certify = run({"certify", file, "--plugin", tests::plugin_library("misbehaving"),
+                               "--json", path("result.json")});
+  EXPECT_EQ(certify.status, 1) << certify.out;
+  EXPECT_EQ(json("result.json").at("methods")[0].at("beyond_tolerance"), 1);
+  EXPECT_TRUE(contains(certify.out, "beyond tolerance: misbehaving: ")) << certify.out;
+  EXPECT_TRUE(contains(certify.out, "answer yes, tolerance 0, truth no collision")) << certify.out;
+  // So is a file of answers.
+  write("answers.csv", answers_header + file + ",0,vertex-face,yes,0,,0\n");
+  EXPECT_EQ(run({"certify", file, "--results", path("answers.csv")}).status, 1);
+  write("far.csv", answers_header + file + ",0,vertex-face,yes,0,,1000\n");
+  EXPECT_EQ(run({"certify", file, "--results", path("far.csv")}).status, 0);
+}
+
 TEST_F(Tool, ACrashAndAHangCostAQueryEach) {
   // The first coordinate tells the plugin what to do, and puts the vertex beside the triangle.
   using tests::Misbehaviour;
   std::string text;
   for (const auto what :
        {Misbehaviour::aborts, Misbehaviour::hangs, Misbehaviour::yes_without_toi}) {
-    text += falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
+    text += misbehave(what);
   }
   const std::string file = write("queries_vf.csv", text);
-  const std::vector<std::string> solver{"--plugin", TOUCHSTONE_MISBEHAVING, "--query-limit", "0.3"};
+  const std::vector<std::string> solver{"--plugin", tests::plugin_library("misbehaving"),
+                                        "--query-limit", "0.3"};
   std::vector<std::string> solve{
       "solve", file, "--out", path("answers.csv"), "--json", path("summary.json")};
   solve.insert(solve.end(), solver.begin(), solver.end());
   const Outcome solved = run(solve);
   EXPECT_EQ(solved.status, 0) << solved.err;
-  EXPECT_EQ(read_file(path("answers.csv")), answers_header + file + ",0,vertex-face,error,,,\n" +
-                                                file + ",1,vertex-face,undecided,,,\n" + file +
-                                                ",2,vertex-face,yes,,,\n");
+  EXPECT_EQ(read_file(path("answers.csv")),
+            full_header + file + ",0,vertex-face,error,,,,crash: SIGABRT\n" + file +
+                ",1,vertex-face,undecided,,,,hang\n" + file + ",2,vertex-face,yes,,,,\n");
   EXPECT_EQ(json("summary.json").at("queries"), 3);
   EXPECT_EQ(json("summary.json").at("errors"), 1);
   EXPECT_EQ(json("summary.json").at("undecided"), 1);
@@ -531,20 +761,20 @@ TEST_F(Tool, ACrashAndAHangCostAQueryEach) {
 
 TEST_F(Tool, ACrashThatDoesNotRepeatIsReportedAndIsAnError) {
   using tests::Misbehaviour;
-  const std::string query = falling_vertex("0").replace(
-      0, 1, std::to_string(static_cast<int>(Misbehaviour::dies_at_call_1500)));
   std::string text;
-  for (int i = 0; i < 2048; ++i) text += query;
+  for (int i = 0; i < 2048; ++i) text += misbehave(Misbehaviour::dies_at_call_1500);
   const std::string file = write("queries_vf.csv", text);
   const std::string said = "misbehaving ended its process 1 times, at no particular query";
-  const Outcome solve = run({"solve", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--out",
-                             path("answers.csv"), "--json", path("summary.json")});
+  // One thread, hence one process.
+  const Outcome solve =
+      run({"solve", file, "--plugin", tests::plugin_library("misbehaving"), "--threads", "1",
+           "--out", path("answers.csv"), "--json", path("summary.json")});
   EXPECT_EQ(solve.status, 0);
   EXPECT_TRUE(contains(solve.err, said)) << solve.err;
   EXPECT_EQ(json("summary.json").at("no"), 2048);
   EXPECT_EQ(json("summary.json").at("unplaced_crashes"), 1);
-  const Outcome certify =
-      run({"certify", file, "--plugin", TOUCHSTONE_MISBEHAVING, "--json", path("result.json")});
+  const Outcome certify = run({"certify", file, "--plugin", tests::plugin_library("misbehaving"),
+                               "--threads", "1", "--json", path("result.json")});
   EXPECT_EQ(certify.status, 1);
   EXPECT_TRUE(contains(certify.err, said)) << certify.err;
   EXPECT_EQ(json("result.json").at("methods")[0].at("errors"), 1);
@@ -555,23 +785,24 @@ TEST_F(Tool, OurOwnAnswersCanBeReadBack) {
                  "--out", path("answers.csv")})
                 .status,
             0);
-  ASSERT_TRUE(contains(read_file(path("answers.csv")), ",inf\n")) << "what this test is about";
+  ASSERT_TRUE(contains(read_file(path("answers.csv")), ",inf,\n")) << "what this test is about";
   const Outcome certify = run({"certify", "--count", "4", "--results", path("answers.csv")});
   EXPECT_EQ(certify.status, 0) << certify.err << certify.out;
   EXPECT_EQ(certify.err, "");
 }
 
-TEST_F(Tool, NamesOfPluginsNeedNotBeUtf8) {
+TEST_F(Tool, NamesOfPluginsMustBeText) {
   const std::string file = write("queries_vf.csv", falling_vertex("1"));
-  const Outcome solve = run({"solve", file, "--plugin", TOUCHSTONE_LATIN_NAME, "--out",
-                             path("answers.csv"), "--json", path("summary.json")});
-  EXPECT_EQ(solve.status, 0) << solve.err;
-  EXPECT_EQ(json("summary.json").at("method"), "caf\xef\xbf\xbd") << "the mark of what is no text";
+  const Outcome solve = run({"solve", file, "--plugin", tests::plugin_library("latin_name"),
+                             "--out", path("answers.csv")});
+  EXPECT_EQ(solve.status, 2);
+  EXPECT_TRUE(contains(solve.err, "name is not one line of text: \"caf?\"")) << solve.err;
 }
 
 TEST_F(Tool, SolversOfOneNameAreToldApartAndNamedEvenWithoutQueries) {
-  const Outcome certify = run({"certify", path("missing"), "--plugin", TOUCHSTONE_BOX_OVERLAP,
-                               "--plugin", TOUCHSTONE_BOX_OVERLAP, "--json", path("result.json")});
+  const Outcome certify =
+      run({"certify", path("missing"), "--plugin", tests::plugin_library("box_overlap"), "--plugin",
+           tests::plugin_library("box_overlap"), "--json", path("result.json")});
   EXPECT_EQ(certify.status, 2);
   const nlohmann::json methods = json("result.json").at("methods");
   ASSERT_EQ(methods.size(), 2U);
@@ -591,12 +822,13 @@ TEST_F(Tool, SolvedAnswersAreJudgedAsTheirSolverIs) {
       words.insert(words.end(), sources.begin(), sources.end());
       return words;
     };
-    ASSERT_EQ(run(with({"solve", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("answers.csv"),
-                        "--json", path("summary.json")}))
+    ASSERT_EQ(run(with({"solve", "--plugin", tests::plugin_library("box_overlap"), "--out",
+                        path("answers.csv"), "--json", path("summary.json")}))
                   .status,
               0);
-    const Outcome certify = run(with({"certify", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--results",
-                                      path("answers.csv"), "--json", path("result.json")}));
+    const Outcome certify =
+        run(with({"certify", "--plugin", tests::plugin_library("box_overlap"), "--results",
+                  path("answers.csv"), "--json", path("result.json")}));
     EXPECT_EQ(certify.status, 0) << certify.err;
     EXPECT_EQ(certify.err, "");
     const nlohmann::json methods = json("result.json").at("methods");
@@ -629,17 +861,18 @@ TEST_F(Tool, MethodsAreJudgedUnaskedOnTheBuiltInSetOnly) {
 
 TEST_F(Tool, SolveKeepsWhatItHasWhenARowIsBad) {
   const std::string file = write("bad_vf.csv", falling_vertex("1") + "1,0,1,1,1,1,1\n");
-  const Outcome solve =
-      run({"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", path("answers.csv")});
+  const Outcome solve = run({"solve", file, "--plugin", tests::plugin_library("box_overlap"),
+                             "--out", path("answers.csv")});
   EXPECT_EQ(solve.status, 2);
   EXPECT_TRUE(contains(solve.err, file + ":9:2: ")) << solve.err;
-  EXPECT_EQ(read_file(path("answers.csv")), answers_header + file + ",0,vertex-face,yes,0,,\n");
+  EXPECT_EQ(read_file(path("answers.csv")), full_header + file + ",0,vertex-face,yes,0,,,\n");
 }
 
 TEST_F(Tool, SolveRefusesOutputsThatAreInputsOrEachOther) {
   const std::string file = write("queries_vf.csv", falling_vertex("1"));
   const std::string text = read_file(file);
-  const std::vector<std::string> solve{"solve", file, "--plugin", TOUCHSTONE_BOX_OVERLAP};
+  const std::vector<std::string> solve{"solve", file, "--plugin",
+                                       tests::plugin_library("box_overlap")};
   const auto with = [&](std::vector<std::string> words) {
     words.insert(words.begin(), solve.begin(), solve.end());
     return run(words).status;
@@ -651,8 +884,8 @@ TEST_F(Tool, SolveRefusesOutputsThatAreInputsOrEachOther) {
 }
 
 TEST_F(Tool, AFullDeviceEndsSolveEarly) {
-  const Outcome solve = run(
-      {"solve", "--count", "100000000", "--plugin", TOUCHSTONE_BOX_OVERLAP, "--out", "/dev/full"});
+  const Outcome solve = run({"solve", "--count", "100000000", "--plugin",
+                             tests::plugin_library("box_overlap"), "--out", "/dev/full"});
   EXPECT_EQ(solve.status, 2);
   EXPECT_TRUE(contains(solve.err, "/dev/full: cannot be written")) << solve.err;
 }
@@ -663,8 +896,9 @@ TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
       falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(Misbehaviour::hangs)));
   const std::string file = write("queries_vf.csv", text);
   for (const std::string command : {"solve", "certify"}) {
-    std::vector<std::string> words{
-        command, file, "--plugin", TOUCHSTONE_MISBEHAVING, "--json", path("result.json")};
+    std::vector<std::string> words{command,    file,
+                                   "--plugin", tests::plugin_library("misbehaving"),
+                                   "--json",   path("result.json")};
     if (command == "solve") words.insert(words.end(), {"--out", path("answers.csv")});
     const pid_t process = start(words);
     wait_for_child(process);
@@ -678,8 +912,9 @@ TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
 
 TEST_F(Tool, AnInterruptOfSolveKeepsWhatIsDone) {
   using namespace std::chrono_literals;
-  const pid_t process = start({"solve", "--count", "100000000", "--plugin", TOUCHSTONE_BOX_OVERLAP,
-                               "--out", path("answers.csv"), "--json", path("summary.json")});
+  const pid_t process =
+      start({"solve", "--count", "100000000", "--plugin", tests::plugin_library("box_overlap"),
+             "--out", path("answers.csv"), "--json", path("summary.json")});
   wait_for_growth("answers.csv");
   kill(process, SIGINT);
   const Outcome solve = finish(process);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 
 // `touchstone derive` as users meet it: by running the tool.
@@ -21,8 +22,8 @@ class Derive : public tests::FolderTest {
  protected:
   /// Runs the tool, after shell words such as variables; its exit status.
   [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" TOUCHSTONE_TOOL "' derive " + arguments + " >'" +
-                                path("out") + "' 2>'" + path("err") + "'";
+    const std::string command = before + " '" + tests::touchstone_program() + "' derive " +
+                                arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
     const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -32,7 +33,7 @@ class Derive : public tests::FolderTest {
 
 TEST_F(Derive, EmitsTheHeaderThatIsInTheTree) {
   ASSERT_EQ(run("--model rigorous --emit '" + path("bounds.hpp") + "'"), 0) << read("err");
-  EXPECT_EQ(read("bounds.hpp"), read_file(TOUCHSTONE_SOURCE_DIR "/filters/error_bounds.hpp"));
+  EXPECT_EQ(read("bounds.hpp"), read_file(tests::source_folder() + "/filters/error_bounds.hpp"));
 }
 
 TEST_F(Derive, PrintsAndWritesTheTable) {

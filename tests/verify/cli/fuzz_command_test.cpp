@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -13,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 
 // `touchstone fuzz` as users meet it: by running the tool. The plugin is the example, which compares
@@ -33,8 +35,9 @@ struct Outcome {
 class FuzzTool : public tests::FolderTest {
  protected:
   /// Starts the tool with its output in files of the test's folder.
-  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words{TOUCHSTONE_TOOL};
+  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments,
+                            const std::string& program = tests::touchstone_program()) const {
+    std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -46,7 +49,7 @@ class FuzzTool : public tests::FolderTest {
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
     pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, TOUCHSTONE_TOOL, &actions, nullptr, pointers.data(), environ),
+    EXPECT_EQ(posix_spawn(&process, program.c_str(), &actions, nullptr, pointers.data(), environ),
               0);
     posix_spawn_file_actions_destroy(&actions);
     return process;
@@ -62,6 +65,14 @@ class FuzzTool : public tests::FolderTest {
   [[nodiscard]] Outcome run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "fuzz");
     return finish(start(arguments));
+  }
+
+  /// Runs commands in the test's folder, with the tool in the path.
+  [[nodiscard]] Outcome run_in_shell(const std::string& commands) const {
+    const fs::path tools = fs::path(tests::touchstone_program()).parent_path();
+    return finish(start({"-c", fmt::format("PATH={}:$PATH\ncd '{}'\n{}", tools.string(),
+                                           folder().string(), commands)},
+                        "/bin/sh"));
   }
 
   [[nodiscard]] nlohmann::json json(const std::string& name) const {
@@ -86,20 +97,22 @@ TEST_F(FuzzTool, FindsNothingInTheCertifiedSolver) {
 
 TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
   const Outcome outcome =
-      run({"--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--queries", "5000", "--most-findings",
-           "3", "--out", path("found.csv"), "--json", path("j")});
+      run({"--plugin", tests::plugin_library("box_overlap"), "--exact", "--queries", "5000",
+           "--most-findings", "3", "--out", path("found.csv"), "--json", path("j")});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
-  for (const std::string part : {"beyond_promise of box_overlap", "truth: no collision", "TEST(",
-                                 "As rows of a dataset", "3 findings"}) {
+  for (const std::string part : {"false_positive of box_overlap", "truth: no collision", "TEST(",
+                                 "To ask again", "3 findings"}) {
     EXPECT_TRUE(contains(outcome.out, part)) << part << '\n' << outcome.out;
   }
   const nlohmann::json report = json("j");
   ASSERT_EQ(report.at("findings").size(), 3U);
   for (const nlohmann::json& finding : report.at("findings")) {
-    EXPECT_EQ(finding.at("what"), "beyond_promise");
+    EXPECT_EQ(finding.at("what"), "false_positive");
     EXPECT_TRUE(contains(finding.at("certificate"), "no_collision"));
-    EXPECT_EQ(finding.at("shrunk").at("collides"), false);
-    EXPECT_EQ(finding.at("shrunk").at("coordinates").size(), 24U);
+    EXPECT_EQ(finding.at("collides"), false);
+    EXPECT_EQ(finding.at("original").at("collides"), false);
+    EXPECT_EQ(finding.at("coordinates").size(), 24U);
+    EXPECT_NE(finding.at("coordinates"), finding.at("original").at("coordinates"));
   }
   // The dataset holds them with their truth: its labels are right and the plugin's answers are not.
   const auto certify = [&](const std::string& exact) {
@@ -108,7 +121,8 @@ TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
       if (entry.path().extension() == ".csv") arguments.push_back(entry.path().string());
     }
     EXPECT_GT(arguments.size(), 1U);
-    arguments.insert(arguments.end(), {"--plugin", TOUCHSTONE_BOX_OVERLAP, "--json", path("c")});
+    arguments.insert(arguments.end(),
+                     {"--plugin", tests::plugin_library("box_overlap"), "--json", path("c")});
     if (!exact.empty()) arguments.push_back(exact);
     return finish(start(arguments));
   };
@@ -120,23 +134,109 @@ TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
 TEST_F(FuzzTool, FindsTheSameForTheSameSeed) {
   std::vector<std::string> reports;
   for (const std::string seed : {"4", "4", "5"}) {
-    static_cast<void>(run({"--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--queries", "2000",
-                           "--most-findings", "1", "--seed", seed, "--json", path("j")}));
+    static_cast<void>(run({"--plugin", tests::plugin_library("box_overlap"), "--exact", "--queries",
+                           "2000", "--most-findings", "1", "--seed", seed, "--json", path("j")}));
     const nlohmann::json report = json("j");
     reports.push_back(report.at("findings").at(0).at("coordinates").dump() +
-                      report.at("findings").at(0).at("shrunk").dump() +
+                      report.at("findings").at(0).at("original").at("coordinates").dump() +
                       report.at("queries").dump());
   }
   EXPECT_EQ(reports[0], reports[1]);
   EXPECT_NE(reports[0], reports[2]);
 }
 
+/// As it stands in the report: of the query that is shown, and of the original.
+TEST_F(FuzzTool, WritesCertificatesThatTheCheckerAccepts) {
+  const Outcome outcome = run({"--plugin", tests::plugin_library("box_overlap"), "--exact",
+                               "--queries", "5000", "--most-findings", "2", "--json", path("j")});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  const nlohmann::json report = json("j");
+  for (const nlohmann::json& finding : report.at("findings")) {
+    for (const nlohmann::json& failing : {finding, finding.at("original")}) {
+      const std::string certificate = failing.at("certificate");
+      std::ofstream(path("one.cert")) << certificate;
+      const Outcome checked = finish(start({path("one.cert")}, tests::checker_program()));
+      EXPECT_EQ(checked.status, 0) << checked.out << checked.err << certificate;
+      EXPECT_TRUE(contains(checked.out, "1")) << checked.out;
+    }
+    EXPECT_NE(finding.at("certificate"), finding.at("original").at("certificate"));
+  }
+}
+
+/// A fault that shows only with the options that the solver was asked with.
+TEST_F(FuzzTool, PrintsACommandThatFindsTheSame) {
+  const Outcome outcome =
+      run({"--plugin", tests::plugin_library("wrong_with_options"), "--tolerance", "0.125",
+           "--max-checks", "77", "--min-separation", "0.25", "--norm", "l2", "--query-limit", "20",
+           "--queries", "500", "--most-findings", "1", "--json", path("j")});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  const nlohmann::json finding = json("j").at("findings").at(0);
+  EXPECT_EQ(finding.at("solver").at("plugin"), tests::plugin_library("wrong_with_options"));
+  EXPECT_EQ(finding.at("solver").at("tolerance"), 0.125);
+  EXPECT_EQ(finding.at("solver").at("max_checks"), 77);
+  EXPECT_EQ(finding.at("solver").at("query_limit"), 20.0);
+  const std::string command = finding.at("command");
+  EXPECT_TRUE(contains(outcome.out, command));
+  EXPECT_TRUE(contains(outcome.out, ".max_checks = 77,")) << outcome.out;
+  const Outcome again = run_in_shell(command);
+  EXPECT_EQ(again.status, 1) << command << again.out << again.err;
+  EXPECT_TRUE(contains(again.out, "wrong_with_options")) << again.out;
+  std::string other = command;
+  other.replace(other.find("--max-checks 77"), 15, "--max-checks 78");
+  EXPECT_EQ(run_in_shell(other).status, 0);
+}
+
+TEST_F(FuzzTool, IsNotContentWhereNothingWasJudged) {
+  const std::string plugin = tests::plugin_library("never_answers");
+  const Outcome outcome =
+      run({"--plugin", plugin, "--seconds", "0.3", "--query-limit", "1000", "--json", path("j")});
+  EXPECT_EQ(outcome.status, 2) << outcome.out;
+  EXPECT_TRUE(contains(outcome.err, "nothing was judged: never_answers")) << outcome.err;
+  EXPECT_EQ(json("j").at("queries"), 0);
+  EXPECT_EQ(json("j").at("ended_by"), "time");
+}
+
+TEST_F(FuzzTool, FindsAHang) {
+  const Outcome outcome = run({"--plugin", tests::plugin_library("never_answers"), "--query-limit",
+                               "0.05", "--queries", "1"});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "hang of never_answers")) << outcome.out;
+}
+
+TEST_F(FuzzTool, SeeksFindingsOfOneKindOnly) {
+  const std::string plugin = tests::plugin_library("box_overlap");
+  const Outcome other = run({"--plugin", plugin, "--exact", "--queries", "1000", "--only",
+                             "false_negative", "--only", "hang", "--json", path("j")});
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_TRUE(contains(other.out, "of kinds that were not sought")) << other.out;
+  EXPECT_EQ(json("j").at("asked").at("only"), nlohmann::json({"false_negative", "hang"}));
+  EXPECT_EQ(
+      run({"--plugin", plugin, "--exact", "--queries", "1000", "--only", "false_positive"}).status,
+      1);
+  EXPECT_EQ(run({"--plugin", plugin, "--queries", "1000", "--only", "wrong"}).status, 2);
+}
+
+/// A plugin is held to the tolerance that it states.
+TEST_F(FuzzTool, FindsAYesBeyondAPluginsTolerance) {
+  const Outcome outcome = run({"--plugin", tests::plugin_library("always_yes"), "--queries", "500",
+                               "--most-findings", "1", "--json", path("j")});
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_EQ(json("j").at("findings").at(0).at("what"), "beyond_tolerance");
+}
+
+TEST_F(FuzzTool, SaysIfTheTimeWasTooShortForTheQueries) {
+  const Outcome outcome =
+      run({"--method", "certified", "--queries", "1000000000000", "--seconds", "0.5"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, " of 1000000000000 queries judged in 0.5 s")) << outcome.out;
+}
+
 /// The dataset says the distance that its truth is about.
 TEST_F(FuzzTool, SearchesAtASeparation) {
   const std::string out = path("near-vertex-face.csv");
-  const Outcome outcome = run({"--plugin", TOUCHSTONE_BOX_OVERLAP, "--exact", "--min-separation",
-                               "0.25", "--norm", "l2", "--kind", "vertex-face", "--queries", "3000",
-                               "--most-findings", "1", "--out", out});
+  const Outcome outcome = run({"--plugin", tests::plugin_library("box_overlap"), "--exact",
+                               "--min-separation", "0.25", "--norm", "l2", "--kind", "vertex-face",
+                               "--queries", "3000", "--most-findings", "1", "--out", out});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "at minimum separation 0.25 (l2)")) << outcome.out;
   EXPECT_TRUE(fs::exists(path("separation.json")));
@@ -162,7 +262,8 @@ TEST_F(FuzzTool, MutatesACorpus) {
 TEST_F(FuzzTool, RefusesWhatMakesNoSense) {
   EXPECT_EQ(run({"--queries", "10"}).status, 2);
   EXPECT_EQ(run({"--method", "nobody", "--queries", "10"}).status, 2);
-  EXPECT_EQ(run({"--method", "certified", "--plugin", TOUCHSTONE_BOX_OVERLAP}).status, 2);
+  EXPECT_EQ(run({"--method", "certified", "--plugin", tests::plugin_library("box_overlap")}).status,
+            2);
   EXPECT_EQ(run({"--method", "certified", "--seconds", "-1"}).status, 2);
   EXPECT_EQ(run({"--method", "certified", "--queries", "0"}).status, 2);
   EXPECT_EQ(run({"--method", "certified", "--queries", "10", "--kind", "face-face"}).status, 2);

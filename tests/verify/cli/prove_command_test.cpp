@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/folder_test.hpp"
 
@@ -48,7 +49,7 @@ class ProveCommand : public tests::FolderTest {
   }
 
   [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
-    std::string command = "exec '" TOUCHSTONE_TOOL "'";
+    std::string command = "exec '" + tests::touchstone_program() + "'";
     for (const std::string& argument : arguments) command.append(" '").append(argument).append("'");
     command.append(" >'" + path("stdout") + "' 2>'" + path("stderr") + "'");
     std::string shell = "/bin/sh", option = "-c";
@@ -90,10 +91,11 @@ TEST_F(ProveCommand, ProvesADatasetForTheChecker) {
   const std::string data = write("vertex-face.csv", falling_vertex("-3") + falling_vertex("2"));
   EXPECT_EQ(run({"prove", data, "--out", path("a.cert"), "--json", path("a.json")}), 0) << err();
   const std::string text = read_file(path("a.cert"));
-  EXPECT_TRUE(text.starts_with("touchstone-certificates 1\nquery vertex_face\nlabel " + data +
+  EXPECT_TRUE(text.starts_with("touchstone-certificates 2\nquery vertex_face\nlabel " + data +
                                ":0\npoint 0x1p+0 0x1p+0 0x1p+0\n"));
   EXPECT_TRUE(contains(text, "claim time_of_impact 0x1.fffffffffffffp-3 1/4\n"));
   EXPECT_TRUE(contains(text, "\nlabel " + data + ":1\n"));
+  EXPECT_TRUE(text.ends_with("\nend\ncertificates 2\n"));
   const checker::Report report = tests::check(text);
   EXPECT_TRUE(report.all_accepted());
   EXPECT_EQ(report.no_collision, 1U);

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 
 // `touchstone report` as users meet it: by running the tool.
@@ -21,8 +22,8 @@ class Report : public tests::FolderTest {
  protected:
   /// Runs the tool, after shell words such as a limit of time; its exit status.
   [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" TOUCHSTONE_TOOL "' report " + arguments + " >'" +
-                                path("out") + "' 2>'" + path("err") + "'";
+    const std::string command = before + " '" + tests::touchstone_program() + "' report " +
+                                arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
     const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 
 // --min-separation and --norm as users meet them: by running the tool.
@@ -22,8 +23,8 @@ class SeparationOptions : public tests::FolderTest {
  protected:
   /// Runs the tool; its exit status. Output goes to "out" and "err".
   [[nodiscard]] int run(const std::string& arguments) const {
-    const std::string command =
-        "'" TOUCHSTONE_TOOL "' " + arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
+    const std::string command = "'" + tests::touchstone_program() + "' " + arguments + " >'" +
+                                path("out") + "' 2>'" + path("err") + "'";
     const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }

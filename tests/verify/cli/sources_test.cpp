@@ -131,6 +131,23 @@ TEST_F(Sources, WhatCannotBeOpenedFailsAndTheRestGoesOn) {
   EXPECT_EQ(used.size(), 2U);
 }
 
+TEST_F(Sources, WhatASearchLeavesOutIsNamedUpToALimit) {
+  for (char letter = 'a'; letter <= 'j'; ++letter) write(std::string(1, letter) + ".txt");
+  SourceArguments arguments;
+  arguments.paths = {folder};
+  ::testing::internal::CaptureStderr();
+  for_each_source(arguments, handlers);
+  const std::string errors = ::testing::internal::GetCapturedStderr();
+  for (char letter = 'a'; letter <= 'h'; ++letter) {
+    const std::string path = (folder / (std::string(1, letter) + ".txt")).string();
+    EXPECT_NE(errors.find(path + ": left out: no dataset (.csv, .npy)\n"), std::string::npos)
+        << errors;
+  }
+  EXPECT_NE(errors.find("left out: 2 more\n"), std::string::npos) << errors;
+  EXPECT_EQ(errors.find("i.txt"), std::string::npos) << errors;
+  EXPECT_EQ(used.size(), 2U);
+}
+
 TEST_F(Sources, AStopLeavesTheRestAlone) {
   most = 1;
   SourceArguments arguments;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
 
 // `touchstone stability` as users meet it: by running the tool.
@@ -16,8 +17,8 @@ class Stability : public tests::FolderTest {
  protected:
   /// Runs the tool, after shell words such as a limit of time; its exit status.
   [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" TOUCHSTONE_TOOL "' stability " + arguments + " >'" +
-                                path("out") + "' 2>'" + path("err") + "'";
+    const std::string command = before + " '" + tests::touchstone_program() + "' stability " +
+                                arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
     const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -70,8 +71,8 @@ TEST_F(Stability, WithoutAMethodAllOfOursAreJudged) {
 
 TEST_F(Stability, RatesAreTheSameForAnyNumberOfThreads) {
   const auto rates = [&](const std::string& threads) {
-    EXPECT_EQ(run(quick + "--plugin '" TOUCHSTONE_BOX_OVERLAP "' --threads " + threads +
-                  " --json " + quoted("json")),
+    EXPECT_EQ(run(quick + "--plugin '" + tests::plugin_library("box_overlap") + "' --threads " +
+                  threads + " --json " + quoted("json")),
               0);
     nlohmann::json result = json();
     for (nlohmann::json& cell : result.at("methods")[0].at("cells")) cell.erase("ns_per_query");
@@ -81,10 +82,13 @@ TEST_F(Stability, RatesAreTheSameForAnyNumberOfThreads) {
 }
 
 TEST_F(Stability, ABrokenPromiseExitsWithOne) {
-  EXPECT_EQ(run(quick + "--plugin '" TOUCHSTONE_MISBEHAVING "' --json " + quoted("json")), 1);
+  EXPECT_EQ(run(quick + "--plugin '" + tests::plugin_library("misbehaving") + "' --json " +
+                quoted("json")),
+            1);
   EXPECT_EQ(json().at("methods")[0].at("keeps_promise"), false);
-  EXPECT_EQ(run(quick + "--plugin '" TOUCHSTONE_BOX_OVERLAP "'"), 0);
-  EXPECT_EQ(run(quick + "--exact --plugin '" TOUCHSTONE_BOX_OVERLAP "'"), 1) << read("out");
+  EXPECT_EQ(run(quick + "--plugin '" + tests::plugin_library("box_overlap") + "'"), 0);
+  EXPECT_EQ(run(quick + "--exact --plugin '" + tests::plugin_library("box_overlap") + "'"), 1)
+      << read("out");
 }
 
 TEST_F(Stability, TakesASeparation) {

@@ -1,5 +1,6 @@
 #include "verify/dataset/coordinate_text.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,17 +66,65 @@ TEST(ParseCoordinate, takes_signs_leading_zeros_and_any_representation_of_a_doub
   expect_exact("18446744073709551616", "1", 0x1p64);
 }
 
-TEST(ParseCoordinate, names_what_is_no_integer) {
-  for (const std::string bad :
-       {"", "-", "+", "+-1", "--1", "1.5", "1e3", "0x10", "1 2", "a", "1a", "nan", "inf"}) {
-    EXPECT_EQ(fault_of(bad, "1"), "numerator: not an integer: \"" + bad + "\"");
-    EXPECT_EQ(fault_of("1", bad), "denominator: not an integer: \"" + bad + "\"");
+TEST(ParseCoordinate, takes_decimals_that_are_doubles) {
+  expect_exact("-0.75", "1", -0.75);
+  expect_exact("+.5", "1", 0.5);
+  expect_exact("3.", "1", 3.0);
+  expect_exact("1.5e3", "1", 1500.0);
+  expect_exact("15E-1", "3", 0.5);
+  expect_exact("3", "0.5", 6.0);
+  expect_exact("0.3", "0.1", 3.0);
+  expect_exact("-0.0", "1", 0.0);
+  expect_exact("-0e-9999", "1", 0.0);
+  expect_exact("0.1000000000000000055511151231257827021181583404541015625", "1", 0.1);
+  expect_exact("4.0e-1", "6.4e0", 0.0625);
+}
+
+TEST(ParseCoordinate, takes_the_nearest_double_of_other_decimals) {
+  for (const std::string_view decimal :
+       {"0.1", "-0.00058163201902061701", "1e-330", "1.7976931348623158e308", "-2.5e-324"}) {
+    const exact::Rational number = exact::rational_from_decimal(decimal);
+    const ParsedCoordinate parsed = parse_coordinate(decimal, "1");
+    EXPECT_FALSE(parsed.exact) << decimal;
+    EXPECT_EQ(parsed.value, exact::round_to_nearest(number)) << decimal;
   }
-  EXPECT_EQ(fault_of(std::string_view("1\0", 2), "1"), "numerator: not an integer: \"1?\"");
+  EXPECT_FALSE(std::signbit(parse_coordinate("-1e-330", "1").value));
+  EXPECT_EQ(fault_of("-1.8e308", "1"), "numerator: beyond the range of double");
+  EXPECT_EQ(fault_of("1", "1e-400"), "numerator: beyond the range of double");
+}
+
+TEST(ParseCoordinate, what_17_digits_give_back_is_the_double) {
+  std::mt19937_64 random(9);
+  for (const double x : test::random_query(random).coordinates) {
+    EXPECT_EQ(parse_coordinate(fmt::format("{:.17g}", x), "1").value, x);
+    EXPECT_EQ(parse_coordinate(fmt::format("{:.1100f}", x), "1").value, x);
+    EXPECT_TRUE(parse_coordinate(fmt::format("{:.1100f}", x), "1").exact);
+  }
+}
+
+TEST(ParseCoordinate, names_what_is_no_number) {
+  for (const std::string bad : {"", "-", "+", ".", "+-1", "--1", "1.5.0", "1e", "e3", "1e3.5",
+                                "0x10", "1 2", "a", "1a", "1,5", "1e99999"}) {
+    EXPECT_EQ(fault_of(bad, "1"), "numerator: not a number: \"" + bad + "\"");
+    EXPECT_EQ(fault_of("1", bad), "denominator: not a number: \"" + bad + "\"");
+  }
+  EXPECT_EQ(fault_of(std::string_view("1\0", 2), "1"), "numerator: not a number: \"1?\"");
+  for (const std::string bad : {"nan", "-nan", "NaN", "inf", "-Inf", "+infinity"}) {
+    EXPECT_EQ(fault_of(bad, "1"), "numerator: not a finite number: \"" + bad + "\"");
+  }
+}
+
+TEST(IsNumeric, tells_what_begins_like_a_number_from_names) {
+  for (const char* numeric : {"0", "-1", "+.5", "1x", "1e", "--1", "nan", "+inf"}) {
+    EXPECT_TRUE(is_numeric(numeric)) << numeric;
+  }
+  for (const char* other : {"", "-", "x", "x1", "e3", "_1", "#1", "nano", " 1"}) {
+    EXPECT_FALSE(is_numeric(other)) << other;
+  }
 }
 
 TEST(ParseCoordinate, refuses_zero_denominators) {
-  for (const std::string zero : {"0", "-0", "+0", "000"}) {
+  for (const std::string zero : {"0", "-0", "+0", "000", "0.0", "0e5"}) {
     EXPECT_EQ(fault_of("1", zero), "denominator: zero denominator");
     EXPECT_EQ(fault_of("0", zero), "denominator: zero denominator");
   }

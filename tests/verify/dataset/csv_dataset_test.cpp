@@ -1,5 +1,6 @@
 #include "verify/dataset/csv_dataset.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,23 +73,136 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Fault{"1,0,2,1,3,1,1", "12:2: zero denominator"},
         Fault{"1,1,2,1,3,0,1", "12:6: zero denominator"},
-        Fault{"1,1,x,1,3,1,1", "12:3: not an integer: \"x\""},
-        Fault{"1,1,2,1.0,3,1,1", "12:4: not an integer: \"1.0\""},
-        Fault{"1,1,2,1,,1,1", "12:5: not an integer: \"\""},
-        Fault{"nan,1,2,1,3,1,1", "12:1: not an integer: \"nan\""},
-        Fault{"1,1,1,3,3,1,1", "12:3: not exactly a double (--round accepts the nearest)"},
+        Fault{"1,1,x,1,3,1,1", "12:3: not a number: \"x\""},
+        Fault{"1,1,2,1.0.0,3,1,1", "12:4: not a number: \"1.0.0\""},
+        Fault{"1,1,2,1,,1,1", "12:5: not a number: \"\""},
+        Fault{"nan,1,2,1,3,1,1", "12:1: not a finite number: \"nan\""},
+        Fault{"1,1,1,3,3,1,1", "12:3: not exactly a double (--round takes the nearest)"},
+        Fault{"1,1,2,1,0.1,1,1", "12:5: not exactly a double (--round takes the nearest)"},
         Fault{"1,1,2,1,1" + std::string(400, '0') + ",1,1", "12:5: beyond the range of double"},
         Fault{"1,1,2,1,3,1,2", "12:7: label must be 0 or 1: \"2\""},
         Fault{"1,1,2,1,3,1,", "12:7: label must be 0 or 1: \"\""},
-        Fault{"1,1,2,1,3,1,true", "12:7: label must be 0 or 1: \"true\""},
-        Fault{"1,1,2,1,3,1,0", "12:7: label differs from that of the query's first row"},
-        Fault{"1,1,2,1,3,1", "12: 6 columns, expected 7 as before"},
-        Fault{"1,1,2,1,3,1,1,1", "12: 8 columns, expected 7 as before"},
-        Fault{"1", "12: 1 columns, expected 7 as before"},
-        Fault{"", "12: blank line before the end of the file"},
-        Fault{" \t", "12: blank line before the end of the file"},
-        Fault{"1,1,2,1,3,1,1" + std::string(LineReader::longest_line, ' '),
-              "12: line longer than 1 MiB"}));
+        Fault{"1,1,2,1,3,1,true", "12:7: label must be 0 or 1: \"true\""}));
+
+const std::string rest_is_left_out =
+    "; the rest of the file is left out, since it is unknown from here on which eight rows are a "
+    "query: mend this line";
+
+/// A line after which rows cannot be counted. Instead of line 12, or in addition to it, it must be
+/// that no query from there on is read, neither the one that it stands in nor one put together of
+/// the rows behind it.
+class CsvLineThatIsNoRow : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(CsvLineThatIsNoRow, ends_the_file) {
+  const std::string error = GetParam().error + rest_is_left_out;
+  for (const bool in_addition : {false, true}) {
+    std::vector<std::string> lines = numbered_lines(5, true);
+    const auto line = lines.begin() + 11;
+    in_addition ? static_cast<void>(lines.insert(line, GetParam().line))
+                : static_cast<void>(*line = GetParam().line);
+    EXPECT_EQ(strict_error(joined(lines)), error);
+    const Survivors kept = survivors(joined(lines));
+    expect_numbered(kept.records, {0});
+    EXPECT_EQ(kept.skipped, 1U);
+    EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:" + error});
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, CsvLineThatIsNoRow,
+    ::testing::Values(Fault{"1,1,2,1,3,1,0",
+                            "12:7: label differs from that of the query's first row"},
+                      Fault{"1,1,2,1,3,1", "12: 6 columns, expected 7 as before"},
+                      Fault{"1,1,2,1,3,1,1,1", "12: 8 columns, expected 7 as before"},
+                      Fault{"1", "12: 1 columns, expected 7 as before"},
+                      Fault{"", "12: blank line inside a query"},
+                      Fault{" \t", "12: blank line inside a query"},
+                      Fault{"xn,xd,yn,yd,zn,zd,label", "12: no number in the line"},
+                      Fault{",,,,,,", "12: no number in the line"},
+                      Fault{"1,1,2,1,3,1,\"1", "12:7: malformed quoted field"},
+                      Fault{"1,1,2,\"1\"1,3,1,1", "12:4: malformed quoted field"},
+                      Fault{"1,1,2,1,3,1,1" + std::string(LineReader::longest_line, ' '),
+                            "12: line longer than 1 MiB"}));
+
+TEST(CsvDataset, a_missing_row_is_found_at_the_first_label_that_differs) {
+  std::vector<std::string> lines = numbered_lines(6, true);
+  lines.erase(lines.begin() + 19);
+  const Survivors kept = survivors(joined(lines));
+  expect_numbered(kept.records, {0, 1});
+  EXPECT_EQ(kept.messages,
+            std::vector<std::string>{
+                "a.csv:24:7: label differs from that of the query's first row" + rest_is_left_out});
+}
+
+TEST(CsvDataset, what_companions_hold_behind_a_lost_place_is_no_further_fault) {
+  const TemporaryFolder folder;
+  (void)folder.file("a_mma_bool.json", "[0,1,0,1]");
+  (void)folder.file("a_toi.csv", "query,toi\n3,0.5\n");
+  std::vector<std::string> lines = numbered_lines(4, false);
+  lines[11] = "";
+  const Survivors kept =
+      read_survivors(folder.file("a.csv", joined(lines)), folder.path(), vertex_face());
+  expect_numbered(kept.records, {0});
+  EXPECT_EQ(kept.messages,
+            std::vector<std::string>{"a.csv:12: blank line inside a query" + rest_is_left_out});
+}
+
+TEST(CsvDataset, blank_lines_and_headers_may_stand_between_queries) {
+  for (const bool labelled : {false, true}) {
+    const std::string header = labelled ? "xn,xd,yn,yd,zn,zd,label" : "\"x n\",xd,y_n,yd,#zn,zd";
+    std::vector<std::string> lines{"", header, " \t"};
+    for (std::size_t query = 0; query < 4; ++query) {
+      if (query == 2) lines.insert(lines.end(), {header, "", header});
+      for (const std::string& row : test::numbered_rows(query, labelled)) lines.push_back(row);
+      lines.insert(lines.end(), query, "");
+    }
+    for (const std::string line_end : {"\n", "\r\n"}) {
+      const Survivors kept = survivors(joined(lines, line_end));
+      expect_numbered(kept.records, {0, 1, 2, 3});
+      EXPECT_EQ(kept.messages, std::vector<std::string>{});
+      EXPECT_EQ(strict_error(joined(lines, line_end)), "no DatasetError");
+    }
+  }
+}
+
+TEST(CsvDataset, a_line_that_is_no_header_begins_no_file) {
+  const std::vector<std::string> rows = numbered_lines(1, false);
+  const auto error = [&](const std::string& first_line) {
+    return strict_error(first_line + "\n" + joined(rows));
+  };
+  EXPECT_EQ(error("a,b,c,d,e,f"), "no DatasetError");
+  EXPECT_EQ(error("a,b,c"), "2: 6 columns, expected 3 as before" + rest_is_left_out);
+  EXPECT_EQ(error("queries"), "1: 1 columns, expected 3, 4, 6 or 7" + rest_is_left_out);
+  EXPECT_EQ(error("a,b,c,d,e,"), "1: no number in the line" + rest_is_left_out);
+  EXPECT_EQ(error("a,b,c,d,e,-"), "1: no number in the line" + rest_is_left_out);
+  EXPECT_EQ(error("a,b,c,d,e,6"), "1:1: not a number: \"a\"");
+  EXPECT_EQ(error("nan,nan,nan,nan,nan,nan"), "1:1: not a finite number: \"nan\"");
+  EXPECT_EQ(error("a,b,c,d,e,f\nA,B,C,D,E,F"), "2: no number in the line" + rest_is_left_out);
+  EXPECT_EQ(strict_error("a,b,c,d,e,f\n\n"), " no queries");
+}
+
+TEST(CsvDataset, coordinates_may_be_decimals_in_one_column_or_two) {
+  const std::string numbers = "-0.75,1,0.5,2,3e2,1\n";
+  const std::string plain = "-0.75, 0.25 ,300\n";
+  std::string six, seven, three, four;
+  for (int row = 0; row < 8; ++row) {
+    six += numbers;
+    seven += numbers.substr(0, numbers.size() - 1) + ",1\n";
+    three += plain;
+    four += plain.substr(0, plain.size() - 1) + ",1\n";
+  }
+  for (const std::string& text :
+       {six, seven, three, four, "x,y,z\n" + three, "x,y,z,collides\n" + four}) {
+    const Survivors kept = survivors(text);
+    ASSERT_EQ(kept.records.size(), 1U) << text;
+    for (std::size_t point = 0; point < 8; ++point) {
+      EXPECT_EQ(kept.records[0].query.at(point / 4, point % 4, 0), -0.75);
+      EXPECT_EQ(kept.records[0].query.at(point / 4, point % 4, 1), 0.25);
+      EXPECT_EQ(kept.records[0].query.at(point / 4, point % 4, 2), 300.0);
+    }
+    EXPECT_EQ(kept.records[0].collides.has_value(), text.ends_with(",1\n") && text != six);
+  }
+}
 
 TEST(CsvDataset, reads_the_2021_format) {
   const TemporaryFolder folder;
@@ -156,8 +270,10 @@ TEST(CsvDataset, a_truncated_last_query_is_one_error) {
   for (std::size_t rows = 1; rows < 8; ++rows) {
     std::vector<std::string> lines = numbered_lines(3, true);
     lines.resize(16 + rows);
-    const std::string error =
-        std::to_string(16 + rows) + ": truncated query: " + std::to_string(rows) + " of 8 rows";
+    const std::string error = std::to_string(16 + rows) +
+                              ": truncated query: " + std::to_string(rows) +
+                              " of 8 rows; if a row is missing further up, queries behind it were "
+                              "put together of two";
     EXPECT_EQ(strict_error(joined(lines) + "\n\n"), error);
     const Survivors kept = survivors(joined(lines));
     expect_numbered(kept.records, {0, 1});
@@ -169,8 +285,8 @@ TEST(CsvDataset, a_truncated_last_query_is_one_error) {
 TEST(CsvDataset, many_faults_in_one_query_count_once_and_the_first_is_named) {
   std::vector<std::string> lines = numbered_lines(3, true);
   lines[8] = "1,0,1,1,1,1,1";
-  lines[9] = "";
-  lines[15] = "x";
+  lines[9] = "1,1,1,1,x,1,1";
+  lines[15] = "1,1,1,1,1,1,x";
   const Survivors kept = survivors(joined(lines));
   expect_numbered(kept.records, {0, 2});
   EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:9:2: zero denominator"});
@@ -181,7 +297,7 @@ TEST(CsvDataset, faults_in_many_queries_leave_all_others) {
   std::vector<std::uint64_t> good;
   for (std::size_t query = 0; query < 50; ++query) {
     if (query % 3 == 0) {
-      lines[8 * query + query % 8] = "?";
+      lines[8 * query + query % 8].replace(0, 1, "?");
     } else {
       good.push_back(query);
     }
@@ -192,14 +308,14 @@ TEST(CsvDataset, faults_in_many_queries_leave_all_others) {
   EXPECT_EQ(kept.messages.size(), 17U);
 }
 
-TEST(CsvDataset, a_bad_first_row_does_not_decide_the_format) {
+TEST(CsvDataset, the_first_row_decides_the_format) {
   std::vector<std::string> lines = numbered_lines(3, true);
   lines[0] = "1,1,2,1,3,1";
-  EXPECT_EQ(strict_error(joined(lines)), "2: 7 columns, expected 6 as before");
-  expect_numbered(survivors(joined(lines)).records, {1, 2});
+  EXPECT_EQ(strict_error(joined(lines)), "2: 7 columns, expected 6 as before" + rest_is_left_out);
+  expect_numbered(survivors(joined(lines)).records, {});
   lines[0] = "1,1,2,1,3";
-  EXPECT_EQ(strict_error(joined(lines)), "1: 5 columns, expected 6 or 7");
-  expect_numbered(survivors(joined(lines)).records, {1, 2});
+  EXPECT_EQ(strict_error(joined(lines)), "1: 5 columns, expected 3, 4, 6 or 7" + rest_is_left_out);
+  expect_numbered(survivors(joined(lines)).records, {});
 }
 
 TEST(CsvDataset, rounds_only_where_asked_and_counts) {
@@ -217,7 +333,29 @@ TEST(CsvDataset, rounds_only_where_asked_and_counts) {
   EXPECT_EQ(records[0].query.at(0, 3, 2), -2.0 / 3.0);
   EXPECT_EQ(source->rounded(), 2U) << "the rounding in the query left out does not count";
   EXPECT_EQ(source->skipped(), 1U);
-  EXPECT_EQ(strict_error(joined(lines)), "4:1: not exactly a double (--round accepts the nearest)");
+  EXPECT_EQ(strict_error(joined(lines)), "4:1: not exactly a double (--round takes the nearest)");
+}
+
+TEST(CsvDataset, rounds_decimals_of_17_digits_to_the_double_that_they_were) {
+  // As newer public data writes coordinates: a decimal over 1, to 17 digits.
+  const Query query = [] {
+    Query result{};
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+    for (double& x : result.coordinates) x = coordinate(random);
+    return result;
+  }();
+  std::string text;
+  for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
+    text += fmt::format("{:.17g},1{}", query.coordinates.at(i), i % 3 == 2 ? "\n" : ",");
+  }
+  EXPECT_EQ(strict_error(text), "1:1: not exactly a double (--round takes the nearest)");
+  const TemporaryFolder folder;
+  CsvDataset source(folder.file("a.csv", text), {.kind = Kind::vertex_face, .round = true});
+  const auto records = read_all(source);
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(records[0].query, query);
+  EXPECT_EQ(source.rounded(), 24U);
 }
 
 TEST(CsvDataset, beyond_the_range_is_an_error_even_when_rounding) {

@@ -24,6 +24,7 @@
 
 #include "exact/query.hpp"
 #include "verify/dataset/dataset.hpp"
+#include "verify/dataset/npy.hpp"
 
 namespace touchstone::verify::test {
 
@@ -77,6 +78,14 @@ class TemporaryFolder {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();
   return text.str();
+}
+
+/// All queries of a .npy file.
+[[nodiscard]] inline std::vector<Query> npy_queries(const std::filesystem::path& path) {
+  NpyReader npy(path);
+  std::vector<Query> queries;
+  while (npy.position() < npy.count()) queries.push_back(npy.next());
+  return queries;
 }
 
 [[nodiscard]] inline std::vector<RecordedQuery> read_all(QuerySource& source) {

@@ -1,6 +1,8 @@
 #include "verify/dataset/dataset.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdint>
 #include <cstdlib>
@@ -69,11 +71,75 @@ TEST(FindDatasets, names_what_is_not_there_and_folders_without_datasets) {
             "empty: no dataset (.csv, .npy) in this folder");
 }
 
+/// What is left out below a folder, without the folder.
+std::vector<std::string> left_out_in(const TemporaryFolder& folder) {
+  std::vector<std::string> messages;
+  (void)find_datasets(std::vector<fs::path>{folder.path()}, [&](const DatasetError& error) {
+    messages.push_back(error_of(folder.path(), [&] { throw DatasetError(error); }));
+  });
+  return messages;
+}
+
+TEST(FindDatasets, follows_links_to_files_and_folders) {
+  const TemporaryFolder folder, elsewhere;
+  const fs::path file = folder.file("a/1vf.csv", "");
+  (void)elsewhere.file("deep/er/2vf.csv", "");
+  fs::create_symlink(elsewhere.path() / "deep", folder.path() / "link");
+  fs::create_symlink(elsewhere.path() / "deep/er/2vf.csv", folder.path() / "z.csv");
+  EXPECT_EQ(found_in(folder.path()), (std::vector<fs::path>{file, folder.path() / "link/er/2vf.csv",
+                                                            folder.path() / "z.csv"}));
+  EXPECT_EQ(left_out_in(folder), std::vector<std::string>{});
+  EXPECT_EQ(found_in(folder.path() / "link"), std::vector{folder.path() / "link/er/2vf.csv"});
+}
+
+TEST(FindDatasets, searches_no_folder_twice_however_links_lead_to_it) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("b/1vf.csv", ""), second = folder.file("b/c/2vf.csv", "");
+  fs::create_symlink(folder.path(), folder.path() / "b/c/ring");
+  fs::create_symlink("b", folder.path() / "a");
+  fs::create_symlink("itself", folder.path() / "itself");
+  fs::create_symlink("nothing", folder.path() / "b/nowhere.csv");
+  EXPECT_EQ(found_in(folder.path()), (std::vector{file, second})) << "by their plain paths";
+  EXPECT_EQ(
+      left_out_in(folder),
+      (std::vector<std::string>{"b/nowhere.csv: left out: a link that leads to no file or folder",
+                                "itself: left out: a link that leads to no file or folder",
+                                "a: left out: leads to a folder that is searched already",
+                                "b/c/ring: left out: leads to a folder that is searched already"}));
+}
+
+TEST(FindDatasets, names_what_it_leaves_out_but_for_companions) {
+  const TemporaryFolder folder;
+  for (const std::string name :
+       {"s/1vf.csv", "s/toi/1vf_toi.csv", "s/1ee_toi.csv", "s/mma_bool/1vf_mma_bool.json",
+        "s/1ee_mma_bool.json", "s/separation.json", "s/boxes/1vf.json", "s/frames/1.ply"}) {
+    (void)folder.file(name, "");
+  }
+  EXPECT_EQ(left_out_in(folder), std::vector<std::string>{});
+  for (const std::string name :
+       {"README.md", "s/1vf.npz", "s/frames/deep/1vf.npy", "s/toi/1vf.csv"}) {
+    (void)folder.file(name, "");
+  }
+  ASSERT_EQ(::mkfifo((folder.path() / "s/pipe.csv").c_str(), 0600), 0);
+  const std::string in_companions =
+      ": left out: in a folder of what accompanies datasets; name the file itself to read it";
+  EXPECT_EQ(
+      left_out_in(folder),
+      (std::vector<std::string>{
+          "README.md: left out: no dataset (.csv, .npy)",
+          "s/1vf.npz: left out: no dataset (.csv, .npy)", "s/frames/deep/1vf.npy" + in_companions,
+          "s/pipe.csv: left out: neither a file nor a folder", "s/toi/1vf.csv" + in_companions}));
+}
+
 TEST(FindDatasets, a_folder_named_like_a_file_is_a_folder) {
   const TemporaryFolder folder;
   const fs::path path = folder.file("data.csv/1vf.csv", "");
   EXPECT_EQ(found_in(folder.path()), std::vector<fs::path>{path});
 }
+
+const std::string no_kind =
+    ": the path does not say whether its queries are vertex-face or edge-edge; pass --kind "
+    "vertex-face or --kind edge-edge";
 
 TEST(KindFromPath, the_deepest_part_wins_then_the_ending_of_the_name) {
   EXPECT_EQ(kind_from_path("a/vertex-face/data_0_0.csv"), Kind::vertex_face);
@@ -85,12 +151,27 @@ TEST(KindFromPath, the_deepest_part_wins_then_the_ending_of_the_name) {
   EXPECT_EQ(kind_from_path("ee.npy"), Kind::edge_edge);
 }
 
+TEST(KindFromPath, takes_letters_for_a_kind_only_where_they_are_a_word) {
+  for (const std::string name :
+       {"x_ee", "x-ee", "x ee", "x.ee", "ee", "326ee", "x_326ee", "3d-ee"}) {
+    EXPECT_EQ(kind_from_path(name + ".npy"), Kind::edge_edge) << name;
+  }
+  for (const std::string name : {"x_vf", "vf", "92vf", "cloth-92vf", "a_vf"}) {
+    EXPECT_EQ(kind_from_path(name + ".csv"), Kind::vertex_face) << name;
+  }
+  EXPECT_EQ(kind_from_path("2edge-edge_queries/d.csv"), Kind::edge_edge);
+  for (const std::string path :
+       {"tree.npy", "x_tree.csv", "coffee.csv", "4fa9ee.npy", "w1ee.csv", "pdvf.csv",
+        "n\xC3\xA9"
+        "ee.csv",
+        "knowledge-edge.csv", "edge-edges/d.csv", "vertex-facet/d.csv", "x_EE.csv", "ee_.csv"}) {
+    EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }), path + no_kind);
+  }
+}
+
 TEST(KindFromPath, asks_for_the_kind_where_the_path_does_not_say_it) {
   for (const std::string path : {"data.csv", "vf/data.csv", "vertex_face/data.csv", "vf1.csv"}) {
-    EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }),
-              path +
-                  ": the path does not say whether its queries are vertex-face or edge-edge; "
-                  "pass --kind");
+    EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }), path + no_kind);
   }
   EXPECT_EQ(
       error_of("", [] { (void)kind_from_path("vertex-face/edge-edge-vertex-face.csv"); }),
@@ -129,7 +210,7 @@ TEST(OpenDataset, opening_errors_throw_even_if_it_keeps_going) {
   EXPECT_EQ(opening_error(folder.file("emptyvf.csv", "")), "emptyvf.csv: no queries");
   EXPECT_EQ(opening_error(folder.file("emptyvf.npy", "")), "emptyvf.npy: not a NumPy file");
   EXPECT_TRUE(opening_error(folder.file("a.csv", joined(numbered_lines(1, true))))
-                  .ends_with("pass --kind"));
+                  .ends_with("pass --kind vertex-face or --kind edge-edge"));
 }
 
 /// The public benchmark data, which the project does not contain.
@@ -138,7 +219,7 @@ class PublicData : public ::testing::Test {
   void SetUp() override {
     const char* const from_environment = std::getenv("TOUCHSTONE_DATA");
     folder_ = from_environment != nullptr ? fs::path(from_environment)
-                                          : fs::path(TOUCHSTONE_SOURCE_DIR) / "../shared/datasets";
+                                          : fs::path(tests::source_folder()) / "../shared/datasets";
     if (fs::is_directory(folder_)) return;
     std::cerr << "\n*** WARNING: no public data at " << folder_
               << "; nothing is tested against it. Set TOUCHSTONE_DATA. ***\n\n";

@@ -1,12 +1,19 @@
 #include "verify/dataset/input_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/verify/dataset/dataset_fixture.hpp"
+#include "verify/terminal.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -50,6 +57,48 @@ TEST(InputFile, a_read_error_is_reported_once_and_ends_the_file) {
   EXPECT_EQ(file.read(buffer), 0U);
 }
 
+TEST(InputFile, opens_a_pipe_without_a_writer_and_waits_where_it_reads) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  InputFile file(pipe);
+  std::thread writer([&pipe] { std::ofstream(pipe) << "text"; });
+  std::array<char, 8> buffer{};
+  EXPECT_EQ(file.read(buffer), 4U);
+  writer.join();
+  EXPECT_EQ(file.read(buffer), 0U);
+}
+
+TEST(InputFile, an_interrupt_ends_a_read) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto read_nothing = [&pipe] {
+    static_cast<void>(interrupted());
+    InputFile file(pipe);
+    std::raise(SIGINT);
+    std::array<char, 8> buffer{};
+    try {
+      static_cast<void>(file.read(buffer));
+    } catch (const Interrupted&) {
+      _exit(0);
+    }
+    _exit(1);
+  };
+  EXPECT_EXIT(read_nothing(), ::testing::ExitedWithCode(0), "");
+}
+
+TEST(InputFile, is_read_whole_up_to_a_limit) {
+  const TemporaryFolder folder;
+  const std::string text(200'000, 'x');
+  const auto path = folder.file("text", text);
+  EXPECT_EQ(read_file(path, text.size()), text);
+  EXPECT_EQ(error_of(folder.path(), [&] { (void)read_file(path, text.size() - 1); }),
+            "text: has more than 199999 bytes");
+  EXPECT_EQ(error_of("", [] { (void)read_file("/dev/zero", 10); }),
+            "/dev/zero: has more than 10 bytes");
+}
+
 TEST(InputFile, progress_is_the_fraction_read) {
   const TemporaryFolder folder;
   InputFile file(folder.file("eight", "12345678"));
@@ -85,6 +134,12 @@ TEST(LineReader, lines_across_chunks_stay_whole) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     EXPECT_EQ(lines[i], (OwnedLine{std::string(i % 211, 'x') + std::to_string(i), i + 1, false}));
   }
+}
+
+TEST(LineReader, refuses_a_line_without_an_end) {
+  LineReader reader("/dev/zero");
+  EXPECT_EQ(error_of("", [&] { (void)reader.next(); }),
+            "/dev/zero:1: no line end within 64 MiB: not a text file");
 }
 
 TEST(LineReader, passes_over_lines_beyond_the_limit_and_no_others) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace {
 using test::contents;
 using test::error_of;
 using test::expect_numbered;
+using test::npy_queries;
 using test::numbered_query;
 using test::read_all;
 using test::read_survivors;
@@ -74,6 +77,43 @@ TEST(NpyDataset, names_the_coordinate_that_is_not_finite_and_skips_its_query_onl
   }
 }
 
+TEST(NpyDataset, of_no_queries_ends_at_once) {
+  const TemporaryFolder folder;
+  NpyWriter(folder.path() / "avf.npy").close();
+  NpyDataset source(folder.path() / "avf.npy", {});
+  EXPECT_FALSE(source.next().has_value());
+  EXPECT_EQ(source.progress(), 1.0);
+  EXPECT_EQ(source.skipped(), 0U);
+}
+
+TEST(NpyDataset, that_becomes_shorter_gives_what_is_there_and_then_one_error) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "avf.npy";
+  for (const bool keep_going : {false, true}) {
+    NpyWriter writer(path);
+    for (std::size_t i = 0; i < 3000; ++i) writer.write(numbered_query(i));
+    writer.close();
+    std::vector<std::string> messages;
+    NpyDataset source(path, {.keep_going = keep_going, .on_skip = [&](const DatasetError& fault) {
+                               messages.emplace_back(fault.reason());
+                             }});
+    std::vector<RecordedQuery> records{source.next().value()};
+    std::filesystem::resize_file(path, 128 + 192 * 2000);
+    const std::string error = error_of(folder.path(), [&] {
+      while (auto record = source.next()) records.push_back(*record);
+    });
+    std::vector<std::uint64_t> there(2000);
+    std::iota(there.begin(), there.end(), 0);
+    expect_numbered(records, there);
+    const std::string reason =
+        "has become shorter while it was read: query 2000 of 3000 is missing";
+    EXPECT_EQ(error, keep_going ? "no DatasetError" : "avf.npy: " + reason);
+    EXPECT_EQ(messages, std::vector<std::string>(keep_going ? 1 : 0, reason));
+    EXPECT_EQ(source.skipped(), keep_going ? 1U : 0U);
+    EXPECT_FALSE(source.next().has_value()) << "it has ended";
+  }
+}
+
 TEST(NpyDataset, memory_does_not_grow_with_the_file) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "avf.npy";
@@ -92,9 +132,8 @@ TEST(NpyDataset, memory_does_not_grow_with_the_file) {
   });
   EXPECT_LT(streamed, 8'000'000U);
   const std::size_t whole = resident_growth([&] {
-    const NpyFile file(path);
     double sum = 0.0;
-    for (const Query& query : file.queries()) sum += query.coordinates[0];
+    for (const Query& query : npy_queries(path)) sum += query.coordinates[0];
     EXPECT_EQ(sum, 25.0 * (queries - 1.0) * queries / 2.0);
   });
   EXPECT_GT(whole, 40'000'000U) << "the measure must see a reader that keeps the file";

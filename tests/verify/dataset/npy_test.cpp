@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "tests/verify/dataset/dataset_fixture.hpp"
@@ -16,6 +18,7 @@ namespace {
 
 using test::contents;
 using test::error_of;
+using test::npy_queries;
 using test::numbered_query;
 using test::random_query;
 using test::TemporaryFolder;
@@ -52,7 +55,7 @@ std::vector<Query> two_queries() { return {numbered_query(0), numbered_query(1)}
 std::string open_error(const std::string& file) {
   const TemporaryFolder folder;
   const auto path = folder.file("a.npy", file);
-  return error_of(folder.path(), [&] { NpyFile npy(path); });
+  return error_of(folder.path(), [&] { NpyReader npy(path); });
 }
 
 std::string header_error(const std::string& dictionary) {
@@ -61,13 +64,10 @@ std::string header_error(const std::string& dictionary) {
 
 void expect_two_queries(const std::string& file) {
   const TemporaryFolder folder;
-  const NpyFile npy(folder.file("a.npy", file));
-  ASSERT_EQ(npy.queries().size(), 2U);
-  EXPECT_EQ(npy.queries()[0], numbered_query(0));
-  EXPECT_EQ(npy.queries()[1], numbered_query(1));
+  EXPECT_EQ(npy_queries(folder.file("a.npy", file)), two_queries());
 }
 
-TEST(NpyFile, reads_a_version_1_file_made_byte_by_byte) {
+TEST(NpyReader, reads_a_version_1_file_made_byte_by_byte) {
   std::string file = "\x93NUMPY";
   file += '\x01';
   file += '\x00';
@@ -78,12 +78,12 @@ TEST(NpyFile, reads_a_version_1_file_made_byte_by_byte) {
   ASSERT_EQ(file.size(), 80U);
   for (int i = 0; i < 24; ++i) file += std::string("\0\0\0\0\0\0\xf8\xbf", 8);
   const TemporaryFolder folder;
-  const NpyFile npy(folder.file("a.npy", file));
-  ASSERT_EQ(npy.queries().size(), 1U);
-  for (const double x : npy.queries()[0].coordinates) EXPECT_EQ(x, -1.5);
+  const std::vector<Query> queries = npy_queries(folder.file("a.npy", file));
+  ASSERT_EQ(queries.size(), 1U);
+  for (const double x : queries[0].coordinates) EXPECT_EQ(x, -1.5);
 }
 
-TEST(NpyFile, reads_versions_1_to_3_and_headers_that_others_write) {
+TEST(NpyReader, reads_versions_1_to_3_and_headers_that_others_write) {
   const std::string data = bytes_of(two_queries());
   for (const char version : {'\1', '\2', '\3'}) {
     expect_two_queries(header(good_dictionary, version) + data);
@@ -94,22 +94,23 @@ TEST(NpyFile, reads_versions_1_to_3_and_headers_that_others_write) {
     expect_two_queries(header(dictionary) + data);
   }
   expect_two_queries(header(good_dictionary, 1, 8) + data);
+  expect_two_queries(header(good_dictionary, 1, 77) + data);
   expect_two_queries(header(good_dictionary + std::string(60000, ' '), 2) + data);
 }
 
-TEST(NpyFile, names_what_is_no_numpy_file) {
+TEST(NpyReader, names_what_is_no_numpy_file) {
   EXPECT_EQ(open_error(""), "a.npy: not a NumPy file");
   EXPECT_EQ(open_error("1,1,1,1,1,1\n"), "a.npy: not a NumPy file");
   EXPECT_EQ(open_error("\x93NUMPY\x01"), "a.npy: not a NumPy file");
   const TemporaryFolder folder;
-  EXPECT_EQ(error_of(folder.path(), [&] { NpyFile npy(folder.path() / "none.npy"); }),
+  EXPECT_EQ(error_of(folder.path(), [&] { NpyReader npy(folder.path() / "none.npy"); }),
             "none.npy: cannot open: No such file or directory");
   std::filesystem::create_directory(folder.path() / "folder.npy");
-  EXPECT_EQ(error_of(folder.path(), [&] { NpyFile npy(folder.path() / "folder.npy"); }),
+  EXPECT_EQ(error_of(folder.path(), [&] { NpyReader npy(folder.path() / "folder.npy"); }),
             "folder.npy: is a folder");
 }
 
-TEST(NpyFile, names_unknown_versions_and_truncated_headers) {
+TEST(NpyReader, names_unknown_versions_and_truncated_headers) {
   EXPECT_EQ(open_error(header(good_dictionary, 4)),
             "a.npy: version 4 of the NumPy format, expected 1, 2 or 3");
   EXPECT_EQ(open_error(header(good_dictionary, 0)),
@@ -120,7 +121,7 @@ TEST(NpyFile, names_unknown_versions_and_truncated_headers) {
   }
 }
 
-TEST(NpyFile, names_every_other_kind_of_array) {
+TEST(NpyReader, names_every_other_kind_of_array) {
   const auto with_descr = [](const std::string& descr) {
     return "{'descr': " + descr + ", 'fortran_order': False, 'shape': (2, 8, 3), }";
   };
@@ -134,17 +135,25 @@ TEST(NpyFile, names_every_other_kind_of_array) {
             "a.npy: Fortran order, expected C order");
 }
 
-TEST(NpyFile, names_every_other_shape) {
+TEST(NpyReader, names_every_other_shape) {
   for (const std::string shape :
        {"", "48", "2, 24", "2, 8, 3, 1", "8, 2, 3", "2, 3, 8", "16, 3", "2, 4, 6"}) {
     EXPECT_EQ(header_error("{'descr': '<f8', 'fortran_order': False, 'shape': (" + shape + "), }"),
               "a.npy: shape (" + shape + "), expected (N, 8, 3)");
   }
-  EXPECT_EQ(open_error(header("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 8, 3), }")),
-            "a.npy: no queries");
 }
 
-TEST(NpyFile, names_headers_that_are_no_dictionary_of_these_three) {
+TEST(NpyReader, an_array_of_no_queries_is_one) {
+  const TemporaryFolder folder;
+  NpyReader npy(folder.file(
+      "a.npy", header("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 8, 3), }")));
+  EXPECT_EQ(npy.count(), 0U);
+  EXPECT_EQ(npy.position(), 0U);
+  NpyWriter(folder.path() / "b.npy").close();
+  EXPECT_EQ(NpyReader(folder.path() / "b.npy").count(), 0U);
+}
+
+TEST(NpyReader, names_headers_that_are_no_dictionary_of_these_three) {
   for (const std::string dictionary :
        {"", "{", "[]", "{'descr': '<f8'", "{'descr'; '<f8'}", "{descr: '<f8'}",
         "{'descr': '<f8, 'fortran_order': False, 'shape': (2, 8, 3), }",
@@ -166,7 +175,7 @@ TEST(NpyFile, names_headers_that_are_no_dictionary_of_these_three) {
             "a.npy: unknown or repeated key in the header: \"version\"");
 }
 
-TEST(NpyFile, names_data_of_another_size_or_alignment) {
+TEST(NpyReader, names_data_of_another_size_or_alignment) {
   const std::string data = bytes_of(two_queries());
   const auto size_error = [](std::size_t bytes, const std::string& count) {
     return "a.npy: " + std::to_string(bytes) + " bytes of data, but the shape says " + count +
@@ -181,24 +190,41 @@ TEST(NpyFile, names_data_of_another_size_or_alignment) {
   EXPECT_EQ(header_error("{'descr': '<f8', 'fortran_order': False, 'shape': (" + overflowing +
                          ", 8, 3), }"),
             size_error(384, overflowing));
-  EXPECT_EQ(open_error(header(good_dictionary, 1, 77) + data),
-            "a.npy: data at offset 77, expected a multiple of 8");
 }
 
-TEST(NpyFile, moves_without_a_copy) {
+TEST(NpyReader, bounds_the_header) {
+  std::string length{"\0\0\x10\0", 4};
+  const std::string begin = std::string("\x93NUMPY\2\0", 8), room(std::size_t{1} << 21U, ' ');
+  EXPECT_EQ(open_error(begin + length + room), "a.npy: malformed header");
+  length[0] = '\1';
+  EXPECT_EQ(open_error(begin + length + room), "a.npy: header longer than 1 MiB");
+}
+
+TEST(NpyReader, a_file_that_becomes_shorter_ends_with_an_error) {
   const TemporaryFolder folder;
-  NpyFile first(folder.file("a.npy", header(good_dictionary) + bytes_of(two_queries())));
-  const Query* const data = first.queries().data();
-  NpyFile second(std::move(first));
-  EXPECT_EQ(second.queries().data(), data);
-  NpyFile third(folder.path() / "a.npy");
-  EXPECT_NE(third.queries().data(), data);
-  third = std::move(second);
-  EXPECT_EQ(third.queries().data(), data);
-  EXPECT_EQ(third.queries()[1], numbered_query(1));
+  const auto path = folder.path() / "a.npy";
+  for (const std::size_t left : {0U, 1000U, 1001U, 1500U, 1999U}) {
+    NpyWriter writer(path);
+    for (std::size_t i = 0; i < 2000; ++i) writer.write(numbered_query(i));
+    writer.close();
+    NpyReader npy(path);
+    // A block is read ahead.
+    EXPECT_EQ(npy.next(), numbered_query(0));
+    std::filesystem::resize_file(path, 128 + 192 * left + 191);
+    const std::size_t last = std::max<std::size_t>(left, 512);
+    const std::string error = error_of(folder.path(), [&] {
+      while (npy.position() < npy.count()) {
+        const std::uint64_t position = npy.position();
+        ASSERT_EQ(npy.next(), numbered_query(position));
+      }
+    });
+    EXPECT_EQ(npy.position(), last);
+    EXPECT_EQ(error, "a.npy: has become shorter while it was read: query " + std::to_string(last) +
+                         " of 2000 is missing");
+  }
 }
 
-TEST(NpyWriter, what_is_mapped_is_what_was_written_bit_for_bit) {
+TEST(NpyWriter, what_is_read_is_what_was_written_bit_for_bit) {
   const TemporaryFolder folder;
   std::mt19937_64 random(11);
   std::vector<Query> queries(2000);
@@ -207,11 +233,7 @@ TEST(NpyWriter, what_is_mapped_is_what_was_written_bit_for_bit) {
   NpyWriter writer(folder.path() / "a.npy");
   for (const Query& query : queries) writer.write(query);
   writer.close();
-  const NpyFile npy(folder.path() / "a.npy");
-  ASSERT_EQ(npy.queries().size(), queries.size());
-  EXPECT_EQ(std::memcmp(npy.queries().data(), queries.data(), npy.queries().size_bytes()), 0);
-  npy.release_before(queries.size());
-  EXPECT_EQ(std::memcmp(npy.queries().data(), queries.data(), npy.queries().size_bytes()), 0);
+  EXPECT_EQ(bytes_of(npy_queries(folder.path() / "a.npy")), bytes_of(queries));
 }
 
 TEST(NpyWriter, writes_a_header_that_numpy_reads) {
@@ -234,7 +256,7 @@ TEST(NpyWriter, refuses_what_is_not_finite_and_stays_usable) {
   }
   writer.write(numbered_query(0));
   writer.close();
-  EXPECT_EQ(NpyFile(folder.path() / "a.npy").queries().size(), 1U);
+  EXPECT_EQ(npy_queries(folder.path() / "a.npy"), std::vector{numbered_query(0)});
 }
 
 TEST(NpyWriter, without_close_there_is_no_file) {

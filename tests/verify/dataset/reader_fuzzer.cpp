@@ -134,7 +134,7 @@ void read_answers(const fs::path& path) {
 
 void check_mesh(const touchstone::verify::Mesh& mesh) {
   const auto is_vertex = [&](int i) { return i >= 0 && i < mesh.vertices.rows(); };
-  require(mesh.vertices.allFinite());
+  require(mesh.vertices.rows() > 0 && mesh.vertices.allFinite());
   for (const auto& face : mesh.faces) require(std::ranges::all_of(face, is_vertex));
   for (const auto& edge : mesh.edges) {
     require(std::ranges::all_of(edge, is_vertex) && edge[0] != edge[1]);

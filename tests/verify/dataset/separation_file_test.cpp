@@ -65,6 +65,45 @@ TEST_F(SeparationFile, BelongsToTheFolderAndToThoseInIt) {
   EXPECT_EQ(recorded_separation(dataset).distance, 0.25) << "the nearer one counts";
 }
 
+TEST_F(SeparationFile, UnknownAndRepeatedKeysAreErrors) {
+  const auto error = [&](const std::string& text) -> std::string {
+    try {
+      (void)read_separation(write(text));
+    } catch (const DatasetError& fault) {
+      return fault.reason();
+    }
+    return "no error";
+  };
+  const std::string distance = R"("min_separation": "0.5")", norm = R"("norm": "l2")";
+  EXPECT_EQ(error("{" + distance + ", " + norm + "}"), "no error");
+  EXPECT_EQ(error("{" + distance + ", " + norm + ", " + R"("min_separation": "0.25")" + "}"),
+            "repeated key \"min_separation\"");
+  EXPECT_EQ(error("{" + norm + ", " + norm + ", " + distance + "}"), "repeated key \"norm\"");
+  EXPECT_EQ(error("{" + distance + ", " + norm + R"(, "Norm": "linf"})"),
+            "unknown key \"Norm\", expected min_separation and norm");
+  EXPECT_EQ(error("{" + distance + ", " + norm + R"(, "": {}})"),
+            "unknown key \"\", expected min_separation and norm");
+  EXPECT_EQ(error("{\"" + std::string(3000, 'k') + "\": 1}"),
+            "unknown key \"" + std::string(40, 'k') + "...\", expected min_separation and norm");
+}
+
+TEST_F(SeparationFile, MessagesAndFilesAreBounded) {
+  const auto error = [&](const fs::path& file) -> std::string {
+    try {
+      (void)read_separation(file);
+    } catch (const DatasetError& fault) {
+      return fault.reason();
+    }
+    return "no error";
+  };
+  EXPECT_LE(error(write(R"({"min_separation": ")" + std::string(60000, 'x'))).size(), 1003U);
+  EXPECT_LE(
+      error(write(R"({"min_separation": "1", "norm": ")" + std::string(60000, 'x') + "\"}")).size(),
+      1003U);
+  EXPECT_EQ(error(write(std::string(65537, ' '))), "has more than 65536 bytes");
+  EXPECT_EQ(error("/dev/zero"), "has more than 65536 bytes");
+}
+
 TEST_F(SeparationFile, WhatIsNoneIsAnErrorThatNamesTheFile) {
   for (const char* bad :
        {"", "[]", "{}", R"({"min_separation": 0.5, "norm": "l2"})", R"({"min_separation": "0.5"})",

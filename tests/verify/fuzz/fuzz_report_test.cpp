@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tests/support/queries.hpp"
 
@@ -14,33 +15,46 @@ namespace {
 
 FuzzReport sample() {
   FuzzReport report;
-  report.method = "mine";
-  report.promise = fast::Promise::exact;
+  report.solver = {
+      .method = "mine",
+      .plugin = "/tmp/mine.so",
+      .promise = fast::Promise::exact,
+      .options = {.tolerance = 0.25, .max_checks = 9, .min_separation = 0.5, .norm = Norm::l2},
+      .query_limit_seconds = 3.0};
   report.seed = 7;
-  report.separation = {.distance = 0.5, .norm = Norm::l2};
+  report.seconds = 2.0;
   report.result.queries = 3000;
   report.result.images = 300;
   report.result.collisions = 1000;
   report.result.judged_by_oracle = 40;
   report.result.seconds = 2.0;
-  report.result.method_seconds = 1.5;
+  report.result.method_seconds = 1.25;
+  report.result.shrink_seconds = 0.25;
   report.result.other_seconds = 0.5;
   report.result.all_findings = 12;
   report.result.generators = {
       {.name = "grid", .queries = 3000, .collisions = 1000, .signatures = 20, .findings = 12}};
-  report.result.findings = {{.what = FindingKind::late_toi,
-                             .kind = Kind::vertex_face,
-                             .query = tests::over_triangle(1, 1, 1, -2).query,
-                             .separation = report.separation,
-                             .method = "mine",
-                             .answer = {.verdict = fast::Verdict::yes, .toi_lower = 0.75},
-                             .collides = true,
-                             .truth = "collision at 0.5",
-                             .detail = "toi_lower 0.75 is late",
-                             .certificate = "certificate",
-                             .seconds = 1.25,
-                             .queries = 1234,
-                             .generator = "grid"}};
+  Finding finding;
+  finding.what = FindingKind::late_toi;
+  finding.separation = {.distance = 0.5, .norm = Norm::l2};
+  finding.method = "mine";
+  finding.original = {.query = tests::over_triangle(1, 1, 1.25, -3).query,
+                      .answer = {.verdict = fast::Verdict::yes, .toi_lower = 0.625},
+                      .collides = true,
+                      .truth = "collision at 0.375",
+                      .detail = "toi_lower 0.625 is late",
+                      .certificate = "original certificate"};
+  finding.simplest = {.query = tests::over_triangle(1, 1, 1, -2).query,
+                      .answer = {.verdict = fast::Verdict::yes, .toi_lower = 0.75},
+                      .collides = true,
+                      .truth = "collision at 0.5",
+                      .detail = "toi_lower 0.75 is late",
+                      .certificate = "certificate"};
+  finding.shrinking = Shrinking::complete;
+  finding.seconds = 1.25;
+  finding.queries = 1234;
+  finding.generator = "grid";
+  report.result.findings = {finding};
   return report;
 }
 
@@ -48,13 +62,37 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+std::string text_of(const Finding& finding) { return to_text(finding, sample().solver); }
+
 TEST(FuzzReport, SaysAFindingInWords) {
-  const std::string text = to_text(sample().result.findings.front());
+  const std::string text = text_of(sample().result.findings.front());
   for (const std::string part :
        {"late_toi of mine, vertex-face at minimum separation 0.5 (l2)", "grid", "1.25 s",
-        "1234 queries", "toi_lower 0.75 is late", "truth: collision at 0.5"}) {
-    EXPECT_TRUE(contains(text, part)) << text;
+        "1234 queries", "toi_lower 0.75 is late", "answer: yes, toi_lower 0.75",
+        "truth: collision at 0.5", "--plugin '/tmp/mine.so' --tolerance 0.25 --max-checks 9",
+        "TEST(Reproduction, mine_late_toi_"}) {
+    EXPECT_TRUE(contains(text, part)) << part << '\n' << text;
   }
+}
+
+/// Each query with its own answer and truth.
+TEST(FuzzReport, KeepsTheSimplestAndTheOriginalApart) {
+  Finding finding = sample().result.findings.front();
+  const std::string text = text_of(finding);
+  const std::vector<std::string> order{"toi_lower 0.75 is late",  "truth: collision at 0.5",
+                                       "v   at t=1  (1, 1, -2)",  "Made simpler from",
+                                       "toi_lower 0.625 is late", "truth: collision at 0.375",
+                                       "v   at t=1  (1, 1, -3)",  "To ask again"};
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    EXPECT_LT(text.find(order[i]), text.find(order[i + 1])) << order[i] << '\n' << text;
+  }
+  finding.simplest = finding.original;
+  EXPECT_FALSE(contains(text_of(finding), "Made simpler from"));
+  EXPECT_FALSE(contains(text_of(finding), "the time was over"));
+  finding.shrinking = Shrinking::cut_short;
+  EXPECT_TRUE(contains(text_of(finding), "the time was over"));
+  finding.shrinking = Shrinking::not_reproduced;
+  EXPECT_TRUE(contains(text_of(finding), "asked alone, it is not wrong"));
 }
 
 TEST(FuzzReport, SaysTheNumbersOfARun) {
@@ -71,34 +109,102 @@ TEST(FuzzReport, SaysTheNumbersOfARun) {
   EXPECT_TRUE(contains(to_text(report), "no findings"));
 }
 
+TEST(FuzzReport, SaysIfLessWasDoneThanAskedFor) {
+  FuzzReport report = sample();
+  EXPECT_FALSE(contains(to_text(report), "ended by the time"));
+  EXPECT_FALSE(contains(to_text(report), "too late"));
+  EXPECT_FALSE(contains(to_text(report), "not answered"));
+  report.result.unanswered = 30;
+  EXPECT_TRUE(contains(to_text(report), "30 queries more were asked, and not answered in time"));
+  EXPECT_EQ(to_json(report).at("unanswered"), 30);
+  report.queries = 5000;
+  EXPECT_TRUE(contains(to_text(report), "ended by the time: 3000 of 5000 queries judged in 2 s"));
+  report.result.unjudged = 256;
+  EXPECT_TRUE(contains(to_text(report), "256 queries more were answered, too late to be judged"));
+  report.result.ended_by = FuzzEnd::findings;
+  EXPECT_FALSE(contains(to_text(report), "ended by the time"));
+  EXPECT_FALSE(contains(to_text(report), "too late"));
+}
+
+TEST(FuzzReport, SaysIfFindingsWereNotSought) {
+  FuzzReport report = sample();
+  EXPECT_FALSE(contains(to_text(report), "not sought"));
+  report.only = {FindingKind::late_toi};
+  report.result.other_findings = 53;
+  EXPECT_TRUE(contains(to_text(report), "53 of kinds that were not sought"));
+  EXPECT_EQ(to_json(report).at("other_findings"), 53);
+  EXPECT_EQ(to_json(report).at("asked").at("only"), nlohmann::json({"late_toi"}));
+}
+
 TEST(FuzzReport, WritesAllAsJson) {
   const nlohmann::json json = to_json(sample());
   EXPECT_EQ(json.at("method"), "mine");
   EXPECT_EQ(json.at("promise"), "exact");
   EXPECT_EQ(json.at("seed"), 7);
   EXPECT_EQ(json.at("separation").at("norm"), "l2");
+  EXPECT_EQ(json.at("asked").at("seconds"), 2.0);
+  EXPECT_TRUE(json.at("asked").at("queries").is_null());
+  EXPECT_TRUE(json.at("asked").at("only").empty());
+  EXPECT_EQ(json.at("other_findings"), 0);
+  EXPECT_EQ(json.at("ended_by"), "time");
+  EXPECT_EQ(json.at("unjudged"), 0);
+  EXPECT_EQ(json.at("shrink_seconds"), 0.25);
   EXPECT_EQ(json.at("queries_per_second"), 1500.0);
   EXPECT_EQ(json.at("judged_per_second"), 6000.0);
   EXPECT_EQ(json.at("all_findings"), 12);
   EXPECT_EQ(json.at("interrupted"), false);
   EXPECT_EQ(json.at("generators").at(0).at("signatures"), 20);
-  const nlohmann::json& finding = json.at("findings").at(0);
+  for (const nlohmann::json& solver : {json.at("solver"), json.at("findings").at(0).at("solver")}) {
+    EXPECT_EQ(solver.at("plugin"), "/tmp/mine.so");
+    EXPECT_EQ(solver.at("tolerance"), 0.25);
+    EXPECT_EQ(solver.at("max_checks"), 9);
+    EXPECT_EQ(solver.at("min_separation"), 0.5);
+    EXPECT_EQ(solver.at("norm"), "l2");
+    EXPECT_EQ(solver.at("t_max"), 1.0);
+    EXPECT_EQ(solver.at("query_limit"), 3.0);
+    EXPECT_EQ(solver.at("allow_processes"), false);
+  }
+}
+
+TEST(FuzzReport, WritesAFindingAsJson) {
+  FuzzReport report = sample();
+  const nlohmann::json finding = to_json(report).at("findings").at(0);
   EXPECT_EQ(finding.at("what"), "late_toi");
   EXPECT_EQ(finding.at("kind"), "vertex-face");
+  EXPECT_EQ(finding.at("shrinking"), "complete");
   EXPECT_EQ(finding.at("collides"), true);
   EXPECT_EQ(finding.at("answer").at("toi_lower"), 0.75);
   EXPECT_TRUE(finding.at("answer").at("toi_upper").is_null());
+  EXPECT_EQ(finding.at("truth"), "collision at 0.5");
   EXPECT_EQ(finding.at("coordinates").size(), 24U);
   EXPECT_EQ(finding.at("coordinates").at(14), "-0x1p+1");
   EXPECT_EQ(finding.at("certificate"), "certificate");
+  const nlohmann::json& original = finding.at("original");
+  EXPECT_EQ(original.at("answer").at("toi_lower"), 0.625);
+  EXPECT_EQ(original.at("truth"), "collision at 0.375");
+  EXPECT_EQ(original.at("detail"), "toi_lower 0.625 is late");
+  EXPECT_EQ(original.at("coordinates").at(14), "-0x1.8p+1");
+  EXPECT_EQ(original.at("certificate"), "original certificate");
+  EXPECT_TRUE(contains(finding.at("command"), "touchstone certify"));
+  report.result.findings.front().simplest.certificate.clear();
+  EXPECT_TRUE(to_json(report).at("findings").at(0).at("certificate").is_null());
 }
 
 TEST(FindingKind, HasANameEach) {
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < finding_kinds; ++i) {
-    names.insert(to_string(static_cast<FindingKind>(i)));
+    const auto kind = static_cast<FindingKind>(i);
+    names.insert(to_string(kind));
+    EXPECT_EQ(finding_kind_from_string(to_string(kind)), kind);
   }
   EXPECT_EQ(names.size(), finding_kinds);
+  EXPECT_FALSE(finding_kind_from_string("wrong"));
+}
+
+TEST(FindingKind, NamesFailuresAsTheyAreNamedEverywhere) {
+  for (const FailureKind kind : all_failure_kinds) {
+    EXPECT_EQ(to_string(finding_kind_of(kind)), to_string(kind));
+  }
 }
 
 }  // namespace

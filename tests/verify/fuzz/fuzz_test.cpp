@@ -20,9 +20,9 @@
 #include "fast/tight_inclusion.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
+#include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/decision.hpp"
-#include "verify/fuzz/referee.hpp"
 #include "verify/methods/registry.hpp"
 
 namespace touchstone::verify {
@@ -57,13 +57,15 @@ FuzzResult search(const FunctionMethod::Function& function, Promise promise,
 void expect_found(FindingKind what, const FuzzResult& result) {
   ASSERT_FALSE(result.findings.empty()) << to_string(what);
   const Finding& finding = result.findings.front();
-  EXPECT_EQ(to_string(finding.what), to_string(what)) << finding.detail;
+  EXPECT_EQ(to_string(finding.what), to_string(what)) << finding.original.detail;
   EXPECT_EQ(finding.method, "function");
-  EXPECT_FALSE(finding.detail.empty());
+  EXPECT_FALSE(finding.original.detail.empty());
   EXPECT_FALSE(finding.generator.empty());
-  EXPECT_EQ(finding.collides, Decision(finding.kind, finding.query, finding.separation).collides());
-  EXPECT_NE(finding.certificate.find(finding.collides ? "time_of_impact" : "no_collision"),
-            std::string::npos);
+  EXPECT_EQ(finding.original.collides,
+            Decision(finding.kind, finding.original.query, finding.separation).collides());
+  // It was not to be made simpler.
+  EXPECT_EQ(finding.simplest.query, finding.original.query);
+  EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
   EXPECT_EQ(result.queries, finding.queries);
   EXPECT_GE(result.all_findings, 1U);
 }
@@ -97,8 +99,8 @@ TEST(Fuzz, FindsAnUpperBoundThatIsEarly) {
 
 TEST(Fuzz, FindsFalsePositivesOfWhatPromisesNone) {
   const auto yes = [](Kind, const Query&) { return Answer{.verdict = Verdict::yes}; };
-  expect_found(FindingKind::beyond_promise, search(yes, Promise::exact));
-  expect_found(FindingKind::beyond_promise,
+  expect_found(FindingKind::false_positive, search(yes, Promise::exact));
+  expect_found(FindingKind::false_positive,
                search(yes, Promise::none, {.promise = Promise::exact}));
   const FuzzResult lenient =
       search(yes, Promise::conservative, {.most_queries = tests::trials(std::uint64_t{2400})});
@@ -106,13 +108,21 @@ TEST(Fuzz, FindsFalsePositivesOfWhatPromisesNone) {
   EXPECT_EQ(lenient.all_findings, 0U);
 }
 
-/// It says yes to all, which claims to be as near as the tolerance.
+/// It says yes to all, which claims to be as near as the tolerance: of any solver that gives one.
 TEST(Fuzz, FindsAYesBeyondItsTolerance) {
-  const auto yes = [](Kind, const Query&) {
-    return Answer{.verdict = Verdict::yes, .toi_lower = 0.0, .tolerance = 1e-9};
+  const auto yes = [](double tolerance) {
+    return [tolerance](Kind, const Query&) {
+      return Answer{.verdict = Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
+    };
   };
-  expect_found(FindingKind::beyond_promise,
-               search(yes, Promise::conservative, {.reach = reach_of("tight_inclusion")}));
+  expect_found(FindingKind::beyond_tolerance,
+               search(yes(1e-9), Promise::conservative, {.reach = reach_of("tight_inclusion")}));
+  expect_found(FindingKind::beyond_tolerance, search(yes(0.0), Promise::conservative));
+  expect_found(
+      FindingKind::beyond_tolerance,
+      search(yes(0.0), Promise::none, {.separation = {.distance = 0.25, .norm = Norm::l2}}));
+  const std::uint64_t some = tests::trials(std::uint64_t{2400});
+  EXPECT_EQ(search(yes(HUGE_VAL), Promise::conservative, {.most_queries = some}).all_findings, 0U);
 }
 
 /// Wrong only where the first point is on the left: the image of a query on the right.
@@ -130,8 +140,8 @@ TEST(Fuzz, FindsWhatIsWrongInAMirror) {
   };
   const auto found = std::ranges::find_if(result.findings, is_asymmetry);
   ASSERT_NE(found, result.findings.end());
-  EXPECT_LT(found->query.at(0, 0, 0), 0.0);
-  EXPECT_NE(found->detail.find("exact image"), std::string::npos);
+  EXPECT_LT(found->original.query.at(0, 0, 0), 0.0);
+  EXPECT_NE(found->original.detail.find("exact image"), std::string::npos);
   // Of what does not call itself exact only the wrong answer counts.
   const FuzzResult lenient = search(one_sided, Promise::conservative, options);
   EXPECT_TRUE(std::ranges::none_of(lenient.findings, is_asymmetry));
@@ -168,19 +178,61 @@ TEST(Fuzz, FindsABoundThatIsMissing) {
                   .findings.empty());
 }
 
-TEST(Fuzz, FindsCrashesOfEverySort) {
+/// Each a kind of its own.
+TEST(Fuzz, FindsFailuresOfEverySort) {
   const auto with = [](const std::function<void()>& act) {
     return [act](Kind kind, const Query& query) {
       if (query.at(0, 1, 1) == query.at(1, 1, 1) && query.at(0, 1, 1) != 0.0) act();
       return honest(kind, query);
     };
   };
-  expect_found(FindingKind::crash, search(with([] { std::abort(); }), Promise::none));
-  expect_found(FindingKind::crash, search(with([] { std::_Exit(0); }), Promise::none));
-  expect_found(FindingKind::crash,
-               search(with([] { throw std::runtime_error("thrown"); }), Promise::none));
+  const auto expect_detail = [](FindingKind what, const FuzzResult& result,
+                                const std::string& detail) {
+    expect_found(what, result);
+    ASSERT_FALSE(result.findings.empty());
+    EXPECT_EQ(result.findings.front().original.detail, detail);
+  };
+  expect_detail(FindingKind::crash, search(with([] { std::abort(); }), Promise::none),
+                "crash: SIGABRT");
+  expect_detail(FindingKind::exit, search(with([] { std::_Exit(3); }), Promise::none),
+                "exit: status 3");
+  expect_detail(FindingKind::exception,
+                search(with([] { throw std::runtime_error("thrown"); }), Promise::none),
+                "exception: thrown");
   const auto says_error = [](Kind, const Query&) { return Answer{.verdict = Verdict::error}; };
-  expect_found(FindingKind::crash, search(says_error, Promise::none));
+  expect_found(FindingKind::no_verdict, search(says_error, Promise::none));
+  const auto says_undecided = [](Kind, const Query&) { return Answer{}; };
+  expect_found(FindingKind::undecided, search(says_undecided, Promise::exact));
+}
+
+/// Yes at an infinite time to most that collides, and no to some: as a public solver does.
+TEST(Fuzz, SeeksOnlyTheKindsOfFindingsOfItsOptions) {
+  const auto ill = [](Kind kind, const Query& query) {
+    Answer answer = honest(kind, query);
+    if (query.at(0, 0, 0) < query.at(1, 2, 1)) answer.toi_upper = HUGE_VAL;
+    if (query.at(0, 1, 1) == query.at(1, 1, 1)) answer.verdict = Verdict::no;
+    return answer;
+  };
+  FuzzOptions options{.most_queries = 3000, .most_findings = 1000};
+  const FuzzResult all = search(ill, Promise::conservative, options);
+  std::set<FindingKind> kinds;
+  for (const Finding& finding : all.findings) kinds.insert(finding.what);
+  EXPECT_EQ(kinds.size(), 2U);
+  EXPECT_EQ(all.other_findings, 0U);
+  for (const FindingKind only : {FindingKind::false_negative, FindingKind::not_finite}) {
+    options.only = {only};
+    const FuzzResult result = search(ill, Promise::conservative, options);
+    EXPECT_GT(result.findings.size(), 2U);
+    for (const Finding& finding : result.findings) EXPECT_EQ(finding.what, only);
+    EXPECT_GT(result.other_findings, 0U);
+  }
+  options.only = {FindingKind::false_negative, FindingKind::not_finite};
+  EXPECT_EQ(search(ill, Promise::conservative, options).findings.size(), all.findings.size());
+  options.only = {FindingKind::hang};
+  const FuzzResult none = search(ill, Promise::conservative, options);
+  EXPECT_TRUE(none.findings.empty());
+  EXPECT_EQ(none.all_findings, 0U);
+  EXPECT_EQ(none.queries, 3000U);
 }
 
 TEST(Fuzz, FindsAHang) {
@@ -228,7 +280,7 @@ TEST(Fuzz, TellsTheMethodTheSeparation) {
 
 std::vector<Query> queries_of(const FuzzResult& result) {
   std::vector<Query> queries;
-  for (const Finding& finding : result.findings) queries.push_back(finding.query);
+  for (const Finding& finding : result.findings) queries.push_back(finding.original.query);
   return queries;
 }
 
@@ -299,32 +351,98 @@ TEST(Fuzz, StopsWhenTold) {
     if (progress.queries > 1000) stop = true;
   };
   const FuzzResult result = fuzz(find_method("certified"), options);
-  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.ended_by, FuzzEnd::interrupt);
   EXPECT_GT(result.queries, 1000U);
   EXPECT_LT(result.queries, 3000U);
 }
 
 TEST(Fuzz, EndsByTheClock) {
   const FuzzResult result = fuzz(find_method("certified"), {.seconds = 0.2});
-  EXPECT_FALSE(result.interrupted);
+  EXPECT_EQ(result.ended_by, FuzzEnd::time);
   EXPECT_GE(result.seconds, 0.2);
   EXPECT_NEAR(result.method_seconds + result.other_seconds, result.seconds, 1e-9);
+  EXPECT_EQ(result.shrink_seconds, 0.0);
   EXPECT_GT(result.queries_per_second(), 0.0);
   EXPECT_GT(result.judged_per_second(), result.queries_per_second());
 }
 
-/// Even within a block, of which a method may make minutes.
-TEST(Fuzz, EndsByTheClockWhileItWaits) {
-  const auto slow = [](Kind kind, const Query& query) {
-    std::this_thread::sleep_for(20ms);
-    return honest(kind, query);
-  };
-  const FuzzResult result =
-      fuzz(FunctionMethod(slow), {.seconds = 0.5, .query_limit_seconds = 30.0});
-  EXPECT_LT(result.seconds, 2.5);
-  EXPECT_GT(result.queries, 2U);
-  EXPECT_LT(result.queries, 100U);
-  EXPECT_EQ(result.all_findings, 0U);
+// ---- The time -----------------------------------------------------------------------------------
+
+/// Asked and judged, or said to be not judged: whenever the time is over.
+TEST(Fuzz, JudgesWhatIsAnsweredWhenTheTimeIsOver) {
+  bool judged_some = false, left_some = false;
+  for (std::uint64_t last_look = 1; last_look < 1200; last_look += 1 + last_look / 4) {
+    tests::SharedCounter answered;
+    std::uint64_t looks = 0;
+    FuzzOptions options{.seconds = 10.0};
+    // The time is over from some look at the clock on.
+    options.clock = [&] { return ++looks > last_look ? 1000.0 + static_cast<double>(looks) : 0.0; };
+    const FunctionMethod method([&answered](Kind kind, const Query& query) {
+      answered.add();
+      return honest(kind, query);
+    });
+    const FuzzResult result = fuzz(method, options);
+    EXPECT_EQ(result.ended_by, FuzzEnd::time);
+    EXPECT_EQ(result.queries + result.unjudged, answered.value()) << last_look;
+    EXPECT_EQ(result.queries == 0, answered.value() == 0) << last_look;
+    judged_some = judged_some || result.queries != 0;
+    left_some = left_some || result.unjudged != 0;
+  }
+  EXPECT_TRUE(judged_some);
+  EXPECT_TRUE(left_some);
+}
+
+/// A solver that hangs takes the whole time: what it answered before is judged, and the hang is found.
+TEST(Fuzz, ReportsAHangThatTakesTheRestOfTheTime) {
+  tests::SharedCounter hung;
+  const FunctionMethod method(
+      [&hung](Kind kind, const Query& query) {
+        if (query.at(0, 1, 1) == query.at(1, 1, 1)) {
+          hung.add();
+          std::this_thread::sleep_for(1h);
+        }
+        return honest(kind, query);
+      },
+      Promise::none);
+  FuzzOptions options{.seconds = 600.0, .query_limit_seconds = 0.05};
+  options.clock = [&hung] { return hung.value() == 0 ? 0.0 : 1000.0; };
+  const FuzzResult result = fuzz(method, options);
+  EXPECT_EQ(result.ended_by, FuzzEnd::time);
+  EXPECT_GT(result.queries, 0U);
+  EXPECT_EQ(result.unjudged, 0U);
+  ASSERT_FALSE(result.findings.empty());
+  EXPECT_EQ(to_string(result.findings.front().what), "hang");
+}
+
+TEST(Fuzz, SaysHowMuchWasNotAnswered) {
+  const FunctionMethod method([](Kind, const Query&) -> Answer {
+    for (;;) std::this_thread::sleep_for(1h);
+  });
+  const FuzzResult result = fuzz(method, {.seconds = 0.1, .query_limit_seconds = 0.0});
+  EXPECT_EQ(result.ended_by, FuzzEnd::time);
+  EXPECT_EQ(result.queries, 0U);
+  EXPECT_EQ(result.unjudged, 0U);
+  EXPECT_GT(result.unanswered, 0U);
+}
+
+TEST(Fuzz, CountsTheTimeOfFindingsAsTheRuns) {
+  // A clock that goes on by a hundredth of a second whenever somebody looks.
+  double now = 0.0;
+  FuzzOptions options{.seconds = 10.0, .shrink_seconds = 5.0};
+  options.clock = [&now] { return now += 0.01; };
+  std::vector<double> ends;
+  options.on_finding = [&](const Finding&) { ends.push_back(now); };
+  const FuzzResult result = fuzz(FunctionMethod(sometimes_wrong, Promise::none), options);
+  EXPECT_EQ(result.ended_by, FuzzEnd::time);
+  EXPECT_LT(now, 10.0 + 1.5);
+  ASSERT_GT(result.findings.size(), 3U);
+  EXPECT_GT(result.shrink_seconds, 1.0);
+  EXPECT_LT(result.shrink_seconds, result.seconds);
+  EXPECT_NEAR(result.method_seconds + result.shrink_seconds + result.other_seconds, result.seconds,
+              1e-9);
+  // No finding takes all of the time from the others.
+  EXPECT_LT(ends.at(0), 2.0);
+  EXPECT_LT(ends.at(3), 9.0);
 }
 
 TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
@@ -337,48 +455,9 @@ TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
   refused({.seconds = std::nan("")});
   refused({.most_queries = 1, .separation = {.distance = -1.0}});
   refused({.most_queries = 1, .query_limit_seconds = -1.0});
+  refused({.most_queries = 1, .shrink_seconds = -1.0});
   refused({.most_queries = 1, .kinds = {}});
   refused({.most_queries = 1, .oracle_share = 1.5});
-}
-
-TEST(StillFails, AsksAgainAboutAnyQuery) {
-  const FunctionMethod method(sometimes_wrong, Promise::none);
-  const FuzzOptions options{.most_queries = enough, .most_findings = 1};
-  const FuzzResult result = fuzz(method, options);
-  const Finding& finding = result.findings.at(0);
-  const auto fails = still_fails(method, finding, options);
-  EXPECT_TRUE(fails(finding.query));
-  // Raised first, the first point is never below what the method compares it with.
-  EXPECT_FALSE(fails(tests::over_triangle(8, 8, 1, -1).query));
-  Query infinite = finding.query;
-  infinite.coordinates.front() = HUGE_VAL;
-  EXPECT_FALSE(fails(infinite));
-}
-
-TEST(StillFails, KnowsCrashesHangsAndMissingBounds) {
-  const auto ill = [](Kind kind, const Query& query) {
-    const double word = query.at(0, 0, 0);
-    if (word == 1.0) std::abort();
-    if (word == 2.0) std::this_thread::sleep_for(1h);
-    Answer answer = honest(kind, query);
-    if (word == 0.5) answer.toi_lower = Answer::none;
-    return answer;
-  };
-  const FunctionMethod method(ill, Promise::none);
-  const FuzzOptions options{.query_limit_seconds = 0.1};
-  const auto query_at = [](double x) { return tests::over_triangle(x, 0.25, 1, -1).query; };
-  Finding finding;
-  finding.query = query_at(1.0);
-  finding.method = "function";
-  const std::array<FindingKind, 3> kinds{FindingKind::crash, FindingKind::hang,
-                                         FindingKind::not_finite};
-  const std::array<double, 3> words{1.0, 2.0, 0.5};
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    finding.what = kinds.at(i);
-    finding.answer = {.verdict = Verdict::yes, .toi_lower = Answer::none, .toi_upper = 0.5};
-    const auto fails = still_fails(method, finding, options);
-    for (std::size_t j = 0; j < words.size(); ++j) EXPECT_EQ(fails(query_at(words.at(j))), i == j);
-  }
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ Answer yes(double lower, double upper, double tolerance = Answer::none) {
 
 TEST(Referee, KnowsEveryFaultOfACollision) {
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::no}), FindingKind::false_negative);
-  EXPECT_EQ(fault(at_half, {.verdict = Verdict::error}), FindingKind::crash);
+  EXPECT_EQ(fault(at_half, {.verdict = Verdict::error}), FindingKind::no_verdict);
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::undecided}), std::nullopt);
   EXPECT_EQ(fault(at_half, yes(0.5, 0.5)), std::nullopt);
   EXPECT_EQ(fault(at_half, yes(Answer::none, Answer::none)), std::nullopt);
@@ -68,10 +68,10 @@ TEST(Referee, IsExactAboutTimesThatAreNoDoubles) {
 
 TEST(Referee, HoldsOnlyWhatIsExactToMisses) {
   const Standard exact{.promise = Promise::exact};
-  for (const Verdict verdict : {Verdict::yes, Verdict::undecided}) {
-    EXPECT_EQ(fault(never, {.verdict = verdict}), std::nullopt);
-    EXPECT_EQ(fault(never, {.verdict = verdict}, exact), FindingKind::beyond_promise);
-  }
+  EXPECT_EQ(fault(never, {.verdict = Verdict::yes}), std::nullopt);
+  EXPECT_EQ(fault(never, {.verdict = Verdict::yes}, exact), FindingKind::false_positive);
+  EXPECT_EQ(fault(never, {.verdict = Verdict::undecided}), std::nullopt);
+  EXPECT_EQ(fault(never, {.verdict = Verdict::undecided}, exact), FindingKind::undecided);
   EXPECT_EQ(fault(never, {.verdict = Verdict::no}, exact), std::nullopt);
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::undecided}, exact), std::nullopt);
 }
@@ -80,10 +80,28 @@ TEST(Referee, HoldsOnlyWhatIsExactToMisses) {
 TEST(Referee, HoldsAYesToItsTolerance) {
   const Standard standard{.promise = Promise::conservative, .reach = reach_of("tight_inclusion")};
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 1.0), standard), std::nullopt);
-  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.99), standard), FindingKind::beyond_promise);
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.99), standard), FindingKind::beyond_tolerance);
   EXPECT_EQ(fault(never, yes(0.5, Answer::none), standard), std::nullopt);
   EXPECT_EQ(fault(never, {.verdict = Verdict::undecided, .tolerance = 0.1}, standard),
             std::nullopt);
+}
+
+/// In the norm of the separation, for a solver of which no more is known.
+TEST(Referee, HoldsAYesToItsToleranceBeyondTheSeparation) {
+  const Separation separation{.distance = 0.5, .norm = Norm::l2};
+  const Standard standard{.separation = separation, .reach = stated_reach};
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.5), standard), std::nullopt);
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.49), standard), FindingKind::beyond_tolerance);
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.0), standard), FindingKind::beyond_tolerance);
+}
+
+TEST(Referee, TellsFailuresApart) {
+  const auto what = [](const Failure& failure) { return accuse_failure(failure, 10.0).what; };
+  for (const FailureKind kind : all_failure_kinds) {
+    EXPECT_EQ(to_string(what({.kind = kind})), to_string(kind));
+  }
+  EXPECT_EQ(accuse_failure({.kind = FailureKind::hang}, 10.0).detail, "takes more than 10 s");
+  EXPECT_EQ(accuse_failure({.kind = FailureKind::exit, .number = 3}, 0.0).detail, "exit: status 3");
 }
 
 TEST(Referee, JudgesAtTheSeparation) {
@@ -115,7 +133,7 @@ TEST(Referee, AccusesAJudgeThatTheOracleContradicts) {
   judged = {.verdict = Verdict::no};
   EXPECT_EQ(accuse_judge(truth, judged)->what, FindingKind::false_negative);
   const Truth miss = truth_of(0, Decision(never.kind, never.query, {}));
-  EXPECT_EQ(accuse_judge(miss, {.verdict = Verdict::yes})->what, FindingKind::beyond_promise);
+  EXPECT_EQ(accuse_judge(miss, {.verdict = Verdict::yes})->what, FindingKind::false_positive);
 }
 
 TEST(Referee, SaysAnswersInWords) {

@@ -1,4 +1,5 @@
 #include "verify/fuzz/reproduce.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
@@ -6,9 +7,11 @@
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/support/methods.hpp"
@@ -35,22 +38,25 @@ using tests::FunctionMethod;
 
 /// A vertex that falls through a triangle: they touch at t = 1/3.
 Reproduction miss() {
-  return {.kind = Kind::vertex_face,
-          .query = tests::over_triangle(1, 1, 1, -2).query,
-          .separation = {},
-          .collides = true,
-          .method = "tight_inclusion",
-          .what = "false negative"};
+  return {.what = FindingKind::false_negative,
+          .kind = Kind::vertex_face,
+          .failing = {.query = tests::over_triangle(1, 1, 1, -2).query,
+                      .answer = {.verdict = fast::Verdict::no},
+                      .collides = true},
+          .solver = {.method = "tight_inclusion",
+                     .options = {.tolerance = 0.125, .max_checks = 77},
+                     .query_limit_seconds = 10.0}};
 }
 
 /// Two edges that come within 0.1 of each other, and are asked for 0.09.
 Reproduction claim() {
-  return {.kind = Kind::edge_edge,
-          .query = tests::over_edge(1, 1, -1, -0.1).query,
-          .separation = {.distance = 0.09, .norm = Norm::l2},
-          .collides = false,
-          .method = "certified",
-          .what = "false positive"};
+  return {.what = FindingKind::false_positive,
+          .kind = Kind::edge_edge,
+          .failing = {.query = tests::over_edge(1, 1, -1, -0.1).query,
+                      .answer = {.verdict = fast::Verdict::yes}},
+          .solver = {.method = "certified",
+                     .promise = Promise::exact,
+                     .options = {.min_separation = 0.09, .norm = Norm::l2}}};
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -121,7 +127,7 @@ TEST(AsCsv, has_eight_rows_of_the_format) {
   ASSERT_EQ(lines.size(), 8U);
   EXPECT_EQ(lines[0], "1,2,1,1,1,1,1");
   EXPECT_EQ(lines[4], "1,2,1,1,-2,1,1");
-  EXPECT_EQ(lines_of(as_csv(miss().query))[4], "1,1,1,1,-2,1");
+  EXPECT_EQ(lines_of(as_csv(miss().failing.query))[4], "1,1,1,1,-2,1");
   Query infinite{};
   infinite.coordinates[3] = std::numeric_limits<double>::infinity();
   EXPECT_THROW((void)as_csv(infinite), std::invalid_argument);
@@ -130,7 +136,7 @@ TEST(AsCsv, has_eight_rows_of_the_format) {
 // ---- As a C++ test ------------------------------------------------------------------------------
 
 std::string golden(const std::string& name) {
-  return test::contents(std::string(TOUCHSTONE_SOURCE_DIR) + "/tests/verify/fuzz/" + name);
+  return test::contents(tests::source_folder() + "/tests/verify/fuzz/" + name);
 }
 
 /// The text with a name for its fingerprint.
@@ -181,7 +187,7 @@ TEST(AsCppTest, passes_on_methods_that_are_right) {
   }
   EXPECT_EQ(failures(reproduction_of_miss::expect_no_fault, always(yes)), 0);
   EXPECT_EQ(failures(reproduction_of_miss::expect_no_fault, always(yes_between(0.333, 0.334))), 0);
-  EXPECT_EQ(failures(reproduction_of_claim::expect_no_fault, always(yes)), 0);
+  EXPECT_EQ(failures(reproduction_of_claim::expect_no_fault, always(no)), 0);
 }
 
 TEST(AsCppTest, fails_on_methods_that_are_wrong) {
@@ -191,29 +197,73 @@ TEST(AsCppTest, fails_on_methods_that_are_wrong) {
   EXPECT_EQ(failures(of_miss, always(yes_between(0.32, 0.33))), 1);  // over too early
   EXPECT_EQ(failures(of_miss, always({.verdict = fast::Verdict::error})), 1);
   const auto of_claim = reproduction_of_claim::expect_no_fault;
-  EXPECT_EQ(failures(of_claim, always(yes, Promise::exact)), 1);
+  // It is held to exactness, whatever it promises.
+  EXPECT_EQ(failures(of_claim, always(yes, Promise::conservative)), 1);
   const Answer near{.verdict = fast::Verdict::yes, .tolerance = 1e-6};
-  EXPECT_EQ(failures(of_claim, always(near, Promise::conservative, "tight_inclusion")), 1);
-  EXPECT_EQ(failures(of_claim, always({.verdict = fast::Verdict::yes, .tolerance = 1.0},
-                                      Promise::conservative, "tight_inclusion")),
-            0);
+  const Answer far{.verdict = fast::Verdict::yes, .tolerance = 1.0};
+  const std::string bounded = "tight_inclusion";
+  EXPECT_EQ(failures(of_claim, always(near, Promise::conservative, bounded)), 2);
+  EXPECT_EQ(failures(of_claim, always(far, Promise::conservative, bounded)), 1);
+}
+
+/// The method is asked with what it was asked with, and wrong with that alone.
+TEST(AsCppTest, asks_with_the_options) {
+  class OnlyWithThese final : public fast::Method {
+   public:
+    [[nodiscard]] std::string_view name() const override { return "only_with_these"; }
+    [[nodiscard]] Promise promise() const override { return Promise::none; }
+    void solve(Kind, std::span<const Query>, std::span<Answer> answers,
+               const fast::MethodOptions& options) const override {
+      const bool wrong = options.tolerance == 0.125 && options.max_checks == 77 &&
+                         options.min_separation == 0.0 && options.norm == Norm::linf &&
+                         options.t_max == 1.0;
+      answers[0].verdict = wrong ? fast::Verdict::no : fast::Verdict::yes;
+    }
+  };
+  EXPECT_EQ(failures(reproduction_of_miss::expect_no_fault, OnlyWithThese()), 1);
+}
+
+TEST(AsCppTest, asks_for_the_numbers_that_were_missing_or_none) {
+  const std::string lower = "EXPECT_TRUE(std::isfinite(answer.toi_lower))";
+  const std::string upper = "EXPECT_TRUE(std::isfinite(answer.toi_upper))";
+  const std::string tolerance = "EXPECT_FALSE(answer.tolerance < 0.0)";
+  const auto has = [](const Reproduction& found, const std::string& part) {
+    return as_cpp_test(found).find(part) != std::string::npos;
+  };
+  Reproduction found = miss();
+  found.what = FindingKind::not_finite;
+  found.failing.answer = yes;
+  EXPECT_FALSE(has(found, lower) || has(found, upper) || has(found, tolerance));
+  found.missing.upper = true;
+  EXPECT_TRUE(!has(found, lower) && has(found, upper) && !has(found, tolerance));
+  found.missing = {};
+  found.failing.answer.toi_lower = -std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(has(found, lower) && !has(found, upper) && !has(found, tolerance));
+  found.failing.answer = {.verdict = fast::Verdict::yes, .tolerance = -1.0};
+  EXPECT_TRUE(!has(found, lower) && !has(found, upper) && has(found, tolerance));
 }
 
 TEST(AsCppTest, loads_plugins_and_makes_names_of_any_text) {
   Reproduction found = miss();
-  found.method = "my \"solver\",\nversion 2";
-  found.plugin = "/tmp/a \"b\".so";
-  found.exact_plugin = true;
+  found.solver.method = "my \"solver\",\nversion 2";
+  found.solver.plugin = "/tmp/a \"b\".so";
+  found.solver.promise = Promise::exact;
   const std::string text = as_cpp_test(found);
-  EXPECT_NE(text.find(R"(expect_no_fault(*verify::load_plugin("/tmp/a \"b\".so", )"
-                      "{.promise = fast::Promise::exact}));"),
+  EXPECT_NE(text.find(R"(expect_no_fault(*verify::load_plugin("/tmp/a \"b\".so"));)"),
             std::string::npos)
       << text;
+  EXPECT_NE(text.find("promise = fast::Promise::exact;"), std::string::npos);
   EXPECT_NE(text.find("TEST(Reproduction, my_solver_version_2_false_negative_"), std::string::npos);
-  EXPECT_NE(text.find("// my \"solver\", version 2: false negative. The primitives collide.\n"),
+  EXPECT_NE(text.find("// my \"solver\", version 2: false_negative. The primitives collide.\n"),
             std::string::npos);
-  found.exact_plugin = false;
-  EXPECT_NE(as_cpp_test(found).find(R"(load_plugin("/tmp/a \"b\".so"));)"), std::string::npos);
+}
+
+TEST(AsCppTest, warns_of_a_hang) {
+  const std::string warning = "// Run it with a limit of time.\n";
+  Reproduction found = miss();
+  EXPECT_EQ(as_cpp_test(found).find(warning), std::string::npos);
+  found.what = FindingKind::hang;
+  EXPECT_NE(as_cpp_test(found).find(warning), std::string::npos);
 }
 
 TEST(AsCppTest, tells_findings_apart) {
@@ -224,14 +274,70 @@ TEST(AsCppTest, tells_findings_apart) {
   };
   Reproduction other = miss();
   EXPECT_EQ(name_of(other), name_of(miss()));
-  other.query.coordinates[7] = 5.0;
+  other.failing.query.coordinates[7] = 5.0;
   EXPECT_NE(name_of(other), name_of(miss()));
   other = miss();
-  other.separation.distance = 1e-3;
+  other.solver.options.min_separation = 1e-3;
   EXPECT_NE(name_of(other), name_of(miss()));
   other = miss();
   other.kind = Kind::edge_edge;
   EXPECT_NE(name_of(other), name_of(miss()));
+}
+
+// ---- As a command -------------------------------------------------------------------------------
+
+TEST(AsCommand, names_all_that_the_solver_was_asked_with) {
+  const std::vector<std::string> lines = lines_of(as_command(miss()));
+  ASSERT_EQ(lines.size(), 11U);
+  const std::string file = lines[0].substr(6, lines[0].find(" <<") - 6);
+  EXPECT_TRUE(file.ends_with("-vertex-face.csv")) << file;
+  EXPECT_EQ(lines[0], "cat > " + file + " <<'END'");
+  EXPECT_EQ(lines[1], "1,1,1,1,1,1,1");
+  EXPECT_EQ(lines[9], "END");
+  EXPECT_EQ(lines[10], "touchstone certify " + file +
+                           " --method tight_inclusion --tolerance 0.125 --max-checks 77"
+                           " --min-separation 0 --norm linf --query-limit 10");
+}
+
+/// A dataset's labels are about contact itself, unless more is said.
+TEST(AsCommand, writes_no_label_with_a_separation) {
+  const std::vector<std::string> lines = lines_of(as_command(claim()));
+  EXPECT_EQ(lines[1], "0,1,0,1,0,1");
+  EXPECT_TRUE(lines[10].ends_with("--min-separation 0.09 --norm l2 --query-limit 0 --exact"));
+}
+
+TEST(AsCommand, names_limits_that_are_not_the_defaults) {
+  Reproduction found = miss();
+  found.solver.limits = {.memory_bytes = std::uint64_t{1} << 29U, .may_fork = true};
+  EXPECT_NE(as_command(found).find("--query-limit 10 --memory-limit 0.5 --allow-processes\n"),
+            std::string::npos);
+}
+
+TEST(AsCommand, quotes_the_plugin_for_the_shell) {
+  Reproduction found = miss();
+  found.solver.plugin = "/tmp/it's $HOME.so";
+  const std::string command = as_command(found);
+  EXPECT_NE(command.find(R"(--plugin '/tmp/it'\''s $HOME.so' --tolerance)"), std::string::npos)
+      << command;
+}
+
+// ---- Of a finding -------------------------------------------------------------------------------
+
+TEST(ReproductionOf, is_about_the_simplest_query_and_who_is_wrong) {
+  Finding finding;
+  finding.method = "mine";
+  finding.original.query = tests::over_triangle(1, 1, 1, -3).query;
+  finding.simplest.query = tests::over_triangle(1, 1, 1, -2).query;
+  const SolverCall asked{.method = "mine", .plugin = "/tmp/mine.so", .options = {.max_checks = 5}};
+  const Reproduction found = reproduction_of(finding, asked);
+  EXPECT_EQ(found.failing.query, finding.simplest.query);
+  EXPECT_EQ(found.solver.plugin, asked.plugin);
+  EXPECT_EQ(found.solver.options.max_checks, 5);
+  finding.method = "certified";
+  const Reproduction of_judge = reproduction_of(finding, asked);
+  EXPECT_EQ(of_judge.solver.method, "certified");
+  EXPECT_TRUE(of_judge.solver.plugin.empty());
+  EXPECT_EQ(of_judge.solver.promise, Promise::exact);
 }
 
 }  // namespace

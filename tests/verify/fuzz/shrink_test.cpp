@@ -186,7 +186,7 @@ TEST(Shrink, makes_findings_of_a_method_short) {
     if (!is_missed_in_float(kind, query)) continue;
     ++missed;
     const auto is_missed = [&](const Query& other) { return is_missed_in_float(kind, other); };
-    const Query least = shrink(kind, query, is_missed, {.seconds = 0.0});
+    const Query least = shrink(kind, query, is_missed);
     EXPECT_TRUE(is_missed(least)) << PosedQuery{kind, least};
     // Contact by a hair, which hardly any change of one coordinate leaves.
     EXPECT_LE(length_of(least), 600U) << PosedQuery{kind, least};
@@ -271,14 +271,24 @@ TEST(Shrink, keeps_its_limits) {
         ++calls;
         return calls % 3 == 0;
       };
-      const Query least = shrink(kind, query, count, {.most_calls = limit, .seconds = 0.0});
+      const Query least = shrink(kind, query, count, {.most_calls = limit});
       EXPECT_LE(calls, limit);
       EXPECT_GE(calls, std::min<std::uint64_t>(limit, 10));
       EXPECT_EQ(least == query, limit < 3);
     }
     const auto never = [](const Query&) -> bool { throw std::logic_error("asked"); };
-    EXPECT_EQ(shrink(kind, query, never, {.seconds = 1e-12}), query);
+    EXPECT_EQ(shrink(kind, query, never, {.must_end = [] { return true; }}), query);
     EXPECT_THROW((void)shrink(kind, query, never), std::logic_error);
+  }
+}
+
+TEST(Shrink, ends_between_two_calls_when_it_must) {
+  for (const auto& [kind, query] : random_queries(8, 2)) {
+    std::uint64_t calls = 0;
+    const auto count = [&](const Query&) { return ++calls % 3 == 0; };
+    const Query least = shrink(kind, query, count, {.must_end = [&] { return calls >= 10; }});
+    EXPECT_EQ(calls, 10U);
+    EXPECT_NE(least, query);
   }
 }
 

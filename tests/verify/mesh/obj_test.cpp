@@ -48,9 +48,14 @@ TEST(ReadObj, CornersMayNameLaterVertices) {
             (std::vector<Face>{{0, 1, 3}}));
 }
 
-TEST(ReadObj, OfAnEmptyFileIsEmpty) {
+TEST(ReadObj, AMeshMustHaveAVertex) {
   const MeshFolder folder;
-  EXPECT_EQ(folder.mesh("a.obj", "").vertices.rows(), 0);
+  const std::string error =
+      "a.obj: no vertex (a line \"v x y z\"): an empty mesh, or not an OBJ file";
+  for (const std::string text : {"", "# nothing\n", "o thing\nvn 0 0 1\n", "f 1 2 3\n",
+                                 "1,1,1,1,1,1\n", "PK\x03\x04\n", "vertices 1 2 3\n"}) {
+    EXPECT_EQ(folder.error("a.obj", text), error) << text;
+  }
 }
 
 TEST(ReadObj, NamesTheLineAndTheReason) {

@@ -293,6 +293,15 @@ TEST(ReadPly, NamesWhatIsWrongWithAHeader) {
   EXPECT_EQ(error("ply\ncomment " + std::string(2'000'000, 'x')), "a.ply:2: line too long");
 }
 
+TEST(ReadPly, AMeshMustHaveAVertex) {
+  const MeshFolder folder;
+  const std::string empty = "element vertex 0\n" + xyz + "end_header\n";
+  EXPECT_EQ(folder.error("a.ply", ascii + empty),
+            "a.ply:7: no vertex: the header says element vertex 0");
+  EXPECT_EQ(folder.error("a.ply", format(true) + empty),
+            "a.ply:7: no vertex: the header says element vertex 0");
+}
+
 TEST(ReadPly, NamesWhatIsWrongInText) {
   const MeshFolder folder;
   const auto face = [&folder](const std::string& line) {

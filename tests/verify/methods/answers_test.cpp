@@ -8,10 +8,12 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "tests/verify/dataset/dataset_fixture.hpp"
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -22,7 +24,9 @@ using test::TemporaryFolder;
 
 constexpr auto vf = Kind::vertex_face;
 constexpr auto ee = Kind::edge_edge;
+/// Files may do without the last column.
 const std::string header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
+const std::string full_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n";
 
 RecordedAnswers load(const TemporaryFolder& folder, const std::string& text) {
   return load_answers(folder.file("answers.csv", text));
@@ -32,6 +36,12 @@ RecordedAnswers load(const TemporaryFolder& folder, const std::string& text) {
 RecordedAnswers load_rows(const std::string& text) {
   const TemporaryFolder folder;
   return load(folder, header + text);
+}
+
+/// The same of text that was written here.
+RecordedAnswers load_written(const std::string& text) {
+  const TemporaryFolder folder;
+  return load(folder, answers_header() + text);
 }
 
 std::string error_in(const std::string& text) {
@@ -46,32 +56,51 @@ void expect_same_bits(double a, double b) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << ' ' << b;
 }
 
-void expect_same(const std::optional<Answer>& a, const Answer& b) {
-  ASSERT_TRUE(a.has_value());
-  EXPECT_EQ(a->verdict, b.verdict);
-  expect_same_bits(a->toi_lower, b.toi_lower);
-  expect_same_bits(a->toi_upper, b.toi_upper);
-  expect_same_bits(a->tolerance, b.tolerance);
+void expect_same(const std::optional<RecordedAnswer>& recorded, const Answer& b,
+                 std::optional<FailureKind> failure = std::nullopt) {
+  ASSERT_TRUE(recorded.has_value());
+  const Answer& a = recorded->answer;
+  EXPECT_EQ(a.verdict, b.verdict);
+  expect_same_bits(a.toi_lower, b.toi_lower);
+  expect_same_bits(a.toi_upper, b.toi_upper);
+  expect_same_bits(a.tolerance, b.tolerance);
+  EXPECT_EQ(recorded->failure, failure);
 }
 
 // ---- Writing ------------------------------------------------------------------------------------
 
 TEST(AnswerRow, IsWrittenAsDocumented) {
-  EXPECT_EQ(answers_header(), header);
+  EXPECT_EQ(answers_header(), full_header);
   EXPECT_EQ(answer_row("a.csv", 3, vf, {Verdict::yes, 0, 0.1, 0.25, 1e-6}),
-            "a.csv,3,vertex-face,yes,0.1,0.25,1e-06\n");
-  EXPECT_EQ(answer_row("a.csv", 0, ee, {.verdict = Verdict::no}), "a.csv,0,edge-edge,no,,,\n");
+            "a.csv,3,vertex-face,yes,0.1,0.25,1e-06,\n");
+  EXPECT_EQ(answer_row("a.csv", 0, ee, {.verdict = Verdict::no}), "a.csv,0,edge-edge,no,,,,\n");
   EXPECT_EQ(answer_row("a.csv", 1, ee, {.verdict = Verdict::undecided, .tolerance = 0.5}),
-            "a.csv,1,edge-edge,undecided,,,0.5\n");
+            "a.csv,1,edge-edge,undecided,,,0.5,\n");
   EXPECT_EQ(answer_row("a.csv", 2, ee, {.verdict = Verdict::error}),
-            "a.csv,2,edge-edge,error,,,\n");
+            "a.csv,2,edge-edge,error,,,,no_verdict\n");
   EXPECT_EQ(answer_row("a.csv", 2, ee, {.verdict = Verdict::yes, .toi_upper = 1.0}),
-            "a.csv,2,edge-edge,yes,,1,\n");
+            "a.csv,2,edge-edge,yes,,1,,\n");
 }
 
 TEST(AnswerRow, QuotesNames) {
   EXPECT_EQ(answer_row("a,\"b\".csv", 0, vf, {.verdict = Verdict::no}),
-            "\"a,\"\"b\"\".csv\",0,vertex-face,no,,,\n");
+            "\"a,\"\"b\"\".csv\",0,vertex-face,no,,,,\n");
+}
+
+TEST(AnswerRow, SaysWhyThereIsNoAnswer) {
+  const auto row = [](const Answer& answer, const Failure& failure) {
+    return answer_row("a", 0, ee, answer, &failure);
+  };
+  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = FailureKind::crash, .number = 11}),
+            "a,0,edge-edge,error,,,,crash: SIGSEGV\n");
+  EXPECT_EQ(row({.verdict = Verdict::undecided}, {.kind = FailureKind::hang}),
+            "a,0,edge-edge,undecided,,,,hang\n");
+  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = FailureKind::exception, .what = "a,b"}),
+            "a,0,edge-edge,error,,,,\"exception: a,b\"\n");
+  // No reader takes an infinite time.
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(answer_row("a", 0, ee, {.verdict = Verdict::yes, .toi_lower = infinity}),
+            "a,0,edge-edge,error,,,,not_finite: toi_lower inf\n");
 }
 
 TEST(Answers, ReadAsTheyWereWritten) {
@@ -94,11 +123,26 @@ TEST(Answers, ReadAsTheyWereWritten) {
   }
   std::string text;
   for (std::size_t i = 0; i < written.size(); ++i) text += answer_row("n,\n\"", i, ee, written[i]);
-  const RecordedAnswers answers = load_rows(text);
+  const RecordedAnswers answers = load_written(text);
   ASSERT_EQ(answers.size(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i) {
-    expect_same(answers.answer_to("n,\n\"", ee, i), written[i]);
+    expect_same(answers.answer_to("n,\n\"", ee, i), written[i],
+                i == 2 ? std::optional(FailureKind::no_verdict) : std::nullopt);
   }
+}
+
+TEST(Answers, AreFoundUnderNamesThatAreWrittenOut) {
+  for (const std::string name :
+       {"=1+1.csv", "'=1.csv", "-a.csv", "a\x1b[2J\n\u202e.csv", "caf\xe9.csv"}) {
+    const std::string row = answer_row(name, 0, vf, {.verdict = Verdict::yes, .toi_lower = 0.5});
+    EXPECT_TRUE(is_printable(row.substr(0, row.size() - 1))) << row;
+    EXPECT_EQ(std::string_view("=+-@").find(row.front()), std::string_view::npos) << row;
+    const RecordedAnswers answers = load_rows(row);
+    ASSERT_TRUE(answers.answer_to(name, vf, 0)) << row;
+    EXPECT_EQ(answers.unasked(), 0U);
+  }
+  // As others may write them.
+  EXPECT_TRUE(load_rows("=1+1.csv,0,vertex-face,no,,,\n").answer_to("=1+1.csv", vf, 0));
 }
 
 // ---- Reading ------------------------------------------------------------------------------------
@@ -115,6 +159,23 @@ TEST(LoadAnswers, ReadsEveryVerdict) {
   expect_same(answers.answer_to("a", vf, 2), {.verdict = Verdict::undecided});
   expect_same(answers.answer_to("a", vf, 3), {.verdict = Verdict::error});
   expect_same(answers.answer_to("a", vf, 4), {.verdict = Verdict::yes});
+}
+
+TEST(LoadAnswers, ReadsWhyThereIsNoAnswer) {
+  const TemporaryFolder folder;
+  const RecordedAnswers answers = load(folder, full_header +
+                                                   "a,0,edge-edge,error,,,,crash: SIGSEGV\n"
+                                                   "a,1,edge-edge,undecided,,,,hang\n"
+                                                   "a,2,edge-edge,no,,,,\n");
+  expect_same(answers.answer_to("a", ee, 0), {.verdict = Verdict::error}, FailureKind::crash);
+  expect_same(answers.answer_to("a", ee, 1), {.verdict = Verdict::undecided}, FailureKind::hang);
+  expect_same(answers.answer_to("a", ee, 2), {.verdict = Verdict::no});
+  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,error,,,,bang\n"),
+            "answers.csv:2:8: must be a kind of failure or empty: \"bang\"");
+  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,,crash\n"),
+            "answers.csv:2:8: a failure of kind crash is no answer no");
+  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,\n"),
+            "answers.csv:2: 7 columns, expected 8");
 }
 
 TEST(LoadAnswers, DropsTimesWithoutAYes) {
@@ -137,7 +198,7 @@ TEST(LoadAnswers, TimesWithoutAYesMayBeAnyNumber) {
 
 TEST(LoadAnswers, AnInfiniteToleranceClaimsNothingAndIsReadBack) {
   const Answer answer{Verdict::yes, 0, 0.25, 0.5, std::numeric_limits<double>::infinity()};
-  expect_same(load_rows(answer_row("a", 0, vf, answer)).answer_to("a", vf, 0), answer);
+  expect_same(load_written(answer_row("a", 0, vf, answer)).answer_to("a", vf, 0), answer);
 }
 
 TEST(LoadAnswers, LeavesTheRangeOfTimesToTheJudge) {
@@ -152,11 +213,11 @@ TEST(LoadAnswers, TakesRowsInAnyOrder) {
       "b,1,edge-edge,no,,,\n"
       "a,0,vertex-face,no,,,\n"
       "a,1,vertex-face,undecided,,,\n");
-  EXPECT_EQ(answers.answer_to("a", vf, 0)->verdict, Verdict::no);
-  EXPECT_EQ(answers.answer_to("a", vf, 1)->verdict, Verdict::undecided);
-  EXPECT_EQ(answers.answer_to("a", vf, 2)->toi_lower, 0.25);
-  EXPECT_EQ(answers.answer_to("b", ee, 1)->verdict, Verdict::no);
-  EXPECT_EQ(answers.answer_to("b", ee, 7)->toi_lower, 0.5);
+  EXPECT_EQ(answers.answer_to("a", vf, 0)->answer.verdict, Verdict::no);
+  EXPECT_EQ(answers.answer_to("a", vf, 1)->answer.verdict, Verdict::undecided);
+  EXPECT_EQ(answers.answer_to("a", vf, 2)->answer.toi_lower, 0.25);
+  EXPECT_EQ(answers.answer_to("b", ee, 1)->answer.verdict, Verdict::no);
+  EXPECT_EQ(answers.answer_to("b", ee, 7)->answer.toi_lower, 0.5);
 }
 
 TEST(LoadAnswers, KnowsNoOtherQueries) {
@@ -172,8 +233,8 @@ TEST(LoadAnswers, KnowsNoOtherQueries) {
 TEST(LoadAnswers, KeepsKindsOfOneNameApart) {
   const RecordedAnswers answers =
       load_rows("family,0,vertex-face,no,,,\nfamily,0,edge-edge,yes,,,\n");
-  EXPECT_EQ(answers.answer_to("family", vf, 0)->verdict, Verdict::no);
-  EXPECT_EQ(answers.answer_to("family", ee, 0)->verdict, Verdict::yes);
+  EXPECT_EQ(answers.answer_to("family", vf, 0)->answer.verdict, Verdict::no);
+  EXPECT_EQ(answers.answer_to("family", ee, 0)->answer.verdict, Verdict::yes);
 }
 
 TEST(LoadAnswers, TakesWindowsLineEndsAndBlankLinesAtTheEnd) {
@@ -181,7 +242,7 @@ TEST(LoadAnswers, TakesWindowsLineEndsAndBlankLinesAtTheEnd) {
   const RecordedAnswers answers =
       load(folder, header.substr(0, header.size() - 1) + "\r\na,0,vertex-face,yes,0.5,,\r\n\r\n\n");
   EXPECT_EQ(answers.size(), 1U);
-  EXPECT_EQ(answers.answer_to("a", vf, 0)->toi_lower, 0.5);
+  EXPECT_EQ(answers.answer_to("a", vf, 0)->answer.toi_lower, 0.5);
 }
 
 TEST(LoadAnswers, TakesQuotesAroundAnyField) {
@@ -192,14 +253,14 @@ TEST(LoadAnswers, TakesQuotesAroundAnyField) {
            "\"a \"\"b\"\", c\",\"0\",\"vertex-face\",\"yes\",\"0.5\",\"\",\"\"\n"
            "\"two\nlines\",0,vertex-face,yes,0.25,,\n"
            "three,0,vertex-face,yes,0.125,,");
-  EXPECT_EQ(answers.answer_to("a \"b\", c", vf, 0)->toi_lower, 0.5);
-  EXPECT_EQ(answers.answer_to("two\nlines", vf, 0)->toi_lower, 0.25);
-  EXPECT_EQ(answers.answer_to("three", vf, 0)->toi_lower, 0.125);
+  EXPECT_EQ(answers.answer_to("a \"b\", c", vf, 0)->answer.toi_lower, 0.5);
+  EXPECT_EQ(answers.answer_to("two\nlines", vf, 0)->answer.toi_lower, 0.25);
+  EXPECT_EQ(answers.answer_to("three", vf, 0)->answer.toi_lower, 0.125);
 }
 
 TEST(LoadAnswers, TakesSpacesAroundAllFieldsButTheName) {
   const RecordedAnswers answers = load_rows(" a , 5 , edge-edge , yes , 0.5 ,\t, \n");
-  EXPECT_EQ(answers.answer_to(" a ", ee, 5)->toi_lower, 0.5);
+  EXPECT_EQ(answers.answer_to(" a ", ee, 5)->answer.toi_lower, 0.5);
 }
 
 TEST(LoadAnswers, TakesAFileWithoutAnswers) {
@@ -255,7 +316,7 @@ TEST(RecordedAnswers, MayBeAskedFromSeveralThreads) {
   for (std::uint64_t i = 0; i < count; ++i) {
     text += answer_row("a", i, vf, {.verdict = Verdict::yes, .toi_lower = static_cast<double>(i)});
   }
-  const RecordedAnswers answers = load_rows(text);
+  const RecordedAnswers answers = load_written(text);
   std::vector<std::uint64_t> right(4);
   {
     std::vector<std::jthread> threads;
@@ -263,7 +324,7 @@ TEST(RecordedAnswers, MayBeAskedFromSeveralThreads) {
       threads.emplace_back([&, thread] {
         for (std::uint64_t i = thread / 2; i < count; i += 2) {
           const auto answer = answers.answer_to("a", vf, i);
-          right[thread] += answer && answer->toi_lower == static_cast<double>(i) ? 1U : 0U;
+          right[thread] += answer && answer->answer.toi_lower == static_cast<double>(i) ? 1U : 0U;
         }
       });
     }
@@ -276,7 +337,7 @@ TEST(RecordedAnswers, MayBeAskedFromSeveralThreads) {
 
 TEST(LoadAnswers, NeedsItsHeader) {
   const std::string reason =
-      "first line must be file,index,kind,verdict,toi_lower,toi_upper,tolerance";
+      "first line must be file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure";
   EXPECT_EQ(error_in(""), "answers.csv: " + reason);
   EXPECT_EQ(error_in("a,0,vertex-face,no,,,\n"), "answers.csv:1: " + reason);
   EXPECT_EQ(error_in("index,file,kind,verdict,toi_lower,toi_upper,tolerance\n"),

@@ -110,9 +110,42 @@ TEST(Judge, ATimeIsLateByTheLastBit) {
   EXPECT_EQ(faults(after, after), Counts(1, 0));
   EXPECT_EQ(faults(before, before), Counts(0, 1));
   EXPECT_EQ(faults(after, before), Counts(1, 1));
-  EXPECT_EQ(faults(-infinity, infinity), Counts(0, 0));
-  EXPECT_EQ(faults(infinity, -infinity), Counts(1, 1));
   EXPECT_EQ(faults(Answer::none, Answer::none), Counts(0, 0));
+}
+
+TEST(Judge, ATimeThatIsNotFiniteIsAnError) {
+  for (const Answer& answer : {Answer{.verdict = Verdict::yes, .toi_lower = infinity},
+                               Answer{.verdict = Verdict::yes, .toi_upper = infinity},
+                               Answer{.verdict = Verdict::yes, .toi_lower = -infinity}}) {
+    const Judgement judgement = judge(hit(0.1, above(0.1)), answer);
+    EXPECT_EQ(judgement.count(Fault::error), 1U);
+    EXPECT_EQ(all_faults(judgement), 1U);
+    EXPECT_EQ(judgement.count(FailureKind::not_finite), 1U);
+    EXPECT_EQ(judgement.toi_errors.count(), 0U);
+  }
+}
+
+TEST(Judge, CountsFailuresByTheirKind) {
+  Judgement judgement;
+  const Truth truth = hit(0.25, 0.25);
+  for (const FailureKind kind : all_failure_kinds) {
+    const Failure failure{.kind = kind, .number = 3};
+    judgement.add(truth, {.verdict = verdict_of(kind)}, &failure);
+  }
+  // Without a failure the answer shows it.
+  judgement.add(truth, {.verdict = Verdict::error});
+  judgement.add(truth, {.verdict = Verdict::undecided});
+  for (const FailureKind kind : all_failure_kinds) {
+    const bool is_shown = kind == FailureKind::no_verdict || kind == FailureKind::undecided;
+    EXPECT_EQ(judgement.count(kind), is_shown ? 2U : 1U) << to_string(kind);
+  }
+  // A hang is no answer of the solver's, and taken for one that it is undecided.
+  EXPECT_EQ(judgement.undecided, 3U);
+  EXPECT_EQ(judgement.count(Fault::error), 6U);
+  EXPECT_EQ(judgement.wrong_answers.at(1).answer, "exit: status 3");
+  const Judgement once = judgement;
+  judgement += once;
+  EXPECT_EQ(judgement.count(FailureKind::hang), 2U);
 }
 
 TEST(Judge, ATimeThatIsADoubleMayBeHit) {

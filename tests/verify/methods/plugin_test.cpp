@@ -1,8 +1,11 @@
 #include "verify/methods/plugin.hpp"
+#include "tests/support/built_files.hpp"
 
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -13,7 +16,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/verify/dataset/dataset_fixture.hpp"
 #include "tests/verify/methods/plugins/misbehaviour.hpp"
-#include "verify/methods/isolation.hpp"
+#include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -25,8 +28,8 @@ using test::TemporaryFolder;
 using tests::Misbehaviour;
 using tests::PosedQuery;
 
-const std::filesystem::path box_overlap = TOUCHSTONE_BOX_OVERLAP;
-const std::filesystem::path misbehaving = TOUCHSTONE_MISBEHAVING;
+const std::filesystem::path box_overlap = tests::plugin_library("box_overlap");
+const std::filesystem::path misbehaving = tests::plugin_library("misbehaving");
 
 Query query_for(Misbehaviour what) {
   Query query{};
@@ -167,15 +170,69 @@ TEST(LoadPlugin, NamesFileAndReason) {
             "missing.so: cannot load: cannot open shared object file: No such file or directory");
   EXPECT_EQ(load_error(folder.file("text.so", std::string(4096, 'x'))),
             "text.so: cannot load: invalid ELF header");
-  EXPECT_EQ(load_error(TOUCHSTONE_OTHER_LIBRARY),
+  EXPECT_EQ(load_error(tests::plugin_library("other_library")),
             "other_library.so: defines no touchstone_plugin_version");
-  EXPECT_EQ(load_error(TOUCHSTONE_WRONG_VERSION),
+  EXPECT_EQ(load_error(tests::plugin_library("wrong_version")),
             "wrong_version.so: made for version 43 of the plugin interface, this program has "
             "version 2");
-  EXPECT_EQ(load_error(TOUCHSTONE_WITHOUT_SOLVE),
+  EXPECT_EQ(load_error(tests::plugin_library("without_solve")),
             "without_solve.so: defines no touchstone_plugin_solve");
-  EXPECT_EQ(load_error(TOUCHSTONE_WITHOUT_NAME),
+  EXPECT_EQ(load_error(tests::plugin_library("without_name")),
             "without_name.so: name is not one line of text: \"two?lines\"");
+}
+
+/// Each would end this process, or never come back.
+TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
+  const auto error = [](const char* how) {
+    ::setenv("TOUCHSTONE_TEST_LOADING", how, 1);
+    const std::filesystem::path path = tests::plugin_library("bad_loading");
+    const std::string text = error_of(
+        path.parent_path(), [&] { static_cast<void>(load_plugin(path, {.load_seconds = 0.5})); });
+    ::unsetenv("TOUCHSTONE_TEST_LOADING");
+    return text;
+  };
+  const std::string prefix = "bad_loading.so: cannot load: ";
+  EXPECT_EQ(error("constructor exits"), prefix + "its constructors: exit: status 0");
+  EXPECT_EQ(error("constructor crashes"), prefix + "its constructors: crash: SIGSEGV");
+  EXPECT_EQ(error("version exits"), prefix + "touchstone_plugin_version(): exit: status 0");
+  EXPECT_EQ(error("version throws"), prefix + "touchstone_plugin_version(): exception: no version");
+  EXPECT_EQ(error("name exits"), prefix + "touchstone_plugin_name(): exit: status 0");
+  EXPECT_EQ(error("name crashes"), prefix + "touchstone_plugin_name(): crash: SIGSEGV");
+  EXPECT_EQ(error("name hangs"), prefix + "touchstone_plugin_name(): hang");
+  // Forks without end, but for the child that may not.
+  EXPECT_EQ(error("constructor forks"), prefix + "its constructors: exit: status 11");
+  EXPECT_EQ(load_plugin(tests::plugin_library("bad_loading"))->name(), "bad_loading");
+}
+
+/// Nothing of it runs in this process before somebody solves here.
+TEST(LoadPlugin, LoadsNothingIntoThisProcess) {
+  const auto is_loaded = [] {
+    void* const handle = ::dlopen(tests::plugin_library("box_overlap").c_str(), RTLD_LAZY | RTLD_NOLOAD);
+    if (handle != nullptr) ::dlclose(handle);
+    return handle != nullptr;
+  };
+  const auto method = load_plugin(box_overlap);
+  EXPECT_FALSE(is_loaded());
+  EXPECT_EQ(ask(*method, tests::over_triangle(1, 1, 1, -2)).verdict, Verdict::yes);
+  EXPECT_TRUE(is_loaded());
+}
+
+TEST(Plugin, NameIsOneLineOfText) {
+  const auto set_name = [](const char* name) {
+    ::setenv("TOUCHSTONE_PLUGIN_NAME", name, 1);  // NOLINT(concurrency-mt-unsafe)
+  };
+  for (const char* name :
+       {"two\u2028lines", "\u202egnol", "\u009b31m", "caf\xe9", "\x1b[31m", "\x7f", ""}) {
+    set_name(name);
+    EXPECT_TRUE(load_error(tests::plugin_library("latin_name"))
+                    .starts_with("latin_name.so: name is not one line of text: "))
+        << name;
+  }
+  for (const char* name : {"café", "δ-solver (v2)", "法"}) {
+    set_name(name);
+    EXPECT_EQ(load_plugin(tests::plugin_library("latin_name"))->name(), name);
+  }
+  ::unsetenv("TOUCHSTONE_PLUGIN_NAME");  // NOLINT(concurrency-mt-unsafe)
 }
 
 // ---- Answers ------------------------------------------------------------------------------------
@@ -215,7 +272,7 @@ TEST(Plugin, GetsTheNorm) {
 }
 
 TEST(Plugin, MayBeOfTheVersionBeforeTheNorm) {
-  const auto method = load_plugin(TOUCHSTONE_OLD_VERSION);
+  const auto method = load_plugin(tests::plugin_library("old_version"));
   EXPECT_EQ(method->name(), "old_version");
   const Answer answer =
       ask(*method, Kind::vertex_face, {}, {.min_separation = 0.25, .norm = Norm::l2, .t_max = 0.5});
@@ -250,17 +307,26 @@ TEST(Plugin, WhatIsNoToleranceIsDropped) {
             std::numeric_limits<double>::infinity());
 }
 
-TEST(Plugin, AnswersThatAreNoneBecomeErrors) {
-  for (const Misbehaviour what :
-       {Misbehaviour::verdict_too_large, Misbehaviour::verdict_negative,
-        Misbehaviour::infinite_toi_lower, Misbehaviour::infinite_toi_upper,
-        Misbehaviour::leaves_answer_alone, Misbehaviour::throws}) {
+TEST(Plugin, AVerdictThatIsNoneIsAnError) {
+  for (const Misbehaviour what : {Misbehaviour::verdict_too_large, Misbehaviour::verdict_negative,
+                                  Misbehaviour::leaves_answer_alone}) {
     SCOPED_TRACE(static_cast<int>(what));
-    expect_nothing_but(ask_misbehaving(what), Verdict::error);
+    const Answer answer = ask_misbehaving(what);
+    expect_nothing_but(answer, Verdict::error);
+    EXPECT_EQ(failure_of(answer).value().kind, FailureKind::no_verdict);
   }
 }
 
-TEST(Plugin, InIsolationItsWorstCostsOneQueryEach) {
+TEST(Plugin, HandsOnTimesThatAreNotFinite) {
+  for (const Misbehaviour what :
+       {Misbehaviour::infinite_toi_lower, Misbehaviour::infinite_toi_upper}) {
+    const Answer answer = ask_misbehaving(what);
+    EXPECT_EQ(answer.verdict, Verdict::yes);
+    EXPECT_EQ(failure_of(answer).value().kind, FailureKind::not_finite);
+  }
+}
+
+TEST(Plugin, InAProcessOfItsOwnItsWorstCostsOneQueryEach) {
   const auto method = load_plugin(misbehaving);
   const std::vector<Query> queries{
       query_for(Misbehaviour::aborts), query_for(Misbehaviour::says_no),
@@ -271,14 +337,18 @@ TEST(Plugin, InIsolationItsWorstCostsOneQueryEach) {
                                       Verdict::yes,   Verdict::error, Verdict::error,
                                       Verdict::no};
   std::vector<Answer> answers(queries.size());
-  const IsolatedSolve solve = solve_isolated(*method, Kind::vertex_face, queries, answers, {},
-                                             {.query_limit_seconds = 1.0});
+  SolverProcess process(*method, {.query_limit_seconds = 0.5});
+  const SolverRun run = process.solve(Kind::vertex_face, queries, answers, {});
   for (std::size_t i = 0; i < queries.size(); ++i) {
     SCOPED_TRACE(i);
     expect_nothing_but(answers[i], expected[i]);
   }
-  EXPECT_EQ(solve.crashes, 2U);
-  EXPECT_EQ(solve.limit_hits, 1U);
+  std::string failures;
+  for (const QueryFailure& failure : run.failures) {
+    failures += std::to_string(failure.position) + " " + to_text(failure.failure) + "\n";
+  }
+  EXPECT_EQ(failures,
+            "0 crash: SIGABRT\n2 hang\n4 exception: thrown by a plugin\n5 crash: SIGSEGV\n");
 }
 
 }  // namespace

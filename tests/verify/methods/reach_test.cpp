@@ -25,7 +25,29 @@ constexpr Query falling{{1, 1, 2, 0, 0, 0, 4, 0, 0, 0, 4, 0,  //
 double reach_of_yes(double tolerance, const Query& query, double distance) {
   return tight_inclusion_reach(Kind::vertex_face, query,
                                {.verdict = Verdict::yes, .tolerance = tolerance},
-                               {.distance = distance}, ErrorModel::derived);
+                               {.distance = distance}, ErrorModel::derived)
+      .distance;
+}
+
+Separation stated(double tolerance, const Separation& separation) {
+  return stated_reach(Kind::vertex_face, falling, {.verdict = Verdict::yes, .tolerance = tolerance},
+                      separation);
+}
+
+TEST(StatedReach, IsToleranceAndSeparationRoundedUpInTheNormAskedFor) {
+  EXPECT_EQ(stated(0.0, {}), Separation{});
+  EXPECT_EQ(stated(0.25, {}).distance, 0.25);
+  EXPECT_EQ(stated(0.0, {.distance = 1e-3, .norm = Norm::l2}),
+            (Separation{.distance = 1e-3, .norm = Norm::l2}));
+  const Separation sum = stated(0.1, {.distance = 1e-3, .norm = Norm::l2});
+  EXPECT_EQ(sum.norm, Norm::l2);
+  EXPECT_GE(Rational(sum.distance), Rational(0.1) + Rational(1e-3));
+  EXPECT_LT(sum.distance, 0.1 + 1e-3 + 1e-15);
+}
+
+TEST(StatedReach, WithoutAToleranceOrWithAnInfiniteOneNothingIsClaimed) {
+  EXPECT_FALSE(is_valid(stated(Answer::none, {})));
+  EXPECT_FALSE(is_valid(stated(std::numeric_limits<double>::infinity(), {})));
 }
 
 TEST(Reach, IsTheSumRoundedUpAndHardlyMore) {
@@ -60,12 +82,12 @@ TEST(Reach, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
           const auto result =
               fast::tight_inclusion(kind, query, {.max_checks = 1000, .min_separation = distance});
           if (result.verdict != Verdict::yes) continue;
-          const double reach = tight_inclusion_reach(
+          const Separation reach = tight_inclusion_reach(
               kind, query, {.verdict = Verdict::yes, .tolerance = result.tolerance}, separation,
               ErrorModel::derived);
-          if (std::isinf(reach)) continue;
+          if (!is_valid(reach)) continue;
           ++claims;
-          ASSERT_TRUE(exact::decide(kind, query, {.distance = reach}).collides()) << family.name;
+          ASSERT_TRUE(exact::decide(kind, query, reach).collides()) << family.name;
         }
       }
     }

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -104,6 +105,9 @@ TEST(Respondent, AnExceptionCostsOneQuery) {
   for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_EQ(outcome.answers[i].verdict, i == 3 ? Verdict::error : Verdict::yes) << i;
   }
+  ASSERT_EQ(outcome.response.failures.size(), 1U);
+  EXPECT_EQ(outcome.response.failures[0].position, 3U);
+  EXPECT_EQ(to_text(outcome.response.failures[0].failure), "exception: thrown by a solver");
 }
 
 TEST(Respondent, ACrashAndAHangCostAQueryEachWhenIsolated) {
@@ -117,13 +121,18 @@ TEST(Respondent, ACrashAndAHangCostAQueryEachWhenIsolated) {
     const Verdict expected = i == 3 ? Verdict::error : (i == 5 ? Verdict::undecided : Verdict::yes);
     EXPECT_EQ(outcome.answers[i].verdict, expected) << i;
   }
+  ASSERT_EQ(outcome.response.failures.size(), 2U);
+  EXPECT_EQ(outcome.response.failures[0].position, 3U);
+  EXPECT_EQ(to_text(outcome.response.failures[0].failure), "crash: SIGKILL");
+  EXPECT_EQ(outcome.response.failures[1].position, 5U);
+  EXPECT_EQ(to_text(outcome.response.failures[1].failure), "hang");
 }
 
 TEST(Respondent, RecordedAnswersAreLookedUpBySourceKindAndIndex) {
   const auto path = std::filesystem::path(::testing::TempDir()) /
                     ("touchstone_respondent_" + std::to_string(getpid()) + ".csv");
   std::ofstream(path) << answers_header()
-                      << answer_row("a,file", 102, Kind::edge_edge, {.verdict = Verdict::no})
+                      << answer_row("a,file", 102, Kind::edge_edge, {.verdict = Verdict::error})
                       << answer_row("a,file", 100, Kind::edge_edge,
                                     {.verdict = Verdict::yes, .toi_lower = 0.25})
                       << answer_row("a,file", 101, Kind::vertex_face, {.verdict = Verdict::no})
@@ -139,7 +148,10 @@ TEST(Respondent, RecordedAnswersAreLookedUpBySourceKindAndIndex) {
   EXPECT_EQ(outcome.response.nanoseconds, 0.0);
   EXPECT_EQ(outcome.answers[0].verdict, Verdict::yes);
   EXPECT_EQ(outcome.answers[0].toi_lower, 0.25);
-  EXPECT_EQ(outcome.answers[2].verdict, Verdict::no);
+  EXPECT_EQ(outcome.answers[2].verdict, Verdict::error);
+  ASSERT_EQ(outcome.response.failures.size(), 1U);
+  EXPECT_EQ(outcome.response.failures[0].position, 2U);
+  EXPECT_EQ(outcome.response.failures[0].failure.kind, FailureKind::no_verdict);
 }
 
 TEST(Respondent, SpansAreShortForSlowAndLongForFastSolvers) {
@@ -160,20 +172,34 @@ TEST(Respondent, SpansAreShortForSlowAndLongForFastSolvers) {
 TEST(Respondent, TheMakingOfChildProcessesDoesNotShortenSpans) {
   const FunctionMethod method(echo);
   const auto isolated = respond_isolated(method, {}, {});
-  EXPECT_GE(isolated->good_span(), Block::size) << "not known yet";
   // What fork() costs grows with the memory of the process.
   const std::vector<char> ballast(std::size_t{1} << 29U, 1);
   EXPECT_EQ(ballast.back(), 1);
   static_cast<void>(ask(*isolated, 16));
-  EXPECT_GE(isolated->good_span(), Block::size);
+  EXPECT_GE(isolated->good_span(), 1000U);
+}
 
-  const FunctionMethod slow([](Kind, const Query&) -> Answer {
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    return {};
+TEST(Respondent, OneChildProcessAnswersCallAfterCall) {
+  const FunctionMethod method([](Kind, const Query&) {
+    return Answer{.verdict = Verdict::yes, .toi_lower = static_cast<double>(getpid())};
   });
-  const auto slow_isolated = respond_isolated(slow, {}, {});
-  static_cast<void>(ask(*slow_isolated, 4));
-  EXPECT_LE(slow_isolated->good_span(), 10U);
+  const auto isolated = respond_isolated(method, {}, {});
+  const double first = ask(*isolated, 3).answers.front().toi_lower;
+  EXPECT_NE(first, static_cast<double>(getpid()));
+  EXPECT_EQ(ask(*isolated, 3).answers.back().toi_lower, first);
+}
+
+TEST(Respondent, KeepsWhatItsProcessesPrint) {
+  const FunctionMethod method([](Kind kind, const Query& query) {
+    std::printf("asked %g\n", query.coordinates[0]);
+    return echo(kind, query);
+  });
+  const auto isolated = respond_isolated(method, {}, {});
+  static_cast<void>(ask(*isolated, 2));
+  EXPECT_EQ(isolated->output().text, "asked 100\nasked 101\n");
+  static_cast<void>(ask(*isolated, 1));
+  EXPECT_EQ(isolated->output().text, "asked 100\nasked 101\nasked 100\n");
+  EXPECT_EQ(respond_in_process(method, {})->output().text, "");
 }
 
 TEST(Respondent, SaysWhatItsChildProcessesDid) {

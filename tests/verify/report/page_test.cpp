@@ -43,6 +43,17 @@ TEST(Page, HoldsTheFiguresAsTheScriptReadsThem) {
   }
 }
 
+TEST(Page, HoldsNoMarkupOfNames) {
+  Measurements measurements = tests::small_report();
+  measurements.command = "</pre><b>\x1b";
+  for (Measurement& measurement : measurements.all) measurement.group = "g</script>\u202e\n";
+  const std::string page = report_page(measurements);
+  EXPECT_TRUE(contains(page, "&lt;/pre&gt;&lt;b&gt;\\x1b"));
+  EXPECT_TRUE(contains(page, "g&lt;/script&gt;\\u202e\\x0a, vertex-face"));
+  EXPECT_FALSE(contains(page, "g</script>"));
+  EXPECT_FALSE(contains(page, "\u202e"));
+}
+
 TEST(Page, MayLoadNothingFromAnywhere) {
   const std::string page = report_page(tests::small_report());
   EXPECT_TRUE(contains(page,

@@ -1,4 +1,5 @@
 #include "verify/report/page_texts.hpp"
+#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@
 namespace touchstone::verify {
 namespace {
 
-const std::string folder = TOUCHSTONE_SOURCE_DIR "/verify/report/page/";
+const std::string folder = tests::source_folder() + "/verify/report/page/";
 
 TEST(PageTexts, AreTheFilesByteForByte) {
   EXPECT_EQ(page_script(), tests::read_file(folder + "page.js"));

@@ -25,6 +25,22 @@ TEST(Results, HaveTheTablesWithThePublishedNumbers) {
   EXPECT_FALSE(contains(text, "## Table 3"));
 }
 
+/// Names and commands may come from folders and from the JSON of strangers.
+TEST(Results, HoldNoMarkupOfNames) {
+  Measurements measurements = tests::small_report();
+  measurements.command = "touchstone report x\n```\n# forged";
+  measurements.machine = "<script>";
+  for (Measurement& measurement : measurements.all) measurement.group = "a\n# b <b>\u202e";
+  const std::string text = results_document(measurements);
+  EXPECT_TRUE(contains(text,
+                       "Made on \\<script\\> by\n\n````\n"
+                       "touchstone report x\\x0a```\\x0a# forged\n````\n"))
+      << text;
+  EXPECT_TRUE(contains(text, "### a\\\\x0a# b \\<b\\>\\\\u202e, vertex-face\n")) << text;
+  EXPECT_FALSE(contains(text, "<b>"));
+  EXPECT_FALSE(contains(text, "\n# b"));
+}
+
 TEST(Results, SayInSentencesWhatTheDataSay) {
   const std::string text = results_document(tests::small_report());
   EXPECT_TRUE(contains(text,
@@ -76,6 +92,18 @@ TEST(Results, NameTheCommandAndAnInterrupt) {
   EXPECT_FALSE(contains(results_document(measurements), "Interrupted"));
   measurements.interrupted = true;
   EXPECT_TRUE(contains(results_document(measurements), "**Interrupted"));
+}
+
+TEST(Results, NameNoFolderOfAMachine) {
+  Measurements measurements = tests::small_report();
+  measurements.command =
+      "touchstone report /data/sets/handcrafted '/my data/simulation/' --json=/tmp/a.json "
+      "--out '/my data/a <page>.html' out/b.json ../c/d 'e f/g' / --results docs/results.md";
+  EXPECT_TRUE(contains(results_document(measurements),
+                       "```\ntouchstone report handcrafted 'simulation' --json=a.json "
+                       "--out 'a <page>.html' out/b.json ../c/d 'e f/g' / "
+                       "--results docs/results.md\n```\n"))
+      << results_document(measurements);
 }
 
 }  // namespace

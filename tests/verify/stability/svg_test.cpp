@@ -26,7 +26,7 @@ TEST(XmlEscaped, KeepsTextInAnyLanguage) {
 TEST(XmlEscaped, ReplacesWhatIsNoCharacterOfXml) {
   EXPECT_EQ(xml_escaped(std::string("a\0b", 3)), "a" + replacement + "b");
   EXPECT_EQ(xml_escaped("\x1b[31m"), replacement + "[31m");
-  EXPECT_EQ(xml_escaped("\xEF\xBF\xBE"), replacement + replacement + replacement);
+  EXPECT_EQ(xml_escaped("\xEF\xBF\xBE"), replacement);
 }
 
 TEST(XmlEscaped, ReplacesWhatIsNoUtf8ByteByByte) {
@@ -37,6 +37,11 @@ TEST(XmlEscaped, ReplacesWhatIsNoUtf8ByteByByte) {
   EXPECT_EQ(xml_escaped("\xF4\x90\x80\x80").size(), 4 * replacement.size());  // beyond U+10FFFF
   EXPECT_EQ(xml_escaped("\xE5\xAD"), replacement + replacement);              // cut off
   EXPECT_EQ(xml_escaped("\x80"), replacement);
+}
+
+TEST(XmlEscaped, ReplacesWhatIsNotSeen) {
+  EXPECT_EQ(xml_escaped("a\u202eb\u2028c\u0085d"),
+            "a" + replacement + "b" + replacement + "c" + replacement + "d");
 }
 
 TEST(SvgPicture, IsAnXmlDocumentOfItsParts) {

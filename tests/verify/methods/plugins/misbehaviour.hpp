@@ -23,6 +23,12 @@ enum class Misbehaviour {
   dies_at_call_1500,  ///< of one process; until then it says no
   leaves_answer_alone,
   throws,
+  exits_with_3,
+  prints,         ///< on both streams, then says no
+  writes_a_file,  ///< into its working directory; no if it can
+  forks,          ///< eight children, each for a moment, then says no; throws if it is refused
+  allocates,      ///< 2 GiB in blocks, then says no
+  yes_with_tolerance_0,  ///< from time 0 on
   aborts,
   writes_to_null,
   hangs

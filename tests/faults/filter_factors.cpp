@@ -1,4 +1,4 @@
-#include "tests/mutants/filter_factors.hpp"
+#include "tests/faults/filter_factors.hpp"
 
 namespace touchstone::tests {
 

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# tidy.sh BUILD_FOLDER FILE: clang-tidy of a file of BUILD_FOLDER's compile_commands.json, unless the same text was clean
+# before under the same checks. "The same" is its preprocessed text, comments included, so a file that did not change, in any
+# folder, costs a second.
+set -euo pipefail
+build=$1 file=$2
+cache=${XDG_CACHE_HOME:-$HOME/.cache}/touchstone/tidy
+mkdir -p "$cache"
+
+# A command as CMake writes it, a line each: "command": "…", "file": "…".
+command=$(awk -v file="$file" '
+  /^  "command": / { command = $0 }
+  /^  "file": / && index($0, "\"" file "\"") { print command; exit }' "$build/compile_commands.json" |
+  sed -e 's/^  "command": "//' -e 's/",$//' -e 's/\\"/"/g' -e 's/\\\\/\\/g')
+[ -n "$command" ] || { echo "tidy.sh: $build does not compile $file" >&2; exit 1; }
+
+# A unit of several sources (*.cxx, made by CMake) includes them, which the check would find suspicious.
+checks=() configuration=.clang-tidy
+[[ $file == *.cxx ]] && checks=(--checks=-bugprone-suspicious-include)
+[[ $file == "$PWD"/tests/* ]] && configuration=tests/.clang-tidy
+key=$({
+  clang-tidy --version
+  cat .clang-tidy "$configuration" cmake/tidy.sh
+  eval "$command -E -C -P -o -"
+} | sha256sum | cut -d ' ' -f 1)
+[ -e "$cache/$key" ] && exit 0
+clang-tidy --quiet -p "$build" "${checks[@]}" --extra-arg=-Wno-unknown-warning-option "$file" \
+  2> >(grep -v 'warnings generated' >&2)
+touch "$cache/$key"

@@ -1,0 +1,105 @@
+# Planted faults: sources of the project compiled from their own text with something replaced, under other names. The tests
+# of a part and the fuzzer have to find them (tests/fast/certified, tests/mutants). One a stage is planted in every build, and
+# all of them where TOUCHSTONE_ALL_FAULTS asks for it (./run soak); a name that is not planted is a null address there.
+# None under the sanitizers, which have nothing to find in them.
+
+add_library(touchstone_planted_faults INTERFACE)
+
+# is_planted(VARIABLE NAME): is this fault part of this build?
+function(is_planted variable name)
+  set(${variable} FALSE PARENT_SCOPE)
+  if(NOT TOUCHSTONE_SANITIZE AND (TOUCHSTONE_ALL_FAULTS OR name IN_LIST faults_of_every_build))
+    set(${variable} TRUE PARENT_SCOPE)
+  endif()
+endfunction()
+
+# with_fault(VARIABLE FILE NAME ORIGINAL FAULT [ORIGINAL FAULT]…): writes FILE so altered, every place of each ORIGINAL, under
+# a folder of that fault's own, which VARIABLE gets. (No semicolon within these: CMake takes it for the end of an
+# argument.)
+function(with_fault variable file name)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${name})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
+  file(READ ${PROJECT_SOURCE_DIR}/${file} text)
+  set(replacements ${ARGN})
+  while(replacements)
+    list(POP_FRONT replacements original fault)
+    string(FIND "${text}" "${original}" place)
+    if(place EQUAL -1)
+      message(FATAL_ERROR "${name}: nothing to replace in ${file}: ${original}")
+    endif()
+    string(REPLACE "${original}" "${fault}" text "${text}")
+  endwhile()
+  file(CONFIGURE OUTPUT ${folder}/${file} CONTENT "${text}" @ONLY)
+  set(${variable} ${folder} PARENT_SCOPE)
+endfunction()
+
+# object_with_names(NAME SOURCE INCLUDE_FOLDERS…): an object library of a source that stands for another, which the
+# folders hold in altered form or as a replacement.
+function(object_with_names name source)
+  add_library(${name} OBJECT ${source})
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  # The code of others (SIMDe) and altered code are not held to this project's warnings.
+  target_compile_options(${name} PRIVATE -O1 -ffp-contract=off -Wno-psabi)
+  target_compile_definitions(${name} PRIVATE EIGEN_DONT_VECTORIZE)
+  target_include_directories(${name} BEFORE PRIVATE ${ARGN})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE touchstone::query)
+endfunction()
+
+# faulty(SOURCE SYMBOLS FILE NAME …): SOURCE with a fault in it or in a header that it includes, FILE; the first of its
+# SYMBOLS is called NAME, any other NAME_SYMBOL.
+function(faulty source symbols file name)
+  is_planted(planted ${name})
+  if(NOT planted)
+    return()
+  endif()
+  with_fault(folder ${file} ${name} ${ARGN})
+  list(POP_FRONT symbols symbol)
+  set(renamed "#define ${symbol} ${name}\n")
+  foreach(other ${symbols})
+    string(APPEND renamed "#define ${other} ${name}_${other}\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${folder}/${name}.cpp CONTENT "${renamed}#include \"${source}\"\n")
+  object_with_names(${name} ${folder}/${name}.cpp ${folder})
+  target_link_libraries(touchstone_planted_faults INTERFACE $<TARGET_OBJECTS:${name}>)
+endfunction()
+
+# faulty_kernel(FILE NAME ORIGINAL FAULT [ORIGINAL FAULT]…): fast::NAME, the certified solver's scalar kernel with a
+# fault in one of its files.
+function(faulty_kernel file name)
+  faulty(fast/certified/kernel_scalar.cpp scalar_certified_kernel ${file} ${name} ${ARGN})
+endfunction()
+
+# faulty_box_kernel(FILE NAME …): fast::NAME, Tight-Inclusion's scalar kernel with a fault in one of its files.
+function(faulty_box_kernel file name)
+  faulty(fast/tight_inclusion/box_kernel_scalar.cpp "scalar_box_kernel;scalar_released_box_kernel" ${file} ${name} ${ARGN})
+endfunction()
+
+# faulty_search(NAME …): fast::NAME, tight_inclusion_method with a fault in the search.
+function(faulty_search name)
+  faulty(fast/tight_inclusion.cpp "tight_inclusion_method;tight_inclusion" fast/tight_inclusion.cpp ${name} ${ARGN})
+endfunction()
+
+# faulty_exact_stage(SOURCE FILE NAME …): fast::NAME, decide_exactly with a fault in SOURCE, or in a header that it
+# includes, FILE. Only SOURCE is compiled: the linker joins it to the other objects of the library, and all names but that
+# of decide_exactly become local to the result.
+function(faulty_exact_stage source file name)
+  is_planted(planted ${name})
+  if(NOT planted)
+    return()
+  endif()
+  with_fault(folder ${file} ${name} ${ARGN})
+  if(NOT source STREQUAL file)
+    file(CONFIGURE OUTPUT ${folder}/${source} CONTENT "#include \"${PROJECT_SOURCE_DIR}/${source}\"\n")
+  endif()
+  object_with_names(${name}_part ${folder}/${source} ${folder})
+  set(object ${folder}/${name}.o)
+  add_custom_command(OUTPUT ${object}
+    COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/join_objects.sh decide_exactly ${name} ${object}
+            $<TARGET_OBJECTS:${name}_part> $<TARGET_FILE:touchstone_fast>
+    DEPENDS join_objects.sh $<TARGET_OBJECTS:${name}_part> touchstone_fast
+    COMMAND_EXPAND_LISTS VERBATIM)
+  add_custom_target(${name} DEPENDS ${object})
+  target_link_libraries(touchstone_planted_faults INTERFACE ${object})
+  add_dependencies(touchstone_planted_faults ${name})
+endfunction()

@@ -1,0 +1,25 @@
+#pragma once
+
+/// \file
+/// Where the sources are, and what the build has made of them: for tests that read files of the project or run its
+/// programs. These paths are compiled into one file (built_files.cpp), so that the objects of the tests do not depend on
+/// the folder they were built in.
+
+#include <string>
+#include <string_view>
+
+namespace touchstone::tests {
+
+/// The project's folder.
+[[nodiscard]] std::string source_folder();
+
+/// The program `touchstone`.
+[[nodiscard]] std::string touchstone_program();
+
+/// The program `touchstone-check`.
+[[nodiscard]] std::string checker_program();
+
+/// A solver as a shared library, by the name of its target.
+[[nodiscard]] std::string plugin_library(std::string_view name);
+
+}  // namespace touchstone::tests

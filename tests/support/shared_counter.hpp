@@ -1,0 +1,42 @@
+#pragma once
+
+/// \file
+/// A number that a test shares with the child processes it makes.
+
+#include <sys/mman.h>
+
+#include <atomic>
+#include <cstdint>
+#include <new>
+#include <stdexcept>
+
+namespace touchstone::tests {
+
+/// 0 at first. To be made before the processes that count.
+class SharedCounter {
+ public:
+  SharedCounter()
+      : memory_(::mmap(nullptr, sizeof(Number), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
+                       -1, 0)) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the system's constant
+    if (memory_ == MAP_FAILED) throw std::runtime_error("no memory to share");
+    number_ = new (memory_) Number{0};
+  }
+  SharedCounter(const SharedCounter&) = delete;
+  SharedCounter& operator=(const SharedCounter&) = delete;
+  SharedCounter(SharedCounter&&) = delete;
+  SharedCounter& operator=(SharedCounter&&) = delete;
+  ~SharedCounter() { ::munmap(memory_, sizeof(Number)); }
+
+  void add() { ++*number_; }
+  [[nodiscard]] std::uint64_t value() const { return *number_; }
+
+ private:
+  using Number = std::atomic<std::uint64_t>;
+  static_assert(Number::is_always_lock_free);
+
+  void* memory_;
+  Number* number_ = nullptr;
+};
+
+}  // namespace touchstone::tests

@@ -1,0 +1,309 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/built_files.hpp"
+#include "tests/support/folder_test.hpp"
+
+// What the tool does when its user or its reader has gone, or its input never comes, and what names from
+// outside look like on a terminal (verify/terminal.hpp, verify/printable.hpp).
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using tests::read_file;
+
+struct Outcome {
+  int status;
+  std::string out;
+  std::string err;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A vertex that falls through a resting triangle.
+std::string falling_vertex() {
+  const std::string triangle = "0,1,0,1,0,1\n4,1,0,1,0,1\n0,1,4,1,0,1\n";
+  return "1,1,1,1,1,1\n" + triangle + "1,1,1,1,-3,1\n" + triangle;
+}
+
+class TerminalTool : public tests::FolderTest {
+ protected:
+  static constexpr int to_file = -1, closed = -2;
+
+  /// Starts the tool with its standard output in a file, at a descriptor, or closed.
+  [[nodiscard]] pid_t start(std::vector<std::string> words, int output = to_file) const {
+    words.insert(words.begin(), tests::touchstone_program());
+    std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions{};
+    posix_spawn_file_actions_init(&actions);
+    static constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    if (output == to_file) {
+      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("out").c_str(), flags, 0600);
+    } else if (output == closed) {
+      posix_spawn_file_actions_addclose(&actions, STDOUT_FILENO);
+    } else {
+      posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    }
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("err").c_str(), flags, 0600);
+    pid_t process = 0;
+    EXPECT_EQ(posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
+                          pointers.data(), environ),
+              0);
+    posix_spawn_file_actions_destroy(&actions);
+    return process;
+  }
+
+  /// Waits for the end, with a bound for what would hang; the status of a process that a signal ended
+  /// is minus the signal.
+  [[nodiscard]] Outcome finish(pid_t process) const {
+    int status = 0;
+    const auto has_ended = [&] { return waitpid(process, &status, WNOHANG) == process; };
+    if (!comes_true(has_ended)) {
+      ADD_FAILURE() << "the tool hangs";
+      kill(process, SIGKILL);
+      waitpid(process, &status, 0);
+    }
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    return {code, read_file(path("out")), read_file(path("err"))};
+  }
+
+  [[nodiscard]] Outcome run(const std::vector<std::string>& words, int output = to_file) const {
+    return finish(start(words, output));
+  }
+
+  /// Waits until the condition holds; false only where something hangs.
+  static bool comes_true(const std::function<bool()>& condition) {
+    for (int i = 0; i < 12'000; ++i) {
+      if (condition()) return true;
+      std::this_thread::sleep_for(10ms);
+    }
+    return false;
+  }
+
+  /// Does the process handle the signal itself?
+  static bool handles(pid_t process, int signal) {
+    std::ifstream file("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(file, line);) {
+      if (!line.starts_with("SigCgt:")) continue;
+      return (std::stoull(line.substr(7), nullptr, 16) >> static_cast<unsigned>(signal - 1)) % 2 ==
+             1;
+    }
+    return false;
+  }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    fs::create_directories(fs::path(path(name)).parent_path());
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+
+  [[nodiscard]] std::string make_pipe(const std::string& name) const {
+    EXPECT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
+    return path(name);
+  }
+
+  [[nodiscard]] nlohmann::json json(const std::string& name) const {
+    return nlohmann::json::parse(read(name));
+  }
+};
+
+// ---- Interrupts ---------------------------------------------------------------------------------
+
+TEST_F(TerminalTool, TheFirstInterruptEndsAReadThatBlocks) {
+  const std::string pipe = make_pipe("queries_vf.csv");
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const pid_t process = start({"certify", pipe, "--json", path("result.json")});
+    // This end can be opened when the tool has opened the other; from then on its reads block.
+    int writer = -1;
+    ASSERT_TRUE(comes_true([&] {
+      writer = ::open(pipe.c_str(), O_WRONLY | O_NONBLOCK);
+      return writer >= 0;
+    }));
+    EXPECT_TRUE(comes_true([&] { return handles(process, signal); }));
+    kill(process, signal);
+    const Outcome outcome = finish(process);
+    EXPECT_EQ(outcome.status, 130) << outcome.err;
+    EXPECT_EQ(json("result.json").at("queries"), 0) << outcome.err;
+    ::close(writer);
+  }
+}
+
+TEST_F(TerminalTool, TheFirstInterruptEndsAnOpenThatBlocks) {
+  const std::string pipe = make_pipe("queries_vf.csv");
+  for (const std::string command : {"certify", "prove"}) {
+    std::vector<std::string> words{command, pipe, "--json", path("result.json")};
+    if (command == "prove") words.insert(words.end(), {"--out", path("result.cert")});
+    const pid_t process = start(words);
+    // Nobody writes to the pipe. The tool handles signals from before it opens its first file.
+    EXPECT_TRUE(comes_true([&] { return handles(process, SIGINT); }));
+    kill(process, SIGINT);
+    const Outcome outcome = finish(process);
+    EXPECT_EQ(outcome.status, 130) << outcome.err;
+    EXPECT_TRUE(fs::exists(path("result.json")));
+    fs::remove(path("result.json"));
+  }
+  EXPECT_EQ(read("result.cert"), "touchstone-certificates 2\ncertificates 0\n");
+}
+
+TEST_F(TerminalTool, APipeIsReadToItsEnd) {
+  const std::string pipe = make_pipe("queries_vf.csv");
+  const pid_t process = start({"certify", pipe, "--json", path("result.json")});
+  // Opens when the tool has opened its end.
+  std::ofstream(pipe) << falling_vertex() << std::flush << falling_vertex();
+  const Outcome outcome = finish(process);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json("result.json").at("queries"), 2);
+}
+
+TEST_F(TerminalTool, AFileWithoutLineEndsIsAnError) {
+  fs::create_symlink("/dev/zero", path("endless_vf.csv"));
+  for (const std::string option : {"--keep-going", "--round"}) {
+    const Outcome outcome = run({"certify", path("endless_vf.csv"), option});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(contains(outcome.err, "endless_vf.csv:1: ")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "64 MiB: not a text file")) << outcome.err;
+  }
+}
+
+// ---- Output that nobody reads -------------------------------------------------------------------
+
+/// A pipe whose reader has gone.
+class ClosedPipe {
+ public:
+  ClosedPipe() {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
+    ::close(ends[0]);
+    writer_ = ends[1];
+  }
+  ClosedPipe(const ClosedPipe&) = delete;
+  ClosedPipe& operator=(const ClosedPipe&) = delete;
+  ClosedPipe(ClosedPipe&&) = delete;
+  ClosedPipe& operator=(ClosedPipe&&) = delete;
+  ~ClosedPipe() { ::close(writer_); }
+
+  [[nodiscard]] int writer() const { return writer_; }
+
+ private:
+  int writer_ = -1;
+};
+
+TEST_F(TerminalTool, AClosedStandardOutputEndsThePrintingOnly) {
+  const ClosedPipe pipe;
+  // Findings are printed while the search goes on.
+  const Outcome fuzz =
+      run({"fuzz", "--plugin", tests::plugin_library("box_overlap"), "--exact", "--queries", "3000",
+           "--most-findings", "2", "--out", path("found.csv"), "--json", path("fuzz.json")},
+          pipe.writer());
+  EXPECT_EQ(fuzz.status, 1) << fuzz.err;
+  EXPECT_EQ(json("fuzz.json").at("findings").size(), 2U);
+  EXPECT_TRUE(std::ranges::any_of(fs::directory_iterator(folder()), [](const auto& entry) {
+    return entry.path().filename().string().starts_with("found");
+  }));
+  const std::string data = write("a_vf.csv", falling_vertex());
+  const Outcome certify = run({"certify", data, "--json", path("certify.json")}, pipe.writer());
+  EXPECT_EQ(certify.status, 0) << certify.err;
+  EXPECT_EQ(certify.err, "");
+  EXPECT_EQ(json("certify.json").at("queries"), 1);
+  EXPECT_EQ(run({"--help"}, pipe.writer()).status, 0);
+}
+
+TEST_F(TerminalTool, AFullStandardOutputIsAnErrorAfterTheFiles) {
+  const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
+  const std::string data = write("a_vf.csv", falling_vertex());
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"certify", data, "--json", path("result.json")},
+        {"generate", "--list"},
+        {"--help"}}) {
+    const Outcome outcome = run(words, full);
+    EXPECT_EQ(outcome.status, 2) << words.front();
+    EXPECT_TRUE(contains(outcome.err, "standard output: cannot be written: ")) << outcome.err;
+  }
+  ::close(full);
+  EXPECT_EQ(json("result.json").at("queries"), 1);
+}
+
+TEST_F(TerminalTool, WhatIsPrintedGoesIntoNoFile) {
+  const std::string data = write("a_vf.csv", falling_vertex());
+  const Outcome outcome = run({"certify", data, "--json", path("result.json")}, closed);
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_TRUE(contains(outcome.err, "standard output: cannot be written: ")) << outcome.err;
+  EXPECT_EQ(json("result.json").at("queries"), 1);
+}
+
+// ---- Names from outside -------------------------------------------------------------------------
+
+/// Has it control characters, or others than ASCII?
+bool is_plain(const std::string& text) {
+  return std::ranges::all_of(text, [](char c) { return c == '\n' || (c >= ' ' && c <= '~'); });
+}
+
+TEST_F(TerminalTool, NamesOfFilesAreShownAndNotObeyed) {
+  const std::string name =
+      "vertex-face/\x1b[2Ja\ntotal 9\x07\u009b31m\u202eb\u2028,\"c\xe9|<b>\x7f.csv";
+  const std::string shown =
+      "\\x1b[2Ja\\x0atotal 9\\x07\\u009b31m\\u202eb\\u2028,\"c\\xe9|<b>\\x7f.csv";
+  const std::string data = write(name, falling_vertex());
+  const Outcome certify =
+      run({"certify", data, "--truth", path("truth.csv"), "--json", path("result.json"), "--prove",
+           path("proofs.cert"), "--method", "certified"});
+  EXPECT_EQ(certify.status, 0) << certify.err;
+  EXPECT_TRUE(contains(certify.out, shown)) << certify.out;
+  EXPECT_FALSE(contains(certify.out, "\ntotal 9"));
+  for (const char* part : {"\x1b", "\x07", "\u009b", "\u202e", "\u2028", "\xe9", "\x7f"}) {
+    for (const std::string& text :
+         {certify.out, read("truth.csv"), read("result.json"), read("proofs.cert")}) {
+      EXPECT_FALSE(contains(text, part)) << text;
+    }
+  }
+  EXPECT_TRUE(is_plain(read("result.json")));
+  EXPECT_TRUE(contains(json("result.json").at("files")[0].at("file"), "\x1b[2Ja\ntotal 9"))
+      << "to whoever parses it the name is itself";
+  EXPECT_EQ(std::ranges::count(read("truth.csv"), '\n'), 2);
+  // What is written under the shown name is found again.
+  EXPECT_EQ(run({"solve", data, "--method", "certified", "--out", path("answers.csv")}).status, 0);
+  const Outcome judged = run({"certify", data, "--results", path("answers.csv")});
+  EXPECT_EQ(judged.status, 0) << judged.err;
+  EXPECT_EQ(judged.err, "");
+}
+
+TEST_F(TerminalTool, MessagesShowWhatTheyName) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"certify", path("missing\x1b[2J\nx\u202e_vf.csv")},
+        {"certify", "--nonsense\x1b[2J\nx\u202e"},
+        {"certify", "--kind", "\x1b[2J\nx\u202e"},
+        {"fuzz", "--queries", "1", "--method", "\x1b[2J\nx\u202e"},
+        {"certify", "--plugin", path("\x1b[2J\nx\u202e.so")},
+        {"report", "--from", path("\x1b[2J\nx\u202e.json"), "--out", path("page.html")}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2) << words.front();
+    EXPECT_TRUE(is_plain(outcome.err)) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "\\x1b[2J\\x0ax\\u202e")) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify::cli

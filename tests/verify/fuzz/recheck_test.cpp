@@ -1,0 +1,199 @@
+#include "verify/fuzz/recheck.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "fast/certified.hpp"
+#include "tests/support/certificates.hpp"
+#include "tests/support/methods.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/shared_counter.hpp"
+#include "verify/decision.hpp"
+#include "verify/fuzz/fuzz.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::Promise;
+using fast::Verdict;
+using tests::FunctionMethod;
+using namespace std::chrono_literals;
+
+Answer honest(Kind kind, const Query& query) { return answer_of(fast::certified(kind, query)); }
+
+Answer sometimes_wrong(Kind kind, const Query& query) {
+  Answer answer = honest(kind, query);
+  if (query.at(0, 0, 0) < query.at(1, 2, 1)) answer.verdict = Verdict::no;
+  return answer;
+}
+
+/// Late by a tenth of the time that is left.
+Answer late(Kind kind, const Query& query) {
+  Answer answer = honest(kind, query);
+  answer.toi_lower += 0.1 * (1.0 - answer.toi_lower);
+  answer.toi_upper = Answer::none;
+  return answer;
+}
+
+/// The first finding of that sort in a run whose queries stay as they are.
+Finding find(const FunctionMethod& method, const FuzzOptions& options = {}) {
+  FuzzOptions search = options;
+  search.most_queries = 20'000;
+  search.most_findings = 1;
+  const FuzzResult result = fuzz(method, search);
+  EXPECT_FALSE(result.findings.empty());
+  return result.findings.empty() ? Finding{} : result.findings.front();
+}
+
+// ---- Asking again -------------------------------------------------------------------------------
+
+TEST(Recheck, AsksAgainAboutAnyQuery) {
+  const FunctionMethod method(sometimes_wrong, Promise::none);
+  const Finding finding = find(method);
+  Recheck recheck(method, finding, {});
+  EXPECT_TRUE(recheck.ask(finding.original.query));
+  // Raised first, the first point is never below what the method compares it with.
+  EXPECT_FALSE(recheck.ask(tests::over_triangle(8, 8, 1, -1).query));
+  Query infinite = finding.original.query;
+  infinite.coordinates.front() = HUGE_VAL;
+  EXPECT_FALSE(recheck.ask(infinite));
+  EXPECT_FALSE(recheck.ask(finding.original.query, Deadline(0.0)));
+}
+
+TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
+  const auto ill = [](Kind kind, const Query& query) {
+    const double word = query.at(0, 0, 0);
+    if (word == 1.0) std::abort();
+    if (word == 2.0) std::this_thread::sleep_for(1h);
+    Answer answer = honest(kind, query);
+    if (word == 0.5) answer.toi_lower = Answer::none;
+    return answer;
+  };
+  const FunctionMethod method(ill, Promise::none);
+  const FuzzOptions options{.query_limit_seconds = 0.1};
+  const auto query_at = [](double x) { return tests::over_triangle(x, 0.25, 1, -1).query; };
+  Finding finding;
+  finding.method = "function";
+  finding.original.query = query_at(1.0);
+  finding.original.answer = {.verdict = Verdict::yes, .toi_lower = Answer::none, .toi_upper = 0.5};
+  finding.missing.lower = true;
+  const std::array<FindingKind, 3> kinds{FindingKind::crash, FindingKind::hang,
+                                         FindingKind::not_finite};
+  const std::array<double, 3> words{1.0, 2.0, 0.5};
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    finding.what = kinds.at(i);
+    Recheck recheck(method, finding, options);
+    for (std::size_t j = 0; j < words.size(); ++j) {
+      EXPECT_EQ(recheck.ask(query_at(words.at(j))).has_value(), i == j);
+    }
+  }
+}
+
+// ---- Making simpler -----------------------------------------------------------------------------
+
+/// Is all of the case about its query, as the method and the oracle see that?
+void expect_consistent(const Finding& finding, const FailingCase& failing,
+                       const FunctionMethod::Function& function) {
+  const Answer answer = function(finding.kind, failing.query);
+  EXPECT_EQ(failing.answer.verdict, answer.verdict);
+  EXPECT_EQ(failing.answer.toi_lower, answer.toi_lower);
+  const Decision truth(finding.kind, failing.query, finding.separation);
+  EXPECT_EQ(failing.collides, truth.collides());
+  EXPECT_EQ(failing.truth, to_text(truth_of(0, truth)));
+  EXPECT_NE(failing.detail.find(fmt::format("{}", answer.toi_lower)), std::string::npos)
+      << failing.detail;
+  EXPECT_EQ(tests::check(failing.certificate).accepted(), 1U) << failing.certificate;
+  const std::optional<tests::ReadClaim> claim = tests::read_claim(failing.certificate);
+  ASSERT_TRUE(claim);
+  EXPECT_EQ(claim->posed.query, failing.query);
+  EXPECT_EQ(claim->posed.kind, finding.kind);
+  EXPECT_TRUE(tests::is_true(*claim));
+}
+
+TEST(Simplify, keeps_answer_truth_and_certificate_with_their_query) {
+  const FunctionMethod method(late, Promise::conservative);
+  Finding finding = find(method);
+  EXPECT_EQ(finding.what, FindingKind::late_toi);
+  const FailingCase original = finding.original;
+  simplify(method, {}, {}, finding);
+  EXPECT_EQ(finding.shrinking, Shrinking::complete);
+  EXPECT_NE(finding.simplest.query, original.query);
+  EXPECT_EQ(finding.original.query, original.query);
+  EXPECT_EQ(finding.original.detail, original.detail);
+  expect_consistent(finding, finding.simplest, late);
+  expect_consistent(finding, finding.original, late);
+  EXPECT_NE(finding.simplest.certificate, finding.original.certificate);
+}
+
+TEST(Simplify, says_if_the_time_was_too_short) {
+  const FunctionMethod method(late, Promise::conservative);
+  const Finding found = find(method);
+  // A clock that goes on whenever somebody looks.
+  for (const double step : {1.0, 0.2, 0.05}) {
+    double now = 0.0;
+    const Deadline deadline(1.0, [&now, step] { return now += step; });
+    Finding finding = found;
+    simplify(method, {}, deadline, finding);
+    EXPECT_EQ(finding.shrinking, Shrinking::cut_short);
+    expect_consistent(finding, finding.simplest, late);
+    EXPECT_LE(now, 1.0 + 5.0 * step);
+  }
+}
+
+TEST(Simplify, ends_when_the_run_is_stopped) {
+  const FunctionMethod method(late, Promise::conservative);
+  Finding finding = find(method);
+  const std::atomic<bool> stop = true;
+  simplify(method, {.stop = &stop}, {}, finding);
+  EXPECT_EQ(finding.shrinking, Shrinking::cut_short);
+  EXPECT_EQ(finding.simplest.query, finding.original.query);
+}
+
+TEST(Simplify, says_if_the_method_is_not_wrong_alone) {
+  const FunctionMethod wrong(late, Promise::conservative), right(honest, Promise::conservative);
+  Finding finding = find(wrong);
+  simplify(right, {}, {}, finding);
+  EXPECT_EQ(finding.shrinking, Shrinking::not_reproduced);
+  EXPECT_EQ(finding.simplest.query, finding.original.query);
+}
+
+/// It was asked twice before it was a finding, which takes as long as a hang does.
+TEST(Simplify, does_not_ask_again_about_what_crashed) {
+  tests::SharedCounter asked;
+  Query crashing = tests::over_triangle(1, 1, 1, -1).query;
+  const FunctionMethod method([&](Kind kind, const Query& query) {
+    if (query == crashing) asked.add();
+    return honest(kind, query);
+  });
+  Finding finding;
+  finding.what = FindingKind::crash;
+  finding.method = "function";
+  finding.original.query = crashing;
+  finding.simplest = finding.original;
+  simplify(method, {}, {}, finding);
+  EXPECT_EQ(asked.value(), 0U);
+  EXPECT_EQ(finding.shrinking, Shrinking::complete);
+  EXPECT_EQ(finding.simplest.query, crashing);
+}
+
+TEST(Simplify, leaves_a_hang_alone_that_takes_longer_than_there_is_time) {
+  const FunctionMethod method([](Kind, const Query&) -> Answer { std::abort(); });
+  Finding finding;
+  finding.what = FindingKind::hang;
+  finding.method = "function";
+  simplify(method, {.query_limit_seconds = 10.0}, Deadline(5.0, [] { return 0.0; }), finding);
+  EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,17 @@
+/// \file
+/// A plugin that hangs at every query.
+
+#include <cstdint>
+#include <ctime>
+
+#include "verify/plugin.h"
+
+std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+
+const char* touchstone_plugin_name() { return "never_answers"; }
+
+void touchstone_plugin_solve(std::int32_t, const double*, const touchstone_options*,
+                             touchstone_answer*) {
+  constexpr std::timespec hour{.tv_sec = 3600, .tv_nsec = 0};
+  for (;;) nanosleep(&hour, nullptr);
+}

@@ -1,0 +1,18 @@
+/// \file
+/// A plugin that misses everything, but only where it is asked with certain options.
+
+#include <cstdint>
+
+#include "verify/plugin.h"
+
+std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+
+const char* touchstone_plugin_name() { return "wrong_with_options"; }
+
+void touchstone_plugin_solve(std::int32_t, const double*, const touchstone_options* options,
+                             touchstone_answer* answer) {
+  const bool wrong = options->tolerance == 0.125 && options->max_checks == 77 &&
+                     options->min_separation == 0.25 && options->norm == touchstone_l2 &&
+                     options->t_max == 1.0;
+  answer->verdict = wrong ? touchstone_no : touchstone_undecided;
+}

@@ -1,0 +1,157 @@
+#include "verify/solvers/child_process.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+// A program of its own: it makes processes, which copy no threads. What a child may take is tested in
+// solver_process_test.cpp, where somebody takes it.
+
+namespace touchstone::verify {
+namespace {
+
+using Event = ChildProcess::Event;
+constexpr ChildProcess::Seconds long_time(60.0);
+
+/// Waits for a message or the end.
+Event next(ChildProcess& child, std::string& message, CapturedOutput& output) {
+  for (;;) {
+    const Event event = child.wait(long_time, message, output);
+    if (event != Event::none) return event;
+  }
+}
+
+TEST(ChildProcess, MessagesKeepTheirBoundsAndComeBeforeTheEnd) {
+  const TemporaryFolder folder;
+  ChildProcess child(
+      [](const ChildChannel& channel) {
+        while (const auto message = channel.receive()) {
+          static_cast<void>(channel.send("<" + *message + ">"));
+          if (*message == "last") return;
+        }
+      },
+      {}, folder.path());
+  CapturedOutput output;
+  std::string message;
+  child.send("one");
+  child.send("two");
+  child.send("last");
+  for (const std::string expected : {"<one>", "<two>", "<last>"}) {
+    ASSERT_EQ(next(child, message, output), Event::message);
+    EXPECT_EQ(message, expected);
+  }
+  EXPECT_EQ(next(child, message, output), Event::ended);
+  EXPECT_EQ(child.end(output).failure, (Failure{.kind = FailureKind::exit, .number = 0}));
+}
+
+TEST(ChildProcess, SaysHowItEnded) {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<ChildProcess::Work, Failure>> ends{
+      {[](const ChildChannel&) { std::raise(SIGSEGV); },
+       {.kind = FailureKind::crash, .number = SIGSEGV}},
+      {[](const ChildChannel&) { throw 7; }, {.kind = FailureKind::exit, .number = 1}},
+      {[](const ChildChannel&) { std::exit(9); }, {.kind = FailureKind::exit, .number = 9}},
+      {[](const ChildChannel&) { ::_exit(4); }, {.kind = FailureKind::exit, .number = 4}}};
+  for (const auto& [work, failure] : ends) {
+    ChildProcess child(work, {}, folder.path());
+    CapturedOutput output;
+    std::string message;
+    EXPECT_EQ(next(child, message, output), Event::ended);
+    EXPECT_EQ(child.end(output).failure, failure) << to_text(failure);
+  }
+}
+
+TEST(ChildProcess, EndsWhenTold) {
+  const TemporaryFolder folder;
+  ChildProcess child(
+      [](const ChildChannel&) {
+        for (;;) ::pause();
+      },
+      {}, folder.path());
+  CapturedOutput output;
+  std::string message;
+  EXPECT_EQ(child.wait(ChildProcess::Seconds(0.01), message, output), Event::none);
+  EXPECT_EQ(child.end(output).failure.number, SIGKILL);
+}
+
+TEST(ChildProcess, TellsWorkFromSleep) {
+  const TemporaryFolder folder;
+  ChildProcess busy(
+      [](const ChildChannel& channel) {
+        static_cast<void>(channel.send("up"));
+        for (volatile bool go_on = true;;) static_cast<void>(go_on);
+      },
+      {}, folder.path());
+  ChildProcess idle([](const ChildChannel& channel) { static_cast<void>(channel.receive()); }, {},
+                    folder.path());
+  CapturedOutput output;
+  std::string message;
+  ASSERT_EQ(next(busy, message, output), Event::message);
+  EXPECT_TRUE(busy.is_runnable());
+  while (busy.processor_seconds() < 0.01) std::this_thread::yield();
+  // It falls asleep as soon as it gets there.
+  while (idle.is_runnable()) std::this_thread::yield();
+}
+
+/// What the child sees of the world, as text.
+std::string world_of_child(const ChildLimits& limits, const std::filesystem::path& folder) {
+  ChildProcess child(
+      [](const ChildChannel& channel) {
+        std::string text = std::filesystem::current_path().string();
+        const auto count = std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+        text += " " + std::to_string(count);
+        rlimit core{};
+        ::getrlimit(RLIMIT_CORE, &core);
+        text += " " + std::to_string(core.rlim_cur);
+        char byte = 0;
+        text += ::read(STDIN_FILENO, &byte, 1) == 0 ? " no input" : " input";
+        text += ::getpgrp() == ::getpid() ? " leads" : " follows";
+        static_cast<void>(channel.send(text));
+      },
+      limits, folder);
+  CapturedOutput output;
+  std::string message;
+  EXPECT_EQ(next(child, message, output), Event::message);
+  return message;
+}
+
+TEST(ChildProcess, HasAWorldOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::ifstream of_parent("/proc/self/stat");
+  // Standard ones, connection, lifeline, and the folder that is listed.
+  EXPECT_EQ(world_of_child({}, folder.path()), folder.path().string() + " 6 0 no input leads");
+}
+
+TEST(TemporaryFolder, GoesWithWhatIsInIt) {
+  std::filesystem::path path;
+  {
+    const TemporaryFolder folder, other;
+    EXPECT_NE(folder.path(), other.path());
+    path = folder.path();
+    std::filesystem::create_directory(path / "a");
+    std::ofstream(path / "a" / "b") << "x";
+    EXPECT_TRUE(std::filesystem::exists(path / "a" / "b"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(CapturedOutput, KeepsTheBeginning) {
+  CapturedOutput output;
+  const std::string text(CapturedOutput::most_bytes - 1, 'x');
+  output.append(text.data(), text.size());
+  output.append("yz", 2);
+  EXPECT_EQ(output.text, text + "y");
+  EXPECT_EQ(output.dropped, 1U);
+  output.append("more", 4);
+  EXPECT_EQ(output.dropped, 5U);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,725 @@
+#include "verify/solvers/solver_process.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+// A program of its own: it makes processes, which copy no threads.
+
+namespace touchstone::verify {
+namespace {
+
+using namespace std::chrono_literals;
+using fast::Answer;
+using fast::Verdict;
+
+/// What the scripted method does with a query; its first coordinate says it.
+enum class Act {
+  answer,  ///< yes; times: the second coordinate and the kind; tolerance: length of the span
+  dies,
+  segfaults,
+  throws,
+  throws_a_number,
+  exits,           ///< with status 0, as if all were well
+  exits_as_usual,  ///< with status 3, by exit()
+  hangs,           ///< asleep
+  burns,           ///< for ever
+  works,           ///< 50 ms of processor time, then answers
+  dies_in_spans,   ///< alone it answers
+  dies_once,       ///< in the first process that is asked
+  closes,          ///< all descriptors but the standard ones, then is asleep
+  forks,           ///< a process that sleeps for ever, then answers
+  forks_for_ever,  ///< as long as it can, then answers; tolerance: how many it made
+  allocates,       ///< as much as it can, then answers; tolerance: GiB
+  writes_a_file,   ///< without end, into its working directory
+  prints,
+  is_infinite,  ///< yes from -inf on
+  is_undecided
+};
+
+Query scripted(Act act, std::size_t number) {
+  Query query{};
+  query.coordinates[0] = static_cast<double>(act);
+  query.coordinates[1] = static_cast<double>(number);
+  return query;
+}
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+constexpr double work_seconds = 0.05;
+void work() {
+  const double end = processor_seconds() + work_seconds;
+  while (processor_seconds() < end) continue;
+}
+
+[[noreturn]] void burn() {
+  for (volatile bool go_on = true;;) static_cast<void>(go_on);
+}
+
+[[noreturn]] void sleep_for_ever() {
+  for (;;) ::pause();
+}
+
+/// Memory that all processes made later share with this one.
+template <class Value>
+class SharedValue {
+ public:
+  SharedValue()
+      : memory_(::mmap(nullptr, sizeof(Value), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
+                       -1, 0)),
+        value_(new (memory_) Value{}) {}
+  SharedValue(const SharedValue&) = delete;
+  SharedValue& operator=(const SharedValue&) = delete;
+  SharedValue(SharedValue&&) = delete;
+  SharedValue& operator=(SharedValue&&) = delete;
+  ~SharedValue() { ::munmap(memory_, sizeof(Value)); }
+  [[nodiscard]] Value& operator*() const { return *value_; }
+
+ private:
+  void* memory_;
+  Value* value_;
+};
+
+class ScriptedMethod final : public fast::Method {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "scripted"; }
+  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+
+  void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
+             const fast::MethodOptions& options) const override {
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const auto what = static_cast<Act>(static_cast<int>(queries[i].coordinates[0]));
+      answers[i] = {.verdict = what == Act::is_undecided ? Verdict::undecided : Verdict::yes,
+                    .toi_lower = queries[i].coordinates[1] + options.t_max,
+                    .toi_upper = static_cast<double>(kind),
+                    .tolerance = static_cast<double>(queries.size())};
+      if (what == Act::is_infinite) answers[i].toi_lower = -HUGE_VAL;
+      end_badly(what, queries.size());
+      act(what, answers[i]);
+    }
+  }
+
+  [[nodiscard]] int processes() const { return *processes_; }
+
+ private:
+  void end_badly(Act act, std::size_t span) const {
+    if (act == Act::dies || (act == Act::dies_in_spans && span > 1)) std::raise(SIGKILL);
+    if (act == Act::dies_once && (*processes_)++ == 0) std::raise(SIGKILL);
+    if (act == Act::segfaults) std::raise(SIGSEGV);
+    if (act == Act::throws) throw std::runtime_error("thrown by a solver");
+    if (act == Act::throws_a_number) throw 7;
+    if (act == Act::exits) ::_exit(0);
+    if (act == Act::exits_as_usual) std::exit(3);
+    if (act == Act::hangs) sleep_for_ever();
+    if (act == Act::burns) burn();
+    if (act == Act::closes) {
+      for (int descriptor = 0; descriptor < 1024; ++descriptor) ::close(descriptor);
+      sleep_for_ever();
+    }
+    if (act == Act::writes_a_file) {
+      std::ofstream file("large");
+      for (const std::string text(4096, 'x');;) file << text;
+    }
+  }
+
+  static void act(Act act, Answer& answer) {
+    if (act == Act::works) work();
+    if (act == Act::forks && ::fork() == 0) sleep_for_ever();
+    if (act == Act::prints) {
+      std::printf("out %g\n", answer.toi_lower);
+      std::cerr << "err\n";
+    }
+    if (act == Act::forks_for_ever) {
+      constexpr int enough = 20;
+      answer.tolerance = 0.0;
+      for (int i = 0; i < enough; ++i) {
+        const pid_t child = ::fork();
+        if (child == 0) sleep_for_ever();
+        answer.tolerance += child > 0 ? 1.0 : 0.0;
+      }
+    }
+    if (act == Act::allocates) {
+      constexpr std::size_t gibibyte = std::size_t{1} << 30U;
+      constexpr int enough = 64;
+      int count = 0;
+      // Never touched: the limit is on what is asked for.
+      while (count < enough && std::malloc(gibibyte) != nullptr) ++count;  // NOLINT
+      answer.tolerance = count;
+    }
+  }
+
+  SharedValue<std::atomic<int>> processes_;
+};
+
+std::vector<Query> numbered(std::size_t count) {
+  std::vector<Query> queries;
+  for (std::size_t i = 0; i < count; ++i) queries.push_back(scripted(Act::answer, i));
+  return queries;
+}
+
+void plant(std::vector<Query>& queries, Act act, const std::vector<std::size_t>& indices) {
+  for (const std::size_t i : indices) queries.at(i) = scripted(act, i);
+}
+
+std::vector<Query> all_of(Act act, std::size_t count) {
+  std::vector<Query> queries;
+  for (std::size_t i = 0; i < count; ++i) queries.push_back(scripted(act, i));
+  return queries;
+}
+
+struct Outcome {
+  std::vector<Answer> answers;
+  SolverRun run;
+  CapturedOutput output;
+};
+
+Outcome run(const std::vector<Query>& queries, const SolverProcessOptions& options = {},
+            Kind kind = Kind::vertex_face) {
+  const ScriptedMethod method;
+  SolverProcess process(method, options);
+  Outcome outcome{.answers = std::vector<Answer>(queries.size()), .run = {}, .output = {}};
+  outcome.run = process.solve(kind, queries, outcome.answers, {.t_max = 0.5});
+  outcome.output = process.take_output();
+  return outcome;
+}
+
+Outcome run(const std::vector<Query>& queries, double limit) {
+  return run(queries, {.query_limit_seconds = limit});
+}
+
+/// Expects these failures, and the method's own answer elsewhere.
+void expect_failures(const Outcome& outcome, const Failure& failure,
+                     const std::vector<std::size_t>& indices) {
+  const std::vector<Answer>& answers = outcome.answers;
+  EXPECT_EQ(outcome.run.answered, answers.size());
+  std::vector<std::size_t> found;
+  for (const QueryFailure& other : outcome.run.failures) {
+    found.push_back(other.position);
+    EXPECT_EQ(other.failure, failure) << to_text(other.failure);
+  }
+  EXPECT_EQ(found, indices);
+  std::vector<bool> special(answers.size());
+  for (const std::size_t i : indices) special.at(i) = true;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    SCOPED_TRACE(i);
+    if (special[i]) {
+      ASSERT_EQ(answers[i].verdict, verdict_of(failure.kind));
+      ASSERT_TRUE(std::isnan(answers[i].toi_lower));
+      ASSERT_TRUE(std::isnan(answers[i].toi_upper));
+      ASSERT_TRUE(std::isnan(answers[i].tolerance));
+    } else {
+      ASSERT_EQ(answers[i].verdict, Verdict::yes);
+      ASSERT_EQ(answers[i].toi_lower, static_cast<double>(i) + 0.5);
+    }
+  }
+}
+
+void expect_all_answered(const Outcome& outcome) { expect_failures(outcome, {}, {}); }
+
+constexpr double long_limit = 60.0;
+const Failure killed{.kind = FailureKind::crash, .number = SIGKILL};
+
+TEST(SolverProcess, AnswersAsTheMethodDoes) {
+  for (const double limit : {0.0, long_limit}) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      for (const std::size_t count : {0U, 1U, 9000U}) {
+        const Outcome outcome = run(numbered(count), {.query_limit_seconds = limit}, kind);
+        expect_all_answered(outcome);
+        for (const Answer& answer : outcome.answers) {
+          ASSERT_EQ(answer.toi_upper, static_cast<double>(kind));
+        }
+        EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
+      }
+    }
+  }
+}
+
+/// What is measured is then the same: a limit costs no time.
+TEST(SolverProcess, ShowsTheMethodLongSpansWithALimitAndWithout) {
+  for (const double limit : {0.0, long_limit}) {
+    const std::vector<Answer> answers = run(numbered(3000), limit).answers;
+    EXPECT_EQ(answers.front().tolerance, 1.0);
+    EXPECT_EQ(answers[2000].tolerance, 512.0);
+  }
+}
+
+/// One process lives on: what the method remembers shows it.
+TEST(SolverProcess, AsksOneProcessThatIsNotThisOne) {
+  class Counting final : public fast::Method {
+   public:
+    [[nodiscard]] std::string_view name() const override { return "counting"; }
+    [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+    void solve(Kind, std::span<const Query>, std::span<Answer> answers,
+               const fast::MethodOptions& options) const override {
+      for (Answer& answer : answers) {
+        answer = {.verdict = Verdict::yes,
+                  .toi_lower = static_cast<double>(++calls),
+                  .toi_upper = static_cast<double>(::getpid()),
+                  .tolerance = options.tolerance};
+      }
+    }
+    mutable int calls = 0;
+  };
+  const Counting method;
+  SolverProcess process(method);
+  std::vector<Answer> first(10), second(10);
+  static_cast<void>(process.solve(Kind::vertex_face, numbered(10), first, {.tolerance = 0.5}));
+  static_cast<void>(process.solve(Kind::vertex_face, numbered(10), second, {.tolerance = 0.25}));
+  EXPECT_EQ(second.back().toi_lower, 20.0);
+  EXPECT_EQ(first.front().toi_upper, second.back().toi_upper);
+  EXPECT_NE(first.front().toi_upper, static_cast<double>(::getpid()));
+  EXPECT_EQ(first.back().tolerance, 0.5);
+  EXPECT_EQ(second.back().tolerance, 0.25);
+  EXPECT_EQ(method.calls, 0);
+}
+
+// ---- Failures -----------------------------------------------------------------------------------
+
+TEST(SolverProcess, EveryWayToEndCostsOneQueryAndHasItsName) {
+  const std::vector<std::pair<Act, Failure>> ends{
+      {Act::dies, killed},
+      {Act::segfaults, {.kind = FailureKind::crash, .number = SIGSEGV}},
+      {Act::throws, {.kind = FailureKind::exception, .what = "thrown by a solver"}},
+      {Act::throws_a_number, {.kind = FailureKind::exception, .what = "not a std::exception"}},
+      {Act::exits, {.kind = FailureKind::exit}},
+      {Act::exits_as_usual, {.kind = FailureKind::exit, .number = 3}}};
+  for (const auto& [act, failure] : ends) {
+    for (const double limit : {0.0, long_limit}) {
+      SCOPED_TRACE(to_text(failure));
+      const std::vector<std::size_t> deadly{0, 100, 101, 1023, 1024, 2499};
+      std::vector<Query> queries = numbered(2500);
+      plant(queries, act, deadly);
+      const Outcome outcome = run(queries, limit);
+      expect_failures(outcome, failure, deadly);
+      EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
+    }
+  }
+}
+
+TEST(SolverProcess, LeavesItToTheAnswersWhatTheyShow) {
+  std::vector<Query> queries = numbered(3);
+  plant(queries, Act::is_infinite, {1});
+  plant(queries, Act::is_undecided, {2});
+  const Outcome outcome = run(queries);
+  EXPECT_TRUE(outcome.run.failures.empty());
+  EXPECT_EQ(failure_of(outcome.answers[0]), std::nullopt);
+  EXPECT_EQ(failure_of(outcome.answers[1]).value().kind, FailureKind::not_finite);
+  EXPECT_EQ(failure_of(outcome.answers[2]).value().kind, FailureKind::undecided);
+}
+
+TEST(SolverProcess, SurvivesAMethodThatNeverDoes) {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < 20; ++i) all.push_back(i);
+  for (const double limit : {0.0, long_limit}) {
+    expect_failures(run(all_of(Act::dies, all.size()), limit), killed, all);
+  }
+}
+
+TEST(SolverProcess, AnEndThatDoesNotRepeatCostsNoAnswerButIsCounted) {
+  std::vector<Query> queries = numbered(3000);
+  plant(queries, Act::dies_in_spans, {1500});
+  const Outcome outcome = run(queries);
+  expect_all_answered(outcome);
+  EXPECT_EQ(outcome.run.unplaced_crashes, 1U);
+  EXPECT_EQ(outcome.answers[1000].tolerance, 512.0);
+  EXPECT_EQ(outcome.answers[1500].tolerance, 1.0);
+  EXPECT_EQ(outcome.answers[2000].tolerance, 512.0);
+}
+
+/// The first query is a step of its own.
+TEST(SolverProcess, AQueryThatFailsOnceAloneIsInnocent) {
+  std::vector<Query> queries = numbered(20);
+  plant(queries, Act::dies_once, {0});
+  const Outcome outcome = run(queries);
+  expect_all_answered(outcome);
+  EXPECT_EQ(outcome.run.unplaced_crashes, 1U);
+}
+
+TEST(SolverProcess, TellsEndsThatRepeatFromThoseThatDoNot) {
+  std::vector<Query> queries = numbered(5000);
+  plant(queries, Act::dies_in_spans, {10, 3000});
+  plant(queries, Act::dies, {1500, 1501, 4999});
+  const Outcome outcome = run(queries);
+  expect_failures(outcome, killed, {1500, 1501, 4999});
+  EXPECT_EQ(outcome.run.unplaced_crashes, 2U);
+}
+
+TEST(SolverProcess, TheLimitCostsOneQuery) {
+  for (const Act act : {Act::hangs, Act::burns}) {
+    const std::vector<std::size_t> slow{0, 7, 8, 29};
+    std::vector<Query> queries = numbered(30);
+    plant(queries, act, slow);
+    const Outcome outcome = run(queries, 0.2);
+    expect_failures(outcome, {.kind = FailureKind::hang}, slow);
+    EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
+  }
+}
+
+TEST(SolverProcess, TheLimitHoldsForAChildThatClosesAllItsDescriptors) {
+  std::vector<Query> queries = numbered(3);
+  plant(queries, Act::closes, {1});
+  expect_failures(run(queries, 0.2), {.kind = FailureKind::hang}, {1});
+}
+
+TEST(SolverProcess, AStepThatTakesTooLongIsSearchedAndNotCharged) {
+  class LateSlow final : public fast::Method {
+   public:
+    [[nodiscard]] std::string_view name() const override { return "late_slow"; }
+    [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+    void solve(Kind, std::span<const Query> queries, std::span<Answer> answers,
+               const fast::MethodOptions&) const override {
+      // A span of these never ends, one of them takes no time: as sure as no clock could be.
+      if (queries.size() > 1 && queries.back().coordinates[1] > 100.0) sleep_for_ever();
+      for (std::size_t i = 0; i < queries.size(); ++i) {
+        answers[i] = {.verdict = Verdict::yes, .toi_lower = queries[i].coordinates[1] + 0.5};
+      }
+    }
+  };
+  const LateSlow method;
+  SolverProcess process(method, {.query_limit_seconds = 0.2});
+  const std::vector<Query> queries = numbered(140);
+  Outcome outcome{.answers = std::vector<Answer>(queries.size()), .run = {}, .output = {}};
+  outcome.run = process.solve(Kind::vertex_face, queries, outcome.answers, {});
+  expect_all_answered(outcome);
+}
+
+TEST(SolverProcess, LeavesTheRestBehindManyLostChildren) {
+  const std::vector<Query> queries = all_of(Act::dies, 50);
+  const Outcome outcome = run(queries, {.most_failures = 3});
+  EXPECT_EQ(outcome.run.answered, 3U);
+  EXPECT_EQ(outcome.run.failures.size(), 3U);
+  // Exceptions cost nothing.
+  EXPECT_EQ(run(all_of(Act::throws, 50), {.most_failures = 3}).run.answered, 50U);
+}
+
+TEST(SolverProcess, AStopIsObeyedInTheMidstOfAQuery) {
+  for (const double limit : {0.0, 600.0}) {
+    std::vector<Query> queries = numbered(10);
+    plant(queries, Act::hangs, {5});
+    std::atomic<bool> stop = false;
+    std::jthread stopper([&] {
+      std::this_thread::sleep_for(50ms);
+      stop = true;
+    });
+    const Outcome outcome = run(queries, {.query_limit_seconds = limit, .stop = &stop});
+    EXPECT_LE(outcome.run.answered, 5U);
+    EXPECT_TRUE(outcome.run.failures.empty());
+  }
+  std::atomic<bool> stop = false;
+  EXPECT_EQ(run(numbered(10), {.stop = &stop}).run.answered, 10U);
+}
+
+TEST(SolverProcess, StopsAtItsTime) {
+  const ScriptedMethod method;
+  SolverProcess process(method);
+  std::vector<Query> queries = numbered(10);
+  plant(queries, Act::hangs, {5});
+  std::vector<Answer> answers(queries.size());
+  const SolverRun cut = process.solve(Kind::vertex_face, queries, answers, {}, 0.1);
+  EXPECT_LE(cut.answered, 5U);
+  EXPECT_TRUE(cut.failures.empty());
+  // The next call has all the time.
+  EXPECT_EQ(process.solve(Kind::vertex_face, numbered(10), answers, {}).answered, 10U);
+}
+
+// ---- Limits -------------------------------------------------------------------------------------
+
+TEST(SolverProcess, MakesNoProcessesUnlessItMay) {
+  const std::vector<Query> queries = all_of(Act::forks_for_ever, 1);
+  EXPECT_EQ(run(queries).answers.front().tolerance, 0.0);
+  // What it made is killed with it; that nothing is left is for another test to see.
+  EXPECT_EQ(run(queries, {.limits = {.may_fork = true}}).answers.front().tolerance, 20.0);
+}
+
+TEST(SolverProcess, MayMakeThreads) {
+  class Threaded final : public fast::Method {
+   public:
+    [[nodiscard]] std::string_view name() const override { return "threaded"; }
+    [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+    void solve(Kind, std::span<const Query>, std::span<Answer> answers,
+               const fast::MethodOptions&) const override {
+      std::jthread([&] {
+        for (Answer& answer : answers) answer.verdict = Verdict::no;
+      });
+    }
+  };
+  const Threaded method;
+  SolverProcess process(method);
+  std::vector<Answer> answers(3);
+  EXPECT_TRUE(process.solve(Kind::vertex_face, numbered(3), answers, {}).failures.empty());
+  EXPECT_EQ(answers.back().verdict, Verdict::no);
+}
+
+#ifndef TOUCHSTONE_SANITIZED
+TEST(SolverProcess, GetsAsMuchMemoryAsItMay) {
+  const std::vector<Query> queries = all_of(Act::allocates, 1);
+  constexpr std::uint64_t gibibyte = std::uint64_t{1} << 30U;
+  const auto gibibytes = [&](std::uint64_t limit) {
+    return run(queries, {.limits = {.memory_bytes = limit}}).answers.front().tolerance;
+  };
+  EXPECT_EQ(gibibytes(gibibyte / 2), 0.0);
+  EXPECT_EQ(gibibytes(3 * gibibyte + gibibyte / 2), 3.0);
+  EXPECT_EQ(gibibytes(0), 64.0);
+}
+#endif
+
+TEST(SolverProcess, AFileThatIsTooLargeEndsIt) {
+  std::vector<Query> queries = numbered(3);
+  plant(queries, Act::writes_a_file, {1});
+  expect_failures(run(queries, {.limits = {.file_bytes = 1U << 20U}}),
+                  {.kind = FailureKind::crash, .number = SIGXFSZ}, {1});
+}
+
+/// Answers with whether it could write into its working directory, and says where that is.
+class WritingMethod final : public fast::Method {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "writing"; }
+  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+  void solve(Kind, std::span<const Query>, std::span<Answer> answers,
+             const fast::MethodOptions&) const override {
+    for (Answer& answer : answers) {
+      std::cout << std::filesystem::current_path().string() << "\n";
+      answer.verdict = std::ofstream("written") << "x" ? Verdict::yes : Verdict::no;
+    }
+  }
+};
+
+TEST(SolverProcess, WorksInAFolderThatGoesWithIt) {
+  const WritingMethod method;
+  std::filesystem::path folder;
+  {
+    SolverProcess process(method);
+    std::vector<Answer> answers(1);
+    static_cast<void>(process.solve(Kind::vertex_face, numbered(1), answers, {}));
+    EXPECT_EQ(answers.front().verdict, Verdict::yes);
+    const std::string text = process.take_output().text;
+    folder = text.substr(0, text.find('\n'));
+    EXPECT_NE(folder, std::filesystem::current_path());
+    EXPECT_TRUE(std::filesystem::exists(folder / "written"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder));
+  EXPECT_FALSE(std::filesystem::exists("written"));
+}
+
+// ---- What it prints -----------------------------------------------------------------------------
+
+TEST(SolverProcess, CatchesWhatIsPrinted) {
+  std::vector<Query> queries = numbered(3);
+  plant(queries, Act::prints, {1});
+  testing::internal::CaptureStdout();
+  const Outcome outcome = run(queries);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_NE(outcome.output.text.find("out 1.5\n"), std::string::npos) << outcome.output.text;
+  EXPECT_NE(outcome.output.text.find("err\n"), std::string::npos) << outcome.output.text;
+  EXPECT_EQ(outcome.output.dropped, 0U);
+}
+
+TEST(SolverProcess, DoesNotTakeWhatThisProcessHasYetToPrint) {
+  testing::internal::CaptureStdout();
+  std::printf("ours");
+  const Outcome outcome = run(all_of(Act::prints, 1));
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "ours");
+  EXPECT_EQ(outcome.output.text.find("ours"), std::string::npos);
+}
+
+TEST(SolverProcess, KeepsTheBeginningOfALotAndNeverBlocks) {
+  const Outcome outcome = run(all_of(Act::prints, 20'000));
+  expect_all_answered(outcome);
+  EXPECT_EQ(outcome.output.text.size(), CapturedOutput::most_bytes);
+  EXPECT_GT(outcome.output.dropped, 0U);
+}
+
+// ---- Time ---------------------------------------------------------------------------------------
+
+TEST(SolverProcess, CountsProcessorTimeOfEveryQueryOnce) {
+  for (const double limit : {0.0, long_limit}) {
+    const SolverRun solved = run(all_of(Act::works, 6), limit).run;
+    EXPECT_GE(solved.processor_seconds, 6 * work_seconds);
+    EXPECT_LT(solved.processor_seconds, 9 * work_seconds);
+    EXPECT_GE(solved.wall_seconds, 6 * work_seconds);
+  }
+}
+
+TEST(SolverProcess, DoesNotCountWhatItHadToSearch) {
+  std::vector<Query> queries = all_of(Act::works, 8);
+  plant(queries, Act::dies, {7});
+  // Steps of 1, 2, 4 and the last one.
+  const SolverRun solved = run(queries, long_limit).run;
+  EXPECT_GE(solved.processor_seconds, 7 * work_seconds);
+  EXPECT_LT(solved.processor_seconds, 10 * work_seconds);
+}
+
+TEST(SolverProcess, CountsTheTimeThatAHangBurnt) {
+  EXPECT_GT(run(all_of(Act::burns, 1), 0.5).run.processor_seconds, 0.02);
+}
+
+// ---- The process around it ----------------------------------------------------------------------
+
+std::ptrdiff_t open_descriptors() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {});
+}
+
+TEST(SolverProcess, LeavesNeitherChildrenNorDescriptors) {
+  const std::ptrdiff_t before = open_descriptors();
+  std::vector<Query> queries = numbered(10);
+  plant(queries, Act::hangs, {3});
+  plant(queries, Act::dies, {5});
+  static_cast<void>(run(queries, 0.1));
+  static_cast<void>(run(numbered(10)));
+  EXPECT_EQ(open_descriptors(), before);
+  errno = 0;
+  EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
+  EXPECT_EQ(errno, ECHILD);
+}
+
+TEST(SolverProcess, NeitherWaitsForGrandchildrenNorLeavesThem) {
+  // Orphans become children of this process, which can then see how they ended.
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
+  std::vector<Query> queries = numbered(10);
+  plant(queries, Act::forks, {1, 2, 3});
+  plant(queries, Act::dies, {9});
+  const Outcome outcome = run(queries, {.limits = {.may_fork = true}});
+  expect_failures(outcome, killed, {9});
+  for (int orphans = 0; orphans < 3; ++orphans) {
+    int status = 0;
+    ASSERT_GT(::waitpid(-1, &status, 0), 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  }
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 0), 0);
+}
+
+TEST(SolverProcess, ThereMayBeOneInEachThread) {
+  std::atomic<unsigned> right = 0;
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t thread = 0; thread < 4; ++thread) {
+      threads.emplace_back([&right, thread] {
+        for (std::size_t round = 0; round < 5; ++round) {
+          std::vector<Query> queries = numbered(1500);
+          const std::size_t deadly = 100 * thread + round;
+          plant(queries, Act::dies, {deadly});
+          const Outcome outcome = run(queries, round % 2 == 0 ? 0.0 : long_limit);
+          expect_failures(outcome, killed, {deadly});
+          right += outcome.run.failures.size() == 1 ? 1 : 0;
+        }
+      });
+    }
+  }
+  EXPECT_EQ(right, 20U);
+}
+
+/// The child is about this process, and not about the thread that made it.
+TEST(SolverProcess, OutlivesTheThreadThatFirstAsked) {
+  const ScriptedMethod method;
+  SolverProcess process(method);
+  std::vector<Answer> answers(10);
+  std::jthread([&] {
+    static_cast<void>(process.solve(Kind::vertex_face, numbered(10), answers, {}));
+  }).join();
+  const SolverRun solved = process.solve(Kind::vertex_face, numbered(10), answers, {});
+  EXPECT_EQ(solved.answered, 10U);
+  EXPECT_EQ(solved.unplaced_crashes, 0U);
+}
+
+std::atomic<unsigned> signals = 0;
+extern "C" void count_signal(int) { ++signals; }
+
+TEST(SolverProcess, DoesNotMindSignals) {
+  struct sigaction action {
+  }, old_action{};
+  action.sa_handler = count_signal;
+  ASSERT_EQ(::sigaction(SIGALRM, &action, &old_action), 0);
+  const itimerval often{.it_interval = {0, 1000}, .it_value = {0, 1000}};
+  ASSERT_EQ(::setitimer(ITIMER_REAL, &often, nullptr), 0);
+  std::vector<Query> queries = numbered(10);
+  plant(queries, Act::hangs, {4});
+  const Outcome outcome = run(queries, 0.2);
+  const itimerval never{};
+  ASSERT_EQ(::setitimer(ITIMER_REAL, &never, nullptr), 0);
+  ASSERT_EQ(::sigaction(SIGALRM, &old_action, nullptr), 0);
+  EXPECT_GT(signals, 0U);
+  expect_failures(outcome, {.kind = FailureKind::hang}, {4});
+}
+
+TEST(SolverProcess, WorksWhereTheSystemReapsChildren) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  std::vector<Query> queries = numbered(10);
+  plant(queries, Act::dies, {4});
+  const Outcome outcome = run(queries);
+  std::signal(SIGCHLD, before);
+  // The signal is not known then.
+  expect_failures(outcome, {.kind = FailureKind::crash}, {4});
+}
+
+/// Writes down its process and sleeps for ever.
+class LoggingMethod final : public fast::Method {
+ public:
+  explicit LoggingMethod(std::atomic<pid_t>& process) : process_(process) {}
+  [[nodiscard]] std::string_view name() const override { return "logging"; }
+  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+  void solve(Kind, std::span<const Query>, std::span<Answer>,
+             const fast::MethodOptions&) const override {
+    process_ = ::getpid();
+    sleep_for_ever();
+  }
+
+ private:
+  std::atomic<pid_t>& process_;
+};
+
+TEST(SolverProcess, DiesWithItsParent) {
+  // The orphan becomes a child of this process, which can then see how it ended.
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
+  const SharedValue<std::atomic<pid_t>> shared;
+  std::atomic<pid_t>& grandchild = *shared;
+  // What is killed leaves its temporary folder behind.
+  const TemporaryFolder folder;
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    ::setenv("TMPDIR", folder.path().c_str(), 1);
+    const std::vector<Query> queries = numbered(1);
+    std::vector<Answer> answers(1);
+    const LoggingMethod method(grandchild);
+    static_cast<void>(SolverProcess(method).solve(Kind::vertex_face, queries, answers, {}));
+    ::_exit(0);
+  }
+  ASSERT_GT(parent, 0);
+  while (grandchild == 0) std::this_thread::sleep_for(1ms);
+  ASSERT_EQ(::kill(parent, SIGKILL), 0);
+  ASSERT_EQ(::waitpid(parent, nullptr, 0), parent);
+
+  int status = 0;
+  ASSERT_EQ(::waitpid(grandchild, &status, 0), grandchild);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 0), 0);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,155 @@
+#include "verify/fuzz/recheck.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "exact/certificate.hpp"
+#include "exact/certificate_text.hpp"
+#include "verify/fuzz/draws.hpp"
+#include "verify/fuzz/shrink.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::CertifiedResult;
+using fast::Verdict;
+
+/// The rest of a block is not asked after so many queries that ended the solver's process or took too
+/// long.
+constexpr std::size_t most_failures = 4;
+
+/// Was the query asked alone, in a process of its own, before it was a finding?
+bool is_confirmed_alone(FindingKind what) {
+  return what == FindingKind::crash || what == FindingKind::exit || what == FindingKind::hang;
+}
+
+/// Are the same bounds missing in both?
+bool lacks_same_bounds(const Answer& a, const Answer& b) {
+  return std::isnan(a.toi_lower) == std::isnan(b.toi_lower) &&
+         std::isnan(a.toi_upper) == std::isnan(b.toi_upper);
+}
+
+/// Empty where it would exceed the format's limits.
+std::string certificate(Kind kind, const Query& query, const Decision& decision,
+                        std::string_view label) {
+  try {
+    return exact::certificate_stream(decision.prove(kind, query, {}), label);
+  } catch (const exact::CertificateLimitError&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+Standard standard_of(const fast::Method& method, const FuzzOptions& options) {
+  return {.promise = options.promise.value_or(method.promise()),
+          .separation = options.separation,
+          .reach = options.reach};
+}
+
+SolverProcessOptions process_options(const FuzzOptions& options) {
+  return {.query_limit_seconds = options.query_limit_seconds,
+          .most_failures = most_failures,
+          .stop = options.stop,
+          .limits = options.limits};
+}
+
+double solver_seconds(const Deadline& deadline) {
+  constexpr double least = 1e-3, no_limit = 0.0;
+  const double left = deadline.seconds_left();
+  return std::isinf(left) ? no_limit : std::max(least, left);
+}
+
+Answer answer_of(const CertifiedResult& judged) {
+  return {.verdict = judged.verdict,
+          .toi_lower = judged.toi_lower,
+          .toi_upper = judged.toi_upper,
+          .tolerance = Answer::none};
+}
+
+FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
+                         const Decision& decision, std::string detail, std::string_view label) {
+  return {.query = query,
+          .answer = answer,
+          .collides = decision.collides(),
+          .truth = to_text(truth_of(0, decision)),
+          .detail = std::move(detail),
+          .certificate = certificate(kind, query, decision, label)};
+}
+
+Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options)
+    : finding_(finding),
+      standard_(standard_of(method, options)),
+      query_limit_seconds_(options.query_limit_seconds),
+      of_judge_(finding.method == judge_name && method.name() != judge_name),
+      solver_(method, process_options(options)),
+      method_options_(method_options(options)) {}
+
+std::optional<FailingCase> Recheck::ask(const Query& query, const Deadline& deadline) {
+  if (!draws::is_finite(query) || deadline.is_over()) return std::nullopt;
+  const std::optional<Reply> reply = reply_to(query, deadline);
+  if (!reply) return std::nullopt;
+  const Decision decision(finding_.kind, query, standard_.separation);
+  const auto accusation = accuse_reply(query, truth_of(0, decision), *reply);
+  if (!accusation || !is_same(*accusation)) return std::nullopt;
+  return failing_case(finding_.kind, query, reply->answer, decision, accusation->detail,
+                      finding_.generator);
+}
+
+std::optional<Recheck::Reply> Recheck::reply_to(const Query& query, const Deadline& deadline) {
+  if (of_judge_) {
+    return Reply{.answer = answer_of(
+                     fast::certified(finding_.kind, query, {.separation = standard_.separation})),
+                 .failure = std::nullopt};
+  }
+  Reply reply;
+  const SolverRun run = solver_.solve(finding_.kind, {&query, 1}, {&reply.answer, 1},
+                                      method_options_, solver_seconds(deadline));
+  if (run.answered == 0) return std::nullopt;
+  if (!run.failures.empty()) reply.failure = run.failures.front().failure;
+  return reply;
+}
+
+std::optional<Accusation> Recheck::accuse_reply(const Query& query, const Truth& truth,
+                                                const Reply& reply) const {
+  if (reply.failure) return accuse_failure(*reply.failure, query_limit_seconds_);
+  if (finding_.missing.any() && reply.answer.verdict == Verdict::yes &&
+      lacks_same_bounds(reply.answer, finding_.original.answer)) {
+    return Accusation{FindingKind::not_finite, finding_.original.detail};
+  }
+  Standard standard = standard_;
+  if (of_judge_) standard = {.promise = fast::Promise::exact, .separation = standard_.separation};
+  return accuse(finding_.kind, query, truth, reply.answer, standard);
+}
+
+bool Recheck::is_same(const Accusation& accusation) const {
+  return accusation.what == finding_.what || finding_.what == FindingKind::asymmetry;
+}
+
+void simplify(const fast::Method& method, const FuzzOptions& options, const Deadline& deadline,
+              Finding& finding) {
+  // In less time than that no query can be seen to hang.
+  const bool is_hang = finding.what == FindingKind::hang;
+  if (is_hang && deadline.seconds_left() <= options.query_limit_seconds) return;
+  Recheck recheck(method, finding, options);
+  const auto must_end = [&] {
+    return deadline.is_over() || (options.stop != nullptr && options.stop->load());
+  };
+  const auto fails = [&](const Query& query) {
+    std::optional<FailingCase> evidence = recheck.ask(query, deadline);
+    if (evidence) finding.simplest = std::move(*evidence);
+    return evidence.has_value();
+  };
+  // What ended the process or took too long was asked alone before.
+  if (!is_confirmed_alone(finding.what) && !fails(finding.original.query)) {
+    finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::not_reproduced;
+    return;
+  }
+  static_cast<void>(shrink(finding.kind, finding.original.query, fails, {.must_end = must_end}));
+  finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::complete;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,81 @@
+#pragma once
+
+/// \file
+/// Asking a solver again about what the fuzzer found: for a simpler query with the same fault, and
+/// for its evidence.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "exact/query.hpp"
+#include "fast/certified.hpp"
+#include "fast/method.hpp"
+#include "verify/deadline.hpp"
+#include "verify/decision.hpp"
+#include "verify/fuzz/finding.hpp"
+#include "verify/fuzz/fuzz.hpp"
+#include "verify/fuzz/referee.hpp"
+#include "verify/solvers/solver_process.hpp"
+
+namespace touchstone::verify {
+
+/// The solver that judges the others.
+inline constexpr std::string_view judge_name = "certified";
+
+/// What a method is held to in a run.
+[[nodiscard]] Standard standard_of(const fast::Method& method, const FuzzOptions& options);
+
+/// How a solver's process is used in a run.
+[[nodiscard]] SolverProcessOptions process_options(const FuzzOptions& options);
+
+/// The seconds left as SolverProcess::solve takes them, at least a millisecond.
+[[nodiscard]] double solver_seconds(const Deadline& deadline);
+
+/// What the judge says, as an answer.
+[[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& judged);
+
+/// The evidence of a fault. \param decision of the query, at the run's separation
+[[nodiscard]] FailingCase failing_case(Kind kind, const Query& query, const fast::Answer& answer,
+                                       const Decision& decision, std::string detail,
+                                       std::string_view label);
+
+/// Does a solver do the same wrong to another query? Each call asks it alone, in a child process, and
+/// the oracle. What was found by an image of a query is wrong in any way. Of a finding against the
+/// judge, the judge is asked.
+class Recheck {
+ public:
+  /// \param options those of the run that found it
+  /// The method must live as long as this object.
+  Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options);
+
+  /// The evidence, if it does; nothing if it does not, or has not answered at the deadline, or the
+  /// query is not finite.
+  [[nodiscard]] std::optional<FailingCase> ask(const Query& query, const Deadline& deadline = {});
+
+ private:
+  /// What the solver answers alone, or why it does not.
+  struct Reply {
+    fast::Answer answer;
+    std::optional<Failure> failure;
+  };
+  [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const Deadline& deadline);
+  [[nodiscard]] std::optional<Accusation> accuse_reply(const Query& query, const Truth& truth,
+                                                       const Reply& reply) const;
+  [[nodiscard]] bool is_same(const Accusation& accusation) const;
+
+  Finding finding_;
+  Standard standard_;
+  double query_limit_seconds_;
+  bool of_judge_;
+  SolverProcess solver_;
+  fast::MethodOptions method_options_;
+};
+
+/// Makes the finding's query simpler as long as the solver does the same wrong to it (shrink.hpp),
+/// until the deadline or the options' stop. A hang is left alone if it takes longer.
+void simplify(const fast::Method& method, const FuzzOptions& options, const Deadline& deadline,
+              Finding& finding);
+
+}  // namespace touchstone::verify

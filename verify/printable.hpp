@@ -1,0 +1,53 @@
+#pragma once
+
+/// \file
+/// Text from outside (names of files and plugins, labels, messages of the system) made fit to be
+/// printed on a terminal and put into tables.
+///
+/// A name may hold any bytes: escape codes that move the cursor, line ends that forge a row of a table,
+/// marks that reverse the direction of writing, markup. *Printable* text is one line of well-formed
+/// UTF-8 without any of them:
+///   - no control characters (C0, DEL, C1),
+///   - no line or paragraph separators (U+2028, U+2029),
+///   - no marks of direction (U+061C, U+200E, U+200F, U+202A–U+202E, U+2066–U+2069),
+///   - no other invisible characters (U+200B, U+2060–U+2065, U+206A–U+206F, U+FEFF, U+FFF9–U+FFFB, the
+///     tags U+E0000–U+E007F), but for the joiners that scripts need (U+200C, U+200D),
+///   - no code points that are no characters (U+FDD0–U+FDEF, the last two of each plane).
+/// CSV, XML and JSON have their own escapes on top: csv.hpp, stability/svg.hpp, and the JSON library.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace touchstone::verify {
+
+/// A character in front of a text.
+struct Character {
+  /// In bytes; 0 if the text does not begin with a well-formed UTF-8 sequence.
+  std::size_t length = 0;
+  char32_t code = 0;
+};
+
+/// The character that a text begins with.
+[[nodiscard]] Character first_character(std::string_view text);
+
+/// May the character stand in printable text?
+[[nodiscard]] bool is_printable(const Character& character);
+
+/// Is the text printable as it stands?
+[[nodiscard]] bool is_printable(std::string_view text);
+
+/// The text with everything that may not stand in printable text written out: \xHH for a byte that is
+/// no UTF-8 and for an ASCII character, \uHHHH or \UHHHHHHHH for any other character.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// Printable text as it stands in Markdown, in a cell of a table too: what could be markup is escaped.
+[[nodiscard]] std::string markdown_escaped(std::string_view text);
+
+/// Printable text as a code span of Markdown.
+[[nodiscard]] std::string markdown_code(std::string_view text);
+
+/// Printable text as a code block of Markdown, of one line.
+[[nodiscard]] std::string markdown_code_block(std::string_view text);
+
+}  // namespace touchstone::verify

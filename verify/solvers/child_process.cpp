@@ -1,0 +1,375 @@
+#include "verify/solvers/child_process.hpp"
+
+#include <fcntl.h>
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+#include <system_error>
+#include <utility>
+
+namespace touchstone::verify {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_sanitized = true;
+#else
+constexpr bool is_sanitized = false;
+#endif
+
+[[noreturn]] void fail(const char* what) {
+  throw std::system_error(errno, std::generic_category(), what);
+}
+
+/// A descriptor, closed with this object.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&&) = delete;
+  Descriptor& operator=(Descriptor&&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  [[nodiscard]] int get() const { return number_; }
+  [[nodiscard]] int release() { return std::exchange(number_, -1); }
+
+ private:
+  int number_;
+};
+
+// ---- The child ----------------------------------------------------------------------------------
+
+/// Private memory that can be written, in bytes, as RLIMIT_DATA counts it.
+std::uint64_t data_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::uint64_t pages = 0;
+  constexpr int data_field = 6;
+  for (int i = 0; i < data_field; ++i) file >> pages;
+  return file ? pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) : 0;
+}
+
+void limit_resource(int resource, std::uint64_t value) {
+  const rlimit limit{.rlim_cur = value, .rlim_max = value};
+  ::setrlimit(static_cast<__rlimit_resource>(resource), &limit);
+}
+
+/// Has the system refuse to make processes, but not threads. What makes a thread is known by the
+/// flags of clone(); those of clone3() lie in memory, so the C library is told to do without it.
+void forbid_processes() {
+#if defined(__x86_64__) || defined(__aarch64__)
+#if defined(__x86_64__)
+  constexpr std::uint32_t architecture = AUDIT_ARCH_X86_64;
+#else
+  constexpr std::uint32_t architecture = AUDIT_ARCH_AARCH64;
+#endif
+  const auto load = [](std::size_t offset) {
+    return sock_filter BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(offset));
+  };
+  const auto fail_with = [](int error) {
+    return sock_filter BPF_STMT(BPF_RET | BPF_K,
+                                SECCOMP_RET_ERRNO | static_cast<std::uint32_t>(error));
+  };
+  /// Skips so many instructions unless the value is this.
+  const auto unless = [](std::uint32_t value, std::uint8_t skipped) {
+    return sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 0, skipped);
+  };
+  const sock_filter allow = BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
+  std::array filter {
+    load(offsetof(seccomp_data, arch)), unless(architecture, 1), load(offsetof(seccomp_data, nr)),
+        unless(SYS_clone3, 1), fail_with(ENOSYS),
+#if defined(__x86_64__)
+        unless(SYS_fork, 1), fail_with(EAGAIN), unless(SYS_vfork, 1), fail_with(EAGAIN),
+#endif
+        unless(SYS_clone, 4), load(offsetof(seccomp_data, args[0])),
+        sock_filter BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, CLONE_THREAD, 1, 0), fail_with(EAGAIN),
+        allow, allow,
+  };
+  const sock_fprog program{.len = static_cast<unsigned short>(filter.size()),
+                           .filter = filter.data()};
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+#endif
+}
+
+void set_limits(const ChildLimits& limits) {
+  limit_resource(RLIMIT_CORE, 0);
+  ::prctl(PR_SET_DUMPABLE, 0);
+  if (limits.file_bytes != 0) limit_resource(RLIMIT_FSIZE, limits.file_bytes);
+  if (limits.memory_bytes != 0 && !is_sanitized) {
+    limit_resource(RLIMIT_DATA, data_bytes() + limits.memory_bytes);
+  }
+  if (!limits.may_fork) forbid_processes();
+}
+
+/// Has the system kill this process and its group when all other ends of the pipe are closed: when
+/// the parent is gone. (PR_SET_PDEATHSIG would be about the thread that made this process.)
+void die_with(int lifeline) {
+  ::fcntl(lifeline, F_SETOWN, -::getpid());
+  ::fcntl(lifeline, F_SETSIG, SIGKILL);
+  ::fcntl(lifeline, F_SETFL, O_ASYNC | O_NONBLOCK);
+  pollfd event{.fd = lifeline, .events = POLLIN, .revents = 0};
+  if (::poll(&event, 1, 0) != 0) ::_exit(1);
+}
+
+/// The child's ends of what connects it with its parent.
+struct ChildEnds {
+  int socket;
+  int lifeline;
+  int output;
+};
+
+/// Closes all descriptors but these, which get other numbers.
+ChildEnds keep_only(const ChildEnds& ends) {
+  constexpr int first_free = 3;
+  // Out of the way of the numbers that they are to have.
+  constexpr int aside = 16;
+  const int socket = ::fcntl(ends.socket, F_DUPFD, aside);
+  const int lifeline = ::fcntl(ends.lifeline, F_DUPFD, aside);
+  const int output = ::fcntl(ends.output, F_DUPFD, aside);
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  ::dup2(nothing, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(output, STDERR_FILENO);
+  ::dup2(socket, first_free);
+  ::dup2(lifeline, first_free + 1);
+  ::syscall(SYS_close_range, first_free + 2, ~0U, 0U);
+  return {.socket = first_free, .lifeline = first_free + 1, .output = STDOUT_FILENO};
+}
+
+/// What is registered last runs first: the clean-up of the parent's copy is not for this process,
+/// whose threads it would wait for.
+void leave_without_clean_up() {
+  ::on_exit(
+      [](int status, void*) {
+        std::fflush(stdout);
+        std::cout.flush();
+        ::_exit(status);
+      },
+      nullptr);
+}
+
+[[noreturn]] void live(const ChildProcess::Work& work, const ChildLimits& limits,
+                       const std::filesystem::path& folder, const ChildEnds& inherited) {
+  ::setpgid(0, 0);
+  // Those of crashes too, which a sanitizer would make exits of.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD, SIGXFSZ, SIGSEGV, SIGBUS,
+                           SIGFPE, SIGILL, SIGABRT}) {
+    std::signal(signal, SIG_DFL);
+  }
+  const ChildEnds ends = keep_only(inherited);
+  die_with(ends.lifeline);
+  leave_without_clean_up();
+  int status = 1;
+  try {
+    std::filesystem::current_path(folder);
+    set_limits(limits);
+    work(ChildChannel(ends.socket));
+    status = 0;
+  } catch (...) {
+    status = 1;
+  }
+  std::fflush(stdout);
+  std::cout.flush();
+  ::_exit(status);
+}
+
+// ---- The parent ---------------------------------------------------------------------------------
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
+}
+
+std::pair<int, int> make_pipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("cannot talk to a solver's process");
+  return {ends[0], ends[1]};
+}
+
+std::pair<int, int> make_sockets() {
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    fail("cannot talk to a solver's process");
+  }
+  return {ends[0], ends[1]};
+}
+
+/// How long to sleep where the system cannot tell of the child's end.
+constexpr ChildProcess::Seconds short_sleep(0.005);
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "touchstone-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) fail("cannot make a temporary folder");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+void CapturedOutput::append(const char* bytes, std::size_t count) {
+  const std::size_t kept = std::min(count, most_bytes - std::min(most_bytes, text.size()));
+  text.append(bytes, kept);
+  dropped += count - kept;
+}
+
+std::optional<std::string> ChildChannel::receive() const {
+  std::string message(most_bytes, '\0');
+  ssize_t received = 0;
+  do {
+    received = ::recv(socket_, message.data(), message.size(), 0);
+  } while (received < 0 && errno == EINTR);
+  if (received <= 0) return std::nullopt;
+  message.resize(static_cast<std::size_t>(received));
+  return message;
+}
+
+bool ChildChannel::send(const std::string& message) const {
+  return ::send(socket_, message.data(), message.size(), MSG_NOSIGNAL) >= 0;
+}
+
+ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits,
+                           const std::filesystem::path& folder) {
+  const auto [own_socket, child_socket] = make_sockets();
+  Descriptor socket(own_socket);
+  const Descriptor other_socket(child_socket);
+  const auto [child_lifeline, own_lifeline] = make_pipe();
+  Descriptor lifeline(own_lifeline);
+  const Descriptor other_lifeline(child_lifeline);
+  const auto [own_output, child_output] = make_pipe();
+  Descriptor output(own_output);
+  const Descriptor other_output(child_output);
+  ::fcntl(own_output, F_SETFL, O_NONBLOCK);
+  // What waits to be printed is for this process to print.
+  std::fflush(stdout);
+  process_ = ::fork();
+  if (process_ == 0) {
+    live(work, limits, folder,
+         {.socket = child_socket, .lifeline = child_lifeline, .output = child_output});
+  }
+  if (process_ < 0) fail("cannot make a solver's process");
+  // The child does the same; whoever comes first, the group is there from now on.
+  ::setpgid(process_, process_);
+  socket_ = socket.release();
+  lifeline_ = lifeline.release();
+  output_ = output.release();
+  ended_ = static_cast<int>(::syscall(SYS_pidfd_open, process_, 0U));
+}
+
+ChildProcess::~ChildProcess() {
+  CapturedOutput ignored;
+  if (process_ >= 0) end(ignored);
+  for (const int descriptor : {socket_, lifeline_, output_, ended_}) {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+}
+
+void ChildProcess::send(const std::string& message) const {
+  static_cast<void>(::send(socket_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
+}
+
+ChildProcess::Event ChildProcess::wait(Seconds longest, std::string& message,
+                                       CapturedOutput& output) {
+  // poll() passes over descriptors that are none.
+  std::array<pollfd, 3> events{{{.fd = socket_, .events = POLLIN, .revents = 0},
+                                {.fd = output_, .events = POLLIN, .revents = 0},
+                                {.fd = ended_, .events = POLLIN, .revents = 0}}};
+  const Seconds sleep = ended_ < 0 ? std::min(longest, short_sleep) : longest;
+  // A signal to this process cuts the sleep short, which does no harm.
+  ::poll(events.data(), events.size(), static_cast<int>(sleep.count() * 1e3) + 1);
+  const bool has_ended = this->has_ended();
+  take_output(output);
+  if (socket_ >= 0) {
+    message.resize(ChildChannel::most_bytes);
+    const ssize_t received = ::recv(socket_, message.data(), message.size(), MSG_DONTWAIT);
+    message.resize(static_cast<std::size_t>(std::max<ssize_t>(received, 0)));
+    if (received > 0) return Event::message;
+    // The child may have closed its end, and live on.
+    if (received == 0) ::close(std::exchange(socket_, -1));
+  }
+  return has_ended ? Event::ended : Event::none;
+}
+
+void ChildProcess::take_output(CapturedOutput& output) {
+  std::array<char, 4096> buffer{};
+  // Not for ever: the child may print as fast as this reads.
+  constexpr int most_reads = 256;
+  for (int i = 0; i < most_reads && output_ >= 0; ++i) {
+    const ssize_t count = ::read(output_, buffer.data(), buffer.size());
+    if (count > 0) output.append(buffer.data(), static_cast<std::size_t>(count));
+    if (count == 0) ::close(std::exchange(output_, -1));
+    if (count < 0 && errno != EINTR) return;
+  }
+}
+
+ChildEnd ChildProcess::end(CapturedOutput& output) {
+  // Not yet reaped, the child keeps its number from becoming that of another group.
+  if (!has_ended()) ::kill(process_, SIGKILL);
+  ::kill(-process_, SIGKILL);
+  int status = 0;
+  rusage usage{};
+  pid_t reaped = 0;
+  do {
+    reaped = ::wait4(process_, &status, 0, &usage);
+  } while (reaped < 0 && errno == EINTR);
+  process_ = -1;
+  take_output(output);
+  ChildEnd result;
+  // Where the system reaps the children of this process, nothing is known.
+  result.failure = {.kind = FailureKind::crash};
+  if (reaped > 0 && WIFEXITED(status)) {
+    result.failure = {.kind = FailureKind::exit, .number = WEXITSTATUS(status)};
+  } else if (reaped > 0) {
+    result.failure.number = WTERMSIG(status);
+  }
+  result.processor_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  return result;
+}
+
+double ChildProcess::processor_seconds() const {
+  clockid_t clock{};
+  timespec now{};
+  if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &now) != 0) return 0.0;
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+bool ChildProcess::is_runnable() const {
+  std::ifstream file("/proc/" + std::to_string(process_) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  // The state stands behind the name of the program, which may hold anything.
+  const std::size_t behind_name = text.rfind(") ");
+  return behind_name != std::string::npos && text.compare(behind_name + 2, 1, "R") == 0;
+}
+
+/// Looks without reaping.
+bool ChildProcess::has_ended() const {
+  siginfo_t info{};
+  const int result =
+      ::waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT);
+  // An error means that this process lets the system reap its children.
+  return result != 0 || info.si_pid == process_;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,139 @@
+#pragma once
+
+/// \file
+/// A child process for code that is not trusted: a copy of this process made by fork(), of which this
+/// one survives whatever it does.
+///
+/// - It leads a process group of its own: the keys of a terminal do not reach it, and what it has
+///   started in turn (unless that left the group) is killed when it ends.
+/// - It dies with this process, even if that is killed.
+/// - Its memory, its files and their size are limited, it writes no core files and, unless allowed,
+///   makes no processes (threads it may make). The limit of memory is of one process.
+/// - It works in a folder of its own, reads nothing from standard input, and has no descriptors of
+///   this process. What it prints is caught.
+///
+/// In the child there are no other threads: fork() copies only the one that calls it. Code that
+/// hands work to threads of a pool that existed before waits for ever.
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "verify/solvers/failure.hpp"
+
+namespace touchstone::verify {
+
+/// What a child may take.
+struct ChildLimits {
+  /// Bytes of memory that it may allocate (heap, stacks, private maps), beyond what it is made with;
+  /// 0: no limit. Not under the sanitizers, whose own memory has no bound.
+  std::uint64_t memory_bytes = std::uint64_t{4} << 30U;
+  /// Bytes of a file that it writes; 0: no limit. Beyond, the system ends it with SIGXFSZ.
+  std::uint64_t file_bytes = std::uint64_t{256} << 20U;
+  /// May it make processes? If not, fork() fails with EAGAIN. (RLIMIT_NPROC counts all processes of
+  /// a user, and is nothing to root.)
+  bool may_fork = false;
+};
+
+/// A folder of a name of its own among the system's temporary files. It goes with all that is in it
+/// when this object does.
+class TemporaryFolder {
+ public:
+  /// \throws std::system_error if none can be made.
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  TemporaryFolder(TemporaryFolder&&) = delete;
+  TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+  ~TemporaryFolder();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The beginning of what children printed, standard output and error as they came.
+struct CapturedOutput {
+  static constexpr std::size_t most_bytes = std::size_t{1} << 16U;
+
+  std::string text = {};      ///< at most most_bytes
+  std::uint64_t dropped = 0;  ///< bytes behind these
+
+  void append(const char* bytes, std::size_t count);
+};
+
+/// How a child ended.
+struct ChildEnd {
+  /// crash or exit.
+  Failure failure = {};
+  double processor_seconds = 0.0;  ///< of its whole life
+};
+
+/// The child's end of the connection: messages are kept apart.
+class ChildChannel {
+ public:
+  static constexpr std::size_t most_bytes = 4096;
+
+  explicit ChildChannel(int socket) : socket_(socket) {}
+
+  /// The next message; nothing once the other end is closed.
+  [[nodiscard]] std::optional<std::string> receive() const;
+  /// \pre at most most_bytes, at least one. False once the other end is closed.
+  [[nodiscard]] bool send(const std::string& message) const;
+
+ private:
+  int socket_;
+};
+
+/// A running child. May be used by one thread after the other, by one at a time.
+class ChildProcess {
+ public:
+  using Seconds = std::chrono::duration<double>;
+  /// What the child does; it exits with status 0 behind it, with 1 if it throws.
+  using Work = std::function<void(const ChildChannel&)>;
+
+  /// \throws std::system_error if the system has no process left to give.
+  ChildProcess(const Work& work, const ChildLimits& limits, const std::filesystem::path& folder);
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+  ChildProcess(ChildProcess&&) = delete;
+  ChildProcess& operator=(ChildProcess&&) = delete;
+  /// Kills it and its group.
+  ~ChildProcess();
+
+  /// Sends a message. To a child that is gone, it gets lost.
+  void send(const std::string& message) const;
+
+  enum class Event : std::uint8_t { none, message, ended };
+
+  /// Sleeps until there is a message or the end, at most for this long, and takes what it prints.
+  [[nodiscard]] Event wait(Seconds longest, std::string& message, CapturedOutput& output);
+
+  /// Kills it if it still runs, and what is left of its group, and takes the rest of what it printed.
+  ChildEnd end(CapturedOutput& output);
+
+  /// Processor seconds so far, of all its threads; 0 if it has ended.
+  [[nodiscard]] double processor_seconds() const;
+
+  /// Does its first thread have work, and maybe no processor to do it?
+  [[nodiscard]] bool is_runnable() const;
+
+ private:
+  void take_output(CapturedOutput& output);
+  [[nodiscard]] bool has_ended() const;
+
+  pid_t process_ = -1;
+  int socket_ = -1;    ///< messages
+  int lifeline_ = -1;  ///< the child is killed when this closes
+  int output_ = -1;    ///< what it prints
+  int ended_ = -1;     ///< tells of its end; none where the system has no such thing
+};
+
+}  // namespace touchstone::verify

@@ -1,0 +1,88 @@
+#pragma once
+
+/// \file
+/// A solver in a child process that lives on: asked block after block, at the price of a message
+/// each, so that a solver that crashes, hangs or takes all memory costs one query and not the run.
+///
+/// Queries and answers lie in memory shared with the child, along with the number of the query that
+/// it is at. It works in steps: of one query at first, of more as they prove to be fast. The limit of
+/// time is that of a step. If a step ends the child or takes too long, a new child solves its queries
+/// one by one; a query that ends it is asked once more, alone in a child of its own, before that
+/// counts as its failure, and the next child goes on behind it. So the time that a solver is measured
+/// to take does not depend on the limit.
+///
+/// What is limited, and what the child is to this process: child_process.hpp.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/solvers/child_process.hpp"
+#include "verify/solvers/failure.hpp"
+
+namespace touchstone::verify {
+
+struct SolverProcessOptions {
+  /// Wall-clock seconds that a query may take, or up to five times as many while it waits for a
+  /// processor; 0: no limit. Finite and not negative.
+  double query_limit_seconds = 0.0;
+  /// After so many crashes, exits and hangs the rest of a call is left unanswered; 0: never.
+  std::size_t most_failures = 0;
+  /// May be null. Once true, the child is ended within a quarter of a second.
+  const std::atomic<bool>* stop = nullptr;
+  ChildLimits limits = {};
+};
+
+/// What came of one call.
+struct SolverRun {
+  /// Queries answered, from the first on; those with a failure count. Fewer than were asked if it was
+  /// stopped, at the limit of failures, or out of time.
+  std::size_t answered = 0;
+  /// Crashes, exits, exceptions and hangs, by ascending position: the query does it alone too. (What
+  /// else goes wrong, the answers show: failure_of.)
+  std::vector<QueryFailure> failures = {};
+  /// Times it ended its process at queries none of which does it alone. These are answered.
+  std::uint64_t unplaced_crashes = 0;
+  /// Processor time of the solver, all its threads, without the making of children. A query that
+  /// failed counts with the time it took the last time.
+  double processor_seconds = 0.0;
+  /// Wall-clock time of the same.
+  double wall_seconds = 0.0;
+};
+
+/// Asks one method. May be used by one thread after the other, by one at a time.
+class SolverProcess {
+ public:
+  /// The method must live as long as this object. Makes no process yet: the child is made at the
+  /// first call, and first asks the method no queries, which is for it to load what it needs.
+  explicit SolverProcess(const fast::Method& method, const SolverProcessOptions& options = {});
+  SolverProcess(const SolverProcess&) = delete;
+  SolverProcess& operator=(const SolverProcess&) = delete;
+  SolverProcess(SolverProcess&&) = delete;
+  SolverProcess& operator=(SolverProcess&&) = delete;
+  ~SolverProcess();
+
+  /// Answers query i in answers[i]: as the method does, undecided if it takes too long, error if it
+  /// fails otherwise.
+  /// \param seconds after this much wall-clock time, or a quarter of a second more, it stops; 0: no
+  /// limit
+  /// \pre both spans have the same length.
+  /// \throws std::system_error if the system has no memory, process or temporary folder to give.
+  [[nodiscard]] SolverRun solve(Kind kind, std::span<const Query> queries,
+                                std::span<fast::Answer> answers,
+                                const fast::MethodOptions& method_options, double seconds = 0.0);
+
+  /// What its children have printed since the last call of this, which forgets it.
+  [[nodiscard]] CapturedOutput take_output();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace touchstone::verify
