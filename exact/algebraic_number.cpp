@@ -82,7 +82,7 @@ std::vector<Crowded> cells_of_cluster(const Polynomial& p, const Crowded& crowde
 /// Isolates the roots of a squarefree polynomial in (0,1), ascending; or gives up at the first root
 /// that is met at a midpoint, and returns it: divided out it leaves a polynomial that has no root at
 /// the end of a cell. By bisection, but where the roots in a cell are near to each other the cell is
-/// replaced by much smaller ones at once, as long as guesses are right (Sagraloff, Mehlhorn 2016).
+/// replaced by much smaller ones at once, as long as guesses are right [sagraloff2016].
 std::optional<Rational> isolate(const Polynomial& p, std::vector<AlgebraicNumber>& roots) {
   static constexpr unsigned long first_bits = 2;
   const auto crowded = [&](DyadicCell cell, unsigned long bits) {

@@ -7,7 +7,7 @@
 /// only root (or, where α is known to be rational, its value). Everything else follows:
 ///
 /// - *Refinement.* p changes sign across the cell, so one sign of p halves it. Quadratic interval
-///   refinement (Abbott 2006) guesses where the secant crosses zero and asks for two signs there; a
+///   refinement [abbott2006] guesses where the secant crosses zero and asks for two signs there; a
 ///   right guess doubles the number of bits that the next guess gains, a wrong one halves it.
 /// - *Sign of q(α).* If the Bernstein form of q has no sign change on the cell, that sign is the
 /// sign of

@@ -32,7 +32,7 @@ struct DistanceVerdict {
 };
 
 /// Decides a query at a distance exactly; at distance 0 it is the verdict of decide(kind, query).
-/// Thread-safe, and independent of the floating-point environment. DESIGN.md section 9.
+/// Thread-safe, and independent of the floating-point environment. docs/theory.md, section 3.
 /// \throws std::invalid_argument if a coordinate is NaN or infinite, or the separation is not valid.
 [[nodiscard]] DistanceVerdict decide(Kind kind, const Query& query, const Separation& separation);
 

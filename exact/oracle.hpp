@@ -67,7 +67,7 @@ struct Verdict {
 };
 
 /// Decides a query exactly. Thread-safe, and independent of the floating-point environment (rounding
-/// mode, flushed subnormals). DESIGN.md section 3.
+/// mode, flushed subnormals). docs/theory.md, section 2.
 /// \throws std::invalid_argument if a coordinate is NaN or infinite.
 [[nodiscard]] Verdict decide(Kind kind, const Query& query);
 

@@ -44,7 +44,7 @@ struct Piece {
 /// and the distance are integers below 2^s, the values are polynomials of degree at most 4 with
 /// coefficients below 2^(4s+10). Roots of two of them are at least 2^(−32s−100) apart (their
 /// resultant, or that of coprime factors, is a nonzero integer), two roots of one 2^(−12s−100)
-/// (Mahler): a break between features takes at most the bits of the first bound, one for a checker
+/// [mahler1964]: a break between features takes at most the bits of the first bound, one for a checker
 /// those of the second more, and of `until`. So nothing is thrown while s ≤ 300 and `until` has at most
 /// 2,000 bits, that is while the largest coordinate is below 2^300 times the last bit of any other; and
 /// beyond that only if features change, or come near to zero, at such a distance of each other. At a

@@ -22,7 +22,7 @@ constexpr std::size_t groups_of_task = 64;
 double sum_rounded_down(double bound, double distance) {
   const double sum = bound + distance;
   if (sum == Box::infinity) return std::min(bound, std::numeric_limits<double>::max());
-  // To take the greater summand away again is exact (Dekker), so this compares sum and exact sum.
+  // To take the greater summand away again is exact [dekker1971], so this compares sum and exact sum.
   const bool rounded_up =
       std::abs(bound) >= distance ? sum - bound > distance : sum - distance > bound;
   return rounded_up ? std::nextafter(sum, -Box::infinity) : sum;

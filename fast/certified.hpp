@@ -7,7 +7,7 @@
 /// in the convex hull of its corners w_i(t) (exact/query.hpp), which signs of polynomials in t
 /// decide. Floating-point bounds that are derived from the very expressions (filters/) prove most of
 /// these signs, in stages from cheap to dear; a query that a stage cannot decide goes on to the next,
-/// and the last one is exact:
+/// and the last one is exact (docs/theory.md, section 6):
 ///
 ///     axis, direction, determinant, bisection    fast/certified/kernel_on_lanes.hpp
 ///     exact                                      fast/certified/exact_stage.hpp

@@ -17,7 +17,7 @@ const filters::ErrorBound<double, 1>& derived_bound(Kind kind, bool separated) {
   return separated ? filters::vertex_face_separated_double : filters::vertex_face_double;
 }
 
-/// The published constants (paper, section 4.2 and appendix; DESIGN.md section 4).
+/// The published constants ([wang2021], section 4.2 and appendix; docs/theory.md, section 4.10).
 double published_constant(Kind kind, bool separated) {
   if (kind == Kind::edge_edge) return separated ? 7.105427357601002e-15 : 6.217248937900877e-15;
   return separated ? 7.549516567451064e-15 : 6.661338147750939e-15;

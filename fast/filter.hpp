@@ -14,10 +14,10 @@ namespace touchstone::fast {
 /// Where a filter comes from.
 enum class ErrorModel : std::uint8_t {
   derived,    ///< filters/error_bounds.hpp: c · x_max, proved for the operations that run
-  published,  ///< Wang et al. 2021: a constant times max(x_max, 1)³
+  published,  ///< [wang2021]: a constant times max(x_max, 1)³
   /// The public Tight-Inclusion since 2022: the same constant times min(x_max, 1)³. No bound: F is
   /// linear in the coordinates, so that this is too small for x_max below about 0.9 and above about
-  /// 1.2. For comparison only.
+  /// 1.2. For comparison only (docs/methods.md, section 2).
   released,
 };
 

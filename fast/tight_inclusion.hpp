@@ -2,7 +2,8 @@
 
 /// \file
 /// Tight-Inclusion: conservative continuous collision detection by bisection of (t,u,v).
-/// (Wang et al. 2021, section 4, algorithm 2; section 5 for the minimum separation.)
+/// ([wang2021], section 4, algorithm 2; section 5 for the minimum separation. docs/theory.md,
+/// section 7; docs/methods.md, section 2.)
 ///
 /// **Why no collision is missed.** F is affine in each of t, u and v, so over a box of parameters it
 /// stays within the bounding box of its values at the eight corners. These are computed in floating

@@ -8,8 +8,7 @@
 /// |low| ≤ u |high|. While nothing overflows or underflows, sums and products are wrong by less than
 /// 8u² = 2^-103 of the truth, whatever the signs: an arithmetic of 103 digits in the sense of
 /// filters/derivation/rounding_model.hpp. The algorithms are AccurateDWPlusDW and DWTimesDW1 of
-/// Joldes, Muller and Popescu (2017, Tight and rigorous error bounds for basic building blocks of
-/// double-word arithmetic; bounds there: 3u²/(1−4u) and 7u²). What is needed here follows quickly.
+/// [joldes2017] (bounds there: 3u²/(1−4u) and 7u²). What is needed here follows quickly.
 ///
 /// *Products.* Scale so that 1 ≤ a.high, b.high < 2; the low parts are at most u. Left out is
 /// a.low b.low, at most u². The two cross terms are below 2u each and rounded by at most u² each.
@@ -56,14 +55,14 @@ struct DoubleDouble {
   Scalar low;
 };
 
-/// a + b exactly. \pre |a| ≥ |b|, or a is a multiple (0 is one) of the last place of b. (Dekker 1971)
+/// a + b exactly. \pre |a| ≥ |b|, or a is a multiple (0 is one) of the last place of b. [dekker1971]
 template <class Scalar>
 [[nodiscard]] constexpr DoubleDouble<Scalar> sum_of_ordered(const Scalar& a, const Scalar& b) {
   const Scalar sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-/// a + b exactly. (Knuth)
+/// a + b exactly. [knuth1997]
 template <class Scalar>
 [[nodiscard]] constexpr DoubleDouble<Scalar> exact_sum(const Scalar& a, const Scalar& b) {
   const Scalar sum = a + b;
@@ -82,7 +81,7 @@ template <class Scalar>
 }
 
 /// a · b − product for product = fl(a · b), exactly: without a fused operation, by halves of 26 bits
-/// (Veltkamp, Dekker 1971). \pre |a|, |b| ≤ 2^990. Lanes with a fused operation overload it.
+/// (Veltkamp; [dekker1971]). \pre |a|, |b| ≤ 2^990. Lanes with a fused operation overload it.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar product_error(const Scalar& a, const Scalar& b,
                                              const Scalar& product) {

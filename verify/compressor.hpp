@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Compression of a stream as it is written (Zstandard, RFC 8878).
+/// Compression of a stream as it is written (Zstandard, RFC 8878 [rfc8878]).
 
 #include <memory>
 #include <string>

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// ACCD: additive continuous collision detection (Li et al. 2021, "Codimensional incremental
-/// potential contact", as in the public IPC Toolkit).
+/// ACCD: additive continuous collision detection ([li2021], as in the public IPC Toolkit).
+/// docs/methods.md, section 12.
 ///
 /// With the mean displacement taken off, no two points of the primitives approach each other faster
 /// than ℓ, the sum of each primitive's greatest displacement. So at distance d they do not come

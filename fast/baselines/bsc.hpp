@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// BSC: Bernstein sign classification (Tang 2014), as patched for the published comparison
-/// (shared/methods.md, sections 4 and 4b).
+/// BSC: Bernstein sign classification [tang2014], as patched for the comparison of [wang2021]
+/// (docs/methods.md, sections 6 and 8).
 ///
 /// **Algorithm.** The coplanarity cubic is classified by its Bernstein coefficients: monotone, one
 /// extremum, or an inflection; its roots are counted, and at each the signs of three inside quartics

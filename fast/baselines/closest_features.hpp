@@ -3,9 +3,8 @@
 /// \file
 /// Squared distances of a point and a triangle, and of two segments, by their closest
 /// features, in the two ways that released methods compute them: from the closest points themselves
-/// (MSRF; Ericson 2005, "Real-time collision detection", 5.1.5 and 5.1.9), and by the formula of
-/// the pair of features, which cancels less near contact (ACCD; Li et al. 2020, "Incremental
-/// potential contact").
+/// (MSRF; [ericson2005], 5.1.5 and 5.1.9), and by the formula of the pair of features, which cancels
+/// less near contact (ACCD; [li2020]).
 ///
 /// The closest points of two convex sets are in the interior of one feature each, where the
 /// difference is orthogonal to both features. In ordinary rounding; nothing bounds the error.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Exact numbers for baselines that decide signs exactly (Brochu 2012 and Tang 2014 do it in
+/// Exact numbers for baselines that decide signs exactly ([brochu2012] and [tang2014] do it in
 /// floating-point expansions).
 ///
 /// Expansions overflow and underflow with their terms. Here all doubles of a query are scaled by one

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// FPRF: the floating-point root finder (Provot 1997; in the interval form of E. Vouga's
-/// public code, as compared by Wang et al. 2021).
+/// FPRF: the floating-point root finder ([provot1997]; in the interval form of E. Vouga's
+/// public code [vouga2010], as compared by [wang2021]). docs/methods.md, section 5.
 ///
 /// The primitives' planes, or lines, are within η of each other where D(t) = f(t)² − η²‖n(t)‖² ≤ 0,
 /// f being the triple product n·q that vanishes in coplanarity. Further polynomials are not

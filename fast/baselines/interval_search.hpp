@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The engine of IRF and UIRF: depth-first bisection of a box of parameters. (Snyder 1992,
-/// "Interval analysis for computer graphics", algorithm SOLVE.)
+/// The engine of IRF and UIRF: depth-first bisection of a box of parameters. ([snyder1992],
+/// algorithm SOLVE.)
 ///
 /// A box is dropped only if the problem proves that it holds no solution, and split boxes are
 /// covered by their halves, so if all are dropped there is none. A box that is small on all axes

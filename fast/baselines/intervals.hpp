@@ -5,7 +5,7 @@
 /// compute with them: points on their way.
 ///
 /// **Theorem.** Replace each operation of an expression by one on intervals that holds all results
-/// of operands from the intervals; then the result holds all values of the expression (Moore 1966).
+/// of operands from the intervals; then the result holds all values of the expression [moore1966].
 /// So an interval that excludes 0 proves that the expression has no zero.
 ///
 /// The rounding mode is switched before each operation and put back after it: the policy that Boost

@@ -3,7 +3,7 @@
 /// \file
 /// What the baselines have in common as methods: which queries they refuse, the
 /// floating-point state they run under, and the rule of the benchmark's harness that whatever a
-/// method throws counts as a collision. (Wang et al. 2021: CCD-Wrapper.)
+/// method throws counts as a collision. ([wang2021]: CCD-Wrapper.)
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// MSRF: the minimum-separation root finder (Harmon et al. 2011, Lu et al. 2019; as compared
-/// by Wang et al. 2021).
+/// MSRF: the minimum-separation root finder ([harmon2011], [lu2019]; as compared by
+/// [wang2021]). docs/methods.md, section 11.
 ///
 /// At a first contact within h the distance of two features is h. For each pair of features that is
 /// a polynomial equation: degree 6 for a vertex and the face or two edges (f(t)² = h²‖n(t)‖²), 4

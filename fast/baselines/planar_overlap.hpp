@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Does a segment meet a triangle in whose plane it lies? RP's fallback (shared/methods.md, section 5).
+/// Does a segment meet a triangle in whose plane it lies? RP's fallback (docs/methods.md, section 9).
 ///
 /// Both are projected along each coordinate axis and tested there, exactly. In a common plane they
 /// meet iff they do in every projection: if they meet they do so in each; and some projection keeps

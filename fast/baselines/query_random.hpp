@@ -12,7 +12,7 @@
 
 namespace touchstone::fast::baselines {
 
-/// splitmix64 (Steele, Lea, Flood 2014), seeded with a query.
+/// splitmix64 [steele2014], seeded with a query.
 class QueryRandom {
  public:
   explicit QueryRandom(const Query& query) {

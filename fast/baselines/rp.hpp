@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// RP: root parity (Brochu 2012; shared/methods.md, section 5).
+/// RP: root parity ([brochu2012]; docs/methods.md, section 9).
 ///
 /// **Theorem.** F maps the boundary of its domain (a prism for vertex-face, a cube for edge-edge) to
 /// a closed surface of triangles and bilinear patches. If 0 is not on it, the number of roots of F

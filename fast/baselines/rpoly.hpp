@@ -2,9 +2,7 @@
 
 /// \file
 /// The zeros of a real polynomial by the three-stage method of Jenkins and Traub, as released
-/// root-finding methods use it. (Jenkins and Traub 1970, "A three-stage algorithm for real
-/// polynomials using quadratic iteration", SIAM J. Numer. Anal. 7; Jenkins 1975, CACM algorithm
-/// 493.)
+/// root-finding methods use it. ([jenkins1970]; [jenkins1975], algorithm 493 of the ACM.)
 ///
 /// Beside P runs a polynomial K of one degree less. In each step K is replaced by a combination of
 /// itself and P divided by a divisor: first x (stage 1, five steps), then a quadratic with two

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// TCCD: Bernstein sign classification in floating point with running error bounds (Wang 2015;
-/// shared/methods.md, sections 4 and 4a).
+/// TCCD: Bernstein sign classification in floating point with running error bounds ([wang2015];
+/// docs/methods.md, sections 6 and 7).
 ///
 /// **Algorithm.** The coplanarity cubic Y is examined on [0,1], or, if it has an inflection, on the
 /// parts before and after it, so that on each it has at most two roots. Counting them needs the sign

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// UIRF: the univariate interval root finder (Redon et al. 2002, for linear paths; as
-/// compared by Wang et al. 2021).
+/// UIRF: the univariate interval root finder ([redon2002], for linear paths; as compared by
+/// [wang2021]). docs/methods.md, section 4.
 ///
 /// The four points are in one plane where f(t) = n(t)·q(t) = 0: n the face's normal, or the product
 /// of the edges, q a vector from one primitive to the other. f is evaluated in intervals over

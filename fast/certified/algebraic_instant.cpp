@@ -188,7 +188,7 @@ BigInteger power(const BigInteger& x, std::size_t exponent) {
   return result;
 }
 
-/// A multiple of the greatest common divisor: the last of the subresultants (Brown and Traub), which
+/// A multiple of the greatest common divisor: the last of the subresultants [brown1971], which
 /// keep short because what must divide them is divided out. \pre a is not of lower degree than b.
 Polynomial last_subresultant(Polynomial a, Polynomial b) {
   BigInteger g = 1, h = 1;

@@ -4,7 +4,7 @@
 /// The inner loop of Tight-Inclusion: F at the eight corners of a box, and what follows from it.
 ///
 /// F is affine in each of t, u and v, so over a box it stays within the bounding box of its eight
-/// corner values (Wang et al. 2021, section 4.2). Both are computed on lanes, one a corner, with the
+/// corner values ([wang2021], section 4.2). Both are computed on lanes, one a corner, with the
 /// steps of filters/expressions.hpp in their order, so that a lane has the very bits of
 /// EdgeEdge::evaluate or VertexFace::evaluate, whatever the instruction set.
 

@@ -15,7 +15,7 @@
 
 namespace touchstone::filters {
 
-/// Constants published for a function (Wang et al. 2021), as they were printed, and the expression
+/// Constants published for a function [wang2021], as they were printed, and the expression
 /// with the order of operations in which the published model gives them.
 struct PublishedConstants {
   std::string_view in_double;

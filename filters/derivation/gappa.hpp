@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// An expression as a script for Gappa, the prover of bounds on rounding errors (Debian package
-/// `gappa`), as a check of the derivation that shares nothing with it but the graph.
+/// An expression as a script for Gappa, the prover of bounds on rounding errors [daumas2010] (Debian
+/// package `gappa`), as a check of the derivation that shares nothing with it but the graph.
 ///
 /// Gappa's operators `add_rel<p>`, `sub_rel<p>` and `mul_rel<p>` are the model of
 /// rounding_model.hpp: the exact result times (1 + δ), |δ| ≤ 2^-p, without a least exponent. What a

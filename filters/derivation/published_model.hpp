@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The rounding model behind the published constants (Wang et al. 2021; DESIGN.md section 4).
+/// The rounding model behind the published constants ([wang2021]; docs/theory.md, section 4.10).
 ///
 /// Coordinates and weights are at most 1 and exact. Each node has a bound on its value and one on
 /// its error; with h(B) = u · 2^⌊log2 B⌋, the half ulp at magnitude B,

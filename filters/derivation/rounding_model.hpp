@@ -8,7 +8,7 @@
 ///
 ///     fl(a ± b) = (a ± b)(1 + δ),    fl(a · b) = (a · b)(1 + δ) + ε,    |δ| ≤ u,  |ε| ≤ η
 ///
-/// as long as nothing overflows (Higham, Accuracy and Stability, section 2.2; a sum that is
+/// as long as nothing overflows ([higham2002], section 2.2; a sum that is
 /// subnormal is exact, hence no ε).
 ///
 /// **Theorem.** Let all δ and ε be free in these ranges. For fixed coordinates, δ and ε, both the

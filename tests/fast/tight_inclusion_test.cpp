@@ -257,7 +257,7 @@ TEST(MinimumSeparation, FindsContactsMovedApartByIt) {
 
 // ---- A plain reading of the description ---------------------------------------------------------
 
-/// Algorithm 2 with a priority queue, as it is told (shared/methods.md, section 9).
+/// Algorithm 2 of [wang2021] with a priority queue, as it is described (docs/methods.md, section 2).
 struct PlainReading {
   struct Item {
     int level;
@@ -768,7 +768,7 @@ TEST(Published, TheReleaseDeniesSomeContactsAtScalesFarFromOne) {
 
 // ---- Planted faults -----------------------------------------------------------------------------
 
-/// The released filter: γ = min(x_max, 1).
+/// The released filter: γ = min(x_max, 1) (docs/methods.md, section 2, the defect of the release).
 std::array<double, 3> filter_with_min(Kind kind, const Query& query) {
   BoxProblem problem;
   return error_filter(kind, best_box_kernel().load(query, problem).x_max, 0.0,

@@ -26,7 +26,7 @@
 
 namespace touchstone::tests {
 
-/// A query printed in the appendices of Wang et al. 2021, by the name of its family.
+/// A query printed in the appendices of [wang2021], by the name of its family.
 [[nodiscard]] inline PosedQuery printed_query(std::string_view family) {
   const auto known = verify::make_query(verify::family_from_name(family), Kind::vertex_face, 1, 0);
   return {Kind::vertex_face, known.query};

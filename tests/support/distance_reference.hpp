@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// Minimum separation decided another way, for tests: every candidate is evaluated (DESIGN.md section 9).
+/// Minimum separation decided another way, for tests: every candidate is evaluated
+/// (docs/theory.md, section 3.6).
 ///
 /// At the time of impact the distance is d or the time is 0. So a polynomial of the conditions is zero
 /// there: all of them are listed, their roots in [0,1] and 0 tried, and the least at which the

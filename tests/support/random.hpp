@@ -3,7 +3,7 @@
 /// \file
 /// Random numbers for tests: the same on every machine, for a seed that stands in the test.
 ///
-/// The generator is splitmix64 (Steele, Lea, Flood 2014): a counter that advances by an odd
+/// The generator is splitmix64 [steele2014]: a counter that advances by an odd
 /// constant, each value scrambled by xor-shifts and multiplications. The distributions of the
 /// standard library are not used because their results differ between implementations.
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// RRP: rational root parity, after Brochu 2012 with degenerate patches handled (Wang et al. 2021;
-/// shared/methods.md, section 6). In verify/ because its numbers are GMP's.
+/// RRP: rational root parity, after [brochu2012] with degenerate patches handled ([wang2021];
+/// docs/methods.md, section 10). In verify/ because its numbers are GMP's.
 ///
 /// **Algorithm.** As RP (fast/baselines/rp.hpp), the crossings of a ray from 0 with the image of the
 /// domain's boundary are counted, everything in rationals. A flat patch is replaced by the triangles

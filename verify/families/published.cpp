@@ -1,5 +1,5 @@
 /// \file
-/// The configurations printed in the appendices of Wang et al. 2021, generalised. Query 0 of each
+/// The configurations printed in the appendices of [wang2021], generalised. Query 0 of each
 /// family and vertex_face is the printed one, bit for bit; edge_edge has analogues.
 
 #include <array>

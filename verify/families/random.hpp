@@ -8,7 +8,7 @@
 
 namespace touchstone::verify::builtin {
 
-/// Bijective mixing of 64 bits: the output function of splitmix64 (Steele, Lea, Flood 2014).
+/// Bijective mixing of 64 bits: the output function of splitmix64 [steele2014].
 [[nodiscard]] constexpr std::uint64_t mix(std::uint64_t x) {
   x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
   x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;

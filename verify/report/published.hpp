@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file
-/// The published numbers, as printed in Wang et al. 2021, "A Large Scale Benchmark and an
-/// Inclusion-Based Algorithm for Continuous Collision Detection": table 1 (without separation), its
+/// The published numbers, as printed in [wang2021]: table 1 (without separation), its
 /// table of MSRF against Tight-Inclusion and, in the appendix, of FPRF against it (over the minimum
 /// separation d).
 ///

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -72,6 +75,34 @@ constexpr std::string_view plainest_miss =
     "is "
     "no.\n";
 
+/// The last part of an absolute path, without a slash at its end.
+std::string last_part(std::string_view path) {
+  while (path.size() > 1 && path.ends_with('/')) path.remove_suffix(1);
+  return path.size() == 1 ? "/" : std::string(path.substr(path.rfind('/') + 1));
+}
+
+/// A command line, its words quoted as a shell takes them, with the last parts alone of absolute
+/// paths: the folders of the machine that measured are of no use to a reader.
+std::string without_folders(std::string_view command) {
+  std::string result;
+  bool quoted = false, word_begins = true;
+  while (!command.empty()) {
+    std::size_t length = 1;
+    if (word_begins && command.front() == '/') {
+      length = std::min(command.find_first_of(quoted ? "'" : " '"), command.size());
+      result += last_part(command.substr(0, length));
+      word_begins = false;
+    } else {
+      const char c = command.front();
+      if (c == '\'') quoted = !quoted;
+      word_begins = c == '\'' || c == '=' || (c == ' ' && !quoted);
+      result += c;
+    }
+    command.remove_prefix(length);
+  }
+  return result;
+}
+
 class Writer {
  public:
   explicit Writer(const Measurements& measurements)
@@ -81,7 +112,7 @@ class Writer {
     text_ = "# Results\n\n";
     text_ += fmt::format("Written by `./run results`; not edited by hand. Made on {} by\n\n{}\n",
                          markdown_escaped(measurements_.machine),
-                         markdown_code_block(measurements_.command));
+                         markdown_code_block(without_folders(measurements_.command)));
     if (measurements_.interrupted) text_ += "**Interrupted: not all is here.**\n\n";
     text_ +=
         "The truth is the exact oracle's. Published: Wang et al. 2021, \"A Large Scale Benchmark "

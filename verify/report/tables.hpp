@@ -46,7 +46,7 @@ struct Table {
 /// As a table of Markdown, with what could be markup escaped.
 [[nodiscard]] std::string to_markdown(const Table& table);
 
-/// As RFC 4180 has it, the first record being the columns.
+/// As RFC 4180 [rfc4180] has it, the first record being the columns.
 [[nodiscard]] std::string to_csv(const Table& table);
 
 }  // namespace touchstone::verify

@@ -170,7 +170,9 @@ void leave_without_clean_up() {
 [[noreturn]] void live(const ChildProcess::Work& work, const ChildLimits& limits,
                        const std::filesystem::path& folder, const ChildEnds& inherited) {
   ::setpgid(0, 0);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD, SIGXFSZ}) {
+  // Those of crashes too, which a sanitizer would make exits of.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGCHLD, SIGXFSZ, SIGSEGV, SIGBUS,
+                           SIGFPE, SIGILL, SIGABRT}) {
     std::signal(signal, SIG_DFL);
   }
   const ChildEnds ends = keep_only(inherited);

@@ -57,7 +57,7 @@ TEST(Rpoly, FindsWhatIsKnown) {
 }
 
 TEST(Rpoly, FindsTheZerosOfThePrintedInflection) {
-  // −72t³ + 120t² − 44t + 3 (methods.md, section 0).
+  // −72t³ + 120t² − 44t + 3 (docs/methods.md, section 1.4).
   std::vector<double> real;
   for (const Zero& zero : zeros_of(std::vector{-72.0, 120.0, -44.0, 3.0})) {
     EXPECT_EQ(zero.im, 0.0);

@@ -79,7 +79,8 @@ TEST(Results, ExplainTheMethodsThatWereMeasured) {
 TEST(Results, SayWhatTheFiltersMissAndOnWhoseCodeItWasSeen) {
   const std::string text = results_document(tests::small_report());
   EXPECT_TRUE(contains(text, "## What Tight-Inclusion misses with each filter\n"));
-  EXPECT_TRUE(contains(text, "public Tight-Inclusion (revision ca9a8c2), and in SCCD of 2026"));
+  EXPECT_TRUE(contains(
+      text, "seen on the public Tight-Inclusion itself (revision ca9a8c2), and on SCCD of 2026"));
   EXPECT_TRUE(contains(text, "| 0.01 | vertex-face | 20 | 0 | 2 (10 %) |\n")) << text;
   EXPECT_TRUE(contains(text, "| a-family | vertex-face | 20 | 0 | 2 (10 %) |\n")) << text;
 }
@@ -91,6 +92,18 @@ TEST(Results, NameTheCommandAndAnInterrupt) {
   EXPECT_FALSE(contains(results_document(measurements), "Interrupted"));
   measurements.interrupted = true;
   EXPECT_TRUE(contains(results_document(measurements), "**Interrupted"));
+}
+
+TEST(Results, NameNoFolderOfAMachine) {
+  Measurements measurements = tests::small_report();
+  measurements.command =
+      "touchstone report /data/sets/handcrafted '/my data/simulation/' --json=/tmp/a.json "
+      "--out '/my data/a <page>.html' out/b.json ../c/d 'e f/g' / --results docs/results.md";
+  EXPECT_TRUE(contains(results_document(measurements),
+                       "```\ntouchstone report handcrafted 'simulation' --json=a.json "
+                       "--out 'a <page>.html' out/b.json ../c/d 'e f/g' / "
+                       "--results docs/results.md\n```\n"))
+      << results_document(measurements);
 }
 
 }  // namespace
