@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <deque>
 #include <iterator>
 #include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "verify/dataset/csv_dataset.hpp"
 #include "verify/dataset/npy_dataset.hpp"
@@ -42,7 +44,11 @@ class Search {
 
   [[nodiscard]] std::vector<fs::path> below(const fs::path& folder) {
     visit(folder, false);
-    for (std::size_t i = 0; i < links_.size(); ++i) visit(links_[i].path, links_[i].companions);
+    while (!links_.empty()) {
+      const Link link = std::move(links_.front());
+      links_.pop_front();
+      visit(link.path, link.companions);
+    }
     std::ranges::sort(found_);
     return std::move(found_);
   }
@@ -103,7 +109,7 @@ class Search {
 
   const LeftOut& on_left_out_;
   std::vector<fs::path> found_;
-  std::vector<Link> links_;
+  std::deque<Link> links_;
   std::set<fs::path> visited_;
 };
 

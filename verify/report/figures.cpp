@@ -535,19 +535,17 @@ std::vector<std::size_t> pareto_front(std::span<const FigurePoint> points) {
 }
 
 std::string_view released_filter_sentence() {
-  return "Contacts whose place at t = 1 is exact by construction: a vertex of one primitive has "
+  return "tight_inclusion_released has the filter and the order of operations that the public "
+         "Tight-Inclusion ships since January 2022: on each axis 30 (vertex-face) or 28 "
+         "(edge-edge) "
+         "times 2^-52 times min(x_max, 1)^3, where the paper has max(x_max, 1)^3. F is linear in "
          "the "
-         "very coordinates of a vertex of the other. tight_inclusion_released has the filter and "
-         "the "
-         "order of operations that the public Tight-Inclusion ships since January 2022: on each "
-         "axis "
-         "30 (vertex-face) or 28 (edge-edge) times 2^-52 times min(x_max, 1)^3, where the paper "
-         "has "
-         "max(x_max, 1)^3. It was seen in the public Tight-Inclusion (revision ca9a8c2), and in "
-         "SCCD "
-         "of 2026, which inherits the filter and calls its answers "
-         "certified. F is linear in the "
-         "coordinates, so that this filter is too small where they are small or large.";
+         "coordinates, so that this is too small where they are small or large. False negatives "
+         "were "
+         "seen on the public Tight-Inclusion itself (revision ca9a8c2), and on SCCD of 2026, which "
+         "inherits the filter and calls its answers certified. Contacts at t=1 are exact by "
+         "construction: a vertex of one primitive has the very coordinates of a vertex of the "
+         "other.";
 }
 
 std::vector<Figure> figures_of(const Measurements& measurements) {
