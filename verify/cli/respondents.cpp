@@ -13,6 +13,7 @@
 #include "verify/cli/options.hpp"
 #include "verify/methods/plugin.hpp"
 #include "verify/methods/registry.hpp"
+#include "verify/printable.hpp"
 #include "verify/terminal.hpp"
 
 namespace touchstone::verify::cli {
@@ -31,13 +32,6 @@ std::string method_names() {
     names += method->name();
   }
   return names;
-}
-
-std::string printable(std::string_view text) {
-  std::string result(text);
-  std::ranges::replace_if(
-      result, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return result;
 }
 
 std::vector<const fast::Method*> named_methods(const std::vector<std::string>& names) {
