@@ -35,10 +35,9 @@ struct BitInterval {
   std::uint64_t upper = bits_of_one;
 };
 
-/// Doubles around a number α with 0 < α ≤ 1: lower < α ≤ upper, and `step` or fewer spacings apart;
-/// where `upper` is subnormal, and a spacing no longer small beside it, one spacing. `is_above(bits)`
-/// says whether α is above that double. Fast if α is near the guess, right in any case.
-/// \pre step ≥ 1, and at most 2^52.
+/// Doubles around a number α with 0 < α ≤ 1: lower < α ≤ upper, and `step` or fewer spacings apart.
+/// `is_above(bits)` says whether α is above that double. Fast if α is near the guess, right in any
+/// case. \pre step ≥ 1, and at most 2^52.
 template <class IsAbove>
 [[nodiscard]] BitInterval enclose(double guess, std::uint64_t step, IsAbove&& is_above) {
   BitInterval cell;
@@ -65,7 +64,7 @@ template <class IsAbove>
       cell.upper = next;
     }
   }
-  while (cell.upper - cell.lower > (cell.upper < bits_of_least_normal ? 1 : step)) {
+  while (cell.upper - cell.lower > step) {
     const std::uint64_t middle = cell.lower + (cell.upper - cell.lower) / 2;
     (is_above(middle) ? cell.lower : cell.upper) = middle;
   }

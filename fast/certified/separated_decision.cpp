@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -410,7 +411,11 @@ std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
   End end = first_instant(Setting(motion, distance), norm, latest);
   if (!end) return std::nullopt;
   if (compare(end->upper(), {0, 0}) == 0) return BitInterval{bits_of_zero, bits_of_zero};
-  return enclose(end->guess(), step, [&](std::uint64_t bits) { return end->is_above(bits); });
+  const auto is_above = [&](std::uint64_t bits) { return end->is_above(bits); };
+  const BitInterval found = enclose(end->guess(), step, is_above);
+  // A step is not small beside a subnormal time.
+  if (found.upper >= bits_of_least_normal) return found;
+  return enclose(std::bit_cast<double>(found.upper), 1, is_above);
 }
 
 }  // namespace touchstone::fast::exact_stage

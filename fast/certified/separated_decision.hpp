@@ -63,8 +63,8 @@ struct ScaledDistance {
 };
 
 /// The first time, not later than the double in [0,1] of bits `latest`, at which the motion's polygon
-/// is within the distance of the origin: doubles around it at most `step` spacings apart (lower <
-/// time ≤ upper, or both 0 if the time is 0), or nothing if there is none.
+/// is within the distance of the origin: doubles around it at most `step` spacings apart, one if `upper`
+/// is subnormal (lower < time ≤ upper, or both 0 if the time is 0), or nothing if there is none.
 /// \pre all axes of the motion have the same unit; 1 ≤ step.
 [[nodiscard]] std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
                                                         const ScaledDistance& distance, Norm norm,

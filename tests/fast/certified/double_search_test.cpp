@@ -41,25 +41,6 @@ TEST(DoubleSearch, EnclosesWhateverTheGuess) {
   }
 }
 
-/// There a step is not small beside the number.
-TEST(DoubleSearch, EnclosesSubnormalNumbersByOneSpacing) {
-  Random random(3);
-  for (int i = 0; i < 2000; ++i) {
-    const std::uint64_t ceiling = 1 + (random.bits() % bits_of_least_normal >> random.bits() % 52U);
-    const double guess = random.coin()
-                             ? random.uniform()
-                             : std::bit_cast<double>(random.bits() % bits_of_least_normal);
-    int questions = 0;
-    const BitInterval cell =
-        found(ceiling, guess, std::uint64_t{1} << (random.bits() % 53U), questions);
-    EXPECT_LT(cell.lower, ceiling);
-    EXPECT_LE(ceiling, cell.upper);
-    if (cell.upper < bits_of_least_normal) {
-      EXPECT_EQ(cell.upper - cell.lower, 1U);
-    }
-  }
-}
-
 TEST(DoubleSearch, EnclosesTheEnds) {
   int questions = 0;
   const BitInterval first = found(1, 1.0, 1, questions);
