@@ -15,8 +15,7 @@
 #include <vector>
 
 #include "exact/oracle.hpp"
-#include "tests/support/built_files.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 #include "verify/dataset/npy.hpp"
 
 // `touchstone candidates` as users meet it: by running the tool.
@@ -25,19 +24,11 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::contains;
+using tests::Outcome;
 using tests::read_file;
 
 using Pairs = std::vector<std::array<std::int32_t, 2>>;
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-struct Outcome {
-  int status;
-  std::string out;
-  std::string err;
-};
 
 /// All queries of a .npy file.
 std::vector<Query> npy_queries(const fs::path& path) {
@@ -47,35 +38,12 @@ std::vector<Query> npy_queries(const fs::path& path) {
   return queries;
 }
 
-class CandidatesCommand : public tests::FolderTest {
+class CandidatesCommand : public tests::ToolTest {
  protected:
-  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
-
   /// Runs `touchstone candidates …` to its end.
-  [[nodiscard]] Outcome run(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words{tests::touchstone_program(), "candidates"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    pointers.reserve(words.size() + 1);
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions{};
-    posix_spawn_file_actions_init(&actions);
-    static constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
-    pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
-                          pointers.data(), environ),
-              0);
-    posix_spawn_file_actions_destroy(&actions);
-    int status = 0;
-    waitpid(process, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_file(path("stdout")),
-            read_file(path("stderr"))};
+  [[nodiscard]] Outcome run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "candidates");
+    return ToolTest::run(arguments);
   }
 
   /// The pairs of a file, in ascending order.

@@ -17,8 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/support/built_files.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 #include "tests/verify/methods/plugins/misbehaviour.hpp"
 #include "verify/dataset/npy.hpp"
 
@@ -28,67 +27,12 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::contains;
+using tests::Outcome;
 using tests::read_file;
 
-struct Outcome {
-  int status;
-  std::string out;
-  std::string err;
-};
-
-class Tool : public tests::FolderTest {
+class Tool : public tests::ToolTest {
  protected:
-  /// Starts the tool with its output in files of the test's folder.
-  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
-    std::vector<std::string> words{tests::touchstone_program()};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    pointers.reserve(words.size() + 1);
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions{};
-    posix_spawn_file_actions_init(&actions);
-    static constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
-    pid_t process = 0;
-    const int error = posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
-                                  pointers.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    EXPECT_EQ(error, 0);
-    return process;
-  }
-
-  /// Waits for the end; the status of a process that a signal ended is minus the signal.
-  [[nodiscard]] Outcome finish(pid_t process) const {
-    int status = 0;
-    waitpid(process, &status, 0);
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    return {code, read_file(path("stdout")), read_file(path("stderr"))};
-  }
-
-  [[nodiscard]] Outcome run(const std::vector<std::string>& arguments) const {
-    return finish(start(arguments));
-  }
-
-  [[nodiscard]] nlohmann::json json(const std::string& name) const {
-    return nlohmann::json::parse(read_file(path(name)));
-  }
-
-  /// Waits until the work is under way: the file grows, still under its temporary name.
-  void wait_for_growth(const std::string& name) const {
-    const auto size = [&] {
-      std::uintmax_t bytes = 0;
-      for (const auto& entry : fs::directory_iterator(folder())) {
-        if (entry.path().filename().string().starts_with(name)) bytes = entry.file_size();
-      }
-      return bytes;
-    };
-    for (int i = 0; i < 600 && size() == 0; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-  }
-
   /// Until one of the tool's threads has a child: the process that the solver runs in.
   static void wait_for_child(pid_t process) {
     const auto has_child = [&] {
@@ -97,21 +41,9 @@ class Tool : public tests::FolderTest {
         return !read_file(thread.path() / "children").empty();
       });
     };
-    for (int i = 0; i < 600 && !has_child(); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-  }
-
-  std::string write(const std::string& name, const std::string& text) const {
-    fs::create_directories(fs::path(path(name)).parent_path());
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
+    EXPECT_TRUE(tests::comes_true(has_child));
   }
 };
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// A vertex that falls through a resting triangle (label 1 is true), as rows of the 2021 format.
 std::string falling_vertex(const std::string& label, const std::string& end_height = "-3") {
@@ -494,11 +426,10 @@ TEST_F(Tool, GenerateIsAFunctionOfTheSeed) {
 
 TEST_F(Tool, AnInterruptKeepsWhatIsDone) {
   using namespace std::chrono_literals;
-  const pid_t process = start({"certify", "--count", "100000000", "--method", "none", "--json",
-                               path("result.json"), "--truth", path("truth.csv")});
-  wait_for_growth("truth.csv");
-  kill(process, SIGINT);
-  const Outcome certify = finish(process);
+  const Outcome certify =
+      run_interrupted({"certify", "--count", "100000000", "--method", "none", "--json",
+                       path("result.json"), "--truth", path("truth.csv")},
+                      [&] { return has_grown("truth.csv"); });
   EXPECT_EQ(certify.status, 130);
   const nlohmann::json result = json("result.json");
   EXPECT_EQ(result.at("interrupted"), true);
@@ -912,12 +843,10 @@ TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
 
 TEST_F(Tool, AnInterruptOfSolveKeepsWhatIsDone) {
   using namespace std::chrono_literals;
-  const pid_t process =
-      start({"solve", "--count", "100000000", "--plugin", tests::plugin_library("box_overlap"),
-             "--out", path("answers.csv"), "--json", path("summary.json")});
-  wait_for_growth("answers.csv");
-  kill(process, SIGINT);
-  const Outcome solve = finish(process);
+  const Outcome solve = run_interrupted(
+      {"solve", "--count", "100000000", "--plugin", tests::plugin_library("box_overlap"), "--out",
+       path("answers.csv"), "--json", path("summary.json")},
+      [&] { return has_grown("answers.csv"); });
   EXPECT_EQ(solve.status, 130);
   EXPECT_EQ(json("summary.json").at("interrupted"), true);
   const std::string answers = read_file(path("answers.csv"));

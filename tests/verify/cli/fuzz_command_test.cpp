@@ -14,8 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/support/built_files.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 
 // `touchstone fuzz` as users meet it: by running the tool. The plugin is the example, which compares
 // swept boxes and is conservative, but nothing near exact.
@@ -24,44 +23,12 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::contains;
+using tests::Outcome;
 using tests::read_file;
 
-struct Outcome {
-  int status;
-  std::string out;
-  std::string err;
-};
-
-class FuzzTool : public tests::FolderTest {
+class FuzzTool : public tests::ToolTest {
  protected:
-  /// Starts the tool with its output in files of the test's folder.
-  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments,
-                            const std::string& program = tests::touchstone_program()) const {
-    std::vector<std::string> words{program};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> pointers;
-    pointers.reserve(words.size() + 1);
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions{};
-    posix_spawn_file_actions_init(&actions);
-    static constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("stdout").c_str(), flags, 0600);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("stderr").c_str(), flags, 0600);
-    pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, program.c_str(), &actions, nullptr, pointers.data(), environ),
-              0);
-    posix_spawn_file_actions_destroy(&actions);
-    return process;
-  }
-
-  [[nodiscard]] Outcome finish(pid_t process) const {
-    int status = 0;
-    waitpid(process, &status, 0);
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    return {code, read_file(path("stdout")), read_file(path("stderr"))};
-  }
-
   [[nodiscard]] Outcome run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "fuzz");
     return finish(start(arguments));
@@ -72,17 +39,13 @@ class FuzzTool : public tests::FolderTest {
     const fs::path tools = fs::path(tests::touchstone_program()).parent_path();
     return finish(start({"-c", fmt::format("PATH={}:$PATH\ncd '{}'\n{}", tools.string(),
                                            folder().string(), commands)},
-                        "/bin/sh"));
+                        to_file, "/bin/sh"));
   }
 
   [[nodiscard]] nlohmann::json json(const std::string& name) const {
     return nlohmann::json::parse(read_file(path(name)));
   }
 };
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST_F(FuzzTool, FindsNothingInTheCertifiedSolver) {
   const Outcome outcome = run({"--method", "certified", "--queries", "3000", "--json", path("j")});
@@ -155,7 +118,7 @@ TEST_F(FuzzTool, WritesCertificatesThatTheCheckerAccepts) {
     for (const nlohmann::json& failing : {finding, finding.at("original")}) {
       const std::string certificate = failing.at("certificate");
       std::ofstream(path("one.cert")) << certificate;
-      const Outcome checked = finish(start({path("one.cert")}, tests::checker_program()));
+      const Outcome checked = finish(start({path("one.cert")}, to_file, tests::checker_program()));
       EXPECT_EQ(checked.status, 0) << checked.out << checked.err << certificate;
       EXPECT_TRUE(contains(checked.out, "1")) << checked.out;
     }
@@ -273,10 +236,10 @@ TEST_F(FuzzTool, RefusesWhatMakesNoSense) {
 }
 
 TEST_F(FuzzTool, ReportsWhatWasDoneWhenInterrupted) {
-  const pid_t process = start({"fuzz", "--method", "certified", "--seconds", "600"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
-  kill(process, SIGINT);
-  const Outcome outcome = finish(process);
+  ::setenv("TOUCHSTONE_TEST_CALL", "1000", 1);
+  const Outcome outcome =
+      run({"--plugin", tests::plugin_library("interrupts_its_parent"), "--seconds", "600"});
+  ::unsetenv("TOUCHSTONE_TEST_CALL");
   EXPECT_EQ(outcome.status, 130) << outcome.err;
   EXPECT_TRUE(contains(outcome.out, "no findings")) << outcome.out;
 }

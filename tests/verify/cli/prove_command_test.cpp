@@ -14,9 +14,8 @@
 #include <thread>
 #include <vector>
 
-#include "tests/support/built_files.hpp"
 #include "tests/support/certificates.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 
 // The command touchstone prove (verify/cli/prove_command.cpp), and certify --prove, as users run
 // them.
@@ -25,6 +24,7 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::contains;
 using tests::read_file;
 
 std::string decompress(const std::string& bytes) {
@@ -37,47 +37,14 @@ std::string decompress(const std::string& bytes) {
   return result;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-class ProveCommand : public tests::FolderTest {
+class ProveCommand : public tests::ToolTest {
  protected:
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
-
-  [[nodiscard]] pid_t start(const std::vector<std::string>& arguments) const {
-    std::string command = "exec '" + tests::touchstone_program() + "'";
-    for (const std::string& argument : arguments) command.append(" '").append(argument).append("'");
-    command.append(" >'" + path("stdout") + "' 2>'" + path("stderr") + "'");
-    std::string shell = "/bin/sh", option = "-c";
-    const std::vector<char*> words{shell.data(), option.data(), command.data(), nullptr};
-    pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, "/bin/sh", nullptr, nullptr, words.data(), environ), 0);
-    return process;
-  }
-
-  static int finish(pid_t process) {
-    int status = 0;
-    waitpid(process, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-
   [[nodiscard]] int run(const std::vector<std::string>& arguments) const {
-    return finish(start(arguments));
+    return ToolTest::run(arguments).status;
   }
 
-  /// Is there a file whose name begins so?
-  [[nodiscard]] bool contains_file(const std::string& name) const {
-    return std::ranges::any_of(fs::directory_iterator(folder()), [&](const auto& entry) {
-      return entry.path().filename().string().starts_with(name);
-    });
-  }
-
-  [[nodiscard]] std::string out() const { return read_file(path("stdout")); }
-  [[nodiscard]] std::string err() const { return read_file(path("stderr")); }
+  [[nodiscard]] std::string out() const { return read("out"); }
+  [[nodiscard]] std::string err() const { return read("err"); }
 };
 
 /// A vertex that falls from height 1 to `end` on a resting triangle, and meets it in the middle of
@@ -176,14 +143,11 @@ TEST_F(ProveCommand, StandardOutputIsNothingButCertificates) {
 
 TEST_F(ProveCommand, AnInterruptKeepsWholeCertificates) {
   for (const std::string name : {"i.cert", "i.cert.zst"}) {
-    const pid_t process = start({"prove", "--count", "100000", "--out", path(name)});
-    // Until the work is under way: its file is there, under its temporary name.
-    for (int i = 0; i < 600 && !contains_file(name); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    kill(process, SIGINT);
-    EXPECT_EQ(finish(process), 130) << err();
+    EXPECT_EQ(run_interrupted({"prove", "--count", "100000", "--out", path(name)},
+                              [&] { return has_grown(name); })
+                  .status,
+              130)
+        << err();
     std::string text = read_file(path(name));
     if (name.ends_with(".zst")) text = decompress(text);
     const checker::Report report = tests::check(text);

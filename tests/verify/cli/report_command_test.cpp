@@ -8,8 +8,7 @@
 #include <set>
 #include <string>
 
-#include "tests/support/built_files.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 
 // `touchstone report` as users meet it: by running the tool.
 
@@ -17,8 +16,9 @@ namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::contains;
 
-class Report : public tests::FolderTest {
+class Report : public tests::ToolTest {
  protected:
   /// Runs the tool, after shell words such as a limit of time; its exit status.
   [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
@@ -46,10 +46,6 @@ class Report : public tests::FolderTest {
 /// Short: tests ask what is done, not how fast.
 const std::string quick =
     " --method certified --method tight_inclusion --repetitions 1 --seconds 0.01 --stability 0 ";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST_F(Report, HelpHasAnExample) {
   EXPECT_EQ(run("--help"), 0);
@@ -141,11 +137,11 @@ TEST_F(Report, BadUsageExitsWithTwo) {
 }
 
 TEST_F(Report, AnInterruptLeavesWhatIsMeasured) {
-  EXPECT_EQ(run(data() + " --seconds 100 --repetitions 1000000 --json " + quoted("json") +
-                    " --out " + quoted("page.html"),
-                "timeout --preserve-status -s INT 2"),
-            130)
-      << read("err");
+  static_cast<void>(data());
+  const tests::Outcome report =
+      run_interrupted({"report", path("handcrafted"), "--seconds", "100", "--repetitions",
+                       "1000000", "--json", path("json"), "--out", path("page.html")});
+  EXPECT_EQ(report.status, 130) << report.err;
   EXPECT_EQ(json().at("interrupted"), true);
   EXPECT_TRUE(contains(read("page.html"), "Interrupted: not all"));
 }

@@ -17,8 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/support/built_files.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 
 // What the tool does when its user or its reader has gone, or its input never comes, and what names from
 // outside look like on a terminal (verify/terminal.hpp, verify/printable.hpp).
@@ -28,17 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
+using tests::comes_true;
+using tests::contains;
+using tests::handles;
+using tests::Outcome;
 using tests::read_file;
-
-struct Outcome {
-  int status;
-  std::string out;
-  std::string err;
-};
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// A vertex that falls through a resting triangle.
 std::string falling_vertex() {
@@ -46,87 +39,11 @@ std::string falling_vertex() {
   return "1,1,1,1,1,1\n" + triangle + "1,1,1,1,-3,1\n" + triangle;
 }
 
-class TerminalTool : public tests::FolderTest {
+class TerminalTool : public tests::ToolTest {
  protected:
-  static constexpr int to_file = -1, closed = -2;
-
-  /// Starts the tool with its standard output in a file, at a descriptor, or closed.
-  [[nodiscard]] pid_t start(std::vector<std::string> words, int output = to_file) const {
-    words.insert(words.begin(), tests::touchstone_program());
-    std::vector<char*> pointers;
-    pointers.reserve(words.size() + 1);
-    for (std::string& word : words) pointers.push_back(word.data());
-    pointers.push_back(nullptr);
-    posix_spawn_file_actions_t actions{};
-    posix_spawn_file_actions_init(&actions);
-    static constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
-    if (output == to_file) {
-      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, path("out").c_str(), flags, 0600);
-    } else if (output == closed) {
-      posix_spawn_file_actions_addclose(&actions, STDOUT_FILENO);
-    } else {
-      posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-    }
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, path("err").c_str(), flags, 0600);
-    pid_t process = 0;
-    EXPECT_EQ(posix_spawn(&process, tests::touchstone_program().c_str(), &actions, nullptr,
-                          pointers.data(), environ),
-              0);
-    posix_spawn_file_actions_destroy(&actions);
-    return process;
-  }
-
-  /// Waits for the end, with a bound for what would hang; the status of a process that a signal ended
-  /// is minus the signal.
-  [[nodiscard]] Outcome finish(pid_t process) const {
-    int status = 0;
-    const auto has_ended = [&] { return waitpid(process, &status, WNOHANG) == process; };
-    if (!comes_true(has_ended)) {
-      ADD_FAILURE() << "the tool hangs";
-      kill(process, SIGKILL);
-      waitpid(process, &status, 0);
-    }
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-    return {code, read_file(path("out")), read_file(path("err"))};
-  }
-
-  [[nodiscard]] Outcome run(const std::vector<std::string>& words, int output = to_file) const {
-    return finish(start(words, output));
-  }
-
-  /// Waits until the condition holds; false only where something hangs.
-  static bool comes_true(const std::function<bool()>& condition) {
-    for (int i = 0; i < 12'000; ++i) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(10ms);
-    }
-    return false;
-  }
-
-  /// Does the process handle the signal itself?
-  static bool handles(pid_t process, int signal) {
-    std::ifstream file("/proc/" + std::to_string(process) + "/status");
-    for (std::string line; std::getline(file, line);) {
-      if (!line.starts_with("SigCgt:")) continue;
-      return (std::stoull(line.substr(7), nullptr, 16) >> static_cast<unsigned>(signal - 1)) % 2 ==
-             1;
-    }
-    return false;
-  }
-
-  std::string write(const std::string& name, const std::string& text) const {
-    fs::create_directories(fs::path(path(name)).parent_path());
-    std::ofstream(path(name), std::ios::binary) << text;
-    return path(name);
-  }
-
   [[nodiscard]] std::string make_pipe(const std::string& name) const {
     EXPECT_EQ(::mkfifo(path(name).c_str(), 0600), 0);
     return path(name);
-  }
-
-  [[nodiscard]] nlohmann::json json(const std::string& name) const {
-    return nlohmann::json::parse(read(name));
   }
 };
 

@@ -1,0 +1,24 @@
+/// \file
+/// A plugin that says yes to everything, and at the call that TOUCHSTONE_TEST_CALL names, of each process, interrupts the
+/// process that asks it: an interrupt while the work is under way, whatever the machine's load.
+
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+
+#include "verify/plugin.h"
+
+std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+
+const char* touchstone_plugin_name() { return "interrupts_its_parent"; }
+
+void touchstone_plugin_solve(std::int32_t, const double*, const touchstone_options*,
+                             touchstone_answer* answer) {
+  static long calls = 0;
+  const char* const call = std::getenv("TOUCHSTONE_TEST_CALL");
+  if (++calls == (call == nullptr ? 1 : std::atol(call))) kill(getppid(), SIGINT);
+  answer->verdict = touchstone_undecided;
+}
