@@ -135,11 +135,11 @@ void report_output(std::string_view solver, const CapturedOutput& output, bool s
   std::string_view rest = output.text;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    fmt::print(stderr, "{}: {}\n", solver, printable(rest.substr(0, end)));
+    print(stderr, fmt::format("{}: {}\n", solver, printable(rest.substr(0, end))));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   if (output.dropped != 0) {
-    fmt::print(stderr, "{}: and {} bytes more\n", solver, output.dropped);
+    print(stderr, fmt::format("{}: and {} bytes more\n", solver, output.dropped));
   }
 }
 
