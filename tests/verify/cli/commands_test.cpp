@@ -212,7 +212,7 @@ TEST_F(Tool, AnArrayOfNoQueriesIsADataset) {
   EXPECT_EQ(json("result.json").at("errors"), 0);
   EXPECT_EQ(run({"solve", file, "--method", "certified", "--out", path("answers.csv")}).status, 0);
   EXPECT_EQ(read_file(path("answers.csv")),
-            "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n");
+            "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n");
   EXPECT_EQ(run({"prove", file, "--out", path("proofs.cert")}).status, 0);
 }
 
