@@ -67,6 +67,23 @@ bool is_markup(std::string_view text, std::size_t i) {
   return marks.find(c) != std::string_view::npos;
 }
 
+/// The text with its quotes and backslashes escaped, and what is not printable as octal bytes of three
+/// digits, which C++ and shells read alike.
+std::string escaped_within(char quote, std::string_view text) {
+  std::string result;
+  for_each_character(text, [&](const Character& character, std::string_view bytes) {
+    if (!is_printable(character)) {
+      for (std::size_t i = 0; i < bytes.size(); ++i) {
+        fmt::format_to(std::back_inserter(result), "\\{:03o}", byte_at(bytes, i));
+      }
+      return;
+    }
+    if (bytes.front() == quote || bytes.front() == '\\') result += '\\';
+    result += bytes;
+  });
+  return result;
+}
+
 /// The most backticks in a row.
 std::size_t longest_backticks(std::string_view text) {
   std::size_t longest = 0, run = 0;
@@ -151,5 +168,19 @@ std::string markdown_code_block(std::string_view text) {
   const std::string fence(std::max(shortest, longest_backticks(line) + 1), '`');
   return fmt::format("{0}\n{1}\n{0}\n", fence, line);
 }
+
+std::string shell_word(std::string_view text) {
+  static constexpr std::string_view harmless =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,";
+  if (!is_printable(text)) return "$'" + escaped_within('\'', text) + "'";
+  if (!text.empty() && text.find_first_not_of(harmless) == std::string_view::npos) {
+    return std::string(text);
+  }
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
+}
+
+std::string cpp_literal(std::string_view text) { return '"' + escaped_within('"', text) + '"'; }
 
 }  // namespace touchstone::verify

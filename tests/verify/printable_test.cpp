@@ -94,5 +94,20 @@ TEST(MarkdownCode, CannotBeLeft) {
   EXPECT_EQ(markdown_code_block("```\n````"), "`````\n```\\x0a````\n`````\n");
 }
 
+TEST(ShellWord, IsOneWordWithTheSameBytes) {
+  EXPECT_EQ(shell_word("a/b-c.so"), "a/b-c.so");
+  EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("it's $HOME"), "'it'\\''s $HOME'");
+  EXPECT_EQ(shell_word("\x1b[2J\n'\\1\u202e"), "$'\\033[2J\\012\\'\\\\1\\342\\200\\256'");
+  EXPECT_EQ(shell_word("caf\xe9"), "$'caf\\351'");
+}
+
+TEST(CppLiteral, IsALiteralOfTheSameBytes) {
+  EXPECT_EQ(cpp_literal("a b"), "\"a b\"");
+  EXPECT_EQ(cpp_literal("\"\\'"), "\"\\\"\\\\'\"");
+  EXPECT_EQ(cpp_literal("\x1b\u202e1\n"), "\"\\033\\342\\200\\2561\\012\"");
+  EXPECT_EQ(std::string("\033\342\200\2561\012"), "\x1b\u202e1\n");
+}
+
 }  // namespace
 }  // namespace touchstone::verify

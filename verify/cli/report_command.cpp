@@ -49,22 +49,12 @@ struct Arguments {
   std::string results_file;
 };
 
-/// A word of a command line as a shell takes it.
-std::string shell_quoted(const std::string& word) {
-  static constexpr const char* harmless =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,";
-  if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
-  std::string result = "'";
-  for (const char c : word) result += c == '\'' ? "'\\''" : std::string(1, c);
-  return result + "'";
-}
-
 /// The command line of this process.
 std::string command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string command;
   for (std::string word; std::getline(file, word, '\0');) {
-    command += command.empty() ? "touchstone" : " " + shell_quoted(word);
+    command += command.empty() ? "touchstone" : " " + shell_word(word);
   }
   return command;
 }

@@ -13,6 +13,7 @@
 #include "verify/cli/options.hpp"
 #include "verify/methods/plugin.hpp"
 #include "verify/methods/registry.hpp"
+#include "verify/printable.hpp"
 #include "verify/terminal.hpp"
 
 namespace touchstone::verify::cli {
@@ -31,13 +32,6 @@ std::string method_names() {
     names += method->name();
   }
   return names;
-}
-
-std::string printable(std::string_view text) {
-  std::string result(text);
-  std::ranges::replace_if(
-      result, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return result;
 }
 
 std::vector<const fast::Method*> named_methods(const std::vector<std::string>& names) {
@@ -141,11 +135,11 @@ void report_output(std::string_view solver, const CapturedOutput& output, bool s
   std::string_view rest = output.text;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    fmt::print(stderr, "{}: {}\n", solver, printable(rest.substr(0, end)));
+    print(stderr, fmt::format("{}: {}\n", solver, printable(rest.substr(0, end))));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   if (output.dropped != 0) {
-    fmt::print(stderr, "{}: and {} bytes more\n", solver, output.dropped);
+    print(stderr, fmt::format("{}: and {} bytes more\n", solver, output.dropped));
   }
 }
 

@@ -60,7 +60,7 @@ void settle_solver_options(const CLI::App& command, bool built_in_set,
                            RespondentArguments& arguments);
 
 /// Prints on standard error what a solver printed if that is asked for, line by line behind its name,
-/// unprintable characters as '?'; else how to see it. Nothing if it printed nothing.
+/// printable (verify/printable.hpp); else how to see it. Nothing if it printed nothing.
 void report_output(std::string_view solver, const CapturedOutput& output, bool show);
 
 /// Says on standard error that a solver ended its process so often, unless that is never.

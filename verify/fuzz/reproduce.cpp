@@ -15,6 +15,7 @@
 #include "verify/families/random.hpp"
 #include "verify/fuzz/recheck.hpp"
 #include "verify/methods/registry.hpp"
+#include "verify/printable.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -40,22 +41,6 @@ std::string identifier(std::string_view text) {
     }
   }
   return result;
-}
-
-/// What a comment holds of a text: one line of it.
-std::string one_line(std::string text) {
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-  return text;
-}
-
-std::string literal(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : one_line(std::string(text))) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + '"';
 }
 
 /// Tells apart the reproductions of one method.
@@ -100,9 +85,10 @@ std::string options_as_code(const fast::MethodOptions& options) {
 /// The test itself: whom it asks.
 std::string call_as_code(const SolverCall& solver) {
   if (solver.plugin.empty()) {
-    return fmt::format("expect_no_fault(verify::find_method({}));", literal(solver.method));
+    return fmt::format("expect_no_fault(verify::find_method({}));", cpp_literal(solver.method));
   }
-  return fmt::format("expect_no_fault(*verify::load_plugin({}));", literal(solver.plugin.string()));
+  return fmt::format("expect_no_fault(*verify::load_plugin({}));",
+                     cpp_literal(solver.plugin.string()));
 }
 
 /// Of a yes, numbers that it must have: those without which it was found to be wrong.
@@ -124,24 +110,12 @@ double gibibytes(const ChildLimits& limits) {
   return std::ldexp(static_cast<double>(limits.memory_bytes), -bits);
 }
 
-std::string in_shell_quotes(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      result += R"('\'')";
-    } else {
-      result += c;
-    }
-  }
-  return result + '\'';
-}
-
 /// The options of the command line that ask for what the solver was asked for.
 std::string options_as_words(const SolverCall& solver) {
   const fast::MethodOptions& options = solver.options;
   std::string words = solver.plugin.empty()
                           ? fmt::format("--method {}", solver.method)
-                          : fmt::format("--plugin {}", in_shell_quotes(solver.plugin.string()));
+                          : fmt::format("--plugin {}", shell_word(solver.plugin.string()));
   words += fmt::format(" --tolerance {} --max-checks {} --min-separation {} --norm {}",
                        options.tolerance, std::max<std::int64_t>(options.max_checks, 0),
                        options.min_separation, to_string(options.norm));
@@ -226,7 +200,7 @@ std::string as_cpp_test(const Reproduction& found) {
   std::string result(includes);
   const std::string space = fmt::format("touchstone::reproduction_{}", fingerprint(found));
   result += fmt::format("\nnamespace {} {{\n\n", space);
-  result += fmt::format("// {}: {}. The primitives {}.\n", one_line(found.solver.method), what,
+  result += fmt::format("// {}: {}. The primitives {}.\n", printable(found.solver.method), what,
                         found.failing.collides ? "collide" : "do not collide");
   if (found.what == FindingKind::hang) result += "// Run it with a limit of time.\n";
   result += fmt::format("constexpr Kind kind = {};\n", enumerator(found.kind));

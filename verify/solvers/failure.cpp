@@ -9,6 +9,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "verify/printable.hpp"
+
 namespace touchstone::verify {
 namespace {
 
@@ -18,13 +20,6 @@ constexpr std::string_view signal_prefix = "signal ";
 std::string signal_text(int number) {
   const char* const name = ::sigabbrev_np(number);
   return name == nullptr ? fmt::format("{}{}", signal_prefix, number) : fmt::format("SIG{}", name);
-}
-
-std::string printable(std::string_view text) {
-  std::string result(text);
-  std::ranges::replace_if(
-      result, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return result;
 }
 
 std::string detail(const Failure& failure) {

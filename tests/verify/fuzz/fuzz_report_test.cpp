@@ -69,7 +69,7 @@ TEST(FuzzReport, SaysAFindingInWords) {
   for (const std::string part :
        {"late_toi of mine, vertex-face at minimum separation 0.5 (l2)", "grid", "1.25 s",
         "1234 queries", "toi_lower 0.75 is late", "answer: yes, toi_lower 0.75",
-        "truth: collision at 0.5", "--plugin '/tmp/mine.so' --tolerance 0.25 --max-checks 9",
+        "truth: collision at 0.5", "--plugin /tmp/mine.so --tolerance 0.25 --max-checks 9",
         "TEST(Reproduction, mine_late_toi_"}) {
     EXPECT_TRUE(contains(text, part)) << part << '\n' << text;
   }

@@ -45,7 +45,7 @@ TEST(Failure, IsALineOfTextAndBack) {
   EXPECT_EQ(failure_from_text("nonsense: crash"), std::nullopt);
   EXPECT_EQ(failure_from_text("crash: bang"), Failure{.kind = FailureKind::crash});
   EXPECT_EQ(to_text({.kind = FailureKind::exception, .what = "two\nlines\x1b"}),
-            "exception: two?lines?");
+            "exception: two\\x0alines\\x1b");
 }
 
 TEST(FailureOf, AnAnswerShowsItself) {
