@@ -604,7 +604,7 @@ TEST_F(Tool, WhatAPluginPrintsIsNoneOfOurs) {
   shown.emplace_back("--show-output");
   const Outcome loud = run(shown);
   EXPECT_FALSE(contains(loud.out, "printed by a plugin")) << loud.out;
-  EXPECT_TRUE(contains(loud.err, "misbehaving: printed by a plugin?[31m\n")) << loud.err;
+  EXPECT_TRUE(contains(loud.err, "misbehaving: printed by a plugin\\x1b[31m\n")) << loud.err;
   EXPECT_TRUE(contains(loud.err, "misbehaving: and as error\n")) << loud.err;
 }
 

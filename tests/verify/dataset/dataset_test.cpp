@@ -207,8 +207,8 @@ TEST(OpenDataset, opening_errors_throw_even_if_it_keeps_going) {
   EXPECT_EQ(opening_error(folder.path() / "2vf.csv"), "2vf.csv: cannot read: Input/output error");
   EXPECT_EQ(opening_error(folder.file("1vf.txt", "")),
             "1vf.txt: unknown format: only .csv and .npy are datasets");
-  EXPECT_EQ(opening_error(folder.file("emptyvf.csv", "")), "emptyvf.csv: no queries");
-  EXPECT_EQ(opening_error(folder.file("emptyvf.npy", "")), "emptyvf.npy: not a NumPy file");
+  EXPECT_EQ(opening_error(folder.file("empty_vf.csv", "")), "empty_vf.csv: no queries");
+  EXPECT_EQ(opening_error(folder.file("empty_vf.npy", "")), "empty_vf.npy: not a NumPy file");
   EXPECT_TRUE(opening_error(folder.file("a.csv", joined(numbered_lines(1, true))))
                   .ends_with("pass --kind vertex-face or --kind edge-edge"));
 }

@@ -26,7 +26,7 @@ using test::TemporaryFolder;
 /// Writes numbered queries and then spoils one double; NpyWriter itself would refuse it.
 std::filesystem::path spoiled_file(const TemporaryFolder& folder, std::size_t query,
                                    std::size_t coordinate, double value) {
-  std::filesystem::path path = folder.path() / "avf.npy";
+  std::filesystem::path path = folder.path() / "a_vf.npy";
   NpyWriter writer(path);
   for (std::size_t i = 0; i < 4; ++i) writer.write(numbered_query(i));
   writer.close();
@@ -61,7 +61,7 @@ TEST(NpyDataset, names_the_coordinate_that_is_not_finite_and_skips_its_query_onl
     for (std::size_t coordinate = 0; coordinate < 24; ++coordinate) {
       const TemporaryFolder folder;
       const auto path = spoiled_file(folder, 2, coordinate, bad);
-      const std::string expected = "avf.npy: query 2, point " + std::to_string(coordinate / 3) +
+      const std::string expected = "a_vf.npy: query 2, point " + std::to_string(coordinate / 3) +
                                    ", " + "xyz"[coordinate % 3] + ": not finite";
       EXPECT_EQ(error_of(folder.path(),
                          [&] {
@@ -79,8 +79,8 @@ TEST(NpyDataset, names_the_coordinate_that_is_not_finite_and_skips_its_query_onl
 
 TEST(NpyDataset, of_no_queries_ends_at_once) {
   const TemporaryFolder folder;
-  NpyWriter(folder.path() / "avf.npy").close();
-  NpyDataset source(folder.path() / "avf.npy", {});
+  NpyWriter(folder.path() / "a_vf.npy").close();
+  NpyDataset source(folder.path() / "a_vf.npy", {});
   EXPECT_FALSE(source.next().has_value());
   EXPECT_EQ(source.progress(), 1.0);
   EXPECT_EQ(source.skipped(), 0U);
@@ -88,7 +88,7 @@ TEST(NpyDataset, of_no_queries_ends_at_once) {
 
 TEST(NpyDataset, that_becomes_shorter_gives_what_is_there_and_then_one_error) {
   const TemporaryFolder folder;
-  const auto path = folder.path() / "avf.npy";
+  const auto path = folder.path() / "a_vf.npy";
   for (const bool keep_going : {false, true}) {
     NpyWriter writer(path);
     for (std::size_t i = 0; i < 3000; ++i) writer.write(numbered_query(i));
@@ -107,7 +107,7 @@ TEST(NpyDataset, that_becomes_shorter_gives_what_is_there_and_then_one_error) {
     expect_numbered(records, there);
     const std::string reason =
         "has become shorter while it was read: query 2000 of 3000 is missing";
-    EXPECT_EQ(error, keep_going ? "no DatasetError" : "avf.npy: " + reason);
+    EXPECT_EQ(error, keep_going ? "no DatasetError" : "a_vf.npy: " + reason);
     EXPECT_EQ(messages, std::vector<std::string>(keep_going ? 1 : 0, reason));
     EXPECT_EQ(source.skipped(), keep_going ? 1U : 0U);
     EXPECT_FALSE(source.next().has_value()) << "it has ended";
@@ -116,7 +116,7 @@ TEST(NpyDataset, that_becomes_shorter_gives_what_is_there_and_then_one_error) {
 
 TEST(NpyDataset, memory_does_not_grow_with_the_file) {
   const TemporaryFolder folder;
-  const auto path = folder.path() / "avf.npy";
+  const auto path = folder.path() / "a_vf.npy";
   constexpr std::size_t queries = 300000;
   {
     NpyWriter writer(path);
