@@ -11,17 +11,19 @@ mkdir -p "$cache"
 command=$(awk -v file="$file" '
   /^  "command": / { command = $0 }
   /^  "file": / && index($0, "\"" file "\"") { print command; exit }' "$build/compile_commands.json" |
-  sed -e 's/^  "command": "//' -e 's/",$//' -e 's/\\"/"/g' -e 's/\\\\/\\/g')
+  sed -e 's/^  "command": "//' -e 's/",$//' -e 's/\\"/"/g' -e 's/\\\\/\\/g' \
+    -e 's/ -o [^ ]* / /')
 [ -n "$command" ] || { echo "tidy.sh: $build does not compile $file" >&2; exit 1; }
 
-# A unit of several sources (*.cxx, made by CMake) includes them, which the check would find suspicious.
+# A unit of several sources (*.cxx, made by CMake) includes them, which a check would find suspicious, and a local name of
+# one may hide a global one of another; the compiler looks for that in each source.
 checks=() configuration=.clang-tidy
-[[ $file == *.cxx ]] && checks=(--checks=-bugprone-suspicious-include)
+[[ $file == *.cxx ]] && checks=(--checks=-bugprone-suspicious-include --extra-arg=-Wno-shadow)
 [[ $file == "$PWD"/tests/* ]] && configuration=tests/.clang-tidy
 key=$({
   clang-tidy --version
   cat .clang-tidy "$configuration" cmake/tidy.sh
-  eval "$command -E -C -P -o -"
+  eval "$command -E -C -P"
 } | sha256sum | cut -d ' ' -f 1)
 [ -e "$cache/$key" ] && exit 0
 clang-tidy --quiet -p "$build" "${checks[@]}" --extra-arg=-Wno-unknown-warning-option "$file" \
