@@ -254,7 +254,7 @@ TEST(AsCppTest, loads_plugins_and_makes_names_of_any_text) {
       << text;
   EXPECT_NE(text.find("promise = fast::Promise::exact;"), std::string::npos);
   EXPECT_NE(text.find("TEST(Reproduction, my_solver_version_2_false_negative_"), std::string::npos);
-  EXPECT_NE(text.find("// my \"solver\", version 2: false_negative. The primitives collide.\n"),
+  EXPECT_NE(text.find("// my \"solver\",\\x0aversion 2: false_negative. The primitives collide.\n"),
             std::string::npos);
 }
 
