@@ -143,7 +143,6 @@ struct ReleasedVertexFace : VertexFace {
   }
 };
 
-
 // ---- The same in the order of operations of [wang2021] (docs/theory.md, section 4.10) ----------
 
 /// F of edge_edge on one axis in the paper's order. Inputs as EdgeEdge.

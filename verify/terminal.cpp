@@ -31,8 +31,7 @@ std::atomic<int> interrupt_descriptor = -1;
 std::atomic<pid_t> interrupted_process = 0;
 static_assert(std::atomic<bool>::is_always_lock_free &&
                   std::atomic<std::int64_t>::is_always_lock_free &&
-                  std::atomic<int>::is_always_lock_free &&
-                  std::atomic<pid_t>::is_always_lock_free,
+                  std::atomic<int>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
               "a signal handler may touch nothing else");
 
 /// Of a clock that only goes forward, and that a signal handler may read.

@@ -195,6 +195,10 @@ class Writer {
   void write_tables(std::string_view title, const std::vector<Table>& tables) {
     if (tables.empty()) return;
     text_ += fmt::format("## {}\n\n", title);
+    write_subsections(tables);
+  }
+
+  void write_subsections(const std::vector<Table>& tables) {
     for (const Table& table : tables) {
       text_ += fmt::format("### {}\n\n{}\n", markdown_escaped(table.title), to_markdown(table));
     }
@@ -205,9 +209,7 @@ class Writer {
     if (tables.empty()) return;
     text_ += fmt::format("## What Tight-Inclusion misses with each filter\n\n{}\n\n{}\n",
                          released_filter_sentence(), plainest_miss);
-    for (const Table& table : tables) {
-      text_ += fmt::format("### {}\n\n{}\n", table.title, to_markdown(table));
-    }
+    write_subsections(tables);
   }
 
   void write_meanings() {

@@ -76,7 +76,7 @@ TEST_F(Report, WritesPageMeasurementsAndTablesOfTheGivenQueries) {
   EXPECT_TRUE(read("page.html").starts_with("<!DOCTYPE html>"));
   EXPECT_TRUE(contains(read("page.html"), "id=\"speed_false_positives\""));
   EXPECT_TRUE(contains(read("results.md"), "### handcrafted, vertex-face"));
-  EXPECT_TRUE(contains(read("results.md"), "touchstone report " + path("handcrafted")));
+  EXPECT_TRUE(contains(read("results.md"), "touchstone report handcrafted "));
 }
 
 TEST_F(Report, MakesTheSamePageFromAnEarlierRunsMeasurements) {

@@ -207,7 +207,8 @@ TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
 /// Nothing of it runs in this process before somebody solves here.
 TEST(LoadPlugin, LoadsNothingIntoThisProcess) {
   const auto is_loaded = [] {
-    void* const handle = ::dlopen(tests::plugin_library("box_overlap").c_str(), RTLD_LAZY | RTLD_NOLOAD);
+    void* const handle =
+        ::dlopen(tests::plugin_library("box_overlap").c_str(), RTLD_LAZY | RTLD_NOLOAD);
     if (handle != nullptr) ::dlclose(handle);
     return handle != nullptr;
   };
