@@ -16,6 +16,7 @@
 #include "verify/dataset/dataset_error.hpp"
 #include "verify/plugin.h"
 #include "verify/printable.hpp"
+#include "verify/terminal.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -208,9 +209,7 @@ class Loading {
       if (event == Event::message) {
         if (auto name = read(message)) return std::move(*name);
       }
-      if (options_.stop != nullptr && *options_.stop) {
-        throw DatasetError(path_, {}, "interrupted while it was loaded");
-      }
+      if (options_.stop != nullptr && *options_.stop) throw Interrupted();
       const ChildProcess::Seconds passed = Clock::now() - start;
       if (passed.count() > options_.load_seconds) fail({.kind = FailureKind::hang});
     }

@@ -37,7 +37,8 @@ struct PluginOptions {
 /// not: failure_of() tells of them.
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
 /// made for a version of the interface that this program does not know, has no printable name, or
-/// ends its process, throws or takes too long on the way; std::system_error if no process can be
+/// ends its process, throws or takes too long on the way; Interrupted if the options' stop turns true;
+/// std::system_error if no process can be
 /// made.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                                         const PluginOptions& options = {});

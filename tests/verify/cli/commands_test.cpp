@@ -832,12 +832,19 @@ TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
                                    "--json",   path("result.json")};
     if (command == "solve") words.insert(words.end(), {"--out", path("answers.csv")});
     const pid_t process = start(words);
+    // The plugin is loaded in a child, too, but before the outputs are opened.
+    EXPECT_TRUE(tests::comes_true([&] {
+      return std::ranges::any_of(fs::directory_iterator(folder()), [](const auto& entry) {
+        return entry.path().filename().string().starts_with("result.json");
+      });
+    }));
     wait_for_child(process);
     kill(process, SIGINT);
     const Outcome outcome = finish(process);
     EXPECT_EQ(outcome.status, 130) << command << outcome.err;
     EXPECT_EQ(json("result.json").at("interrupted"), true);
     EXPECT_EQ(json("result.json").at("queries"), 0);
+    fs::remove(path("result.json"));
   }
 }
 
