@@ -137,7 +137,7 @@ TEST(Answers, AreFoundUnderNamesThatAreWrittenOut) {
     const std::string row = answer_row(name, 0, vf, {.verdict = Verdict::yes, .toi_lower = 0.5});
     EXPECT_TRUE(is_printable(row.substr(0, row.size() - 1))) << row;
     EXPECT_EQ(std::string_view("=+-@").find(row.front()), std::string_view::npos) << row;
-    const RecordedAnswers answers = load_rows(row);
+    const RecordedAnswers answers = load_written(row);
     ASSERT_TRUE(answers.answer_to(name, vf, 0)) << row;
     EXPECT_EQ(answers.unasked(), 0U);
   }
