@@ -36,7 +36,7 @@ endfunction()
 # object_with_names(NAME SOURCE INCLUDE_FOLDERS…): an object library of a source that stands for another, which the
 # folders hold in altered form or as a replacement.
 function(object_with_names name source)
-  add_library(${name} OBJECT ${source})
+  add_library(${name} OBJECT EXCLUDE_FROM_ALL ${source})
   target_compile_features(${name} PRIVATE cxx_std_20)
   # The code of others (SIMDe) and altered code are not held to this project's warnings.
   target_compile_options(${name} PRIVATE -O1 -ffp-contract=off -Wno-psabi)
