@@ -122,11 +122,12 @@ void read_answers(const fs::path& path) {
     sum += group.answers;
     require(group.unasked == group.answers);
     for (std::uint64_t index = 0; index < 10; ++index) {
-      const auto answer = answers.answer_to(group.file, group.kind, index);
-      if (!answer) continue;
-      require(!std::isinf(answer->toi_lower) && !std::isinf(answer->toi_upper));
-      require(!(answer->tolerance < 0.0));
-      require(answer->verdict == touchstone::fast::Verdict::yes || std::isnan(answer->toi_lower));
+      const auto recorded = answers.answer_to(group.file, group.kind, index);
+      if (!recorded) continue;
+      const touchstone::fast::Answer& answer = recorded->answer;
+      require(!std::isinf(answer.toi_lower) && !std::isinf(answer.toi_upper));
+      require(!(answer.tolerance < 0.0));
+      require(answer.verdict == touchstone::fast::Verdict::yes || std::isnan(answer.toi_lower));
     }
   }
   require(sum == answers.size());
