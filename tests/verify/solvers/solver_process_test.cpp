@@ -1,4 +1,5 @@
 #include "verify/solvers/solver_process.hpp"
+#include "tests/support/trials.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -616,10 +617,13 @@ TEST(SolverProcess, NeitherWaitsForGrandchildrenNorLeavesThem) {
 }
 
 TEST(SolverProcess, ThereMayBeOneInEachThread) {
+  // The sanitizers' allocator, unlike the system's, is not made ready for a fork() beside other threads: the child may
+  // wait for a lock that nobody holds there.
+  constexpr std::size_t count = tests::sanitizer_divisor > 1 ? 1 : 4;
   std::atomic<unsigned> right = 0;
   {
     std::vector<std::jthread> threads;
-    for (std::size_t thread = 0; thread < 4; ++thread) {
+    for (std::size_t thread = 0; thread < count; ++thread) {
       threads.emplace_back([&right, thread] {
         for (std::size_t round = 0; round < 5; ++round) {
           std::vector<Query> queries = numbered(1500);
@@ -632,7 +636,7 @@ TEST(SolverProcess, ThereMayBeOneInEachThread) {
       });
     }
   }
-  EXPECT_EQ(right, 20U);
+  EXPECT_EQ(right, 5 * count);
 }
 
 /// The child is about this process, and not about the thread that made it.
