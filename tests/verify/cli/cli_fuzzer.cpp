@@ -51,9 +51,18 @@ bool parse(CLI::App& app, std::vector<std::string> words) {
   }
 }
 
-/// All subcommands, which do nothing.
+/// Ends where the subcommand would run.
+class ParsedOnly : public CLI::App {
+ public:
+  using CLI::App::App;
+
+ protected:
+  void pre_callback() override { throw CLI::Success(); }
+};
+
+/// All subcommands. (Their callbacks stay: what the options write to belongs to them.)
 void parse_commands(const std::vector<std::string>& words) {
-  CLI::App app{"fuzzed"};
+  ParsedOnly app{"fuzzed"};
   app.require_subcommand(1);
   Status status = Status::all_well;
   for (const auto add : {add_certify_command, add_solve_command, add_prove_command,
@@ -61,7 +70,6 @@ void parse_commands(const std::vector<std::string>& words) {
                          add_stability_command, add_report_command, add_derive_command}) {
     add(app, status);
   }
-  for (CLI::App* const command : app.get_subcommands({})) command->callback({});
   parse(app, words);
 }
 
