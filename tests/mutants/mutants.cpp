@@ -17,6 +17,7 @@
 #include "fast/tight_inclusion.hpp"
 #include "tests/faults/filter_factors.hpp"
 #include "tests/faults/planted_faults.hpp"
+#include "verify/fuzz/recheck.hpp"
 
 namespace touchstone::tests {
 namespace {
@@ -24,6 +25,7 @@ namespace {
 using fast::Answer;
 using fast::MethodOptions;
 using fast::Verdict;
+using verify::answer_of;
 
 using Make = std::function<std::unique_ptr<fast::Method>()>;
 
@@ -144,13 +146,6 @@ fast::CertifiedOptions certified_options(const MethodOptions& options) {
   return {.t_max = options.t_max,
           .separation = {.distance = options.min_separation, .norm = options.norm},
           .max_threads = 1};
-}
-
-Answer answer_of(const fast::CertifiedResult& result) {
-  return {.verdict = result.verdict,
-          .toi_lower = result.toi_lower,
-          .toi_upper = result.toi_upper,
-          .tolerance = Answer::none};
 }
 
 /// With another last stage.

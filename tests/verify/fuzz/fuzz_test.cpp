@@ -23,6 +23,7 @@
 #include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/decision.hpp"
+#include "verify/fuzz/recheck.hpp"
 #include "verify/methods/registry.hpp"
 
 namespace touchstone::verify {
@@ -35,13 +36,7 @@ using tests::FunctionMethod;
 using namespace std::chrono_literals;
 
 /// The right answer, quickly.
-Answer honest(Kind kind, const Query& query) {
-  const fast::CertifiedResult result = fast::certified(kind, query);
-  return {.verdict = result.verdict,
-          .toi_lower = result.toi_lower,
-          .toi_upper = result.toi_upper,
-          .tolerance = Answer::none};
-}
+Answer honest(Kind kind, const Query& query) { return answer_of(fast::certified(kind, query)); }
 
 constexpr std::uint64_t enough = 20'000;
 
