@@ -1,11 +1,10 @@
-# find_package(touchstone) for simulators (touchstone::fast) and researchers (touchstone::exact).
+# find_package(touchstone COMPONENTS fast) for simulators, exact for researchers, derivation for authors of filters; each
+# component needs its own packages only.
 include(CMakePackageConfigHelpers)
 
-set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/touchstone)
-install(EXPORT touchstone NAMESPACE touchstone:: DESTINATION ${config_dir} FILE touchstone-targets.cmake)
 configure_package_config_file(cmake/touchstone-config.cmake.in touchstone-config.cmake
-  INSTALL_DESTINATION ${config_dir})
+  INSTALL_DESTINATION ${touchstone_config_folder})
 write_basic_package_version_file(touchstone-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/touchstone-config.cmake
               ${PROJECT_BINARY_DIR}/touchstone-config-version.cmake
-        DESTINATION ${config_dir})
+        DESTINATION ${touchstone_config_folder})

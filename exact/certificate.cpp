@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "exact/algebraic_number.hpp"
-#include "exact/motion.hpp"
-#include "exact/positivity.hpp"
+#include "exact/algebra/algebraic_number.hpp"
+#include "exact/algebra/positivity.hpp"
+#include "exact/contact/corner_motion.hpp"
 
 namespace touchstone::exact {
 namespace {

@@ -5,18 +5,18 @@
 ///
 /// A certificate is a claim about a query, and a distance at which things count as touching, and what
 /// proves it:
-///   - no collision: pieces of [0,1] with a separating feature each (exact/separation.hpp);
+///   - no collision: pieces of [0,1] with a separating feature each (exact/certificate/separation_intervals.hpp);
 ///   - collision: a contact;
 ///   - time of impact in (lower, upper]: a contact there, and pieces of [0,lower].
 ///
-/// **A contact** is a time t* and a place with its conditions (exact/contact_places.hpp).
+/// **A contact** is a time t* and a place with its conditions (exact/contact/contact_conditions.hpp).
 /// The time is a rational number, or a root of an integer polynomial g in an interval at whose ends g
 /// has opposite signs. Then g divides every polynomial of the conditions that is zero at t*, and every other one
 /// has one sign on the whole interval: whichever root of g there it is, the conditions hold at it.
 /// Hence g is the greatest common divisor of the polynomials that vanish, and the interval is so
 /// small that the others do not.
 ///
-/// exact/certificate_text.hpp writes certificates down, exact/CERTIFICATES.md is the format.
+/// exact/certificate/certificate_text.hpp writes certificates down, exact/CERTIFICATES.md is the format.
 
 #include <array>
 #include <cstddef>
@@ -25,13 +25,13 @@
 #include <variant>
 #include <vector>
 
-#include "exact/contact_places.hpp"
-#include "exact/distance_oracle.hpp"
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
+#include "exact/algebra/polynomial.hpp"
+#include "exact/certificate/separation_intervals.hpp"
+#include "exact/contact/contact_conditions.hpp"
+#include "exact/distance/distance_oracle.hpp"
 #include "exact/oracle.hpp"
-#include "exact/polynomial.hpp"
 #include "exact/query.hpp"
-#include "exact/separation.hpp"
 
 namespace touchstone::exact {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/motion.hpp"
+#include "exact/contact/corner_motion.hpp"
 
 namespace touchstone::exact {
 namespace {

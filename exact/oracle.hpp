@@ -34,9 +34,9 @@
 
 #include <optional>
 
-#include "exact/algebraic_number.hpp"
-#include "exact/number.hpp"
-#include "exact/polynomial.hpp"
+#include "exact/algebra/algebraic_number.hpp"
+#include "exact/algebra/number.hpp"
+#include "exact/algebra/polynomial.hpp"
 #include "exact/query.hpp"
 
 namespace touchstone::exact {

@@ -18,8 +18,8 @@
 #include <string_view>
 #include <tuple>
 
-#include "fast/box_tree.hpp"
-#include "fast/floating_point_state.hpp"
+#include "fast/broad_phase/box_tree.hpp"
+#include "fast/platform/floating_point_state.hpp"
 
 namespace touchstone::fast {
 namespace {

@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "fast/certified/exact_stage.hpp"
+#include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/kernel.hpp"
-#include "fast/floating_point_state.hpp"
+#include "fast/platform/floating_point_state.hpp"
 
 namespace touchstone::fast {
 namespace {

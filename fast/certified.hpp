@@ -10,10 +10,10 @@
 /// and the last one is exact (docs/theory.md, section 6):
 ///
 ///     axis, direction, determinant, bisection    fast/certified/kernel_on_lanes.hpp
-///     exact                                      fast/certified/exact_stage.hpp
+///     exact                                      fast/certified/exact/exact_stage.hpp
 ///
 /// With a minimum separation, contact is to be within a distance, in L∞ or L2, and all of this holds of
-/// that. (fast/certified/advance_on_lanes.hpp takes the place of bisection where the distance is beyond
+/// that. (fast/certified/stages/conservative_advancement.hpp takes the place of bisection where the distance is beyond
 /// rounding.)
 ///
 /// So every answer is proved, in floating point or in integers, and none is guessed. The floating-

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fast/arithmetic_check.hpp"
+#include "fast/platform/arithmetic_check.hpp"
 
 namespace touchstone::fast {
 namespace {

@@ -91,7 +91,7 @@ struct TightInclusionResult {
 
 /// Decides one query. Memory (max_boxes bounds it) is kept for the thread's next call, until the
 /// thread ends.
-/// \throws std::runtime_error if the arithmetic is not strict (fast/arithmetic_check.hpp);
+/// \throws std::runtime_error if the arithmetic is not strict (fast/platform/arithmetic_check.hpp);
 /// std::bad_alloc, after which the next call is as good as any.
 [[nodiscard]] TightInclusionResult tight_inclusion(Kind kind, const Query& query,
                                                    const TightInclusionOptions& options = {});

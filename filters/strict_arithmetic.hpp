@@ -7,7 +7,7 @@
 /// one.
 ///
 /// The compiler announces fast-math but not contraction (a·b+c in one rounding); that is found at
-/// run time, by fast/arithmetic_check.hpp.
+/// run time, by fast/platform/arithmetic_check.hpp.
 
 #include <cfloat>
 #include <limits>

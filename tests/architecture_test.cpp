@@ -1,5 +1,5 @@
 /// \file
-/// The rules of the house that a compiler does not check: which room may see which, that every
+/// The rules of the project that a compiler does not check: which module may include which, that every
 /// header has a test, and how a header begins. Each rule is a function of paths and texts, so that
 /// the same function that reads the source tree is shown to find planted faults.
 
@@ -75,14 +75,16 @@ constexpr auto permissions = std::to_array<Permission>({
     {"fast/", "xmmintrin.h"},
     {"fast/", "oneapi/tbb/"},
 
-    // What the known methods are made of, simulators need not have.
-    {"fast/baselines/", "fast/"},
-    {"fast/baselines/", "filters/"},
-    {"fast/baselines/", "exact/query.hpp"},
-    {"fast/baselines/", "Eigen/"},
-    {"fast/baselines/", "boost/numeric/interval.hpp"},
+    // The published methods use packages that simulators need not have.
+    {"verify/baselines/", "verify/baselines/"},
+    {"verify/baselines/", "fast/"},
+    {"verify/baselines/", "filters/"},
+    {"verify/baselines/", "gmpxx.h"},
+    {"verify/baselines/", "exact/query.hpp"},
+    {"verify/baselines/", "Eigen/"},
+    {"verify/baselines/", "boost/numeric/interval.hpp"},
     // The rounding mode of one thread.
-    {"fast/baselines/", "xmmintrin.h"},
+    {"verify/baselines/", "xmmintrin.h"},
 
     {"verify/", "exact/"},
     {"verify/", "exact/checker/"},
@@ -118,7 +120,7 @@ struct Exception {
   std::string_view reason;
 };
 
-/// Headers under an extension that is not of this house.
+/// Headers under an extension that this project does not use.
 constexpr auto foreign_headers = std::to_array<Exception>({
     {"verify/plugin.h", "included by plugins, which may be written in C"},
 });
@@ -126,29 +128,30 @@ constexpr auto foreign_headers = std::to_array<Exception>({
 /// Headers without a test file of their own.
 constexpr auto headers_without_test = std::to_array<Exception>({
     {"filters/strict_arithmetic.hpp", "tested by compilation, in tests/filters/CMakeLists.txt"},
-    {"exact/cgal.hpp",
+    {"exact/algebra/cgal.hpp",
      "a conversion that polynomial_test.cpp compares the oracle's algebra through"},
-    {"verify/query_source.hpp", "an interface without code"},
+    {"verify/data/query_source.hpp", "an interface without code"},
     {"fast/method.hpp", "an interface without code"},
-    {"fast/certified/avx_rows.hpp", "a part of the kernels, tested through them"},
+    {"fast/platform/avx_rows.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/kernel_on_lanes.hpp", "a part of the kernels, tested through them"},
-    {"fast/tight_inclusion/avx_halves.hpp", "a part of the kernels, tested through them"},
+    {"fast/platform/avx_halves.hpp", "a part of the kernels, tested through them"},
     {"fast/tight_inclusion/box_kernel_on_lanes.hpp", "a part of the kernels, tested through them"},
     {"verify/cli/certificates_file.hpp", "tested through the commands that use it"},
     {"verify/cli/options.hpp", "tested through the commands that use it"},
     {"verify/fuzz/draws.hpp", "a part of the generators, tested through their queries"},
     {"verify/fuzz/finding.hpp", "what the fuzzer hands out, without code"},
-    {"verify/families/grid.hpp", "a part of the families, tested through their queries"},
-    {"verify/families/level.hpp", "a part of the families, tested through their queries"},
-    {"verify/families/random.hpp", "a part of the families, tested through their queries"},
-    {"verify/families/recipe.hpp", "a part of the families, tested through their queries"},
-    {"verify/families/sampler.hpp", "a part of the families, tested through their queries"},
+    {"verify/generate/grid.hpp", "a part of the families, tested through their queries"},
+    {"verify/generate/passing_planes.hpp", "a part of the families, tested through their queries"},
+    {"verify/generate/random.hpp", "a part of the families, tested through their queries"},
+    {"verify/generate/family_builder.hpp", "a part of the families, tested through their queries"},
+    {"verify/generate/coordinate_sampler.hpp",
+     "a part of the families, tested through their queries"},
 });
 
-/// Parts of a room that the room's own name does not open: only lines that name them do.
+/// Parts of a module that a permission for the whole module does not include: only lines that name them do.
 constexpr std::array<std::string_view, 2> closed_parts{"exact/checker/", "filters/derivation/"};
 
-constexpr std::array<std::string_view, 4> rooms{"exact", "filters", "fast", "verify"};
+constexpr std::array<std::string_view, 4> modules{"exact", "filters", "fast", "verify"};
 
 // ---- The rules ----------------------------------------------------------------------------------
 
@@ -219,7 +222,7 @@ Include parse_target(std::string_view text) {
   return {.name = std::string(text.substr(1, end - 1)), .angle = angle};
 }
 
-/// Every include of a file that its room may not make, as "path:line: name".
+/// Every include of a file that its module may not make, as "path:line: name".
 Violations forbidden_includes(const std::string& path, std::string_view text) {
   Violations result;
   for (int number = 1; !text.empty(); ++number) {
@@ -251,13 +254,13 @@ bool is_one_of(std::string_view header, const Exceptions& exceptions) {
       exceptions, [&](const Exception& exception) { return exception.header == header; });
 }
 
-bool is_in_a_room(std::string_view path) { return !rule_for(path).empty(); }
+bool is_in_a_module(std::string_view path) { return !rule_for(path).empty(); }
 
-/// The headers of the rooms that have no test file, and no reason for it.
+/// The headers of the modules that have no test file, and no reason for it.
 Violations untested_headers(const Tree& tree) {
   Violations result;
   for (const auto& [path, text] : tree) {
-    if (!is_in_a_room(path) || !is_header(path) || is_one_of(path, headers_without_test)) {
+    if (!is_in_a_module(path) || !is_header(path) || is_one_of(path, headers_without_test)) {
       continue;
     }
     if (!tree.contains(test_of(path))) result.push_back(path);
@@ -265,7 +268,7 @@ Violations untested_headers(const Tree& tree) {
   return result;
 }
 
-/// The headers, of rooms and tests, that do not begin as they should.
+/// The headers, of modules and tests, that do not begin as they should.
 Violations malformed_headers(const Tree& tree) {
   Violations result;
   for (const auto& [path, text] : tree) {
@@ -276,7 +279,7 @@ Violations malformed_headers(const Tree& tree) {
   return result;
 }
 
-/// C or C++ under an extension that is not of this house.
+/// C or C++ under an extension that this project does not use.
 Violations foreign_extensions(const Tree& tree) {
   static constexpr std::array<std::string_view, 12> foreign{
       ".h", ".hh", ".hxx", ".c", ".cc", ".cxx", ".inc", ".inl", ".ipp", ".ixx", ".tpp", ".cppm"};
@@ -299,7 +302,7 @@ std::string read(const std::filesystem::path& path) {
 
 Tree read_source_tree() {
   const std::filesystem::path root = tests::source_folder();
-  std::vector<std::string> folders(rooms.begin(), rooms.end());
+  std::vector<std::string> folders(modules.begin(), modules.end());
   folders.emplace_back("tests");
   Tree tree;
   for (const std::string& folder : folders) {
@@ -316,20 +319,20 @@ const Tree& source_tree() {
   return tree;
 }
 
-TEST(SourceTree, HasAHeaderInEveryRoom) {
-  for (const std::string_view room : rooms) {
+TEST(SourceTree, HasAHeaderInEveryModule) {
+  for (const std::string_view module : modules) {
     EXPECT_TRUE(std::ranges::any_of(source_tree(), [&](const auto& file) {
-      return file.first.starts_with(std::string(room) + "/") && is_header(file.first);
-    })) << room;
+      return file.first.starts_with(std::string(module) + "/") && is_header(file.first);
+    })) << module;
   }
   EXPECT_TRUE(source_tree().contains("exact/query.hpp"));
   EXPECT_TRUE(source_tree().contains("tests/architecture_test.cpp"));
 }
 
-TEST(SourceTree, RoomsIncludeOnlyWhatTheyMay) {
+TEST(SourceTree, ModulesIncludeOnlyWhatTheyMay) {
   for (const auto& [path, text] : source_tree()) {
     // A manual may show what a user's program includes.
-    if (is_in_a_room(path) && !path.ends_with(".md")) {
+    if (is_in_a_module(path) && !path.ends_with(".md")) {
       EXPECT_EQ(forbidden_includes(path, text), Violations{}) << path;
     }
   }
@@ -367,23 +370,23 @@ struct Planted {
 TEST(PlantedFault, EachForbiddenIncludeIsFound) {
   const std::vector<Planted> faults{
       {"fast/solver.cpp", "#include \"exact/oracle.hpp\"\n"},
-      {"fast/solver.cpp", "#include \"exact/number.hpp\"\n"},
-      {"fast/solver.cpp", "#include <exact/number.hpp>\n"},
+      {"fast/solver.cpp", "#include \"exact/algebra/number.hpp\"\n"},
+      {"fast/solver.cpp", "#include <exact/algebra/number.hpp>\n"},
       {"fast/solver.cpp", "#include <gmpxx.h>\n"},
       {"fast/solver.cpp", "#include <gmp.h>\n"},
       {"fast/solver.cpp", "#include <CGAL/gmpxx.h>\n"},
       {"fast/solver.cpp", "#include <mpfr.h>\n"},
-      {"fast/solver.cpp", "#include \"verify/dataset/dataset.hpp\"\n"},
+      {"fast/solver.cpp", "#include \"verify/data/dataset.hpp\"\n"},
       {"fast/solver.cpp", "#include <unistd.h>\n"},
       {"fast/solver.cpp", "#include <fmt/format.h>\n"},
       {"fast/solver.hpp", "#include \"exact/query.hpp.in\"\n"},
       {"fast/deep/er.hpp", "#include \"exact/oracle.hpp\"\n"},
-      {"exact/query.hpp", "#include \"exact/number.hpp\"\n"},
+      {"exact/query.hpp", "#include \"exact/algebra/number.hpp\"\n"},
       {"exact/query.hpp", "#include <gmpxx.h>\n"},
       {"exact/query.hpp", "#include <CGAL/Polynomial.h>\n"},
       {"exact/oracle.cpp", "#include \"fast/solver.hpp\"\n"},
       {"exact/oracle.cpp", "#include \"filters/strict_arithmetic.hpp\"\n"},
-      {"exact/oracle.cpp", "#include \"verify/dataset/dataset.hpp\"\n"},
+      {"exact/oracle.cpp", "#include \"verify/data/dataset.hpp\"\n"},
       {"exact/oracle.cpp", "#include <oneapi/tbb/info.h>\n"},
       {"exact/oracle.cpp", "#include \"exact/checker/checker.hpp\"\n"},
       {"exact/query.hpp", "#include \"exact/checker/checker.hpp\"\n"},
@@ -399,18 +402,18 @@ TEST(PlantedFault, EachForbiddenIncludeIsFound) {
       {"filters/bound.hpp", "#include <Eigen/Core>\n"},
       {"filters/bound.hpp", "#include <mpfr.h>\n"},
       {"filters/bound.hpp", "#include \"filters/derivation/rounding_model.hpp\"\n"},
-      {"filters/derivation/model.cpp", "#include \"exact/number.hpp\"\n"},
-      {"filters/derivation/model.cpp", "#include \"verify/terminal.hpp\"\n"},
+      {"filters/derivation/model.cpp", "#include \"exact/algebra/number.hpp\"\n"},
+      {"filters/derivation/model.cpp", "#include \"verify/io/terminal.hpp\"\n"},
       {"filters/derivation/model.cpp", "#include <CGAL/gmpxx.h>\n"},
       {"fast/solver.cpp", "#include \"filters/derivation/rounding_model.hpp\"\n"},
       {"verify/dataset.cpp", "#include <boost/any.hpp>\n"},
       {"verify/dataset.cpp", "#include <stdio.h>\n"},
       {"verify/plugin.h", "#include <math.h>\n"},
       {"verify/plugin.h", "#include \"exact/query.hpp\"\n"},
-      {"verify/plugin.h", "#include \"verify/query_source.hpp\"\n"},
+      {"verify/plugin.h", "#include \"verify/data/query_source.hpp\"\n"},
       {"fast/solver.cpp", "#include <boost/numeric/interval.hpp>\n"},
-      {"fast/baselines/solver.cpp", "#include <boost/multiprecision/cpp_int.hpp>\n"},
-      {"fast/baselines/solver.cpp", "#include \"exact/oracle.hpp\"\n"},
+      {"verify/baselines/solver.cpp", "#include <boost/multiprecision/cpp_int.hpp>\n"},
+      {"verify/baselines/solver.cpp", "#include \"exact/oracle.hpp\"\n"},
       {"fast/solver.cpp", "#include <dlfcn.h>\n"},
       {"fast/solver.cpp", "#include \"verify/plugin.h\"\n"},
       {"verify/dataset.cpp", "#include \"tests/support/random.hpp\"\n"},
@@ -451,11 +454,11 @@ TEST(PlantedFault, PermittedIncludesAreNone) {
       {"filters/derivation/model.cpp",
        "#include \"filters/derivation/model.hpp\"\n#include <gmpxx.h>\n#include <mpfr.h>\n"},
       {"exact/checker/proof.cpp", "#include \"exact/checker/proof.hpp\"\n#include <gmpxx.h>\n"},
-      {"verify/prove.cpp", "#include \"exact/checker/checker.hpp\"\n"},
+      {"verify/run/prove.cpp", "#include \"exact/checker/checker.hpp\"\n"},
       {"verify/cli/derive.cpp", "#include \"filters/derivation/model.hpp\"\n"},
       {"fast/solver.cpp", "#include \"exact/query.hpp\"\n#include <hwy/highway.h>\n"},
       {"fast/solver.cpp", "#include \"filters/bound.hpp\"\n#include <oneapi/tbb/info.h>\n"},
-      {"fast/baselines/solver.cpp",
+      {"verify/baselines/solver.cpp",
        "#include \"fast/method.hpp\"\n#include <boost/numeric/interval.hpp>\n"},
       {"verify/dataset.cpp", "#include \"fast/solver.hpp\"\n#include \"exact/oracle.hpp\"\n"},
       {"verify/dataset.cpp", "#include <fmt/format.h>\n#include <sys/mman.h>\n#include <vector>\n"},
@@ -480,7 +483,7 @@ TEST(PlantedFault, AHeaderWithoutATestIsFound) {
                   {"tests/verify/plugin_test.cpp", ""},
                   {"tests/verify/er_test.cpp", ""},
                   {"tests/support/random.hpp", ""},
-                  {"verify/query_source.hpp", ""}};
+                  {"verify/data/query_source.hpp", ""}};
   EXPECT_EQ(untested_headers(tree),
             (Violations{"exact/new.hpp", "verify/deep/er.hpp", "verify/plain.h"}));
 }

@@ -10,8 +10,8 @@
 #include <span>
 
 #include "exact/query.hpp"
-#include "fast/instruction_set.hpp"
 #include "fast/mesh.hpp"
+#include "fast/platform/instruction_set.hpp"
 
 namespace touchstone::fast {
 

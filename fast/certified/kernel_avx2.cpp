@@ -3,8 +3,8 @@
 
 #include <immintrin.h>
 
-#include "fast/certified/avx_rows.hpp"
 #include "fast/certified/kernel_on_lanes.hpp"
+#include "fast/platform/avx_rows.hpp"
 
 namespace touchstone::fast {
 namespace {

@@ -44,7 +44,7 @@
 ///
 /// But the zero of det is later than the time of impact. Where that is more than an enclosure's width,
 /// det only tells of a time up to which there is no contact, and what follows is the other stage's:
-/// fast/certified/advance_on_lanes.hpp. To it goes, too, all of which the shift leaves too little to tell.
+/// fast/certified/stages/conservative_advancement.hpp. To it goes, too, all of which the shift leaves too little to tell.
 ///
 /// Queries that no stage ends, or whose coordinates are so large, or not numbers, that the bounds do
 /// not hold, are undecided here.
@@ -56,8 +56,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fast/certified/advance_on_lanes.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/certified/stages/conservative_advancement.hpp"
 #include "filters/double_double.hpp"
 #include "filters/error_bounds.hpp"
 #include "filters/polynomial_expressions.hpp"

@@ -14,7 +14,7 @@
 #include <span>
 
 #include "exact/query.hpp"
-#include "fast/instruction_set.hpp"
+#include "fast/platform/instruction_set.hpp"
 
 namespace touchstone::fast {
 

@@ -3,7 +3,7 @@
 
 #include <immintrin.h>
 
-#include "fast/tight_inclusion/avx_halves.hpp"
+#include "fast/platform/avx_halves.hpp"
 #include "fast/tight_inclusion/box_kernel_on_lanes.hpp"
 
 namespace touchstone::fast {

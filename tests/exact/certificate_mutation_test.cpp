@@ -18,7 +18,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/families/families.hpp"
+#include "verify/generate/families.hpp"
 
 // Certificates (exact/certificate.hpp) altered in every field: whatever the checker still accepts has
 // to be true, by the oracle asked about the altered query.

@@ -17,8 +17,8 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/dataset/dataset.hpp"
-#include "verify/families/families.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/generate/families.hpp"
 
 namespace touchstone::exact {
 namespace {

@@ -19,7 +19,7 @@
 #include "tests/support/built_files.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "verify/dataset/dataset.hpp"
+#include "verify/data/dataset.hpp"
 
 namespace touchstone::exact {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 
 namespace touchstone {

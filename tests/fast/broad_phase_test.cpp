@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/simulation_steps.hpp"

@@ -24,8 +24,8 @@
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "verify/dataset/dataset.hpp"
-#include "verify/families/families.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/generate/families.hpp"
 
 #ifdef __SSE2__
 #include <xmmintrin.h>

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fast/arithmetic_check.hpp"
+#include "fast/platform/arithmetic_check.hpp"
 
 int main() {
   try {

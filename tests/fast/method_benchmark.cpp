@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "tests/support/built_files.hpp"
-#include "verify/dataset/dataset.hpp"
-#include "verify/methods/registry.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -21,15 +21,15 @@
 #include <tuple>
 #include <vector>
 
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/dataset/dataset.hpp"
-#include "verify/families/families.hpp"
-#include "verify/workload.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/generate/families.hpp"
+#include "verify/generate/workload.hpp"
 
 namespace touchstone::fast {
 namespace {

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "exact/query.hpp"
-#include "fast/certified/exact_stage.hpp"
+#include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/method.hpp"
 #include "fast/tight_inclusion.hpp"

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "verify/fuzz/recheck.hpp"
-#include "verify/methods/registry.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::tests {
 namespace {

@@ -18,10 +18,10 @@
 
 #include "tests/mutants/hunt.hpp"
 #include "tests/mutants/mutants.hpp"
-#include "verify/dataset/csv_dataset.hpp"
-#include "verify/dataset/separation_file.hpp"
-#include "verify/decision.hpp"
+#include "verify/data/csv_dataset.hpp"
+#include "verify/data/separation_file.hpp"
 #include "verify/fuzz/reproduce.hpp"
+#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::tests {
 namespace {

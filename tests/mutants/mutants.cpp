@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "fast/certified.hpp"
-#include "fast/certified/exact_stage.hpp"
+#include "fast/certified/exact/exact_stage.hpp"
 #include "fast/filter.hpp"
 #include "fast/tight_inclusion.hpp"
 #include "tests/faults/filter_factors.hpp"

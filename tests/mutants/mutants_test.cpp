@@ -14,8 +14,8 @@
 
 #include "tests/mutants/hunt.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/methods/plugin.hpp"
-#include "verify/methods/registry.hpp"
+#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::tests {
 namespace {

@@ -15,14 +15,14 @@
 #include <string_view>
 #include <vector>
 
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
 #include "exact/oracle.hpp"
 #include "fast/method.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "verify/dataset/dataset.hpp"
-#include "verify/families/families.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/generate/families.hpp"
 
 namespace touchstone::tests {
 

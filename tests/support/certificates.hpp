@@ -11,11 +11,11 @@
 #include <string_view>
 #include <vector>
 
+#include "exact/algebra/number.hpp"
 #include "exact/certificate.hpp"
-#include "exact/certificate_text.hpp"
+#include "exact/certificate/certificate_text.hpp"
 #include "exact/checker/checker.hpp"
-#include "exact/distance_oracle.hpp"
-#include "exact/number.hpp"
+#include "exact/distance/distance_oracle.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 

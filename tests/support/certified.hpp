@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "exact/distance_oracle.hpp"
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
+#include "exact/distance/distance_oracle.hpp"
 #include "fast/certified.hpp"
 
 namespace touchstone::tests {

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/algebraic_number.hpp"
-#include "exact/polynomial.hpp"
+#include "exact/algebra/algebraic_number.hpp"
+#include "exact/algebra/polynomial.hpp"
 #include "tests/support/queries.hpp"
 
 namespace touchstone::tests {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "verify/query_source.hpp"
+#include "verify/data/query_source.hpp"
 
 namespace touchstone::tests {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "verify/dataset/dataset_error.hpp"
+#include "verify/data/dataset_error.hpp"
 #include "verify/mesh/mesh.hpp"
 
 namespace touchstone::tests {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tests/support/built_files.hpp"
-#include "verify/dataset/dataset.hpp"
+#include "verify/data/dataset.hpp"
 
 namespace touchstone::tests {
 

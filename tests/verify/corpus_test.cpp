@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "tests/support/built_files.hpp"
-#include "verify/certify.hpp"
-#include "verify/dataset/dataset.hpp"
-#include "verify/dataset/separation_file.hpp"
-#include "verify/methods/registry.hpp"
-#include "verify/methods/respondent.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/data/separation_file.hpp"
+#include "verify/run/certify.hpp"
+#include "verify/solvers/registry.hpp"
+#include "verify/solvers/respondent.hpp"
 
 namespace touchstone::verify {
 namespace {

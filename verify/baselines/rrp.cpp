@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "fast/baselines/query_random.hpp"
-#include "fast/baselines/verdicts.hpp"
+#include "verify/baselines/query_random.hpp"
+#include "verify/baselines/verdicts.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::baselines {
 namespace {
 
 using Rational = mpq_class;
@@ -113,7 +113,7 @@ Rational side_of_patch(const Patch& q, const Point& x) {
 
 constexpr int most_tries = 8;
 
-Point random_direction(fast::baselines::QueryRandom& random) {
+Point random_direction(QueryRandom& random) {
   Point direction;
   for (Rational& x : direction) x = random.uniform(-1.0, 1.0);
   return direction;
@@ -133,7 +133,7 @@ Hit parity(const Surfaces& surfaces, const HitOf& hit_of) {
 
 /// Calls `hit_along` with the first direction, and with random ones as long as that is bad luck.
 template <class HitAlong>
-Hit with_luck(Point direction, fast::baselines::QueryRandom& random, const HitAlong& hit_along) {
+Hit with_luck(Point direction, QueryRandom& random, const HitAlong& hit_along) {
   for (int i = 0; i <= most_tries; ++i) {
     const Hit hit = hit_along(direction);
     if (hit != Hit::bad_luck) return hit;
@@ -191,7 +191,7 @@ class RayParity {
     return result;
   }
 
-  fast::baselines::QueryRandom random_;
+  QueryRandom random_;
 };
 
 /// Do all points move by the same vector, as differences in doubles? At rest they do.
@@ -246,7 +246,7 @@ bool rrp_collides(Kind kind, const Query& query) {
 }
 
 std::unique_ptr<fast::Method> rrp_method() {
-  return std::make_unique<fast::baselines::VerdictMethod>("rrp", rrp_collides);
+  return std::make_unique<VerdictMethod>("rrp", rrp_collides);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::baselines

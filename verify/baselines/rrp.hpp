@@ -4,7 +4,7 @@
 /// RRP: rational root parity, after [brochu2012] with degenerate patches handled ([wang2021];
 /// docs/methods.md, section 10). In verify/ because its numbers are GMP's.
 ///
-/// **Algorithm.** As RP (fast/baselines/rp.hpp), the crossings of a ray from 0 with the image of the
+/// **Algorithm.** As RP (verify/baselines/rp.hpp), the crossings of a ray from 0 with the image of the
 /// domain's boundary are counted, everything in rationals. A flat patch is replaced by the triangles
 /// that it covers. In front of a patch that is not flat stand two faces of its corners' tetrahedron,
 /// chosen by the side of the patch that 0 is on. A ray that is parallel to a triangle or meets its
@@ -30,7 +30,7 @@
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::baselines {
 
 /// RRP's verdict. \pre all coordinates are finite.
 [[nodiscard]] bool rrp_collides(Kind kind, const Query& query);
@@ -38,4 +38,4 @@ namespace touchstone::verify {
 /// As a method: its name is `rrp`. It heeds no options.
 [[nodiscard]] std::unique_ptr<fast::Method> rrp_method();
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::baselines

@@ -22,10 +22,10 @@
 #include "fast/mesh.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/dataset/npy.hpp"
+#include "verify/data/npy.hpp"
+#include "verify/io/terminal.hpp"
 #include "verify/mesh/index_file.hpp"
-#include "verify/moving_mesh.hpp"
-#include "verify/terminal.hpp"
+#include "verify/mesh/moving_mesh.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

@@ -1,6 +1,6 @@
 #include "verify/cli/certificates_file.hpp"
 
-#include "exact/certificate_text.hpp"
+#include "exact/certificate/certificate_text.hpp"
 
 namespace touchstone::verify::cli {
 

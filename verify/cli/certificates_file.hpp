@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "verify/cli/options.hpp"
-#include "verify/compressor.hpp"
-#include "verify/prove.hpp"
+#include "verify/io/compressor.hpp"
+#include "verify/run/prove.hpp"
 
 namespace touchstone::verify::cli {
 

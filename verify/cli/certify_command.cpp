@@ -14,15 +14,15 @@
 #include <utility>
 #include <vector>
 
-#include "verify/certify.hpp"
-#include "verify/certify_report.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/respondents.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/methods/registry.hpp"
-#include "verify/terminal.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/report/certify_report.hpp"
+#include "verify/run/certify.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

@@ -15,7 +15,7 @@
 #include "filters/derivation/derivation.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/terminal.hpp"
+#include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

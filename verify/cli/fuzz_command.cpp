@@ -18,16 +18,16 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/respondents.hpp"
-#include "verify/dataset/csv_dataset.hpp"
-#include "verify/dataset/dataset.hpp"
-#include "verify/dataset/separation_file.hpp"
+#include "verify/data/csv_dataset.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/data/separation_file.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
 #include "verify/fuzz/reproduce.hpp"
-#include "verify/methods/registry.hpp"
-#include "verify/printable.hpp"
-#include "verify/separation.hpp"
-#include "verify/terminal.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

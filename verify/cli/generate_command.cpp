@@ -12,14 +12,14 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/dataset/csv_dataset.hpp"
-#include "verify/dataset/npy.hpp"
-#include "verify/dataset/separation_file.hpp"
-#include "verify/dataset/toi_writer.hpp"
-#include "verify/families/families.hpp"
-#include "verify/printable.hpp"
-#include "verify/separation.hpp"
-#include "verify/terminal.hpp"
+#include "verify/data/csv_dataset.hpp"
+#include "verify/data/npy.hpp"
+#include "verify/data/separation_file.hpp"
+#include "verify/data/toi_writer.hpp"
+#include "verify/generate/families.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/judge/separation_inference.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

@@ -8,11 +8,11 @@
 #include <exception>
 #include <sstream>
 
-#include "fast/arithmetic_check.hpp"
+#include "fast/platform/arithmetic_check.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/printable.hpp"
-#include "verify/terminal.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
 
 namespace {
 

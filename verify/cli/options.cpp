@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "verify/dataset/separation_file.hpp"
-#include "verify/printable.hpp"
-#include "verify/separation.hpp"
-#include "verify/terminal.hpp"
+#include "verify/data/separation_file.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/judge/separation_inference.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

@@ -15,7 +15,7 @@
 #include <string_view>
 
 #include "exact/query.hpp"
-#include "verify/dataset/output_file.hpp"
+#include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::cli {
 

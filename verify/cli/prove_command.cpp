@@ -12,14 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/prove.hpp"
-#include "verify/separation.hpp"
-#include "verify/terminal.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/run/prove.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

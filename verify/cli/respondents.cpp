@@ -11,10 +11,10 @@
 
 #include "exact/query.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/methods/plugin.hpp"
-#include "verify/methods/registry.hpp"
-#include "verify/printable.hpp"
-#include "verify/terminal.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

@@ -14,8 +14,8 @@
 
 #include "fast/method.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/methods/answers.hpp"
-#include "verify/methods/respondent.hpp"
+#include "verify/solvers/answers.hpp"
+#include "verify/solvers/respondent.hpp"
 
 namespace touchstone::verify::cli {
 
@@ -60,7 +60,7 @@ void settle_solver_options(const CLI::App& command, bool built_in_set,
                            RespondentArguments& arguments);
 
 /// Prints on standard error what a solver printed if that is asked for, line by line behind its name,
-/// printable (verify/printable.hpp); else how to see it. Nothing if it printed nothing.
+/// printable (verify/io/printable.hpp); else how to see it. Nothing if it printed nothing.
 void report_output(std::string_view solver, const CapturedOutput& output, bool show);
 
 /// Says on standard error that a solver ended its process so often, unless that is never.

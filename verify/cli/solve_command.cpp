@@ -17,10 +17,10 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/respondents.hpp"
 #include "verify/cli/sources.hpp"
-#include "verify/methods/answers.hpp"
-#include "verify/separation.hpp"
-#include "verify/solve.hpp"
-#include "verify/terminal.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/run/solve.hpp"
+#include "verify/solvers/answers.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

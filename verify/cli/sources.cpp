@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "exact/query.hpp"
-#include "verify/dataset/companions.hpp"
-#include "verify/dataset/dataset.hpp"
-#include "verify/families/families.hpp"
-#include "verify/terminal.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/data/ground_truth_files.hpp"
+#include "verify/generate/families.hpp"
+#include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "verify/cli/options.hpp"
-#include "verify/dataset/dataset_error.hpp"
-#include "verify/query_source.hpp"
+#include "verify/data/dataset_error.hpp"
+#include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::cli {
 

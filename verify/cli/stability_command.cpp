@@ -15,12 +15,12 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/respondents.hpp"
-#include "verify/methods/registry.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/report/stability_report.hpp"
+#include "verify/solvers/registry.hpp"
 #include "verify/stability/hardness.hpp"
 #include "verify/stability/heat_map.hpp"
 #include "verify/stability/stability.hpp"
-#include "verify/stability/stability_report.hpp"
-#include "verify/terminal.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

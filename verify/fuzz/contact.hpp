@@ -16,7 +16,7 @@
 /// These are then turned by an exact symmetry (symmetry.hpp).
 
 #include "exact/query.hpp"
-#include "verify/families/random.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::verify {
 

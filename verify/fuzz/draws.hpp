@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "exact/query.hpp"
-#include "verify/families/random.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::verify::draws {
 

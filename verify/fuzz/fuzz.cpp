@@ -12,14 +12,14 @@
 #include <utility>
 
 #include "fast/certified.hpp"
-#include "verify/decision.hpp"
+#include "verify/fuzz/coverage.hpp"
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/recheck.hpp"
-#include "verify/fuzz/referee.hpp"
-#include "verify/fuzz/signature.hpp"
-#include "verify/fuzz/steering.hpp"
+#include "verify/fuzz/scheduler.hpp"
 #include "verify/fuzz/symmetry.hpp"
+#include "verify/fuzz/triage.hpp"
+#include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {

@@ -3,9 +3,9 @@
 /// \file
 /// The search for wrong answers of one solver.
 ///
-/// Blocks of queries come from generators (generators.hpp) that the steering (steering.hpp) prefers
+/// Blocks of queries come from generators (generators.hpp) that the steering (scheduler.hpp) prefers
 /// by what they have brought so far. The solver answers them in a child process (solver_process.hpp), the
-/// certified solver judges (referee.hpp), and the oracle judges a share again and everything that
+/// certified solver judges (triage.hpp), and the oracle judges a share again and everything that
 /// is suspect. Some queries are asked once more as an exact image (symmetry.hpp).
 ///
 /// The same seed gives the same queries and findings on every machine, for any solver that answers
@@ -23,9 +23,9 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
-#include "verify/methods/reach.hpp"
+#include "verify/judge/claimed_distance.hpp"
+#include "verify/run/deadline.hpp"
 #include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify {
@@ -104,7 +104,7 @@ struct GeneratorStatistics {
   std::string name;
   std::uint64_t queries = 0;
   std::uint64_t collisions = 0;  ///< of these, by the judge
-  std::uint64_t signatures = 0;  ///< queries of a new sort: see steering.hpp
+  std::uint64_t signatures = 0;  ///< queries of a new sort: see scheduler.hpp
   std::uint64_t findings = 0;    ///< all, kept or not
 };
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "verify/fuzz/referee.hpp"
-#include "verify/methods/answers.hpp"
-#include "verify/methods/registry.hpp"
-#include "verify/separation.hpp"
+#include "verify/fuzz/triage.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/answers.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {

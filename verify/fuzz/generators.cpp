@@ -6,11 +6,11 @@
 #include <iterator>
 #include <utility>
 
-#include "verify/fuzz/aligned.hpp"
+#include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/fuzz/contact.hpp"
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/mutation.hpp"
-#include "verify/separation.hpp"
+#include "verify/judge/separation_inference.hpp"
 
 namespace touchstone::verify {
 namespace {

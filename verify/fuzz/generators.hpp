@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "exact/query.hpp"
-#include "verify/families/families.hpp"
-#include "verify/families/random.hpp"
+#include "verify/generate/families.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::verify {
 

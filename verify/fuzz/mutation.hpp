@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "exact/query.hpp"
-#include "verify/families/random.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::verify {
 

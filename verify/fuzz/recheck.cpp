@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "exact/certificate.hpp"
-#include "exact/certificate_text.hpp"
+#include "exact/certificate/certificate_text.hpp"
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/shrink.hpp"
 

@@ -12,11 +12,11 @@
 #include "exact/query.hpp"
 #include "fast/certified.hpp"
 #include "fast/method.hpp"
-#include "verify/deadline.hpp"
-#include "verify/decision.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/fuzz/referee.hpp"
+#include "verify/fuzz/triage.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/run/deadline.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {

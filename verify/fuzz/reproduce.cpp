@@ -11,11 +11,11 @@
 #include <cstdint>
 #include <string_view>
 
-#include "verify/dataset/csv_dataset.hpp"
-#include "verify/families/random.hpp"
+#include "verify/data/csv_dataset.hpp"
 #include "verify/fuzz/recheck.hpp"
-#include "verify/methods/registry.hpp"
-#include "verify/printable.hpp"
+#include "verify/generate/random.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -134,10 +134,10 @@ constexpr std::string_view includes =
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/decision.hpp"
-#include "verify/methods/judge.hpp"
-#include "verify/methods/plugin.hpp"
-#include "verify/methods/registry.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/judge/judge.hpp"
+#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/registry.hpp"
 )";
 
 constexpr std::string_view judging = R"(

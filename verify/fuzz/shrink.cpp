@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "verify/families/random.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "verify/fuzz/draws.hpp"
-#include "verify/separation.hpp"
+#include "verify/judge/separation_inference.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -18,7 +18,7 @@
 #include <string>
 
 #include "exact/query.hpp"
-#include "verify/families/random.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::verify {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "verify/dataset/output_file.hpp"
+#include "verify/io/output_file.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fast/broad_phase.hpp"
-#include "verify/dataset/dataset_error.hpp"
+#include "verify/data/dataset_error.hpp"
 #include "verify/mesh/obj.hpp"
 #include "verify/mesh/ply.hpp"
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "verify/dataset/dataset_error.hpp"
-#include "verify/dataset/input_file.hpp"
+#include "verify/data/dataset_error.hpp"
+#include "verify/io/input_file.hpp"
 #include "verify/mesh/words.hpp"
 
 namespace touchstone::verify {

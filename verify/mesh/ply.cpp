@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "verify/dataset/dataset_error.hpp"
-#include "verify/dataset/input_file.hpp"
+#include "verify/data/dataset_error.hpp"
+#include "verify/io/input_file.hpp"
 #include "verify/mesh/words.hpp"
 
 namespace touchstone::verify {

@@ -14,10 +14,10 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/bench.hpp"
-#include "verify/methods/judge.hpp"
-#include "verify/statistics.hpp"
-#include "verify/thread_clock.hpp"
+#include "verify/judge/judge.hpp"
+#include "verify/run/bench.hpp"
+#include "verify/run/statistics.hpp"
+#include "verify/run/thread_clock.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -28,10 +28,10 @@
 #include <vector>
 
 #include "fast/method.hpp"
-#include "verify/contender.hpp"
-#include "verify/query_group.hpp"
+#include "verify/data/query_group.hpp"
+#include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measurement.hpp"
-#include "verify/truths.hpp"
+#include "verify/solvers/contender.hpp"
 
 namespace touchstone::verify {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "verify/printable.hpp"
+#include "verify/io/printable.hpp"
 
 namespace touchstone::verify {
 namespace {

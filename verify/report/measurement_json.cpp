@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "verify/methods/registry.hpp"
-#include "verify/separation.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "verify/csv.hpp"
-#include "verify/printable.hpp"
+#include "verify/io/csv.hpp"
+#include "verify/io/printable.hpp"
 #include "verify/report/published.hpp"
 
 namespace touchstone::verify {

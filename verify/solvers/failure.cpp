@@ -9,7 +9,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "verify/printable.hpp"
+#include "verify/io/printable.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -55,7 +55,7 @@ struct QueryFailure {
 };
 
 /// "crash: SIGSEGV", "exit: status 3", "exception: text", "not_finite: toi_lower inf", and of the
-/// others the kind alone. Printable (verify/printable.hpp).
+/// others the kind alone. Printable (verify/io/printable.hpp).
 [[nodiscard]] std::string to_text(const Failure& failure);
 
 /// The reverse of to_text; the kind alone where the rest is none that it writes.

@@ -10,7 +10,7 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/contender.hpp"
+#include "verify/solvers/contender.hpp"
 #include "verify/solvers/failure.hpp"
 #include "verify/solvers/solver_process.hpp"
 

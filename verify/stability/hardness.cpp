@@ -10,9 +10,9 @@
 #include <string>
 
 #include "fast/certified.hpp"
-#include "verify/families/grid.hpp"
-#include "verify/families/random.hpp"
-#include "verify/families/recipe.hpp"
+#include "verify/generate/family_builder.hpp"
+#include "verify/generate/grid.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::verify {
 namespace {

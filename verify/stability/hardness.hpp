@@ -31,7 +31,7 @@
 #include <string_view>
 
 #include "exact/query.hpp"
-#include "verify/query_source.hpp"
+#include "verify/data/query_source.hpp"
 
 namespace touchstone::verify {
 

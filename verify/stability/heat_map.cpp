@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "verify/methods/registry.hpp"
-#include "verify/separation.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/registry.hpp"
 #include "verify/stability/svg.hpp"
 
 namespace touchstone::verify {

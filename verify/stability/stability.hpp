@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "exact/query.hpp"
-#include "verify/certify.hpp"
-#include "verify/methods/judge.hpp"
-#include "verify/methods/respondent.hpp"
+#include "verify/judge/judge.hpp"
+#include "verify/run/certify.hpp"
+#include "verify/solvers/respondent.hpp"
 #include "verify/stability/hardness.hpp"
 
 namespace touchstone::verify {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <iterator>
 
-#include "verify/printable.hpp"
+#include "verify/io/printable.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "exact/checker/checker.hpp"
-#include "exact/motion.hpp"
+#include "exact/contact/corner_motion.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/checker_outcome.hpp"
 #include "tests/support/trials.hpp"

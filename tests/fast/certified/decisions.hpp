@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "exact/oracle.hpp"
-#include "fast/certified/contact_rule.hpp"
-#include "fast/certified/general_decision.hpp"
+#include "fast/certified/exact/contact_conditions.hpp"
+#include "fast/certified/exact/general_contact_decision.hpp"
 #include "tests/support/queries.hpp"
 
 namespace touchstone::tests {

@@ -17,15 +17,15 @@
 #include <string>
 #include <vector>
 
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
 #include "fast/certified.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "verify/families/families.hpp"
-#include "verify/families/random.hpp"
 #include "verify/fuzz/contact.hpp"
+#include "verify/generate/families.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::fast {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
 #include "fast/filter.hpp"
 #include "filters/expressions.hpp"
 #include "tests/support/queries.hpp"

@@ -11,7 +11,7 @@
 #include "tests/support/root_count.hpp"
 #include "tests/support/verdict_scores.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::baselines {
 namespace {
 
 using fast::Method;
@@ -21,7 +21,7 @@ using tests::Random;
 using tests::says_yes;
 
 const Method& rrp() {
-  static const std::unique_ptr<const Method> method = rrp_method();
+  static const std::unique_ptr<const Method> method = baselines::rrp_method();
   return *method;
 }
 
@@ -121,4 +121,4 @@ TEST(RrpMethod, HasNoTimeNoSeparationAndNoPromise) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::baselines

@@ -10,7 +10,7 @@
 
 #include "tests/support/built_files.hpp"
 #include "tests/support/folder_test.hpp"
-#include "tests/verify/methods/plugins/misbehaviour.hpp"
+#include "tests/verify/solvers/plugins/misbehaviour.hpp"
 
 // `touchstone bench` as users meet it: by running the tool.
 

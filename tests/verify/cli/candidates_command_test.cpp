@@ -16,7 +16,7 @@
 
 #include "exact/oracle.hpp"
 #include "tests/support/tool_test.hpp"
-#include "verify/dataset/npy.hpp"
+#include "verify/data/npy.hpp"
 
 // `touchstone candidates` as users meet it: by running the tool.
 

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "tests/support/tool_test.hpp"
-#include "tests/verify/methods/plugins/misbehaviour.hpp"
-#include "verify/dataset/npy.hpp"
+#include "tests/verify/solvers/plugins/misbehaviour.hpp"
+#include "verify/data/npy.hpp"
 
 // The commands (verify/cli/commands.hpp) are tested as users meet them: by running the tool.
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "verify/dataset/dataset_error.hpp"
-#include "verify/methods/registry.hpp"
+#include "verify/data/dataset_error.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "verify/families/families.hpp"
+#include "verify/generate/families.hpp"
 
 namespace touchstone::verify::cli {
 namespace {

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <set>
 
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/decision.hpp"
-#include "verify/families/random.hpp"
-#include "verify/families/recipe.hpp"
+#include "verify/generate/family_builder.hpp"
+#include "verify/generate/random.hpp"
+#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {

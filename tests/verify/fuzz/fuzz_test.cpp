@@ -22,9 +22,9 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/decision.hpp"
 #include "verify/fuzz/recheck.hpp"
-#include "verify/methods/registry.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "fast/certified.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/families/random.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::verify {
 namespace {

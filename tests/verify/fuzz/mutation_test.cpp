@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "exact/query.hpp"
-#include "verify/families/random.hpp"
+#include "verify/generate/random.hpp"
 
 namespace touchstone::verify {
 namespace {

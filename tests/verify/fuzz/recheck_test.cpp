@@ -17,8 +17,8 @@
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/shared_counter.hpp"
-#include "verify/decision.hpp"
 #include "verify/fuzz/fuzz.hpp"
+#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {

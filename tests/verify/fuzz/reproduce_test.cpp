@@ -17,9 +17,9 @@
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "tests/verify/dataset/dataset_fixture.hpp"
-#include "verify/dataset/csv_dataset.hpp"
-#include "verify/methods/registry.hpp"
+#include "tests/verify/data/dataset_fixture.hpp"
+#include "verify/data/csv_dataset.hpp"
+#include "verify/solvers/registry.hpp"
 
 // What the two golden files define.
 namespace touchstone::reproduction_of_miss {

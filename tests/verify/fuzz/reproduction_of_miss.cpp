@@ -6,10 +6,10 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/decision.hpp"
-#include "verify/methods/judge.hpp"
-#include "verify/methods/plugin.hpp"
-#include "verify/methods/registry.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/judge/judge.hpp"
+#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::reproduction_of_miss {
 

@@ -17,7 +17,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/decision.hpp"
+#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {

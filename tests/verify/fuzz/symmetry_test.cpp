@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
 #include "exact/query.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/decision.hpp"
-#include "verify/families/random.hpp"
 #include "verify/fuzz/generators.hpp"
+#include "verify/generate/random.hpp"
+#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -14,7 +14,7 @@
 #include "fast/certified.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
-#include "verify/thread_clock.hpp"
+#include "verify/run/thread_clock.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
-#include "verify/bench.hpp"
+#include "verify/run/bench.hpp"
 
 // A program of its own: it makes processes, which copy no threads.
 

@@ -16,13 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "exact/distance_oracle.hpp"
-#include "exact/number.hpp"
+#include "exact/algebra/number.hpp"
+#include "exact/distance/distance_oracle.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/decision.hpp"
-#include "verify/families/random.hpp"
-#include "verify/families/recipe.hpp"
+#include "verify/generate/family_builder.hpp"
+#include "verify/generate/random.hpp"
+#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {

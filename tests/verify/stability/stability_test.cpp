@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "tests/support/methods.hpp"
-#include "verify/families/random.hpp"
-#include "verify/methods/registry.hpp"
+#include "verify/generate/random.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {

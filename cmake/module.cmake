@@ -1,0 +1,59 @@
+# How every target of the project is compiled.
+
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+add_library(touchstone_build_options INTERFACE)
+target_compile_features(touchstone_build_options INTERFACE cxx_std_20)
+target_compile_options(touchstone_build_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wcast-qual -Wold-style-cast
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough -Werror
+  # A filter's bound belongs to the operations as they are written.
+  -ffp-contract=off
+  # GCC 12 raises a false alarm on std::string's operator+ (its bug 105651).
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+if(TOUCHSTONE_SANITIZE)
+  target_compile_options(touchstone_build_options INTERFACE
+    -fsanitize=${TOUCHSTONE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    # GCC 12 raises false alarms on std::regex under the sanitizers (its bug 105562).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  target_link_options(touchstone_build_options INTERFACE -fsanitize=${TOUCHSTONE_SANITIZE})
+endif()
+
+# GCC 12 raises false alarms on std::string where its header is precompiled, or at -O1. For the targets that meet them.
+set(touchstone_false_alarms
+  "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>")
+
+# touchstone_module(NAME [INTERFACE] HEADERS … SOURCES … PUBLIC … PRIVATE … PRECOMPILED …): the library touchstone_NAME,
+# alias touchstone::NAME, with the packages and modules it may use and no others.
+# HEADERS are the public ones: what a user of the library includes. They are installed, and each is checked to compile
+# by itself (target all_verify_interface_header_sets). PRECOMPILED are headers of others that most sources read; a
+# source still includes what it uses.
+# A module with headers is a component of the installed package, touchstone-NAME-targets.cmake.
+function(touchstone_module name)
+  cmake_parse_arguments(MODULE "INTERFACE" "" "HEADERS;SOURCES;PUBLIC;PRIVATE;PRECOMPILED" ${ARGN})
+  set(target touchstone_${name})
+  if(MODULE_INTERFACE)
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  else()
+    add_library(${target} STATIC ${MODULE_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:touchstone_build_options> ${MODULE_PRIVATE})
+  endif()
+  add_library(touchstone::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/touchstone>)
+  target_link_libraries(${target} ${scope} ${MODULE_PUBLIC})
+  target_precompile_headers(${target} PRIVATE ${MODULE_PRECOMPILED})
+  if(MODULE_HEADERS)
+    target_sources(${target} ${scope}
+      FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${MODULE_HEADERS})
+    install(TARGETS ${target} EXPORT touchstone-${name}
+      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchstone)
+    install(EXPORT touchstone-${name} NAMESPACE touchstone:: DESTINATION ${touchstone_config_folder}
+      FILE touchstone-${name}-targets.cmake)
+  endif()
+endfunction()

@@ -1,0 +1,177 @@
+#include "exact/certificate/separation_intervals.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "exact/algebra/positivity.hpp"
+
+namespace touchstone::exact {
+namespace {
+
+/// A piece that needs more depth than the limit is broken around its deepest place so that this
+/// many levels are left there.
+constexpr unsigned long depth_left = 100;
+static_assert(depth_left + 2 <= bisection_limit);
+
+/// Deeper than any break point within the limit can help.
+constexpr unsigned long greatest_depth = number_limit + depth_left;
+
+/// The motion on [0,until] as one on [0,1], in other units.
+Motion restricted(const Motion& motion, const Rational& until) {
+  Motion result = motion;
+  if (until == 1) return result;
+  const Integer& end = until.get_num();
+  const Integer& whole = until.get_den();
+  const Integer rest = whole - end;
+  for (std::size_t i = 0; i < motion.corner_count; ++i) {
+    for (Form<1>& x : result.corners[i]) {
+      x.c[1] = x.c[0] * rest + x.c[1] * end;
+      x.c[0] *= whole;
+    }
+  }
+  result.distance *= whole;
+  return result;
+}
+
+// ---- One piece ----------------------------------------------------------------------------------
+
+/// A separator that holds at all times of the motion, and for which a checker can see it.
+std::optional<Feature> single_feature(const std::vector<Separator>& separators) {
+  for (const Separator& separator : separators) {
+    bool holds = true;
+    for (std::size_t n = 0; n < separator.size() && holds; ++n) {
+      const auto proof = prove_positive(bernstein_coefficients(separator.form(n)));
+      holds = proof.outcome == BisectionProof::Outcome::positive;
+    }
+    if (holds) return separator.feature();
+  }
+  return std::nullopt;
+}
+
+// ---- Many pieces --------------------------------------------------------------------------------
+// Here time is the fraction y of [0,until].
+
+/// As farthest, where there must be one.
+Span span_at(std::vector<Separator>& separators, const AlgebraicNumber& y) {
+  std::optional<Span> span = farthest(separators, y);
+  if (!span) throw std::logic_error("touchstone: no separation where nothing was to touch");
+  return std::move(*span);
+}
+
+/// The dyadic number of fewest bits strictly between two numbers.
+Rational shortest_between(const Rational& lower, const Rational& upper) {
+  for (unsigned long level = 0;; ++level) {
+    const Rational scaled = lower * power_of_two(static_cast<long>(level));
+    Integer above;
+    mpz_fdiv_q(above.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+    ++above;
+    Rational result = Rational(above) * power_of_two(-static_cast<long>(level));
+    if (result < upper) return result;
+  }
+}
+
+/// A time of few bits between two fractions of [0,until]. \pre lower < upper, until > 0
+Rational break_between(AlgebraicNumber lower, AlgebraicNumber upper, const Rational& until) {
+  for (unsigned long level = 8; level <= 2 * number_limit; level *= 2) {
+    const RationalInterval below = lower.interval(), above = upper.interval();
+    const Rational gap = above.lower - below.upper;
+    // Enough of the gap for its shortest number to be as short as any, or nearly.
+    if (sgn(gap) > 0 && 2 * gap >= above.upper - below.lower) {
+      return shortest_between(until * below.upper, until * above.lower);
+    }
+    lower.refine_to_level(level);
+    upper.refine_to_level(level);
+  }
+  throw CertificateLimitError("a break point between two features needs too many bits");
+}
+
+/// A piece by the times of its ends.
+struct LongPiece {
+  Rational from;
+  Rational to;
+  Separator* separator;
+};
+
+/// The fewest pieces, as if a checker could see everything.
+std::vector<LongPiece> fewest_pieces(std::vector<Separator>& separators, const Rational& until) {
+  std::vector<LongPiece> pieces;
+  Rational from = 0;
+  Span span = span_at(separators, AlgebraicNumber(0));
+  while (span.end) {
+    Span next = span_at(separators, *span.end);
+    AlgebraicNumber earliest(Rational(from / until));
+    const auto begin = next.separator->begin_before(*span.end);
+    if (begin && earliest < *begin) earliest = *begin;
+    Rational to = break_between(std::move(earliest), *span.end, until);
+    pieces.push_back({from, to, span.separator});
+    from = std::move(to);
+    span = std::move(next);
+  }
+  pieces.push_back({from, until, span.separator});
+  return pieces;
+}
+
+/// The deepest place of all proofs that a piece is one; empty if a checker reaches it.
+std::optional<BisectionProof> beyond_checker(const LongPiece& piece, const Rational& until) {
+  const RationalInterval fractions{piece.from / until, piece.to / until};
+  std::optional<BisectionProof> deepest;
+  for (std::size_t n = 0; n < piece.separator->size(); ++n) {
+    const auto bernstein = bernstein_coefficients(piece.separator->polynomial(n), fractions);
+    BisectionProof proof = prove_positive(bernstein, greatest_depth);
+    if (proof.outcome != BisectionProof::Outcome::positive) {
+      throw CertificateLimitError("a separation is too near to a contact for the limits");
+    }
+    if (proof.depth > bisection_limit && (!deepest || proof.depth > deepest->depth)) {
+      deepest = std::move(proof);
+    }
+  }
+  return deepest;
+}
+
+/// The piece in parts that a checker can see, appended: the surroundings of the deepest place are
+/// one, and there its proof has depth_left levels less than two to go.
+void append_visible(const LongPiece& whole, const Rational& until, std::vector<Piece>& pieces) {
+  std::vector<LongPiece> rest{whole};
+  while (!rest.empty()) {
+    const LongPiece piece = std::move(rest.back());
+    rest.pop_back();
+    const auto deepest = beyond_checker(piece, until);
+    if (!deepest) {
+      pieces.push_back({piece.from, piece.to, piece.separator->feature()});
+      continue;
+    }
+    const unsigned long level = deepest->depth - depth_left;
+    const Integer middle = deepest->index >> depth_left;
+    const Rational part = (piece.to - piece.from) * power_of_two(-static_cast<long>(level));
+    const Rational lower = std::max(piece.from, Rational(piece.from + part * (middle - 1)));
+    const Rational upper = std::min(piece.to, Rational(piece.from + part * (middle + 2)));
+    // The first part is to be taken first.
+    if (upper < piece.to) rest.push_back({upper, piece.to, piece.separator});
+    rest.push_back({lower, upper, piece.separator});
+    if (piece.from < lower) rest.push_back({piece.from, lower, piece.separator});
+  }
+}
+
+}  // namespace
+
+bool is_within_limit(const Rational& number) {
+  return mpz_sizeinbase(number.get_num_mpz_t(), 2) <= number_limit &&
+         mpz_sizeinbase(number.get_den_mpz_t(), 2) <= number_limit;
+}
+
+std::vector<Piece> separate(const Motion& motion, const Rational& until) {
+  std::vector<Separator> separators = exact::separators(restricted(motion, until));
+  if (const auto feature = single_feature(separators)) return {{Rational(0), until, *feature}};
+  std::vector<Piece> pieces;
+  for (const LongPiece& piece : fewest_pieces(separators, until)) {
+    append_visible(piece, until, pieces);
+  }
+  const auto too_long = [](const Piece& piece) { return !is_within_limit(piece.to); };
+  if (std::ranges::any_of(pieces, too_long)) {
+    throw CertificateLimitError("a break point has too many bits");
+  }
+  return pieces;
+}
+
+}  // namespace touchstone::exact

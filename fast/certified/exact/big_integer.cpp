@@ -1,0 +1,236 @@
+#include "fast/certified/exact/big_integer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+constexpr long limb_bits = 64;
+
+// NOLINTNEXTLINE(modernize-use-using): only a typedef can say that the extension is meant
+__extension__ typedef unsigned __int128 DoubleLimb;
+
+constexpr std::uint64_t low(DoubleLimb x) { return static_cast<std::uint64_t>(x); }
+constexpr std::uint64_t high(DoubleLimb x) { return static_cast<std::uint64_t>(x >> limb_bits); }
+
+/// 1/x modulo 2^64, by Newton's iteration: x is right in 3 bits, each step doubles them.
+/// \pre x is odd.
+constexpr std::uint64_t inverse(std::uint64_t x) {
+  std::uint64_t result = x;
+  for (int right = 3; right < limb_bits; right *= 2) result *= 2 - x * result;
+  return result;
+}
+
+}  // namespace
+
+double quotient(const Approximation& a, const Approximation& b) {
+  if (b.significand == 0.0) return 0.0;
+  const long exponent = std::clamp(a.exponent - b.exponent, -3000L, 3000L);
+  const double value = std::ldexp(a.significand / b.significand, static_cast<int>(exponent));
+  constexpr double largest = std::numeric_limits<double>::max();
+  return std::clamp(value, -largest, largest);
+}
+
+BigInteger::BigInteger(std::int64_t value) : size_(value == 0 ? 0 : 1), negative_(value < 0) {
+  const auto bits = static_cast<std::uint64_t>(value);
+  few_[0] = negative_ ? 0 - bits : bits;
+}
+
+void BigInteger::resize(std::size_t size) {
+  if (size > inline_limbs && size > many_.size()) {
+    if (many_.empty()) many_.assign(few_.begin(), few_.end());
+    many_.resize(size);
+  }
+  std::uint64_t* const limb = limbs();
+  for (std::size_t i = size_; i < size; ++i) limb[i] = 0;
+  size_ = size;
+}
+
+void BigInteger::trim() {
+  const std::uint64_t* const limb = limbs();
+  while (size_ > 0 && limb[size_ - 1] == 0) --size_;
+  if (size_ == 0) negative_ = false;
+}
+
+long BigInteger::bit_length() const {
+  if (size_ == 0) return 0;
+  return static_cast<long>(size_) * limb_bits - std::countl_zero(limbs()[size_ - 1]);
+}
+
+long BigInteger::trailing_zeros() const {
+  const std::uint64_t* const limb = limbs();
+  std::size_t i = 0;
+  while (limb[i] == 0) ++i;
+  return static_cast<long>(i) * limb_bits + std::countr_zero(limb[i]);
+}
+
+Approximation BigInteger::approximation() const {
+  if (size_ == 0) return {};
+  const std::uint64_t* const limb = limbs();
+  const int unused = std::countl_zero(limb[size_ - 1]);
+  std::uint64_t top = limb[size_ - 1] << unused;
+  if (size_ > 1 && unused > 0) top |= limb[size_ - 2] >> (limb_bits - unused);
+  const double significand = std::ldexp(static_cast<double>(top), -64);
+  return {negative_ ? -significand : significand, bit_length()};
+}
+
+std::int64_t BigInteger::truncated(long shift) const {
+  if (size_ == 0 || bit_length() + shift <= 0) return 0;
+  const std::uint64_t* const limb = limbs();
+  std::uint64_t magnitude = 0;
+  if (shift >= 0) {
+    magnitude = limb[0] << shift;
+  } else {
+    const auto whole = static_cast<std::size_t>(-shift / limb_bits);
+    const long part = -shift % limb_bits;
+    magnitude = limb[whole] >> part;
+    if (part > 0 && whole + 1 < size_) magnitude |= limb[whole + 1] << (limb_bits - part);
+  }
+  const auto value = static_cast<std::int64_t>(magnitude);
+  return negative_ ? -value : value;
+}
+
+std::uint64_t BigInteger::residue(std::uint64_t modulus) const {
+  const std::uint64_t* const limb = limbs();
+  DoubleLimb rest = 0;
+  for (std::size_t i = size_; i-- > 0;) rest = ((rest << limb_bits) | limb[i]) % modulus;
+  const std::uint64_t magnitude = low(rest);
+  return negative_ && magnitude != 0 ? modulus - magnitude : magnitude;
+}
+
+// From the lowest limb up: the lowest limb of what is left, over the divisor's, modulo 2^64, is the
+// next limb of the quotient.
+BigInteger BigInteger::divided_exactly(const BigInteger& divisor) const {
+  if (size_ == 0) return {};
+  const long zeros = divisor.trailing_zeros();
+  BigInteger left = *this >> zeros;
+  const BigInteger odd = divisor >> zeros;
+  const std::uint64_t* const factor = odd.limbs();
+  const std::uint64_t inverse_factor = inverse(factor[0]);
+  BigInteger result;
+  result.resize(left.size_ - odd.size_ + 1);
+  std::uint64_t *const rest = left.limbs(), *const limb = result.limbs();
+  for (std::size_t i = 0; i < result.size_; ++i) {
+    limb[i] = rest[i] * inverse_factor;
+    std::uint64_t carry = 0;
+    for (std::size_t j = 0; i + j < left.size_ && (j < odd.size_ || carry != 0); ++j) {
+      const DoubleLimb product = DoubleLimb{limb[i]} * (j < odd.size_ ? factor[j] : 0) + carry;
+      carry = high(product) + (rest[i + j] < low(product) ? 1 : 0);
+      rest[i + j] -= low(product);
+    }
+  }
+  result.negative_ = negative_ != divisor.negative_;
+  result.trim();
+  return result;
+}
+
+int BigInteger::compare_magnitude(const BigInteger& other) const {
+  if (size_ != other.size_) return size_ < other.size_ ? -1 : 1;
+  const std::uint64_t *const a = limbs(), *const b = other.limbs();
+  for (std::size_t i = size_; i-- > 0;) {
+    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
+  }
+  return 0;
+}
+
+void BigInteger::add_magnitude(const BigInteger& other) {
+  const std::size_t count = other.size_;
+  resize(std::max(size_, count) + 1);
+  std::uint64_t* const a = limbs();
+  const std::uint64_t* const b = other.limbs();
+  std::uint64_t carry = 0;
+  for (std::size_t i = 0; i < count || carry != 0; ++i) {
+    const DoubleLimb sum = DoubleLimb{a[i]} + (i < count ? b[i] : 0) + carry;
+    a[i] = low(sum);
+    carry = high(sum);
+  }
+  trim();
+}
+
+void BigInteger::set_difference(const BigInteger& larger, const BigInteger& smaller) {
+  const std::size_t count = smaller.size_;
+  resize(larger.size_);
+  std::uint64_t* const result = limbs();
+  const std::uint64_t *const a = larger.limbs(), *const b = smaller.limbs();
+  std::uint64_t borrow = 0;
+  for (std::size_t i = 0; i < size_; ++i) {
+    const DoubleLimb difference = DoubleLimb{a[i]} - (i < count ? b[i] : 0) - borrow;
+    result[i] = low(difference);
+    borrow = high(difference) != 0 ? 1 : 0;
+  }
+  trim();
+}
+
+BigInteger& BigInteger::add(const BigInteger& other, bool negative) {
+  if (other.size_ == 0) return *this;
+  if (size_ == 0) negative_ = negative;
+  if (negative_ == negative) {
+    add_magnitude(other);
+    return *this;
+  }
+  if (compare_magnitude(other) >= 0) {
+    set_difference(*this, other);
+    return *this;
+  }
+  negative_ = negative;
+  BigInteger larger = other;
+  larger.negative_ = negative;
+  larger.set_difference(larger, *this);
+  return *this = larger;
+}
+
+BigInteger& BigInteger::operator<<=(long bits) {
+  if (size_ == 0 || bits == 0) return *this;
+  const auto whole = static_cast<std::size_t>(bits / limb_bits);
+  const long part = bits % limb_bits;
+  const std::size_t old_size = size_;
+  resize(size_ + whole + 1);
+  std::uint64_t* const limb = limbs();
+  for (std::size_t i = size_; i-- > 0;) {
+    const std::uint64_t upper = i >= whole && i - whole < old_size ? limb[i - whole] : 0;
+    const std::uint64_t lower = i > whole && i - whole - 1 < old_size ? limb[i - whole - 1] : 0;
+    limb[i] = part == 0 ? upper : (upper << part) | (lower >> (limb_bits - part));
+  }
+  trim();
+  return *this;
+}
+
+BigInteger& BigInteger::operator>>=(long bits) {
+  if (size_ == 0 || bits == 0) return *this;
+  const auto whole = static_cast<std::size_t>(bits / limb_bits);
+  const long part = bits % limb_bits;
+  std::uint64_t* const limb = limbs();
+  for (std::size_t i = 0; i + whole < size_; ++i) {
+    const std::uint64_t lower = limb[i + whole];
+    const std::uint64_t upper = i + whole + 1 < size_ ? limb[i + whole + 1] : 0;
+    limb[i] = part == 0 ? lower : (lower >> part) | (upper << (limb_bits - part));
+  }
+  size_ -= whole;
+  trim();
+  return *this;
+}
+
+BigInteger operator*(const BigInteger& a, const BigInteger& b) {
+  BigInteger product;
+  if (a.size_ == 0 || b.size_ == 0) return product;
+  product.resize(a.size_ + b.size_);
+  std::uint64_t* const result = product.limbs();
+  const std::uint64_t *const x = a.limbs(), *const y = b.limbs();
+  for (std::size_t i = 0; i < a.size_; ++i) {
+    std::uint64_t carry = 0;
+    for (std::size_t j = 0; j < b.size_; ++j) {
+      const DoubleLimb sum = DoubleLimb{x[i]} * y[j] + result[i + j] + carry;
+      result[i + j] = low(sum);
+      carry = high(sum);
+    }
+    result[i + b.size_] = carry;
+  }
+  product.negative_ = a.negative_ != b.negative_;
+  product.trim();
+  return product;
+}
+
+}  // namespace touchstone::fast::exact_stage

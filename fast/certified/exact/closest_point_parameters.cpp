@@ -1,0 +1,145 @@
+#include "fast/certified/exact/closest_point_parameters.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+/// r − u p − v q.
+struct Polygon {
+  Kind kind;
+  Eigen::Vector3d r, p, q;
+
+  [[nodiscard]] Eigen::Vector3d at(const Parameters& x) const { return r - x.u * p - x.v * q; }
+};
+
+/// At time t, scaled so that nothing overflows. The points are differences first: a common motion or
+/// position costs no accuracy.
+Polygon polygon_at(Kind kind, const Query& query, double t) {
+  double largest = 0.0;
+  for (const double x : query.coordinates) largest = std::max(largest, std::abs(x));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const auto scaled = [&](double x) { return std::ldexp(x, -exponent); };
+  const auto moving = [&](std::size_t a, std::size_t b) {
+    const auto at = [&](std::size_t end) -> Eigen::Vector3d {
+      return query.point(end, a).unaryExpr(scaled) - query.point(end, b).unaryExpr(scaled);
+    };
+    return Eigen::Vector3d((1.0 - t) * at(0) + t * at(1));
+  };
+  if (kind == Kind::vertex_face) return {kind, moving(0, 1), moving(2, 1), moving(3, 1)};
+  return {kind, moving(0, 2), moving(0, 1), moving(3, 2)};
+}
+
+/// The best of the points of the domain that it is shown.
+class Search {
+ public:
+  Search(const Polygon& polygon, Norm norm) : polygon_(polygon), norm_(norm) {}
+
+  /// Points outside by more than rounding, and NaN, are not looked at.
+  void consider(const Parameters& x) {
+    constexpr double slack = 0x1p-40;
+    const double farthest = polygon_.kind == Kind::vertex_face ? x.u + x.v : std::max(x.u, x.v);
+    if (!(std::min(x.u, x.v) >= -slack && farthest <= 1.0 + slack)) return;
+    const Eigen::Vector3d f = polygon_.at(x);
+    const double distance = norm_ == Norm::l2 ? f.stableNorm() : f.cwiseAbs().maxCoeff();
+    if (distance >= least_) return;
+    least_ = distance;
+    best_ = x;
+  }
+
+  [[nodiscard]] const Parameters& best() const { return best_; }
+
+ private:
+  const Polygon& polygon_;
+  Norm norm_;
+  double least_ = std::numeric_limits<double>::infinity();
+  Parameters best_;
+};
+
+/// A side from `from` to `to`, in the domain.
+struct DomainSide {
+  Parameters from, to;
+
+  [[nodiscard]] Parameters at(double s) const {
+    return {(1.0 - s) * from.u + s * to.u, (1.0 - s) * from.v + s * to.v};
+  }
+};
+
+std::array<DomainSide, 4> sides(Kind kind) {
+  constexpr Parameters o{0, 0}, u{1, 0}, v{0, 1}, uv{1, 1};
+  if (kind == Kind::vertex_face) return {{{o, u}, {u, v}, {v, o}, {o, o}}};
+  return {{{o, u}, {u, uv}, {uv, v}, {v, o}}};
+}
+
+/// The rows a · (u,v) = b.
+Parameters solve(const std::array<Eigen::Vector3d, 2>& rows) {
+  const double determinant = rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0];
+  return {(rows[0][2] * rows[1][1] - rows[0][1] * rows[1][2]) / determinant,
+          (rows[0][0] * rows[1][2] - rows[0][2] * rows[1][0]) / determinant};
+}
+
+void search_euclidean(const Polygon& polygon, Search& search) {
+  const Eigen::Vector3d &r = polygon.r, &p = polygon.p, &q = polygon.q;
+  const Eigen::Vector3d n = p.cross(q);
+  const double square = n.squaredNorm();
+  search.consider({n.dot(r.cross(q)) / square, n.dot(p.cross(r)) / square});
+  for (const DomainSide& side : sides(polygon.kind)) {
+    const Eigen::Vector3d start = polygon.at(side.from), step = polygon.at(side.to) - start;
+    const double s = -start.dot(step) / step.squaredNorm();
+    search.consider(side.at(s >= 0.0 ? std::min(s, 1.0) : 0.0));
+  }
+}
+
+/// Where component i and `sign` times component k of F are equal, for all that are not the same; and
+/// where component i is 0, as i = k and sign = −1.
+template <class Visit>
+void visit_equalities(Visit&& visit) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index k = i; k < 3; ++k) {
+      for (const double sign : {1.0, -1.0}) {
+        if (i != k || sign < 0.0) visit(i, k, sign);
+      }
+    }
+  }
+}
+
+void search_greatest_component(const Polygon& polygon, Search& search) {
+  const Eigen::Vector3d &r = polygon.r, &p = polygon.p, &q = polygon.q;
+  const auto row = [&](Eigen::Index i, Eigen::Index k, double sign) {
+    return Eigen::Vector3d(p[i] - sign * p[k], q[i] - sign * q[k], r[i] - sign * r[k]);
+  };
+  for (const double first : {1.0, -1.0}) {
+    for (const double second : {1.0, -1.0}) {
+      search.consider(solve({row(0, 1, first), row(0, 2, second)}));
+    }
+  }
+  for (const DomainSide& side : sides(polygon.kind)) {
+    search.consider(side.from);
+    const Eigen::Vector3d start = polygon.at(side.from), step = polygon.at(side.to) - start;
+    visit_equalities([&](Eigen::Index i, Eigen::Index k, double sign) {
+      search.consider(side.at(-(start[i] - sign * start[k]) / (step[i] - sign * step[k])));
+    });
+  }
+}
+
+}  // namespace
+
+Parameters nearest_parameters(Kind kind, const Query& query, double t, Norm norm) {
+  const Polygon polygon = polygon_at(kind, query, t);
+  Search search(polygon, norm);
+  if (norm == Norm::l2) {
+    search_euclidean(polygon, search);
+  } else {
+    search_greatest_component(polygon, search);
+  }
+  return search.best();
+}
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,421 @@
+#include "fast/certified/exact/distance_decision.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "fast/certified/exact/real_root.hpp"
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+// ---- Forms of any degree ------------------------------------------------------------------------
+
+/// Σ c_k x^(n−k) y^k. Unlike a Polynomial it keeps its roots at t=0 and t=1.
+using AnyForm = std::vector<BigInteger>;
+using AnyVector = std::array<AnyForm, 3>;
+
+AnyForm operator-(AnyForm a, const AnyForm& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
+  return a;
+}
+
+AnyForm operator-(AnyForm a) {
+  for (BigInteger& c : a) c = -std::move(c);
+  return a;
+}
+
+AnyForm operator*(const AnyForm& a, const AnyForm& b) {
+  AnyForm product(a.size() + b.size() - 1);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 0; k < b.size(); ++k) product[i + k] += a[i] * b[k];
+  }
+  return product;
+}
+
+AnyForm operator*(AnyForm a, const BigInteger& factor) {
+  for (BigInteger& c : a) c = c * factor;
+  return a;
+}
+
+AnyForm operator<<(AnyForm a, long bits) {
+  for (BigInteger& c : a) c <<= bits;
+  return a;
+}
+
+AnyForm dot(const AnyVector& a, const AnyVector& b) {
+  AnyForm sum = a[0] * b[0];
+  for (std::size_t axis : {1U, 2U}) {
+    const AnyForm term = a[axis] * b[axis];
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += term[k];
+  }
+  return sum;
+}
+
+template <std::size_t degree>
+AnyVector any_vector(const std::array<std::array<BigInteger, degree>, 3>& v) {
+  return {AnyForm(v[0].begin(), v[0].end()), AnyForm(v[1].begin(), v[1].end()),
+          AnyForm(v[2].begin(), v[2].end())};
+}
+
+/// a (x + y): the same function of time with a degree more.
+AnyForm raised(AnyForm a) {
+  a.push_back(a.back());
+  for (std::size_t k = a.size() - 2; k > 0; --k) a[k] += a[k - 1];
+  return a;
+}
+
+bool vanishes(const AnyForm& a) {
+  return std::ranges::all_of(a, [](const BigInteger& c) { return c.sign() == 0; });
+}
+
+// ---- Separators ---------------------------------------------------------------------------------
+
+/// Signs of the spreads of a separator; 0 if unknown.
+using Signs = std::array<int, 3>;
+
+/// A direction's forms: every value minus every sum of the spreads with signs. Where the signs of the
+/// spreads are known, the sum of their magnitudes is the greatest. For l2 there are no spreads, and
+/// the values are the forms.
+struct Separator {
+  std::vector<AnyForm> values;
+  std::vector<AnyForm> spreads;
+
+  [[nodiscard]] AnyForm form(std::size_t value, const Signs& signs) const {
+    AnyForm result = values[value];
+    for (std::size_t i = 0; i < spreads.size(); ++i) {
+      for (std::size_t k = 0; k < result.size(); ++k) {
+        if (signs[i] < 0) {
+          result[k] += spreads[i][k];
+        } else {
+          result[k] -= spreads[i][k];
+        }
+      }
+    }
+    return result;
+  }
+
+  [[nodiscard]] Signs signs_between(const Dyadic& from, const Dyadic& to) const {
+    Signs signs{};
+    for (std::size_t i = 0; i < spreads.size(); ++i) {
+      signs[i] = weak_sign_between(spreads[i], from, to);
+    }
+    return signs;
+  }
+};
+
+/// Both directions of an axis.
+void add_both(std::vector<Separator>& to, Separator separator) {
+  Separator opposite = separator;
+  for (AnyForm& value : opposite.values) value = -std::move(value);
+  to.push_back(std::move(separator));
+  to.push_back(std::move(opposite));
+}
+
+/// What the separators are made of.
+struct Setting {
+  Setting(const Motion<BigInteger>& motion, const ScaledDistance& d)
+      : kind(motion.kind), distance(d.numerator), exponent(d.exponent) {
+    for (const auto& corner : moving_corners(motion)) corners.push_back(any_vector(corner.w));
+    const auto n = exact_stage::normal(motion);
+    normal = any_vector(n);
+    const auto det = exact_stage::determinant(motion, n);
+    determinant = AnyForm(det.begin(), det.end());
+  }
+
+  [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % corners.size(); }
+
+  /// value − d² · square · (x + y)², times 2^(2 exponent).
+  [[nodiscard]] AnyForm beyond(const AnyForm& value, const AnyForm& square) const {
+    return (value << 2 * exponent) - raised(raised(square * (distance * distance)));
+  }
+
+  Kind kind;
+  std::vector<AnyVector> corners;  // in cyclic order
+  AnyVector normal;
+  AnyForm determinant;  // normal · corner, for every corner
+  BigInteger distance;  // times 2^-exponent
+  long exponent;
+};
+
+/// The axis a for linf, with its products with the corners that differ.
+Separator cube_separator(const Setting& setting, const AnyVector& axis,
+                         const std::vector<AnyForm>& products) {
+  Separator result;
+  for (const AnyForm& product : products) result.values.push_back(product << setting.exponent);
+  for (const AnyForm& component : axis) {
+    if (!vanishes(component)) result.spreads.push_back(raised(component * setting.distance));
+  }
+  return result;
+}
+
+/// ±e_c, for both norms.
+void add_axes(const Setting& setting, std::vector<Separator>& to) {
+  const AnyForm spread{setting.distance, setting.distance};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const bool negative : {false, true}) {
+      Separator separator;
+      for (const AnyVector& corner : setting.corners) {
+        const AnyForm product = corner[axis] << setting.exponent;
+        separator.values.push_back((negative ? -product : product) - spread);
+      }
+      to.push_back(std::move(separator));
+    }
+  }
+}
+
+AnyVector operator-(const AnyVector& a, const AnyVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// ±N and ±(e_c × e). Opposite sides of a parallelogram have one direction, and a·w is the same at
+/// both ends of a side and at both of the opposite one.
+std::vector<Separator> cube_separators(const Setting& setting) {
+  std::vector<Separator> result;
+  add_axes(setting, result);
+  const std::size_t sides = setting.kind == Kind::vertex_face ? 3 : 2;
+  for (std::size_t i = 0; i < sides; ++i) {
+    const std::size_t j = setting.next(i), k = setting.next(j);
+    const AnyVector e = setting.corners[j] - setting.corners[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      AnyVector axis;
+      axis[c] = {0, 0};
+      axis[(c + 1) % 3] = -e[(c + 2) % 3];
+      axis[(c + 2) % 3] = e[(c + 1) % 3];
+      add_both(result,
+               cube_separator(setting, axis,
+                              {dot(axis, setting.corners[i]), dot(axis, setting.corners[k])}));
+    }
+  }
+  add_both(result, cube_separator(setting, setting.normal, {setting.determinant}));
+  return result;
+}
+
+/// w_i·w_k, the numbers that the directions of vertices and sides are made of.
+class Gram {
+ public:
+  explicit Gram(const std::vector<AnyVector>& w) : size_(w.size()), products_(size_ * size_) {
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (std::size_t k = 0; k <= i; ++k) {
+        products_[i * size_ + k] = products_[k * size_ + i] = dot(w[i], w[k]);
+      }
+    }
+  }
+
+  [[nodiscard]] const AnyForm& operator()(std::size_t i, std::size_t k) const {
+    return products_[i * size_ + k];
+  }
+
+ private:
+  std::size_t size_;
+  std::vector<AnyForm> products_;
+};
+
+/// A side: |e|², C, a·w_k for the other corners (the same for both of a parallelogram), and
+/// C − d²|e|².
+struct Side {
+  AnyForm square, area, other, beyond;
+};
+
+Side side(const Setting& setting, const Gram& gram, std::size_t i) {
+  const std::size_t j = setting.next(i), k = setting.next(j);
+  const AnyForm from = gram(i, j) - gram(i, i), to = gram(j, j) - gram(i, j);  // w_i·e, w_j·e
+  AnyForm square = to - from;
+  AnyForm area = gram(i, i) * gram(j, j) - gram(i, j) * gram(i, j);
+  AnyForm other = square * gram(i, k) - from * (gram(j, k) - gram(i, k));
+  AnyForm beyond = setting.beyond(area, square);
+  return {std::move(square), std::move(area), std::move(other), std::move(beyond)};
+}
+
+/// What the separators for l2 are made of.
+struct BallParts {
+  explicit BallParts(const Setting& setting) : gram(setting.corners) {
+    for (std::size_t i = 0; i < setting.corners.size(); ++i) {
+      sides.push_back(side(setting, gram, i));
+      vertices_beyond.push_back(setting.beyond(gram(i, i), {1}));
+    }
+  }
+
+  Gram gram;
+  std::vector<Side> sides;
+  std::vector<AnyForm> vertices_beyond;  // |w_i|² − d²
+};
+
+/// The coordinate axes, the vertices and sides with low forms, and the face.
+std::vector<Separator> low_ball_separators(const Setting& setting, const BallParts& parts) {
+  std::vector<Separator> result;
+  add_axes(setting, result);
+  for (std::size_t i = 0; i < setting.corners.size(); ++i) {
+    const Side& s = parts.sides[i];
+    result.push_back({{s.beyond, s.other - s.area}, {}});
+    Separator vertex{{parts.vertices_beyond[i]}, {}};
+    for (std::size_t k = 0; k < setting.corners.size(); ++k) {
+      if (k != i) vertex.values.push_back(parts.gram(i, k) - parts.gram(i, i));
+    }
+    result.push_back(std::move(vertex));
+  }
+  const AnyForm &det = setting.determinant, square = dot(setting.normal, setting.normal);
+  const AnyForm face = setting.beyond(det * det, square);
+  result.push_back({{det, face}, {}});
+  result.push_back({{-det, face}, {}});
+  return result;
+}
+
+/// Those vertices and sides as in theorem 1 whose first forms are positive at the time.
+std::vector<Separator> ball_separators_at(Instant& now, const Setting& setting,
+                                          const BallParts& parts) {
+  std::vector<Separator> result;
+  for (std::size_t i = 0; i < setting.corners.size(); ++i) {
+    const Side& s = parts.sides[i];
+    if (now.sign_of(s.beyond) > 0) {
+      result.push_back(
+          {{s.beyond, s.other, setting.beyond(s.other * s.other, s.square * s.area)}, {}});
+    }
+    if (now.sign_of(parts.vertices_beyond[i]) <= 0) continue;
+    Separator vertex{{parts.vertices_beyond[i]}, {}};
+    for (std::size_t k = 0; k < setting.corners.size(); ++k) {
+      if (k == i) continue;
+      const AnyForm& product = parts.gram(i, k);
+      vertex.values.push_back(product);
+      vertex.values.push_back(setting.beyond(product * product, parts.gram(i, i)));
+    }
+    result.push_back(std::move(vertex));
+  }
+  return result;
+}
+
+// ---- The walk -----------------------------------------------------------------------------------
+
+/// Do all forms pass the test? Where signs are known, only the least form; where they are not, that
+/// with each.
+template <class Test>
+bool all_forms(const Separator& separator, std::size_t value, Signs signs, Test&& test) {
+  for (std::size_t i = 0; i < separator.spreads.size(); ++i) {
+    if (signs[i] != 0) continue;
+    signs[i] = -1;
+    if (!all_forms(separator, value, signs, test)) return false;
+    signs[i] = 1;
+  }
+  return test(separator.form(value, signs));
+}
+
+/// Is every form positive? Every value is the mean of forms, so values are asked first.
+bool holds(const Separator& separator, Instant& at) {
+  const auto is_positive = [&](const AnyForm& form) { return at.sign_of(form) > 0; };
+  if (!std::ranges::all_of(separator.values, is_positive)) return false;
+  if (separator.spreads.empty()) return true;
+  const Signs signs = separator.signs_between(at.lower(), at.upper());
+  for (std::size_t value = 0; value < separator.values.size(); ++value) {
+    if (!all_forms(separator, value, signs, is_positive)) return false;
+  }
+  return true;
+}
+
+/// Until when a separator holds; beyond the horizon if nothing.
+using End = std::optional<Instant>;
+
+/// Makes `end` the first root of the form between `from` and the horizon, if that is earlier.
+void shorten(End& end, Instant& from, const Dyadic& horizon, const AnyForm& form) {
+  // The sign first: to find it narrows the end, and up to there the form is looked at.
+  if (end && end->sign_of(form) > 0 && is_positive_between(form, from.upper(), end->lower()))
+    return;
+  End root = first_root_after(from, horizon, form);
+  if (root) root->narrow();
+  if (root && (!end || compare(*root, *end) < 0)) end = std::move(root);
+}
+
+/// The first root of the forms of a separator that holds at `from`. The forms that are least at first
+/// are asked first; until the time that they give, most signs are known and no others are needed.
+End end_of(const Separator& separator, Instant& from, const Dyadic& horizon) {
+  End end;
+  const Signs first = separator.signs_between(from.lower(), from.upper());
+  for (std::size_t value = 0; value < separator.values.size(); ++value) {
+    shorten(end, from, horizon, separator.form(value, first));
+  }
+  const Signs signs = separator.signs_between(from.lower(), end ? end->upper() : horizon);
+  const auto known =
+      static_cast<std::size_t>(std::ranges::count_if(signs, [](int sign) { return sign != 0; }));
+  if (signs == first && known == separator.spreads.size()) return end;
+  for (std::size_t value = 0; value < separator.values.size(); ++value) {
+    static_cast<void>(all_forms(separator, value, signs, [&](const AnyForm& form) {
+      shorten(end, from, horizon, form);
+      return true;
+    }));
+  }
+  return end;
+}
+
+/// What the separators that hold at a time say.
+struct Reach {
+  bool separated = false;  ///< does one hold?
+  End end;                 ///< the end of one that reaches far
+};
+
+Reach reach(const std::vector<Separator>& separators, Instant& from, const Dyadic& horizon) {
+  Reach result;
+  for (const Separator& separator : separators) {
+    if (result.end) {
+      Instant sure(result.end->lower());
+      if (!holds(separator, sure)) continue;
+    }
+    if (!holds(separator, from)) continue;
+    End end = end_of(separator, from, horizon);
+    if (!end) return {true, {}};
+    // Which of two that are this near is farther does not matter.
+    if (!result.end || compare(end->lower(), result.end->lower()) > 0) result.end = std::move(end);
+    result.separated = true;
+  }
+  return result;
+}
+
+/// The first time not later than `latest` at which `reach_from(t, latest)` finds no separator.
+template <class ReachFrom>
+End walk(ReachFrom&& reach_from, std::uint64_t latest) {
+  const Dyadic horizon = dyadic_of(latest);
+  Instant now(Dyadic{0, 0});
+  for (;;) {
+    Reach found = reach_from(now, horizon);
+    if (!found.separated) return now;
+    if (!found.end) return std::nullopt;
+    static_cast<void>(found.end->is_above(latest));  // so that its bounds are not
+    now = std::move(*found.end);
+  }
+}
+
+End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
+  if (norm == Norm::linf) {
+    const auto separators = cube_separators(setting);
+    return walk(
+        [&](Instant& now, const Dyadic& horizon) { return reach(separators, now, horizon); },
+        latest);
+  }
+  const BallParts parts(setting);
+  const auto low = low_ball_separators(setting, parts);
+  return walk(
+      [&](Instant& now, const Dyadic& horizon) {
+        Reach found = reach(low, now, horizon);
+        if (found.separated) return found;
+        return reach(ball_separators_at(now, setting, parts), now, horizon);
+      },
+      latest);
+}
+
+}  // namespace
+
+std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
+                                          const ScaledDistance& distance, Norm norm,
+                                          std::uint64_t latest, std::uint64_t step) {
+  End end = first_instant(Setting(motion, distance), norm, latest);
+  if (!end) return std::nullopt;
+  if (compare(end->upper(), {0, 0}) == 0) return BitInterval{bits_of_zero, bits_of_zero};
+  const auto is_above = [&](std::uint64_t bits) { return end->is_above(bits); };
+  const BitInterval found = enclose(end->guess(), step, is_above);
+  // A step is not small beside a subnormal time.
+  if (found.upper >= bits_of_least_normal) return found;
+  return enclose(std::bit_cast<double>(found.upper), 1, is_above);
+}
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,73 @@
+#pragma once
+
+/// \file
+/// The first time at which a moving polygon is within a distance of the origin: any motion with
+/// integer coordinates of any size, any distance, both norms.
+///
+/// P(t) is the polygon with the corners w_k(t) (contact_conditions.hpp), B the closed ball of radius d of a
+/// norm: for linf the cube [−d,d]³. A *separator* is a direction a(t) with forms in t; it *holds* at
+/// t iff all its forms are positive there, and then a·w_k(t) > max of a·b over b ∈ B for all k, so
+/// that P(t) does not meet B.
+///
+/// **Theorem 1** (l2). P(t) does not meet B iff one of these holds at t, where i, k are corners, ij is
+/// a side of the polygon, e = w_j − w_i, C = |w_i × w_j|² and N the polygon's normal:
+///   - vertex, a = w_i:  |w_i|² − d², and for every k ≠ i  w_i·w_k and (w_i·w_k)² − d²|w_i|²;
+///   - side, a = |e|² w_i − (w_i·e) e:  C − d²|e|², and for every other k  a·w_k and
+///     (a·w_k)² − d²|e|²C;
+///   - face, a = ±N:  (N·w_0)² − d²|N|².
+/// Proof. The maximum of a·b is d|a|. For the vertex the forms say just a·w_k > d|a|; the first says it
+/// for k = i. For the side a·w_i = a·w_j = C and |a|² = |e|²C, so a·w_i > d|a| iff C > d²|e|² (which
+/// needs C > 0). All corners have the same N·w_k. So what holds separates. Now let P(t) not meet B and
+/// x be its point nearest to the origin, |x| > d. P(t) lies in the half-space x·w ≥ |x|² > d|x|, so the
+/// direction x separates. x is inside a vertex, a side or the face of P(t); it is orthogonal to that
+/// feature, hence the direction that the feature has above, up to a positive factor: |e|²x, or N
+/// times a number not 0. Where the polygon has no area its sides cover it, and where a side has no
+/// length its ends do; so features with e = 0 or N = 0, which never hold, are not needed. ∎
+///
+/// **Theorem 2** (linf). P(t) does not meet B iff a·w_k − d(σ·a) > 0 for all corners k and all sign
+/// vectors σ, for a one of ±e_c, ±N, ±(e_c × e), e_c a coordinate axis and e a side.
+/// Proof. The maximum of a·b is d(|a_x| + |a_y| + |a_z|), the greatest of the d(σ·a). P(t) and B meet
+/// iff the origin is in the polytope Q = B ⊕ −P(t). It is full-dimensional if d > 0, and then the
+/// intersection of the half-spaces of its facets; a facet of a sum is the sum of faces of both, and
+/// its normal is that of a facet of B, that of P(t), or orthogonal to an edge of each. If d = 0, P(t)
+/// misses some cube with d > 0 too, and what holds for that holds for 0. ∎
+///
+/// **Theorem 3** (the walk). Begin at t = 0. If no separator holds at t, t is the answer. Else take one
+/// that holds and go on to the first root of its forms later than t; if there is none, the polygon
+/// never comes near. This ends with the first time when P(t) meets B.
+/// Proof. From t up to that root (not included) the separator's forms stay positive, so nothing before
+/// the new t is an answer; if no separator holds there, it is one by theorem 1 or 2. Every step goes
+/// to a later one of finitely many roots. ∎
+///
+/// Any separator that holds will do: the one that reaches farthest is taken. More directions that
+/// separate may stand before those of the theorems: here for l2 the coordinate axes, and with few
+/// and low forms
+///   - vertex: |w_i|² − d², and w_i·w_k − |w_i|² for every other k;
+///   - side: C − d²|e|², and a·w_k − C for another k,
+/// which imply those above. They fail where theorem 1 is needed only when the polygon degenerates.
+
+#include <cstdint>
+#include <optional>
+
+#include "exact/query.hpp"
+#include "fast/certified/exact/big_integer.hpp"
+#include "fast/certified/exact/contact_conditions.hpp"
+#include "fast/certified/exact/enclosing_doubles.hpp"
+
+namespace touchstone::fast::exact_stage {
+
+/// numerator / 2^exponent, in the units of a motion's coordinates. Not negative.
+struct ScaledDistance {
+  BigInteger numerator;
+  long exponent = 0;  ///< not negative
+};
+
+/// The first time, not later than the double in [0,1] of bits `latest`, at which the motion's polygon
+/// is within the distance of the origin: doubles around it at most `step` spacings apart, one if `upper`
+/// is subnormal (lower < time ≤ upper, or both 0 if the time is 0), or nothing if there is none.
+/// \pre all axes of the motion have the same unit; 1 ≤ step.
+[[nodiscard]] std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
+                                                        const ScaledDistance& distance, Norm norm,
+                                                        std::uint64_t latest, std::uint64_t step);
+
+}  // namespace touchstone::fast::exact_stage

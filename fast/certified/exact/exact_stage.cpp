@@ -1,0 +1,210 @@
+#include "fast/certified/exact/exact_stage.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "fast/certified/exact/big_integer.hpp"
+#include "fast/certified/exact/closest_point_parameters.hpp"
+#include "fast/certified/exact/contact_conditions.hpp"
+#include "fast/certified/exact/contact_decision.hpp"
+#include "fast/certified/exact/distance_decision.hpp"
+#include "fast/certified/exact/enclosing_doubles.hpp"
+#include "fast/certified/exact/fixed_integer.hpp"
+#include "fast/certified/exact/general_contact_decision.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+using namespace exact_stage;
+
+/// Coordinates below 2^28 have differences below 2^29, and so on.
+constexpr int short_bits = 28, one_limb_bits = 60, two_limb_bits = 124;
+
+/// Of a double.
+constexpr int significand_bits = 53;
+
+/// numerator · 2^exponent, the numerator's magnitude below 2^53.
+struct Scaled {
+  std::int64_t numerator;
+  int exponent;
+};
+
+/// A finite double, taken apart by its bits.
+Scaled scaled(double x) {
+  constexpr unsigned stored_bits = significand_bits - 1, exponent_bits = 11;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const auto biased = static_cast<int>((bits >> stored_bits) & ((1U << exponent_bits) - 1));
+  auto significand = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << stored_bits) - 1));
+  if (biased != 0) significand |= std::int64_t{1} << stored_bits;
+  return {(bits >> 63U) != 0 ? -significand : significand, std::max(biased, 1) - 1075};
+}
+
+/// The eight coordinates of one axis.
+struct Axis {
+  std::array<std::array<Scaled, moving_points>, 2> x;
+  int lowest;   ///< all are multiples of 2^lowest
+  int highest;  ///< all magnitudes are below 2^highest
+};
+
+Axis axis_of(const Query& query, std::size_t axis) {
+  constexpr int none = std::numeric_limits<int>::max();
+  Axis result;
+  result.lowest = none;
+  result.highest = -none;
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t i = 0; i < moving_points; ++i) {
+      const Scaled x = result.x[end][i] = scaled(query.at(end, i, axis));
+      if (x.numerator == 0) continue;
+      // As many zeros as its magnitude ends in.
+      const int zeros = std::countr_zero(static_cast<std::uint64_t>(x.numerator));
+      result.lowest = std::min(result.lowest, x.exponent + zeros);
+      result.highest = std::max(result.highest, x.exponent + significand_bits);
+    }
+  }
+  if (result.lowest == none) result.lowest = result.highest = 0;
+  return result;
+}
+
+BigInteger shifted(const BigInteger& x, int bits) { return bits >= 0 ? x << bits : x >> -bits; }
+template <class Whole>
+Whole shifted(Whole x, int bits) {
+  return bits >= 0 ? x << bits : x >> -bits;
+}
+
+/// r, p and q in units of 2^lowest on each axis. `Whole` must hold the differences of coordinates.
+template <class Number, class Whole>
+Motion<Number> motion_of(Kind kind, const std::array<Axis, 3>& axes) {
+  using Difference = std::array<std::size_t, 2>;
+  constexpr std::array<Difference, 3> vertex_face{{{0, 1}, {2, 1}, {3, 1}}};
+  constexpr std::array<Difference, 3> edge_edge{{{0, 2}, {0, 1}, {3, 2}}};
+  const auto& points = kind == Kind::vertex_face ? vertex_face : edge_edge;
+  Motion<Number> motion;
+  motion.kind = kind;
+  const std::array<MovingVector<Number>*, 3> vectors{&motion.r, &motion.p, &motion.q};
+  for (std::size_t k = 0; k < 3; ++k) {
+    motion.unit[k] = axes[k].lowest;
+    for (std::size_t end = 0; end < 2; ++end) {
+      std::array<Whole, moving_points> x;
+      for (std::size_t i = 0; i < moving_points; ++i) {
+        const Scaled& from = axes[k].x[end][i];
+        x[i] = from.numerator == 0 ? Whole(0)
+                                   : shifted(Whole(from.numerator), from.exponent - axes[k].lowest);
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        (*vectors[i])[k][end] = Number(x[points[i][0]] - x[points[i][1]]);
+      }
+    }
+  }
+  return motion;
+}
+
+/// The axes in one unit.
+std::array<Axis, 3> axes_of_one_unit(const Query& query) {
+  std::array<Axis, 3> axes{axis_of(query, 0), axis_of(query, 1), axis_of(query, 2)};
+  int lowest = std::numeric_limits<int>::max();
+  for (const Axis& axis : axes) {
+    const bool is_zero = axis.highest == axis.lowest;
+    if (!is_zero) lowest = std::min(lowest, axis.lowest);
+  }
+  if (lowest == std::numeric_limits<int>::max()) lowest = 0;
+  for (Axis& axis : axes) axis.lowest = lowest;
+  return axes;
+}
+
+/// In units of 2^unit.
+ScaledDistance scaled_distance(double distance, int unit) {
+  const Scaled d = scaled(distance);
+  if (d.numerator == 0) return {};
+  const int zeros = std::countr_zero(static_cast<std::uint64_t>(d.numerator));
+  const int exponent = d.exponent + zeros - unit;
+  return {BigInteger(d.numerator >> zeros) << std::max(exponent, 0), std::max(-exponent, 0)};
+}
+
+std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64_t latest,
+                                      std::uint64_t step) {
+  const std::array<Axis, 3> axes{axis_of(query, 0), axis_of(query, 1), axis_of(query, 2)};
+  int bits = 0;
+  for (const Axis& axis : axes) bits = std::max(bits, axis.highest - axis.lowest);
+  QuickAnswer quick;
+  if (bits <= short_bits) {
+    quick = quick_first_impact(motion_of<ShortInteger, std::int64_t>(kind, axes), latest, step);
+  } else if (bits <= one_limb_bits) {
+    quick = quick_first_impact(motion_of<FixedInteger<1>, std::int64_t>(kind, axes), latest, step);
+  } else if (bits <= two_limb_bits) {
+    quick =
+        quick_first_impact(motion_of<FixedInteger<2>, SignedWideLimb>(kind, axes), latest, step);
+  }
+  if (quick.decided) return quick.impact;
+  return first_impact(motion_of<BigInteger, BigInteger>(kind, axes), latest);
+}
+
+/// Contact is an approach: the first approach is not later. So where nothing is near until just before
+/// the first contact, that is where it is. For small distances this is so as a rule.
+std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
+                                             const Separation& separation, std::uint64_t latest,
+                                             std::uint64_t step) {
+  const auto contact = first_impact_of(kind, query, latest, step);
+  if (contact && contact->time.upper == bits_of_zero) return contact->time;
+  const auto axes = axes_of_one_unit(query);
+  const auto motion = motion_of<BigInteger, BigInteger>(kind, axes);
+  const ScaledDistance distance = scaled_distance(separation.distance, axes[0].lowest);
+  const auto approach_until = [&](std::uint64_t time) {
+    return first_approach(motion, distance, separation.norm, time, step);
+  };
+  if (!contact || contact->time.upper > latest) return approach_until(latest);
+  const auto before = approach_until(contact->time.lower);
+  return before ? before : contact->time;
+}
+
+/// How many spacings of doubles wide an enclosure may be that is `tolerance` wide, relative to its
+/// upper end: spacings are at most 2^-52 of a normal number.
+std::uint64_t step_of(double tolerance) {
+  constexpr double widest = 0x1p-12;
+  if (!(tolerance > 0.0)) return 1;
+  return std::max(static_cast<std::uint64_t>(std::min(tolerance, widest) * 0x1p52),
+                  std::uint64_t{1});
+}
+
+/// The nearest point of the domain, roughly; exactly inside.
+void move_into_domain(Kind kind, double& u, double& v) {
+  constexpr double least = 0x1p-200;  // what is below counts as 0, so that no sum is subnormal
+  u = u >= least ? std::min(u, 1.0) : 0.0;
+  v = v >= least ? std::min(v, 1.0) : 0.0;
+  if (kind == Kind::edge_edge) return;
+  double room = 1.0 - u;  // exact, or rounded within [1/2, 1]; there 1 − room is exact
+  if (1.0 - room < u) room = std::bit_cast<double>(std::bit_cast<std::uint64_t>(room) - 1);
+  v = std::min(v, room);
+}
+
+}  // namespace
+
+std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query, double toi_tolerance,
+                                          double t_max) {
+  const auto impact = first_impact_of(kind, query, unit_bits(t_max), step_of(toi_tolerance));
+  if (!impact) return std::nullopt;
+  ExactImpact result{std::bit_cast<double>(impact->time.lower),
+                     std::bit_cast<double>(impact->time.upper), impact->u, impact->v};
+  move_into_domain(kind, result.u, result.v);
+  return result;
+}
+
+std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
+                                          const Separation& separation, double toi_tolerance,
+                                          double t_max) {
+  if (separation.distance == 0.0) return decide_exactly(kind, query, toi_tolerance, t_max);
+  const auto time =
+      first_approach_of(kind, query, separation, unit_bits(t_max), step_of(toi_tolerance));
+  if (!time) return std::nullopt;
+  ExactImpact result{std::bit_cast<double>(time->lower), std::bit_cast<double>(time->upper)};
+  const Parameters nearest = nearest_parameters(kind, query, result.toi_upper, separation.norm);
+  result.u = nearest.u;
+  result.v = nearest.v;
+  move_into_domain(kind, result.u, result.v);
+  return result;
+}
+
+}  // namespace touchstone::fast

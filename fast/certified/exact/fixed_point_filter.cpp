@@ -1,0 +1,69 @@
+#include "fast/certified/exact/fixed_point_filter.hpp"
+
+#include <algorithm>
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+// NOLINTNEXTLINE(modernize-use-using): only a typedef can say that the extension is meant
+__extension__ typedef __int128 WideProduct;
+
+constexpr std::int64_t one = std::int64_t{1} << RoughForm::fraction_bits;
+
+using Coefficients = std::array<std::int64_t, RoughForm::largest_degree + 1>;
+
+/// One step of de Casteljau's on the first `size` coefficients, which leaves one fewer.
+void step(Coefficients& b, std::size_t size, std::int64_t t) {
+  for (std::size_t k = 0; k + 1 < size; ++k) {
+    const WideProduct sum = WideProduct{b[k]} * (one - t) + WideProduct{b[k + 1]} * t;
+    b[k] = static_cast<std::int64_t>(sum >> RoughForm::fraction_bits);
+  }
+}
+
+}  // namespace
+
+RoughForm::RoughForm(std::span<const BigInteger> c, std::int64_t lower, std::int64_t upper)
+    : size_(c.size()) {
+  long top = 0;
+  for (const BigInteger& x : c) top = std::max(top, x.bit_length());
+  Coefficients from_lower{};
+  std::int64_t binomial = 1;
+  for (std::size_t k = 0; k < size_; ++k) {
+    from_lower[k] = c[k].truncated(fraction_bits - top) / binomial;
+    binomial =
+        binomial * static_cast<std::int64_t>(size_ - 1 - k) / static_cast<std::int64_t>(k + 1);
+  }
+  for (std::size_t k = size_; k-- > 0;) {
+    Coefficients b = from_lower;
+    for (std::size_t left = k + 1; left > 1; --left) step(b, left, upper);
+    b_[k] = b[0];
+    step(from_lower, k + 1, lower);
+  }
+}
+
+int RoughForm::sign(std::size_t k) const {
+  const auto error = static_cast<std::int64_t>(2 + 3 * (size_ - 1));
+  if (b_[k] > error) return 1;
+  return b_[k] < -error ? -1 : 0;
+}
+
+// Between coefficients of two signs there is one change, or three and more, if there is one in doubt:
+// so at most one may be in doubt there, and none between coefficients of one sign or outermost.
+std::optional<int> RoughForm::sign_changes() const {
+  int changes = 0, last = 0, doubts = 0;
+  for (std::size_t k = 0; k < size_; ++k) {
+    const int here = sign(k);
+    if (here == 0) {
+      ++doubts;
+      continue;
+    }
+    if (doubts > 1 || (doubts == 1 && here != -last)) return std::nullopt;
+    if (here == -last) ++changes;
+    last = here;
+    doubts = 0;
+  }
+  if (doubts > 0) return std::nullopt;
+  return changes;
+}
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,83 @@
+#include "fast/certified/exact/general_contact_decision.hpp"
+
+#include <vector>
+
+#include "fast/certified/exact/real_root.hpp"
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+using BigMotion = Motion<BigInteger>;
+using Normal = MovingNormal<BigInteger>;
+using Contact = ContactOf<BigInteger>;
+
+/// What a motion's decision needs in many places.
+struct Problem {
+  const BigMotion& motion;
+  Normal normal;
+  Form<BigInteger, 3> determinant;
+};
+
+Impact impact_at(Instant& instant, const Contact& contact, const BitInterval& time) {
+  Impact impact{time};
+  if (instant.sign_of(contact.denominator) != 0) {
+    impact.u = instant.quotient_of(contact.u, contact.denominator);
+    impact.v = instant.quotient_of(contact.v, contact.denominator);
+  }
+  return impact;
+}
+
+/// Contact at a time when D = 0.
+std::optional<Contact> contact_at(const Problem& problem, Instant& instant) {
+  return contact_in_plane(problem.motion, problem.normal,
+                          [&](const Form<BigInteger, 2>& form) { return instant.sign_of(form); });
+}
+
+/// Replaces `best` if the instant, a time after 0 when D = 0, is one of contact and earlier.
+/// Returns whether later instants need not be looked at.
+bool consider(const Problem& problem, Instant& instant, std::uint64_t& latest,
+              std::optional<Impact>& best) {
+  if (instant.is_above(latest)) return true;
+  const auto contact = contact_at(problem, instant);
+  if (!contact) return false;
+  const BitInterval time =
+      enclose(instant.guess(), 1, [&](std::uint64_t bits) { return instant.is_above(bits); });
+  best = impact_at(instant, *contact, time);
+  latest = time.upper;
+  return true;
+}
+
+std::vector<Polynomial> events(const Problem& problem) {
+  if (!is_zero(problem.determinant)) {
+    return {inner_polynomial(problem.determinant)};
+  }
+  std::vector<Polynomial> result;
+  for (const auto& form : events_in_plane(problem.motion, problem.normal)) {
+    result.push_back(inner_polynomial(form));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Impact> first_impact(const BigMotion& motion, std::uint64_t latest) {
+  Problem problem{motion, normal(motion), {}};
+  problem.determinant = determinant(motion, problem.normal);
+  if (problem.determinant.front().sign() == 0) {
+    Instant start(Dyadic{0, 0});
+    if (const auto contact = contact_at(problem, start)) {
+      return impact_at(start, *contact, {bits_of_zero, bits_of_zero});
+    }
+  }
+  std::optional<Impact> best;
+  for (const Polynomial& event : events(problem)) {
+    visit_roots(event, [&](Instant& instant) { return consider(problem, instant, latest, best); });
+  }
+  if (!best && problem.determinant.back().sign() == 0) {
+    Instant end(Dyadic{1, 0});
+    static_cast<void>(consider(problem, end, latest, best));
+  }
+  return best;
+}
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,629 @@
+#include "fast/certified/exact/real_root.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "fast/certified/exact/enclosing_doubles.hpp"
+#include "fast/certified/exact/fixed_point_filter.hpp"
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+/// t = y/(x+y).
+struct Time {
+  BigInteger x, y;
+};
+
+Time time_of(const Dyadic& t) { return {(BigInteger(1) << t.exponent) - t.numerator, t.numerator}; }
+
+bool equal(const Dyadic& a, const Dyadic& b) {
+  return (a.numerator << b.exponent) == (b.numerator << a.exponent);
+}
+
+Dyadic reduced(const Dyadic& t) {
+  if (t.numerator.sign() == 0) return {};
+  const long zeros = std::min(t.numerator.trailing_zeros(), t.exponent);
+  return {t.numerator >> zeros, t.exponent - zeros};
+}
+
+Dyadic from_one(const Dyadic& t) {
+  return {(BigInteger(1) << t.exponent) - t.numerator, t.exponent};
+}
+
+/// lower + (upper − lower) · part
+Dyadic between(const Dyadic& lower, const Dyadic& upper, const Dyadic& part) {
+  const long exponent = std::max(lower.exponent, upper.exponent);
+  const BigInteger low = lower.numerator << (exponent - lower.exponent);
+  const BigInteger high = upper.numerator << (exponent - upper.exponent);
+  return reduced(
+      {(low << part.exponent) + (high - low) * part.numerator, exponent + part.exponent});
+}
+
+/// Σ c_k x^(n−k) y^k for numbers or, with x and y linear forms, on an interval.
+BigInteger evaluate(std::span<const BigInteger> c, const Time& t) {
+  BigInteger value = c[0], power = 1;
+  for (std::size_t k = 1; k < c.size(); ++k) {
+    power = power * t.y;
+    value = value * t.x + c[k] * power;
+  }
+  return value;
+}
+
+/// (a + b z) p(z).
+Polynomial times_linear(const Polynomial& p, const BigInteger& a, const BigInteger& b) {
+  Polynomial product(p.size() + 1);
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    product[k] += a * p[k];
+    product[k + 1] += b * p[k];
+  }
+  return product;
+}
+
+/// The form on the interval between two times.
+Polynomial restricted(std::span<const BigInteger> c, const Time& lower, const Time& upper) {
+  Polynomial value{c[0]}, power{1};
+  for (std::size_t k = 1; k < c.size(); ++k) {
+    power = times_linear(power, lower.y, upper.y);
+    value = times_linear(value, lower.x, upper.x);
+    for (std::size_t i = 0; i < value.size(); ++i) value[i] += c[k] * power[i];
+  }
+  return value;
+}
+
+/// In parameters that are linear in t: x + y is the same at both ends.
+Polynomial restricted(std::span<const BigInteger> c, const Dyadic& lower, const Dyadic& upper) {
+  const long exponent = std::max(lower.exponent, upper.exponent);
+  const auto time = [&](const Dyadic& t) {
+    return time_of({t.numerator << (exponent - t.exponent), exponent});
+  };
+  return restricted(c, time(lower), time(upper));
+}
+
+int sign_changes(const Polynomial& c) {
+  int changes = 0, last = 0;
+  for (const BigInteger& x : c) {
+    const int sign = x.sign();
+    if (sign == 0) continue;
+    if (sign == -last) ++changes;
+    last = sign;
+  }
+  return changes;
+}
+
+/// The sign of the first coefficient that is not 0: near the interval's lower end. 0 for zero.
+int first_sign(const Polynomial& c) {
+  for (const BigInteger& x : c) {
+    if (x.sign() != 0) return x.sign();
+  }
+  return 0;
+}
+
+// ---- What fixed point says, or else the integers ------------------------------------------------
+
+/// In the units of RoughForm.
+std::int64_t rough(const Dyadic& t) {
+  return t.numerator.truncated(RoughForm::fraction_bits - t.exponent);
+}
+
+std::optional<RoughForm> rough_form(std::span<const BigInteger> c, const Dyadic& lower,
+                                    const Dyadic& upper) {
+  if (c.size() > RoughForm::largest_degree + 1) return std::nullopt;
+  return RoughForm(c, rough(lower), rough(upper));
+}
+
+/// The number of sign changes on an interval, and the sign near its lower end.
+struct LocalSigns {
+  int changes = 0;
+  int first = 0;
+};
+
+LocalSigns signs_between(std::span<const BigInteger> c, const Dyadic& lower, const Dyadic& upper) {
+  if (const auto form = rough_form(c, lower, upper)) {
+    if (const auto changes = form->sign_changes()) return {*changes, form->first_sign()};
+  }
+  const Polynomial local = restricted(c, lower, upper);
+  return {sign_changes(local), first_sign(local)};
+}
+
+/// The sign at a time.
+int sign_at(std::span<const BigInteger> c, const Dyadic& t) {
+  if (const auto form = rough_form(c, t, t)) {
+    if (form->first_sign() != 0) return form->first_sign();
+  }
+  return evaluate(c, time_of(t)).sign();
+}
+
+/// Takes out the power of two that divides all coefficients.
+void remove_twos(Polynomial& c) {
+  long zeros = -1;
+  for (const BigInteger& x : c) {
+    if (x.sign() == 0) continue;
+    zeros = zeros < 0 ? x.trailing_zeros() : std::min(zeros, x.trailing_zeros());
+  }
+  if (zeros <= 0) return;
+  for (BigInteger& x : c) x >>= zeros;
+}
+
+void drop_top_zeros(Polynomial& c) {
+  while (!c.empty() && c.back().sign() == 0) c.pop_back();
+}
+
+/// b's top coefficient to the power of one more than the difference of degrees, times a, modulo b.
+/// \pre a is not of lower degree than b.
+Polynomial pseudo_remainder(Polynomial a, const Polynomial& b) {
+  for (std::size_t left = a.size() - b.size() + 1; left-- > 0;) {
+    const bool reduces = a.size() == b.size() + left;
+    const BigInteger top = reduces ? a.back() : 0;
+    for (BigInteger& x : a) x = x * b.back();
+    if (!reduces) continue;
+    for (std::size_t k = 0; k < b.size(); ++k) a[k + left] -= top * b[k];
+    drop_top_zeros(a);
+  }
+  return a;
+}
+
+/// b's top coefficient times a/b. It has integer coefficients: with b = c h and h primitive, a/h has
+/// them, and the top of b over c is that of h. \pre b divides a.
+Polynomial scaled_quotient(Polynomial a, const Polynomial& b) {
+  Polynomial quotient(a.size() - b.size() + 1);
+  for (BigInteger& x : a) x = x * b.back();
+  while (a.size() >= b.size()) {
+    const std::size_t shift = a.size() - b.size();
+    const BigInteger factor = quotient[shift] = a.back().divided_exactly(b.back());
+    for (std::size_t k = 0; k < b.size(); ++k) a[k + shift] -= factor * b[k];
+    drop_top_zeros(a);
+  }
+  remove_twos(quotient);
+  return quotient;
+}
+
+BigInteger power(const BigInteger& x, std::size_t exponent) {
+  BigInteger result = 1;
+  for (; exponent > 0; --exponent) result = result * x;
+  return result;
+}
+
+/// A multiple of the greatest common divisor: the last of the subresultants [brown1971], which
+/// keep short because what must divide them is divided out. \pre a is not of lower degree than b.
+Polynomial last_subresultant(Polynomial a, Polynomial b) {
+  BigInteger g = 1, h = 1;
+  for (;;) {
+    const std::size_t step = a.size() - b.size();
+    Polynomial remainder = pseudo_remainder(a, b);
+    if (remainder.empty()) return b;
+    const BigInteger divisor = g * power(h, step);
+    for (BigInteger& x : remainder) x = x.divided_exactly(divisor);
+    a = std::move(b);
+    b = std::move(remainder);
+    g = a.back();
+    if (step > 0) h = power(g, step).divided_exactly(power(h, step - 1));
+  }
+}
+
+// ---- Modulo a prime -----------------------------------------------------------------------------
+
+constexpr std::uint64_t prime = (std::uint64_t{1} << 61U) - 1;
+
+// NOLINTNEXTLINE(modernize-use-using): only a typedef can say that the extension is meant
+__extension__ typedef unsigned __int128 WideResidue;
+
+std::uint64_t product(std::uint64_t a, std::uint64_t b) {
+  return static_cast<std::uint64_t>(WideResidue{a} * b % prime);
+}
+
+using Residues = std::vector<std::uint64_t>;
+
+void drop_top_zeros(Residues& c) {
+  while (!c.empty() && c.back() == 0) c.pop_back();
+}
+
+Residues residues(const Polynomial& c) {
+  Residues result;
+  for (const BigInteger& x : c) result.push_back(x.residue(prime));
+  drop_top_zeros(result);
+  return result;
+}
+
+/// A multiple of a modulo b.
+void reduce(Residues& a, const Residues& b) {
+  while (a.size() >= b.size()) {
+    const std::uint64_t top = a.back();
+    const std::size_t shift = a.size() - b.size();
+    for (std::uint64_t& x : a) x = product(x, b.back());
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      a[k + shift] = (a[k + shift] + prime - product(top, b[k])) % prime;
+    }
+    drop_top_zeros(a);
+  }
+}
+
+// ---- Guesses ------------------------------------------------------------------------------------
+
+/// A form on an interval, roughly. Its coefficients may be further apart than doubles reach: beside two
+/// roots that are hardly apart, the first ones are next to nothing.
+using Guess = std::vector<Approximation>;
+
+Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
+  constexpr std::int64_t accurate = std::int64_t{1} << 54;
+  Guess result;
+  if (const auto form = rough_form(f, lower, upper)) {
+    const auto b = form->coefficients();
+    const bool is_accurate =
+        std::ranges::any_of(b, [](std::int64_t x) { return x > accurate || x < -accurate; });
+    double binomial = 0x1p-60;
+    for (std::size_t k = 0; is_accurate && k < b.size(); ++k) {
+      result.push_back({static_cast<double>(b[k]) * binomial, 0});
+      binomial *= static_cast<double>(b.size() - 1 - k) / static_cast<double>(k + 1);
+    }
+    if (is_accurate) return result;
+  }
+  for (const BigInteger& x : restricted(f, lower, upper)) result.push_back(x.approximation());
+  return result;
+}
+
+/// significand · 2^exponent; 0 far below what a double holds.
+double scaled(double significand, long exponent) {
+  return std::ldexp(significand, static_cast<int>(std::clamp(exponent, -3000L, 3000L)));
+}
+
+/// a/a_divisor − b/b_divisor.
+Approximation difference(const Approximation& a, double a_divisor, const Approximation& b,
+                         double b_divisor) {
+  const long top = std::max(a.exponent, b.exponent);
+  return {scaled(a.significand, a.exponent - top) / a_divisor -
+              scaled(b.significand, b.exponent - top) / b_divisor,
+          top};
+}
+
+/// The form at y in (0,1), x = 1 − y, times a power of two that brings it near 1.
+double value_at(const Guess& c, double y) {
+  int y_exponent = 0;
+  const double significand = std::frexp(y, &y_exponent), x = 1.0 - y;
+  const auto exponent_of = [&](std::size_t k) {
+    return c[k].exponent + static_cast<long>(k) * y_exponent;
+  };
+  long top = std::numeric_limits<long>::min();
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (c[k].significand != 0.0) top = std::max(top, exponent_of(k));
+  }
+  double value = 0.0, power = 1.0;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const bool counts = c[k].significand != 0.0;
+    value = value * x + (counts ? scaled(c[k].significand * power, exponent_of(k) - top) : 0.0);
+    power *= significand;
+  }
+  return value;
+}
+
+/// Where in (0,1) the form changes its sign, by bisection over the doubles.
+std::uint64_t guess_root(const Guess& c, int sign_below) {
+  const auto is_below_root = [&](std::uint64_t bits) {
+    return value_at(c, std::bit_cast<double>(bits)) * sign_below > 0.0;
+  };
+  return enclose(0.5, 1, is_below_root).upper;
+}
+
+/// Where in (0,1) a form that is positive at 0 is least, if it has one extremum. With Bernstein's
+/// coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
+std::uint64_t guess_minimum(const Guess& c) {
+  const auto degree = static_cast<double>(c.size() - 1);
+  Guess derivative;
+  double here = 1.0, next = degree, lower = 1.0;  // binomials of n over k, k + 1; of n − 1 over k
+  for (std::size_t k = 0; k + 1 < c.size(); ++k) {
+    derivative.push_back(difference(c[k + 1], next, c[k], here));
+    derivative.back().significand *= lower;
+    const auto i = static_cast<double>(k);
+    here = next;
+    next *= (degree - i - 1.0) / (i + 2.0);
+    lower *= (degree - 1.0 - i) / (i + 1.0);
+  }
+  return guess_root(derivative, -1);
+}
+
+// ---- Isolation of roots -------------------------------------------------------------------------
+
+/// Where roots may be.
+struct Interval {
+  Dyadic lower, upper;
+  bool guess = true;  ///< may a guess say where to split it?
+};
+
+/// Between which numbers a guess says that the form's roots are close together, if it does.
+std::optional<Interval> cluster(const Polynomial& f, const Interval& in) {
+  constexpr std::uint64_t slack = std::uint64_t{1} << 12U;  // in spacings of doubles
+  const std::uint64_t least = guess_minimum(local_guess(f, in.lower, in.upper)) & ~(slack - 1);
+  if (least <= slack || least + 2 * slack >= bits_of_one) return std::nullopt;
+  return Interval{between(in.lower, in.upper, dyadic_of(least - slack)),
+                  between(in.lower, in.upper, dyadic_of(least + 2 * slack))};
+}
+
+/// Intervals still to be searched for roots of f, the first last.
+class RootSearch {
+ public:
+  RootSearch(Polynomial f, Dyadic lower, Dyadic upper)
+      : f_(std::move(f)), open_{{std::move(lower), std::move(upper)}} {}
+
+  /// The next root, ascending.
+  [[nodiscard]] std::optional<Instant> next() {
+    while (!open_.empty()) {
+      const Interval interval = std::move(open_.back());
+      open_.pop_back();
+      if (equal(interval.lower, interval.upper)) return Instant(interval.lower);
+      const int changes = signs_between(f_, interval.lower, interval.upper).changes;
+      if (changes == 1) return Instant(f_, interval.lower, interval.upper);
+      if (changes > 1) divide(interval);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Searches the parts of an interval. Roots that are still together after some divisions may be one.
+  void divide(const Interval& interval) {
+    constexpr int patience = 3;
+    if (++divisions_ == patience) f_ = squarefree(f_);
+    const auto close = interval.guess ? cluster(f_, interval) : std::nullopt;
+    if (!close) {
+      const Dyadic middle = split(interval.lower, interval.upper);
+      open_.push_back({middle, interval.upper});
+      push_point(middle);
+      open_.push_back({interval.lower, middle});
+      return;
+    }
+    open_.push_back({close->upper, interval.upper, false});
+    push_point(close->upper);
+    open_.push_back({close->lower, close->upper});
+    push_point(close->lower);
+    open_.push_back({interval.lower, close->lower, false});
+  }
+
+  void push_point(const Dyadic& t) {
+    if (sign_at(f_, t) == 0) open_.push_back({t, t});
+  }
+
+  Polynomial f_;
+  std::vector<Interval> open_;
+  int divisions_ = 0;
+};
+
+}  // namespace
+
+Dyadic dyadic_of(std::uint64_t bits) {
+  const DyadicDouble value = dyadic(bits);
+  return {value.numerator, value.exponent};
+}
+
+Polynomial inner_polynomial(Polynomial coefficients) {
+  drop_top_zeros(coefficients);
+  const auto first =
+      std::ranges::find_if(coefficients, [](const auto& c) { return c.sign() != 0; });
+  coefficients.erase(coefficients.begin(), first);
+  remove_twos(coefficients);
+  return coefficients;
+}
+
+bool surely_coprime(const Polynomial& a, const Polynomial& b) {
+  Residues first = residues(a), second = residues(b);
+  if (first.size() != a.size()) return false;  // the prime divides the top coefficient
+  while (!second.empty()) {
+    reduce(first, second);
+    std::swap(first, second);
+  }
+  return first.size() == 1;
+}
+
+Polynomial common_divisor(Polynomial a, Polynomial b) {
+  if (surely_coprime(a, b)) return {1};
+  if (a.size() < b.size()) std::swap(a, b);
+  const BigInteger top = b.back();
+  Polynomial divisor = last_subresultant(std::move(a), std::move(b));
+  if (divisor.size() == 1) return {1};
+  // The primitive divisor's top coefficient divides that of b.
+  const BigInteger own = divisor.back();
+  for (BigInteger& x : divisor) x = (x * top).divided_exactly(own);
+  remove_twos(divisor);
+  return divisor;
+}
+
+Polynomial squarefree(const Polynomial& f) {
+  if (f.size() <= 2) return f;
+  Polynomial derivative;
+  for (std::size_t k = 1; k < f.size(); ++k) {
+    derivative.push_back(BigInteger(static_cast<std::int64_t>(k)) * f[k]);
+  }
+  const Polynomial repeated = common_divisor(f, derivative);
+  return repeated.size() == 1 ? f : scaled_quotient(f, repeated);
+}
+
+int compare(const Dyadic& a, const Dyadic& b) {
+  return ((a.numerator << b.exponent) - (b.numerator << a.exponent)).sign();
+}
+
+Dyadic split(const Dyadic& lower, const Dyadic& upper) {
+  if (compare(lower, {1, 1}) >= 0 && lower.numerator.sign() != 0) {
+    return from_one(split(from_one(upper), from_one(lower)));
+  }
+  if (compare(upper, {1, 1}) > 0) return {1, 1};
+  // 2^top ≥ upper > 2^(top−1)
+  const bool power_of_two = upper.numerator.trailing_zeros() + 1 == upper.numerator.bit_length();
+  const long top = upper.numerator.bit_length() - upper.exponent - (power_of_two ? 1 : 0);
+  if (lower.numerator.sign() == 0) return {1, -2 * top};
+  const long bottom = lower.numerator.bit_length() - lower.exponent;  // 2^bottom > lower
+  if (bottom < top) {
+    const long exponent = bottom + (top - 1 - bottom) / 2;
+    return {1, -exponent};
+  }
+  return between(lower, upper, {1, 1});
+}
+
+Instant::Instant(Dyadic value) : lower_(std::move(value)), upper_(lower_) {}
+
+Instant::Instant(Polynomial f, Dyadic lower, Dyadic upper)
+    : f_(std::move(f)),
+      lower_(std::move(lower)),
+      upper_(std::move(upper)),
+      sign_below_(signs_between(f_, lower_, upper_).first) {}
+
+bool Instant::cut(const Dyadic& t) {
+  const int sign = sign_at(f_, t);
+  if (sign == sign_below_) {
+    lower_ = t;
+    return true;
+  }
+  upper_ = t;
+  if (sign == 0) {
+    lower_ = t;
+    f_.clear();
+  }
+  return false;
+}
+
+bool Instant::narrow_by_guess() {
+  constexpr std::uint64_t slack = std::uint64_t{1} << 8U;  // in spacings of doubles
+  Guess local = local_guess(f_, lower_, upper_);
+  // From the nearer end: doubles are dense near 0 only.
+  const bool from_upper = value_at(local, 0.5) * sign_below_ > 0.0;
+  if (from_upper) std::ranges::reverse(local);
+  const std::uint64_t root =
+      guess_root(local, from_upper ? -sign_below_ : sign_below_) & ~(slack - 1);
+  if (root <= slack || root + 2 * slack >= bits_of_one) return false;
+  const Dyadic &from = from_upper ? upper_ : lower_, &to = from_upper ? lower_ : upper_;
+  Dyadic before = between(from, to, dyadic_of(root - slack));
+  Dyadic after = between(from, to, dyadic_of(root + 2 * slack));
+  if (from_upper) std::swap(before, after);
+  return cut(before) && !cut(after);
+}
+
+void Instant::narrow() {
+  if (is_dyadic()) return;
+  if (narrow_by_guess() || is_dyadic()) return;
+  static_cast<void>(cut(split(lower_, upper_)));
+}
+
+int Instant::sign_of(std::span<const BigInteger> q) {
+  if (std::ranges::all_of(q, [](const BigInteger& c) { return c.sign() == 0; })) return 0;
+  constexpr int patience = 1;  // narrowing is cheaper than a divisor
+  Polynomial inner;
+  for (int round = 0;; ++round) {
+    if (is_dyadic()) return sign_at(q, lower_);
+    const LocalSigns local = signs_between(q, lower_, upper_);
+    if (local.changes == 0) return local.first;
+    if (round == 0) {
+      inner = inner_polynomial(Polynomial(q.begin(), q.end()));
+      if (inner == f_) return 0;
+    }
+    if (round == patience) {
+      const Polynomial common = common_divisor(f_, inner);
+      if (signs_between(common, lower_, upper_).changes % 2 == 1) return 0;
+    }
+    narrow();
+  }
+}
+
+int Instant::compare_with(const Dyadic& t) {
+  if (is_dyadic()) return touchstone::fast::exact_stage::compare(lower_, t);
+  if (touchstone::fast::exact_stage::compare(t, lower_) <= 0) return 1;
+  if (touchstone::fast::exact_stage::compare(t, upper_) >= 0) return -1;
+  if (cut(t)) return 1;
+  return is_dyadic() ? 0 : -1;
+}
+
+bool Instant::shares_root(const Instant& other) const {
+  const Polynomial common = common_divisor(f_, other.f_);
+  const auto before = [](const Dyadic& a, const Dyadic& b) {
+    return touchstone::fast::exact_stage::compare(a, b) < 0;
+  };
+  const Dyadic& from = std::max(lower_, other.lower_, before);
+  const Dyadic& to = std::min(upper_, other.upper_, before);
+  return signs_between(common, from, to).changes % 2 == 1;
+}
+
+int compare(Instant& a, Instant& b) {
+  constexpr int patience = 1;
+  for (int round = 0;; ++round) {
+    if (b.is_dyadic()) return a.compare_with(b.lower_);
+    if (a.is_dyadic()) return -b.compare_with(a.lower_);
+    if (compare(a.upper_, b.lower_) <= 0) return -1;
+    if (compare(b.upper_, a.lower_) <= 0) return 1;
+    if (round == patience && a.shares_root(b)) return 0;
+    a.narrow();
+    b.narrow();
+  }
+}
+
+bool Instant::is_above(std::uint64_t bits) {
+  const Dyadic t = dyadic_of(bits);
+  if (compare(t, lower_) <= 0) return !is_dyadic() || !equal(t, lower_);
+  if (compare(t, upper_) >= 0) return false;
+  return cut(t);
+}
+
+double Instant::guess() const {
+  const BigInteger sum =
+      (lower_.numerator << upper_.exponent) + (upper_.numerator << lower_.exponent);
+  Approximation middle = sum.approximation();
+  middle.exponent -= lower_.exponent + upper_.exponent + 1;
+  return quotient(middle, {0.5, 1});
+}
+
+double Instant::quotient_of(const Form<BigInteger, 2>& numerator,
+                            const Form<BigInteger, 2>& denominator) {
+  constexpr double accuracy = 0x1p-48;  // above the quotients' own errors
+  const auto at = [&](const Dyadic& t) {
+    const Time time = time_of(t);
+    return quotient(evaluate(numerator, time).approximation(),
+                    evaluate(denominator, time).approximation());
+  };
+  for (;;) {
+    const double first = at(lower_);
+    if (is_dyadic()) return first;
+    const double last = at(upper_);
+    const bool regular = sign_changes(restricted(denominator, lower_, upper_)) == 0 &&
+                         evaluate(denominator, time_of(lower_)).sign() != 0 &&
+                         evaluate(denominator, time_of(upper_)).sign() != 0;
+    if (regular && std::abs(first - last) <= accuracy) return first;
+    narrow();
+  }
+}
+
+bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit) {
+  if (f.size() <= 1) return false;
+  RootSearch search(std::move(f), {0, 0}, {1, 0});
+  while (auto root = search.next()) {
+    if (visit(*root)) return true;
+  }
+  return false;
+}
+
+int weak_sign_between(std::span<const BigInteger> form, const Dyadic& from, const Dyadic& to) {
+  const LocalSigns local = signs_between(form, from, to);
+  return local.changes == 0 ? local.first : 0;
+}
+
+bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from, const Dyadic& to) {
+  if (equal(from, to)) return sign_at(form, from) > 0;
+  if (const auto rough = rough_form(form, from, to)) {
+    if (rough->sign_changes() == 0) return rough->first_sign() > 0;
+  }
+  const Polynomial local = restricted(form, from, to);
+  return sign_changes(local) == 0 && local.front().sign() > 0 && local.back().sign() > 0;
+}
+
+std::optional<Instant> first_root_after(Instant& from, const Dyadic& end,
+                                        std::span<const BigInteger> form) {
+  // With one sign on the whole interval of `from`, the first root is not inside.
+  static_cast<void>(from.sign_of(form));
+  const Dyadic& start = from.upper();
+  if (sign_at(form, start) == 0) return Instant(start);
+  if (equal(start, end)) return std::nullopt;
+  Polynomial f = inner_polynomial(Polynomial(form.begin(), form.end()));
+  if (auto root = RootSearch(std::move(f), start, end).next()) return root;
+  if (sign_at(form, end) == 0) return Instant(end);
+  return std::nullopt;
+}
+
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,25 @@
+#include "fast/platform/floating_point_state.hpp"
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+namespace touchstone::fast {
+
+// In a file of their own: no arithmetic can be moved across a call that the compiler cannot see into.
+#ifdef __SSE2__
+namespace {
+constexpr unsigned default_state = 0x1F80;
+}
+
+StrictFloatingPoint::StrictFloatingPoint() : callers_(_mm_getcsr()) { _mm_setcsr(default_state); }
+StrictFloatingPoint::~StrictFloatingPoint() { _mm_setcsr(callers_); }
+#else
+StrictFloatingPoint::StrictFloatingPoint() : callers_{} {
+  std::fegetenv(&callers_);
+  std::fesetenv(FE_DFL_ENV);
+}
+StrictFloatingPoint::~StrictFloatingPoint() { std::fesetenv(&callers_); }
+#endif
+
+}  // namespace touchstone::fast

@@ -1,0 +1,29 @@
+#include "fast/platform/instruction_set.hpp"
+
+namespace touchstone::fast {
+
+std::string_view to_string(InstructionSet instructions) {
+  switch (instructions) {
+    case InstructionSet::scalar:
+      return "scalar";
+    case InstructionSet::avx2:
+      return "avx2";
+    case InstructionSet::avx512:
+      break;
+  }
+  return "avx512";
+}
+
+bool is_supported(InstructionSet instructions) {
+  if (instructions == InstructionSet::scalar) return true;
+#ifdef TOUCHSTONE_X86_64
+  if (!static_cast<bool>(__builtin_cpu_supports("fma"))) return false;
+  return instructions == InstructionSet::avx2
+             ? static_cast<bool>(__builtin_cpu_supports("avx2"))
+             : static_cast<bool>(__builtin_cpu_supports("avx512f"));
+#else
+  return false;
+#endif
+}
+
+}  // namespace touchstone::fast

@@ -1,0 +1,226 @@
+#include "exact/certificate/separation_intervals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <ostream>
+#include <vector>
+
+#include "exact/algebra/positivity.hpp"
+#include "exact/oracle.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
+
+namespace touchstone::exact {
+
+/// For messages of failed expectations.
+void PrintTo(const Piece& piece, std::ostream* out) {
+  const auto& [from, to, feature] = piece;
+  *out << '[' << from << ", " << to << "] " << static_cast<int>(feature.sort) << ' ' << feature.i
+       << ' ' << feature.j << ' ' << feature.axis;
+}
+
+namespace {
+
+using tests::over_triangle;
+using tests::PosedQuery;
+using Sort = Feature::Sort;
+
+constexpr Feature face_above{.sort = Sort::positive_face};
+constexpr Feature face_below{.sort = Sort::negative_face};
+
+std::vector<Piece> separate_all(const PosedQuery& posed) {
+  return separate(scale_uniformly(posed.kind, posed.query), 1);
+}
+
+std::vector<Piece> one(const Feature& feature) { return {{0, 1, feature}}; }
+
+/// All corners are one point that moves from (−a,1,0) to (b,1,0): it is nearest at a/(a+b).
+Motion passing_point(const Integer& a, const Integer& b, const Integer& distance) {
+  Motion motion{.kind = Kind::vertex_face, .points = {}, .corners = {}, .corner_count = 3};
+  for (std::size_t i = 0; i < motion.corner_count; ++i) {
+    motion.corners[i][0].c = {Integer(-a), b};
+    motion.corners[i][1].c = {distance, distance};
+  }
+  return motion;
+}
+
+using Vector = std::array<Polynomial, 3>;
+
+Polynomial inner(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector outer(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+std::vector<Vector> corner_polynomials(const Motion& motion) {
+  std::vector<Vector> corners(motion.corner_count);
+  for (std::size_t i = 0; i < motion.corner_count; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      corners[i].at(axis) = to_polynomial(motion.corners.at(i).at(axis));
+    }
+  }
+  return corners;
+}
+
+/// The directions of all features, as the format defines them, diagonals and all.
+std::vector<Vector> directions(const std::vector<Vector>& w) {
+  std::vector<Vector> result = w;
+  const Vector normal = outer(minus(w[1], w[0]), minus(w[2], w[0]));
+  result.push_back(normal);
+  result.push_back({-normal[0], -normal[1], -normal[2]});
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    for (std::size_t j = 0; j < w.size(); ++j) {
+      const Vector e = minus(w[j], w[i]);
+      Vector d;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        d.at(axis) = inner(e, e) * w[i].at(axis) - inner(w[i], e) * e.at(axis);
+      }
+      if (i != j) result.push_back(d);
+    }
+  }
+  return result;
+}
+
+/// Does the direction of one feature separate on all of [0,1]?
+bool some_direction_separates(const Motion& motion) {
+  static constexpr unsigned long deep = 4000;
+  const std::vector<Vector> w = corner_polynomials(motion);
+  return std::ranges::any_of(directions(w), [&](const Vector& d) {
+    return std::ranges::all_of(w, [&](const Vector& corner) {
+      const auto values = bernstein_coefficients(inner(d, corner), {0, 1});
+      return prove_positive(values, deep).outcome == BisectionProof::Outcome::positive;
+    });
+  });
+}
+
+void expect_cover(const std::vector<Piece>& pieces, const Rational& until) {
+  ASSERT_FALSE(pieces.empty());
+  EXPECT_EQ(pieces.back().to, until);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    EXPECT_LE(pieces[i].from, pieces[i].to);
+    EXPECT_EQ(pieces[i].from, i == 0 ? Rational(0) : pieces[i - 1].to);
+  }
+}
+
+TEST(Separate, TakesEachFeatureForWhatItIs) {
+  EXPECT_EQ(separate_all(over_triangle(1, 1, 3, 1)), one(face_above));
+  EXPECT_EQ(separate_all(over_triangle(1, 1, -3, -1)), one(face_below));
+  // Through the triangle's plane, beside a corner and beside a side.
+  EXPECT_EQ(separate_all(over_triangle(-1, -1, 1, -1)), one({.sort = Sort::vertex, .i = 0}));
+  EXPECT_EQ(separate_all(over_triangle(2, -0.5, 1, -1)), one({.sort = Sort::edge, .i = 0, .j = 1}));
+  EXPECT_EQ(separate_all(over_triangle(-0.5, 2, 1, -1)), one({.sort = Sort::edge, .i = 2, .j = 0}));
+  EXPECT_EQ(separate_all(tests::over_edge(1, 2, 3, 1)).size(), 1U);
+  // Parallel edges beside each other: no area, so a side of the parallelogram.
+  const auto parallel = tests::edge_edge({0, 0, 0, 4, 0, 0, -1, 1, 0, 3, 1, 0},
+                                         {0, 0, 0, 4, 0, 0, -1, 2, 0, 3, 2, 0});
+  const auto pieces = separate_all(parallel);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces.front().feature.sort, Sort::edge);
+}
+
+TEST(Separate, BreaksAtAShortNumberBetweenTwoFeatures) {
+  // From above the triangle out over its side x = 0 at 2/9, down through its plane at 1/3. The side
+  // separates from a little before 2/9.
+  const auto posed = tests::vertex_face({1, 1, 0.125, 0, 0, 0, 4, 0, 0, 0, 4, 0},
+                                        {-3.5, 1, -0.25, 0, 0, 0, 4, 0, 0, 0, 4, 0});
+  const Rational quarter(1, 4);
+  const std::vector<Piece> expected{{0, quarter, face_above},
+                                    {quarter, 1, {.sort = Sort::edge, .i = 2, .j = 0}}};
+  EXPECT_EQ(separate_all(posed), expected);
+}
+
+TEST(Separate, EndsWhereItIsToldTo) {
+  const auto falling = over_triangle(1, 1, 3, -1);  // touches at 3/4
+  const Motion motion = scale_uniformly(falling.kind, falling.query);
+  const Rational until = Rational(3, 4) - power_of_two(-300);
+  EXPECT_EQ(separate(motion, until), (std::vector<Piece>{{0, until, face_above}}));
+  EXPECT_EQ(separate(motion, 0), (std::vector<Piece>{{0, 0, face_above}}));
+  EXPECT_THROW(static_cast<void>(separate(motion, Rational(3, 4))), std::logic_error);
+  EXPECT_THROW(static_cast<void>(separate(motion, 1)), std::logic_error);
+}
+
+TEST(Separate, KeepsADistance) {
+  // Down to height 1 at t=1/2.
+  const auto falling = over_triangle(1, 1, 3, -1);
+  const auto pieces_until = [&](const Separation& separation, const Rational& until) {
+    return separate(scale_uniformly(falling.kind, falling.query, separation), until);
+  };
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    const Rational before = Rational(1, 2) - power_of_two(-200);
+    const Feature expected =
+        norm == Norm::l2 ? face_above : Feature{.sort = Sort::positive_axis, .axis = 2};
+    EXPECT_EQ(pieces_until({1, norm}, before), (std::vector<Piece>{{0, before, expected}}));
+    EXPECT_THROW(static_cast<void>(pieces_until({1, norm}, Rational(1, 2))), std::logic_error);
+  }
+}
+
+TEST(Separate, TakesACubesEdgeWhereNothingElseSeparates) {
+  // (6,2) is 2 from the side in x = y. The triangle leans away from it: its plane is nearer, and all
+  // coordinates of the vertex are between those of the triangle.
+  const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 2, 6, -8};
+  const auto posed = tests::vertex_face(tests::with_vertex(6, 2, -0.25, face),
+                                        tests::with_vertex(6, 2, -0.5, face));
+  const Motion motion = scale_uniformly(posed.kind, posed.query, {1.9, Norm::linf});
+  const auto pieces = separate(motion, 1);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces.front().feature.sort, Sort::cross);
+}
+
+TEST(Separate, BreaksWhatACheckerDoesNotReach) {
+  const Integer far = Integer(1) << 1000U;
+  // A depth of 100 needs no break; one of 1000 needs one on each side of the nearest time.
+  EXPECT_EQ(separate(passing_point(far, 2 * far, Integer(1) << 900U), 1).size(), 1U);
+  const auto pieces = separate(passing_point(far, 2 * far, 1), 1);
+  expect_cover(pieces, 1);
+  ASSERT_EQ(pieces.size(), 3U);
+  EXPECT_LT(pieces[1].from, Rational(1, 3));
+  EXPECT_GT(pieces[1].to, Rational(1, 3));
+  // At a time that a bisection meets nothing is deep.
+  EXPECT_EQ(separate(passing_point(far, far, 1), 1).size(), 1U);
+}
+
+TEST(Separate, SaysSoWhereTheLimitsCannotBeKept) {
+  // Half a minute, most of it for the isolation of roots so near to each other.
+  if (std::getenv("TOUCHSTONE_SOAK") == nullptr) {  // NOLINT(concurrency-mt-unsafe)
+    GTEST_SKIP() << "in the soak only";
+  }
+  const Integer far = Integer(1) << 17000U;
+  EXPECT_THROW(static_cast<void>(separate(passing_point(far, 2 * far, 1), 1)),
+               CertificateLimitError);
+}
+
+TEST(Separate, TakesTwoPiecesOnlyWhereNoFeatureSeparatesThroughout) {
+  tests::Random random(5);
+  std::size_t several = 0;
+  for (int repetition = 0; repetition < tests::trials(4000); ++repetition) {
+    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    const PosedQuery posed = tests::random_query(random, kind, tests::Family::near_contact);
+    if (decide(posed.kind, posed.query).collides()) continue;
+    const auto pieces = separate_all(posed);
+    expect_cover(pieces, 1);
+    if (pieces.size() < 2) continue;
+    ++several;
+    EXPECT_FALSE(some_direction_separates(scale_uniformly(posed.kind, posed.query))) << posed;
+  }
+  EXPECT_GT(several, tests::trials(20U));
+}
+
+TEST(IsWithinLimit, CountsTheBitsOfBothParts) {
+  const Integer most = (Integer(1) << number_limit) - 1;
+  EXPECT_TRUE(is_within_limit(Rational(most)));
+  EXPECT_TRUE(is_within_limit(Rational(Integer(1), most)));
+  EXPECT_TRUE(is_within_limit(Rational(Integer(-most), most - 1)));
+  EXPECT_FALSE(is_within_limit(Rational(most + 1)));
+  EXPECT_FALSE(is_within_limit(power_of_two(-static_cast<long>(number_limit))));
+}
+
+}  // namespace
+}  // namespace touchstone::exact

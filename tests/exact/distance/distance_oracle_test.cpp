@@ -1,0 +1,402 @@
+#include "exact/distance/distance_oracle.hpp"
+
+#include <gtest/gtest.h>
+#include <immintrin.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "exact/oracle.hpp"
+#include "tests/support/distance_reference.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+
+namespace touchstone::exact {
+namespace {
+
+using tests::edge_edge;
+using tests::over_edge;
+using tests::over_triangle;
+using tests::PosedQuery;
+using tests::Random;
+using tests::vertex_face;
+
+constexpr std::array<Norm, 2> both_norms{Norm::linf, Norm::l2};
+using Limits = std::numeric_limits<double>;
+
+bool soak() {
+  return std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
+}
+
+std::optional<AlgebraicNumber> toi(const PosedQuery& posed, double distance, Norm norm) {
+  return decide(posed.kind, posed.query, {distance, norm}).toi;
+}
+
+void expect_toi(const PosedQuery& posed, double distance, Norm norm, const Rational& expected) {
+  const auto found = toi(posed, distance, norm);
+  ASSERT_TRUE(found) << to_string(norm) << ' ' << distance << ' ' << posed;
+  EXPECT_TRUE(*found == expected) << to_string(norm) << ' ' << distance << ' ' << posed;
+}
+
+/// Contact at the distance itself, from `time` on, and at no smaller distance before.
+void expect_from(const PosedQuery& posed, double distance, Norm norm, const Rational& time) {
+  expect_toi(posed, distance, norm, time);
+  const auto later = toi(posed, std::nextafter(distance, 0.0), norm);
+  EXPECT_TRUE(!later || *later > time) << posed;
+  const auto earlier = toi(posed, std::nextafter(distance, 100 * distance), norm);
+  EXPECT_TRUE(earlier && (*earlier < time || *earlier == Rational(0))) << posed;
+}
+
+/// a is no later than b: it is, if b is.
+void expect_no_later(const std::optional<AlgebraicNumber>& a,
+                     const std::optional<AlgebraicNumber>& b, const PosedQuery& posed) {
+  if (!b) return;
+  ASSERT_TRUE(a) << posed;
+  EXPECT_TRUE(*a <= *b) << posed;
+}
+
+void expect_same(const std::optional<AlgebraicNumber>& a, const std::optional<AlgebraicNumber>& b,
+                 const PosedQuery& posed) {
+  ASSERT_EQ(a.has_value(), b.has_value()) << posed;
+  if (a) {
+    EXPECT_TRUE(*a == *b) << posed;
+  }
+}
+
+// ---- Known answers ------------------------------------------------------------------------------
+
+TEST(DistanceOracle, OverAFaceAndBetweenCrossingEdges) {
+  // At height 3 − 4t.
+  for (const PosedQuery& posed : {over_triangle(1, 1, 3, -1), over_edge(1, 2, 3, -1)}) {
+    for (const Norm norm : both_norms) {
+      expect_from(posed, 1, norm, Rational(1, 2));
+      expect_from(posed, 2.5, norm, Rational(1, 8));
+      expect_from(posed, 3, norm, 0);
+      expect_toi(posed, 1e-100, norm, (3 - Rational(1e-100)) / 4);
+    }
+  }
+  EXPECT_FALSE(toi(over_triangle(1, 1, 3, 1.5), 1, Norm::l2));
+  EXPECT_FALSE(toi(over_triangle(1, 1, -3, -1.5), 1, Norm::linf));
+}
+
+TEST(DistanceOracle, BesideACornerASideAndAnEnd) {
+  // (−3,−4,12) is 13 from the corner, and 12 in linf; the height is 16 − 8t.
+  const PosedQuery corner = over_triangle(-3, -4, 16, 8);
+  expect_from(corner, 13, Norm::l2, Rational(1, 2));
+  expect_from(corner, 13, Norm::linf, Rational(3, 8));
+  // (2,−3) is 3 from the side, (7,2) 3 from the end of an edge; the height is 8 − 8t.
+  for (const PosedQuery& posed : {over_triangle(2, -3, 8, 0), over_edge(7, 2, 8, 0)}) {
+    expect_from(posed, 5, Norm::l2, Rational(1, 2));
+    expect_from(posed, 5, Norm::linf, Rational(3, 8));
+    expect_from(posed, 3, Norm::l2, 1);
+    expect_from(posed, 3, Norm::linf, Rational(5, 8));
+  }
+}
+
+TEST(DistanceOracle, BesideAParallelEdge) {
+  const PosedQuery parallel =
+      edge_edge({0, 0, 0, 4, 0, 0, -1, 3, 0, 3, 3, 0}, {0, 0, 0, 4, 0, 0, -1, 1, 0, 3, 1, 0});
+  for (const Norm norm : both_norms) expect_from(parallel, 2, norm, Rational(1, 2));
+}
+
+TEST(DistanceOracle, AnIrrationalTime) {
+  // From (s,s,s) to a triangle that is the origin, s = 3 − 2t: |(s,s,s)|² = 3s² = 4.
+  const PosedQuery posed =
+      vertex_face({3, 3, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  expect_from(posed, 2, Norm::linf, Rational(1, 2));
+  auto found = toi(posed, 2, Norm::l2);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->sign_of(Polynomial(Integer(23), Integer(-36), Integer(12))), 0);
+  EXPECT_TRUE(*found < Rational(1));
+}
+
+TEST(DistanceOracle, ACubesEdgeAgainstASide) {
+  // The triangle's side lies in x = y, z = 0 and the cube about the vertex meets it by an edge: where
+  // the vertex is at (1 + s, 1 − s, 0), at distance s in linf and √2 s in l2.
+  const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 4, 4, -8};
+  const PosedQuery posed =
+      vertex_face(tests::with_vertex(5, -3, 0, face), tests::with_vertex(1, 1, 0, face));
+  expect_from(posed, 1, Norm::linf, Rational(3, 4));
+  auto found = toi(posed, 1, Norm::l2);  // s = 4 − 4t, 2s² = 1
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->sign_of(Polynomial(Integer(31), Integer(-64), Integer(32))), 0);
+}
+
+TEST(DistanceOracle, PrimitivesThatArePointsOrSegments) {
+  const auto at_rest = [](Kind kind, const tests::FourPoints& points) {
+    return PosedQuery{kind, tests::moving(points, points)};
+  };
+  for (const PosedQuery& posed :
+       {at_rest(Kind::vertex_face, {3, 4, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0}),
+        at_rest(Kind::edge_edge, {3, 4, 12, 3, 4, 12, 0, 0, 0, 0, 0, 0}),
+        at_rest(Kind::vertex_face, {3, 4, 12, 0, 0, 0, -4, 0, 0, -2, 0, 0}),
+        at_rest(Kind::edge_edge, {3, 4, 12, 3, 4, 12, 0, 0, 0, 0, -5, 0}),
+        at_rest(Kind::edge_edge, {3, 4, 12, 5, 4, 12, 0, 0, 0, -1, 0, 0})}) {
+    expect_from(posed, 13, Norm::l2, 0);
+    expect_from(posed, 12, Norm::linf, 0);
+    EXPECT_FALSE(toi(posed, 12.999, Norm::l2));
+    EXPECT_FALSE(toi(posed, 11.999, Norm::linf));
+  }
+  // Inside of a segment: (2,3,4) beside one along x.
+  for (const PosedQuery& posed : {at_rest(Kind::vertex_face, {2, 3, 4, 0, 0, 0, 4, 0, 0, 1, 0, 0}),
+                                  at_rest(Kind::edge_edge, {2, 3, 4, 2, 3, 4, 0, 0, 0, 4, 0, 0})}) {
+    expect_from(posed, 5, Norm::l2, 0);
+    expect_from(posed, 4, Norm::linf, 0);
+  }
+}
+
+TEST(DistanceOracle, APassThatOnlyJustReaches) {
+  // Past a point, nearest at t=1/2 with 3 and 4 to the sides.
+  const PosedQuery posed =
+      vertex_face({-1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0}, {1, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  expect_from(posed, 5, Norm::l2, Rational(1, 2));
+  EXPECT_FALSE(toi(posed, std::nextafter(5.0, 0.0), Norm::l2));
+}
+
+TEST(DistanceOracle, AnyMagnitude) {
+  for (const Norm norm : both_norms) {
+    // Height 3u − 4ut at distance u, the least double.
+    const double u = Limits::denorm_min();
+    expect_toi(over_triangle(1, 1, 3 * u, -u), u, norm, Rational(1, 2));
+    expect_toi(over_triangle(1, 1, 3, 1), Limits::max(), norm, 0);
+    expect_toi(over_triangle(1, 1, Limits::max(), 0), 1, norm, 1 - 1 / Rational(Limits::max()));
+    expect_toi(over_triangle(1, 1, 3, -1), u, norm, (3 - Rational(u)) / 4);
+    EXPECT_FALSE(toi(over_triangle(1, 1, 3, 2 * u), u, norm));
+  }
+}
+
+TEST(DistanceOracle, FlushedSubnormalsChangeNothing) {
+  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  const double u = Limits::denorm_min();
+  const PosedQuery posed = over_triangle(1, 1, 3 * u, 2 * u);
+  const unsigned control = _mm_getcsr();
+  _mm_setcsr(control | flush_to_zero | denormals_are_zero);
+  std::vector<bool> hits;
+  for (const Norm norm : both_norms) {
+    hits.push_back(decide(posed.kind, posed.query, {u, norm}).collides());
+    hits.push_back(decide(posed.kind, posed.query, {2 * Limits::min(), norm}).collides());
+  }
+  bool is_refused = false;
+  try {
+    static_cast<void>(decide(posed.kind, posed.query, {-u, Norm::l2}));
+  } catch (const std::invalid_argument&) {
+    is_refused = true;
+  }
+  _mm_setcsr(control);
+  EXPECT_EQ(hits, (std::vector<bool>{false, true, false, true}));
+  EXPECT_TRUE(is_refused);
+  expect_toi(posed, 2 * u, Norm::l2, 1);
+}
+
+TEST(DistanceOracle, RefusesWhatIsNoQuestion) {
+  PosedQuery posed = over_triangle(1, 1, 3, 1);
+  for (const double distance :
+       {-1.0, -Limits::denorm_min(), Limits::infinity(), Limits::quiet_NaN()}) {
+    EXPECT_THROW(static_cast<void>(toi(posed, distance, Norm::l2)), std::invalid_argument);
+  }
+  posed.query.coordinates[7] = Limits::quiet_NaN();
+  EXPECT_THROW(static_cast<void>(toi(posed, 1, Norm::l2)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(toi(posed, 0, Norm::linf)), std::invalid_argument);
+}
+
+// ---- Distance 0 ---------------------------------------------------------------------------------
+
+TEST(DistanceOracle, DistanceZeroIsThePlainVerdict) {
+  for (const double zero : {0.0, -0.0}) {
+    for (const Norm norm : both_norms) {
+      expect_toi(over_triangle(1, 1, 1, -2), zero, norm, Rational(1, 3));
+      EXPECT_FALSE(toi(over_triangle(1, 1, 3, 1), zero, norm));
+    }
+  }
+}
+
+TEST(DistanceOracle, TheWalkAtDistanceZeroAgreesWithTheOracle) {
+  Random random(11);
+  const int count = soak() ? 100000 : 1000;
+  for (int i = 0; i < count; ++i) {
+    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    const PosedQuery posed =
+        tests::random_query(random, kind, tests::all_families.at(static_cast<std::size_t>(i % 4)));
+    const Verdict plain = decide(kind, posed.query);
+    for (const Norm norm : both_norms) {
+      const auto walked = decide_by_walk(scale_uniformly(kind, posed.query, {0.0, norm})).toi;
+      ASSERT_EQ(walked.has_value(), plain.collides()) << posed;
+      if (walked) {
+        ASSERT_TRUE(*walked == plain.impact->toi) << posed;
+      }
+    }
+  }
+}
+
+// ---- Against other ways to the answer -----------------------------------------------------------
+
+/// Small integers are rich in degeneracies; halves and thirds of a unit hardly ever are contacts.
+PosedQuery small_query(Random& random) {
+  const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+  PosedQuery posed = tests::random_query(
+      random, kind, random.coin() ? tests::Family::tiny_integers : tests::Family::small_integers);
+  // Apart from each other, or nearly all would be near at once.
+  if (random.coin()) {
+    const auto axis = static_cast<std::size_t>(random.between(0, 2));
+    const double shift = random.between(2, 5);
+    const bool is_vertex = kind == Kind::vertex_face;
+    for (const std::size_t end : {0U, 1U}) {
+      posed.query.at(end, 0, axis) += shift;
+      if (!is_vertex) posed.query.at(end, 1, axis) += shift;
+    }
+  }
+  return posed;
+}
+
+double small_distance(Random& random) {
+  static constexpr std::array distances{0.5, 1.0, 1.0, 2.0, 3.0, 1.25, 0x1p-10, 0.0};
+  return distances.at(static_cast<std::size_t>(random.between(0, 7)));
+}
+
+TEST(DistanceOracle, AgreesWithTheEvaluationOfAllCandidates) {
+  Random random(12);
+  const int count = soak() ? 30000 : 150;
+  int later = 0, misses = 0;
+  for (int i = 0; i < count; ++i) {
+    const PosedQuery posed = small_query(random);
+    const double distance = small_distance(random);
+    tests::DistanceReference reference(posed, distance);
+    for (const Norm norm : both_norms) {
+      const auto expected = reference.toi(norm);
+      const auto motion = scale_uniformly(posed.kind, posed.query, {distance, norm});
+      expect_same(decide_by_walk(motion).toi, expected, posed);
+      if (HasFailure()) FAIL() << to_string(norm) << ' ' << distance;
+      later += expected && *expected > Rational(0) ? 1 : 0;
+      misses += expected ? 0 : 1;
+    }
+  }
+  EXPECT_GT(later, count / 8);
+  EXPECT_GT(misses, count / 8);
+}
+
+TEST(DistanceOracle, FindsTheContactsOfAGrid) {
+  Random random(13);
+  for (int i = 0; i < 1500; ++i) {
+    const PosedQuery posed = small_query(random);
+    const double distance = small_distance(random);
+    std::array<std::optional<double>, 2> first;
+    for (int k = 0; k <= 8; ++k) {
+      for (int m = 0; m < 25; ++m) {
+        const double t = k / 8.0, u = m % 5 / 4.0, v = std::floor(m / 5.0) / 4.0;
+        if (posed.kind == Kind::vertex_face && u + v > 1) continue;
+        const auto f = contact_function<double>(posed.kind, posed.query, t, u, v);  // exact
+        const double linf = std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
+        const double squared = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+        if (!first[0] && linf <= distance) first[0] = t;
+        if (!first[1] && squared <= distance * distance) first[1] = t;
+      }
+    }
+    for (const std::size_t n : {0U, 1U}) {
+      if (!first.at(n)) continue;
+      const auto found = toi(posed, distance, both_norms.at(n));
+      ASSERT_TRUE(found) << posed;
+      ASSERT_TRUE(*found <= Rational(*first.at(n))) << posed;
+    }
+  }
+}
+
+// ---- Relations ----------------------------------------------------------------------------------
+
+/// Some queries of every family, with distances of their size.
+template <class Check>
+void for_random_queries(unsigned seed, int count, const Check& check) {
+  Random random(seed);
+  for (int i = 0; i < count; ++i) {
+    PosedQuery posed = small_query(random);
+    if (i % 3 == 0) {
+      const tests::Family family = tests::all_families.at(2 + static_cast<unsigned>(i) % 2U);
+      posed = tests::random_query(random, posed.kind, family);
+    }
+    const double distance = random.coin() ? small_distance(random) : random.uniform(0.0, 1.5);
+    check(random, posed, distance);
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(DistanceOracle, TheNormsBoundEachOther) {
+  // 7/4 > √3, and the product is rounded up.
+  for_random_queries(14, 250, [](Random&, const PosedQuery& posed, double distance) {
+    const double wider = std::nextafter(1.75 * distance, HUGE_VAL);
+    const auto l2 = toi(posed, distance, Norm::l2), linf = toi(posed, distance, Norm::linf);
+    expect_no_later(linf, l2, posed);
+    expect_no_later(toi(posed, wider, Norm::l2), linf, posed);
+  });
+}
+
+TEST(DistanceOracle, AGreaterDistanceIsReachedNoLater) {
+  for_random_queries(15, 200, [](Random& random, const PosedQuery& posed, double distance) {
+    for (const Norm norm : both_norms) {
+      const auto found = toi(posed, distance, norm);
+      expect_no_later(toi(posed, std::nextafter(distance, HUGE_VAL), norm), found, posed);
+      expect_no_later(toi(posed, distance + random.uniform(), norm), found, posed);
+    }
+  });
+}
+
+TEST(DistanceOracle, RenamingPointsAndAxesChangesNothing) {
+  for_random_queries(16, 250, [](Random&, const PosedQuery& posed, double distance) {
+    const std::array<std::size_t, 4> order = posed.kind == Kind::vertex_face
+                                                 ? std::array<std::size_t, 4>{0, 3, 1, 2}
+                                                 : std::array<std::size_t, 4>{3, 2, 0, 1};
+    PosedQuery renamed = posed, turned = posed;
+    for (const std::size_t end : {0U, 1U}) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        renamed.query.point(end, i) = posed.query.point(end, order.at(i));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const double x = posed.query.at(end, i, (axis + 1) % 3);
+          turned.query.at(end, i, axis) = axis == 1 ? -x : x;
+        }
+      }
+    }
+    for (const Norm norm : both_norms) {
+      const auto found = toi(posed, distance, norm);
+      expect_same(toi(renamed, distance, norm), found, posed);
+      expect_same(toi(turned, distance, norm), found, posed);
+    }
+  });
+}
+
+TEST(DistanceOracle, ScalingByPowersOfTwoChangesNothing) {
+  for_random_queries(17, 250, [](Random& random, const PosedQuery& posed, double distance) {
+    PosedQuery scaled = posed;
+    const int power = random.between(-400, 400);
+    for (double& x : scaled.query.coordinates) x = std::ldexp(x, power);
+    for (const Norm norm : both_norms) {
+      expect_same(toi(scaled, std::ldexp(distance, power), norm), toi(posed, distance, norm),
+                  posed);
+    }
+  });
+}
+
+TEST(DistanceOracle, ReversedTimeHasTheSameVerdict) {
+  for_random_queries(18, 250, [](Random&, const PosedQuery& posed, double distance) {
+    PosedQuery reversed = posed;
+    for (std::size_t i = 0; i < 4; ++i) {
+      reversed.query.point(0, i) = posed.query.point(1, i);
+      reversed.query.point(1, i) = posed.query.point(0, i);
+    }
+    for (const Norm norm : both_norms) {
+      const auto first = toi(posed, distance, norm), last = toi(reversed, distance, norm);
+      ASSERT_EQ(first.has_value(), last.has_value()) << posed;
+      // The last contact of the one is the first of the other.
+      if (first && first->rational() && last->rational()) {
+        EXPECT_LE(Rational(*first->rational() + *last->rational()), 1) << posed;
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace touchstone::exact

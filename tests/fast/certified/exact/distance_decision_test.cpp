@@ -1,0 +1,371 @@
+#include "fast/certified/exact/distance_decision.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "exact/distance/distance_oracle.hpp"
+#include "fast/certified/exact/exact_stage.hpp"
+#include "fast/certified/exact/general_contact_decision.hpp"
+#include "tests/fast/certified/decisions.hpp"
+#include "tests/faults/planted_faults.hpp"
+#include "tests/support/public_data.hpp"
+#include "tests/support/queries.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/generate/families.hpp"
+
+namespace touchstone::fast {}  // namespace touchstone::fast
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+using exact::Rational;
+using tests::PosedQuery;
+using tests::Random;
+
+constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
+constexpr std::array<Norm, 2> norms{Norm::linf, Norm::l2};
+constexpr std::array<double, 5> distances{1e-2, 1e-8, 1e-16, 1e-30, 1e-100};
+constexpr double denorm_min = std::numeric_limits<double>::denorm_min();
+
+double below(double x) { return std::nextafter(x, 0.0); }
+
+std::optional<ExactImpact> decide(const PosedQuery& posed, const Separation& separation,
+                                  double t_max = 1.0) {
+  return decide_exactly(posed.kind, posed.query, separation, 0.0, t_max);
+}
+
+/// Is the impact at `toi`, between neighbouring doubles, and in the domain?
+void expect_impact(const PosedQuery& posed, const ExactImpact& impact,
+                   const exact::AlgebraicNumber& toi) {
+  EXPECT_TRUE(toi <= Rational(impact.toi_upper)) << posed;
+  if (toi == Rational(0)) {
+    EXPECT_TRUE(impact.toi_lower == 0.0 && impact.toi_upper == 0.0) << posed;
+  } else {
+    EXPECT_TRUE(toi > Rational(impact.toi_lower)) << posed;
+    EXPECT_EQ(impact.toi_lower, below(impact.toi_upper)) << posed;
+  }
+  const Rational u(impact.u), v(impact.v);
+  EXPECT_TRUE(u >= 0 && v >= 0) << posed;
+  EXPECT_TRUE(posed.kind == Kind::vertex_face ? u + v <= 1 : u <= 1 && v <= 1) << posed;
+}
+
+/// Verdict and enclosure against the oracle.
+void expect_truth(const PosedQuery& posed, const Separation& separation) {
+  const exact::DistanceVerdict truth = exact::decide(posed.kind, posed.query, separation);
+  const auto impact = decide(posed, separation);
+  ASSERT_EQ(impact.has_value(), truth.collides())
+      << posed << ' ' << to_string(separation.norm) << ' ' << separation.distance;
+  if (impact) expect_impact(posed, *impact, *truth.toi);
+}
+
+void expect_truth(const PosedQuery& posed) {
+  for (const Norm norm : norms) {
+    for (const double distance : distances) expect_truth(posed, {distance, norm});
+  }
+}
+
+/// Draws a norm and a distance.
+Separation draw(Random& random) {
+  return {distances[random.bits() % distances.size()], norms[random.bits() % norms.size()]};
+}
+
+TEST(SeparatedDecision, AgreesWithTheOracleOnRandomQueries) {
+  Random random(1);
+  for (int i = 0; i < 12; ++i) {
+    for (const tests::Family family : tests::all_families) {
+      expect_truth(tests::random_query(random, kinds[static_cast<std::size_t>(i) % 2], family));
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST(SeparatedDecision, AgreesWithTheOracleOnAllFamilies) {
+  Random random(2);
+  for (const verify::Family& family : verify::families()) {
+    for (const Kind kind : kinds) {
+      if (!verify::supports(family, kind)) continue;
+      for (std::uint64_t i = 0; i < 2; ++i) {
+        SCOPED_TRACE(std::string(family.name) + ' ' + std::to_string(i));
+        expect_truth({kind, verify::make_query(family, kind, 3, i).query}, draw(random));
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(SeparatedDecision, AgreesWithTheOracleOnPublicQueries) {
+  constexpr std::uint64_t stride = 40;
+  const auto files = tests::public_datasets();
+  if (files.empty()) GTEST_SKIP() << "public data missing";
+  Random random(3);
+  for (const auto& file : files) {
+    SCOPED_TRACE(file);
+    const auto source = verify::open_dataset(file);
+    while (const auto recorded = source->next()) {
+      if (recorded->index % stride != 0) continue;
+      expect_truth({source->kind(), recorded->query}, draw(random));
+    }
+  }
+}
+
+TEST(SeparatedDecision, AgreesWithTheOracleOnSmallIntegersAtDistancesOfTheirSize) {
+  Random random(4);
+  constexpr std::array<double, 4> sizes{0.5, 1.0, 0.8, 3.0};
+  for (int i = 0; i < 600; ++i) {
+    const PosedQuery posed{kinds[random.bits() % 2], tests::integer_query(random, 4)};
+    expect_truth(posed, {sizes[random.bits() % sizes.size()], norms[random.bits() % 2]});
+    if (HasFailure()) return;
+  }
+}
+
+// ---- Known by construction ----------------------------------------------------------------------
+
+/// Expects the first time within the distance to be just `toi`, a double.
+void expect_time(const PosedQuery& posed, const Separation& separation, double toi) {
+  const auto impact = decide(posed, separation);
+  ASSERT_TRUE(impact.has_value()) << posed;
+  EXPECT_EQ(impact->toi_upper, toi) << posed;
+  EXPECT_EQ(impact->toi_lower, toi == 0.0 ? 0.0 : below(toi)) << posed;
+  EXPECT_TRUE(decide(posed, separation, toi).has_value()) << posed;
+  if (toi > 0.0) {
+    EXPECT_FALSE(decide(posed, separation, below(toi)).has_value()) << posed;
+  }
+}
+
+/// Primitives over each other, at height z0 and then z1.
+PosedQuery over(Kind kind, double z0, double z1) {
+  return kind == Kind::vertex_face ? tests::over_triangle(1, 1, z0, z1)
+                                   : tests::over_edge(1, 1, z0, z1);
+}
+
+/// Primitives beside each other, nearest at corners with the difference (3,4,z), z from z0 to z1;
+/// as points if they are to be degenerate.
+PosedQuery beside(Kind kind, bool as_points, double z0, double z1) {
+  const double size = as_points ? 0.0 : 4.0;
+  if (kind == Kind::vertex_face) {
+    const auto at = [size](double z) {
+      return tests::FourPoints{-3, -4, z, 0, 0, 0, size, 0, 0, 0, size, 0};
+    };
+    return tests::vertex_face(at(z0), at(z1));
+  }
+  const auto at = [size](double z) {
+    return tests::FourPoints{0, 0, 0, size, 0, 0, -3, 4, z, -3, 4 + size, z};
+  };
+  return tests::edge_edge(at(z0), at(z1));
+}
+
+TEST(SeparatedDecision, TouchingAtTheDistanceCounts) {
+  for (const Kind kind : kinds) {
+    for (const Norm norm : norms) {
+      expect_time(over(kind, 3, -1), {1.0, norm}, 0.5);
+      expect_time(over(kind, 1, 3), {1.0, norm}, 0.0);
+      expect_time(over(kind, 0.5, 3), {1.0, norm}, 0.0);
+      expect_time(over(kind, 3, 1), {1.0, norm}, 1.0);
+      EXPECT_FALSE(decide(over(kind, 3, 1), {below(1.0), norm}).has_value());
+      EXPECT_FALSE(decide(over(kind, 1, 3), {below(1.0), norm}).has_value());
+    }
+  }
+}
+
+TEST(SeparatedDecision, GrazingCounts) {
+  for (const Kind kind : kinds) {
+    for (const bool as_points : {false, true}) {
+      const PosedQuery posed = beside(kind, as_points, -8, 8);
+      expect_time(posed, {5.0, Norm::l2}, 0.5);
+      EXPECT_FALSE(decide(posed, {below(5.0), Norm::l2}).has_value());
+      EXPECT_FALSE(decide(posed, {5.0, Norm::l2}, below(0.5)).has_value());
+      expect_time(posed, {13.0, Norm::l2}, 0.0);
+      expect_time(posed, {4.0, Norm::linf}, 0.25);
+      expect_time(posed, {5.0, Norm::linf}, 0.1875);
+      EXPECT_FALSE(decide(posed, {below(4.0), Norm::linf}).has_value());
+    }
+  }
+}
+
+TEST(SeparatedDecision, NearestParametersAreThoseOfTheCorner) {
+  const auto face = decide(beside(Kind::vertex_face, false, -8, 8), {5.0, Norm::l2});
+  ASSERT_TRUE(face.has_value());
+  EXPECT_EQ(face->u, 0.0);
+  EXPECT_EQ(face->v, 0.0);
+  const auto edges = decide(over(Kind::edge_edge, 3, -1), {1.0, Norm::l2});
+  ASSERT_TRUE(edges.has_value());
+  EXPECT_EQ(edges->u, 0.25);
+  EXPECT_EQ(edges->v, 0.25);
+}
+
+TEST(SeparatedDecision, APowerOfTwoChangesNothing) {
+  Random random(5);
+  for (int i = 0; i < 200; ++i) {
+    const PosedQuery posed{kinds[random.bits() % 2], tests::integer_query(random, 4)};
+    const Norm norm = norms[random.bits() % 2];
+    const auto expected = decide(posed, {1.5, norm});
+    for (const double scale : {2.0 * denorm_min, 0x1p1000}) {
+      PosedQuery scaled = posed;
+      for (double& x : scaled.query.coordinates) x *= scale;
+      const auto impact = decide(scaled, {1.5 * scale, norm});
+      ASSERT_EQ(impact.has_value(), expected.has_value()) << posed;
+      if (!impact) continue;
+      EXPECT_EQ(impact->toi_lower, expected->toi_lower) << posed;
+      EXPECT_EQ(impact->toi_upper, expected->toi_upper) << posed;
+    }
+  }
+}
+
+TEST(SeparatedDecision, DistancesOfTheWholeRangeCount) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  for (const Kind kind : kinds) {
+    for (const Norm norm : norms) {
+      expect_time(over(kind, 1, 0x1p-60), {largest, norm}, 0.0);
+      expect_time(over(kind, 1, denorm_min), {denorm_min, norm}, 1.0);
+      EXPECT_FALSE(decide(over(kind, 1, 2 * denorm_min), {denorm_min, norm}).has_value());
+      expect_time(over(kind, largest, denorm_min), {denorm_min, norm}, 1.0);
+      // From height 2 to −2 it is within the least distance a little before 1/2.
+      const auto impact = decide(over(kind, 2, -2), {denorm_min, norm});
+      ASSERT_TRUE(impact.has_value());
+      EXPECT_EQ(impact->toi_upper, 0.5);
+      EXPECT_TRUE(decide(over(kind, 2, -2), {denorm_min, norm}, 0.5).has_value());
+      EXPECT_FALSE(decide(over(kind, 2, -2), {denorm_min, norm}, below(0.5)).has_value());
+    }
+  }
+}
+
+/// From height 1 + k 2^-52 down by about 2^1000, within 1 at about k 2^-1052: the enclosure is as narrow
+/// as documented where the time is subnormal too.
+TEST(SeparatedDecision, SubnormalTimesAreEnclosedByOneSpacing) {
+  for (const Kind kind : kinds) {
+    for (const Norm norm : norms) {
+      for (const int k : {1, 3, 1000}) {
+        const PosedQuery posed = over(kind, 1.0 + k * 0x1p-52, -0x1p1000);
+        const Separation one{1.0, norm};
+        const exact::DistanceVerdict truth = exact::decide(kind, posed.query, one);
+        ASSERT_TRUE(truth.collides());
+        for (const double tolerance : {0.0, 1e-12, 0.1}) {
+          const auto impact = decide_exactly(kind, posed.query, one, tolerance, 1.0);
+          ASSERT_TRUE(impact.has_value());
+          ASSERT_LT(impact->toi_upper, std::numeric_limits<double>::min());
+          expect_impact(posed, *impact, *truth.toi);
+        }
+      }
+    }
+  }
+}
+
+// ---- Relations ----------------------------------------------------------------------------------
+
+/// Is what `nearer` found also found, and not later, by `farther`?
+void expect_not_later(const std::optional<ExactImpact>& farther,
+                      const std::optional<ExactImpact>& nearer) {
+  if (!nearer) return;
+  ASSERT_TRUE(farther.has_value());
+  EXPECT_LE(farther->toi_upper, nearer->toi_upper);
+}
+
+TEST(SeparatedDecision, GreaterDistancesAndTheLargerBallAreReachedNotLater) {
+  Random random(6);
+  constexpr std::array<double, 5> rising{0.0, 1e-100, 1e-9, 0.25, 1.0};
+  for (int i = 0; i < 100; ++i) {
+    const PosedQuery posed =
+        tests::random_query(random, kinds[static_cast<std::size_t>(i) % 2],
+                            tests::all_families[random.bits() % tests::all_families.size()]);
+    std::array<std::optional<ExactImpact>, 2> before;
+    for (const double distance : rising) {
+      std::array<std::optional<ExactImpact>, 2> now;
+      for (std::size_t k = 0; k < 2; ++k) {
+        now[k] = decide(posed, {distance, norms[k]});
+        expect_not_later(now[k], before[k]);
+      }
+      expect_not_later(now[0], now[1]);
+      before = now;
+    }
+    ASSERT_FALSE(HasFailure()) << posed;
+  }
+}
+
+TEST(SeparatedDecision, AtDistanceZeroItIsThePlainDecision) {
+  Random random(7);
+  for (int i = 0; i < 300; ++i) {
+    const PosedQuery posed{kinds[random.bits() % 2], tests::integer_query(random, 1 + i % 3)};
+    const auto motion = tests::integer_motion<BigInteger>(posed);
+    const auto plain = first_impact(motion, bits_of_one);
+    for (const Norm norm : norms) {
+      const auto walked = first_approach(motion, {}, norm, bits_of_one, 1);
+      ASSERT_EQ(walked.has_value(), plain.has_value()) << posed;
+      if (!plain) continue;
+      EXPECT_EQ(walked->upper, plain->time.upper) << posed;
+    }
+  }
+}
+
+/// A separator's first form has a root just before t=1; a later one is negative for a while before it.
+PosedQuery dipping_query() {
+  return tests::edge_edge({0, 3, -3, -8, 7, 9, 0, 0, 0, 1, -1, -5},
+                          {0x1.8000000002316p+0, -0x1.800000000694p+0, -0x1.c000000001764p+2,
+                           -0x1.8000000000bb2p+3, 0x1.300000000074fp+3, 0x1.bfffffffff44ep+2, 0, 0,
+                           0, 1, -0x1.400000000118bp+1, -0x1.7ffffffffe89cp+1});
+}
+
+TEST(SeparatedDecision, DipsBeforeASeparatorsEndCount) {
+  const PosedQuery dipping = dipping_query();
+  const Separation separation{2.0, Norm::linf};
+  const auto truth = exact::decide(dipping.kind, dipping.query, separation);
+  ASSERT_TRUE(truth.collides());
+  const auto impact = decide(dipping, separation);
+  ASSERT_TRUE(impact.has_value());
+  expect_impact(dipping, *impact, *truth.toi);
+}
+
+// ---- Planted faults -----------------------------------------------------------------------------
+
+using Decide = DecideDistance;
+
+/// How many answers about small integers, where contact is near the distance or it is tiny, are wrong.
+int wrong_answers(Decide* decide_so) {
+  Random random(8);
+  int wrong = 0;
+  for (int i = 0; i < 400; ++i) {
+    const PosedQuery posed{kinds[random.bits() % 2], tests::integer_query(random, 3)};
+    const Separation separation{i % 4 == 0 ? 1e-40 : 0.8, norms[random.bits() % 2]};
+    const auto truth = exact::decide(posed.kind, posed.query, separation);
+    const auto impact = decide_so(posed.kind, posed.query, separation, 0.0, 1.0);
+    const bool right = impact.has_value() == truth.collides() &&
+                       (!impact || (*truth.toi <= Rational(impact->toi_upper) &&
+                                    *truth.toi >= Rational(impact->toi_lower)));
+    if (!right) ++wrong;
+  }
+  return wrong;
+}
+
+TEST(SeparatedDecision, PlantedFaultsAreFoundAndNoOthers) {
+  EXPECT_EQ(wrong_answers(&decide_exactly), 0);
+  const std::map<std::string, Decide*> faults{{"in side", &fault_in_side},
+                                              {"in vertex", &fault_in_vertex},
+                                              {"in face", &fault_in_face},
+                                              {"in cube", &fault_in_cube},
+                                              {"in horizon", &fault_in_horizon}};
+  int planted = 0;
+  for (const auto& [fault, decide_so] : faults) {
+    if (decide_so == nullptr) continue;  // not planted in this build
+    ++planted;
+    const int found = wrong_answers(decide_so);
+    std::printf("fault %s: %d wrong answers\n", fault.c_str(), found);
+    EXPECT_GT(found, 0) << fault;
+  }
+  EXPECT_GE(planted, tests::least_planted(1));
+  const PosedQuery dipping = dipping_query();
+  if (Decide* const faulty = &fault_in_dip; faulty != nullptr) {
+    EXPECT_FALSE(faulty(dipping.kind, dipping.query, {2.0, Norm::linf}, 0.0, 1.0).has_value());
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::fast::exact_stage

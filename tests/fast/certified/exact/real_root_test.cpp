@@ -1,0 +1,259 @@
+#include "fast/certified/exact/real_root.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "fast/certified/exact/enclosing_doubles.hpp"
+
+namespace touchstone::fast::exact_stage {
+namespace {
+
+using Quadratic = Form<BigInteger, 2>;
+
+std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
+
+/// a + b t + c t² as a form: t = y/(x+y).
+Quadratic in_time(std::int64_t a, std::int64_t b, std::int64_t c) {
+  return {a, 2 * a + b, a + b + c};
+}
+
+/// (m − n t)(x+y), a root at m/n.
+Quadratic root_at(std::int64_t m, std::int64_t n) { return in_time(m, -n, 0); }
+
+/// a + b t + c t² + d t³.
+Polynomial cubic(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
+  return inner_polynomial(Polynomial{a, 3 * a + b, 3 * a + 2 * b + c, a + b + c + d});
+}
+
+double value(const Dyadic& t) {
+  return std::ldexp(t.numerator.approximation().significand,
+                    static_cast<int>(t.numerator.approximation().exponent - t.exponent));
+}
+
+/// The doubles around all roots, from visit_roots.
+std::vector<BitInterval> roots(const Polynomial& f) {
+  std::vector<BitInterval> result;
+  visit_roots(squarefree(f), [&](Instant& instant) {
+    result.push_back(
+        enclose(instant.guess(), 1, [&](std::uint64_t bits) { return instant.is_above(bits); }));
+    return false;
+  });
+  return result;
+}
+
+void expect_roots(const Polynomial& f, const std::vector<double>& expected) {
+  const auto found = roots(f);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_LE(std::bit_cast<double>(found[i].lower), expected[i]);
+    EXPECT_GE(std::bit_cast<double>(found[i].upper), expected[i]);
+    EXPECT_EQ(found[i].upper - found[i].lower, 1U);
+  }
+}
+
+TEST(AlgebraicInstant, FindsAllRootsInOrder) {
+  expect_roots(cubic(-3, 32, -64, 0), {1.0 / 8.0, 3.0 / 8.0});
+  expect_roots(cubic(-3, 44, -192, 256), {1.0 / 8.0, 0.25, 3.0 / 8.0});
+  expect_roots(cubic(-1, 0, 2, 0), {std::sqrt(0.5)});
+  expect_roots(cubic(1, 0, 2, 0), {});
+  expect_roots(cubic(1, -5, 6, 0), {1.0 / 3.0, 0.5});
+}
+
+TEST(AlgebraicInstant, FindsMultipleRootsOnce) {
+  expect_roots(cubic(1, -6, 9, 0), {1.0 / 3.0});          // (1−3t)²
+  expect_roots(cubic(1, -9, 27, -27), {1.0 / 3.0});       // (1−3t)³
+  expect_roots(cubic(1, -8, 21, -18), {1.0 / 3.0, 0.5});  // (1−3t)²(1−2t)
+  expect_roots(cubic(1, -6, 12, -8), {0.5});              // (1−2t)³
+}
+
+TEST(AlgebraicInstant, LeavesRootsAtTheEndsOut) {
+  EXPECT_TRUE(roots(cubic(0, 1, -1, 0)).empty());  // t(1−t)
+  expect_roots(cubic(0, 1, -3, 2), {0.5});         // t(1−t)(1−2t)
+}
+
+TEST(AlgebraicInstant, FindsRootsFarApart) {
+  // (1 − 2^70 t)(1 − 2^35 t)
+  const BigInteger one = 1;
+  const BigInteger a = one << 70, b = one << 35;
+  const Polynomial f{one, BigInteger(2) - a - b, one - a - b + a * b};
+  expect_roots(f, {0x1p-70, 0x1p-35});
+}
+
+TEST(AlgebraicInstant, StopsWhereTheVisitorSays) {
+  int visits = 0;
+  EXPECT_TRUE(visit_roots(cubic(-3, 44, -192, 256), [&](Instant&) { return ++visits == 2; }));
+  EXPECT_EQ(visits, 2);
+}
+
+TEST(AlgebraicInstant, KnowsSignsAndZerosOfOtherForms) {
+  // (1 − 2t²): irrational, √½ = 0.70710678…
+  Instant root(cubic(1, 0, -2, 0), {0, 0}, {1, 0});
+  EXPECT_EQ(root.sign_of(in_time(1, 0, -2)), 0);
+  EXPECT_EQ(root.sign_of(in_time(-3, 0, 6)), 0);
+  EXPECT_EQ(root.sign_of(in_time(0, 0, 0)), 0);
+  EXPECT_EQ(root.sign_of(root_at(70710678, 100000000)), -1);
+  EXPECT_EQ(root.sign_of(root_at(70710679, 100000000)), 1);
+  EXPECT_EQ(root.sign_of(root_at(33461, 47321)), 1);   // 2·33461² = 47321² + 1
+  EXPECT_EQ(root.sign_of(root_at(13860, 19601)), -1);  // 2·13860² = 19601² − 1
+}
+
+TEST(AlgebraicInstant, TellsARootFromTheOtherOfTheSameDivisor) {
+  // f = (1−3t)(2−3t); q = (2−3t)(1+t) shares the other root only.
+  Instant first(cubic(2, -9, 9, 0), {0, 0}, {1, 1});
+  EXPECT_EQ(first.sign_of(in_time(2, -1, -3)), 1);
+  EXPECT_EQ(first.sign_of(in_time(1, -2, -3)), 0);  // (1−3t)(1+t)
+}
+
+TEST(AlgebraicInstant, KnowsADyadicRootExactly) {
+  Instant root(cubic(5, -16, 0, 0), {0, 0}, {1, 0});
+  EXPECT_FALSE(root.is_above(bits_of(0.3125)));
+  EXPECT_TRUE(root.is_above(bits_of(std::nextafter(0.3125, 0.0))));
+  EXPECT_EQ(root.sign_of(root_at(5, 16)), 0);
+  EXPECT_EQ(root.sign_of(root_at(5000001, 16000000)), 1);
+}
+
+TEST(AlgebraicInstant, DividesAccurately) {
+  Instant root(cubic(1, 0, -2, 0), {0, 0}, {1, 0});
+  EXPECT_NEAR(root.quotient_of(in_time(0, 1, 0), in_time(1, 0, 0)), std::sqrt(0.5), 0x1p-46);
+  Instant point(Dyadic{1, 2});
+  EXPECT_EQ(point.quotient_of(in_time(0, 2, 0), in_time(1, 0, 0)), 0.5);
+}
+
+TEST(AlgebraicInstant, SplitsBetweenTheEndsAndQuicklyTowardsThem) {
+  Dyadic lower{0, 0}, upper{1, 0};
+  int steps = 0;
+  for (; value(upper) > 0x1p-1000; ++steps) upper = split(lower, upper);
+  EXPECT_LE(steps, 12);
+  lower = {1, 1};
+  upper = {1, 0};
+  for (int i = 0; i < 60; ++i) {
+    const Dyadic middle = split(lower, upper);
+    EXPECT_LT(value(lower), value(middle));
+    EXPECT_LT(value(middle), value(upper));
+    (i % 2 == 0 ? lower : upper) = middle;
+    if (value(upper) - value(lower) < 0x1p-50) break;
+  }
+}
+
+TEST(AlgebraicInstant, FindsCommonDivisors) {
+  const Polynomial both = inner_polynomial(in_time(2, -9, 9));  // (1−3t)(2−3t)
+  const Polynomial other = cubic(1, -8, 21, -18);               // (1−3t)²(1−2t)
+  EXPECT_EQ(common_divisor(both, other).size(), 2U);
+  EXPECT_EQ(common_divisor(both, inner_polynomial(in_time(1, 0, -2))).size(), 1U);
+  EXPECT_EQ(common_divisor(other, other).size(), 4U);
+  EXPECT_EQ(squarefree(other).size(), 3U);
+  EXPECT_EQ(squarefree(both).size(), 3U);
+}
+
+TEST(AlgebraicInstant, SeesThatThereIsNoCommonFactor) {
+  const Polynomial both = inner_polynomial(in_time(2, -9, 9));  // (1−3t)(2−3t)
+  EXPECT_TRUE(surely_coprime(both, inner_polynomial(in_time(1, 0, -2))));
+  EXPECT_FALSE(surely_coprime(both, cubic(1, -8, 21, -18)));
+  EXPECT_TRUE(surely_coprime({1}, both));
+}
+
+/// The product of the factors.
+Polynomial with_roots(const std::vector<Quadratic>& factors) {
+  Polynomial product{1};
+  for (const Quadratic& factor : factors) {
+    Polynomial next(product.size() + 2);
+    for (std::size_t i = 0; i < product.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) next[i + k] += product[i] * factor[k];
+    }
+    product = next;
+  }
+  return product;
+}
+
+TEST(AlgebraicInstant, HandlesDegreeEight) {
+  const Quadratic a = in_time(1, 0, -2), b = in_time(2, -9, 9), c = in_time(1, 1, 1);
+  const Polynomial f = with_roots({a, a, b, c}), g = with_roots({a, b, b});
+  EXPECT_EQ(common_divisor(f, g).size(), 5U);  // a b
+  EXPECT_EQ(squarefree(f).size(), 7U);         // a b c
+  expect_roots(inner_polynomial(f), {1.0 / 3.0, 2.0 / 3.0, std::sqrt(0.5)});
+}
+
+TEST(AlgebraicInstant, TellsRootsThatAreHardlyApart) {
+  // (3t − 1)² = 2^-400, and a double root where they nearly are.
+  const BigInteger large = BigInteger(1) << 400;
+  const Quadratic square = in_time(1, -6, 9);
+  Polynomial pair(square.begin(), square.end());
+  for (BigInteger& c : pair) c = c * large;
+  const Quadratic one = in_time(1, 0, 0);
+  for (std::size_t k = 0; k < 3; ++k) pair[k] -= one[k];
+  expect_roots(pair, {1.0 / 3.0, 1.0 / 3.0});
+  Instant start(Dyadic{0, 0});
+  auto first = first_root_after(start, {1, 0}, pair);
+  ASSERT_TRUE(first.has_value());
+  Instant third(cubic(1, -3, 0, 0), {0, 0}, {1, 0});
+  EXPECT_EQ(compare(*first, third), -1);
+  auto second = first_root_after(third, {1, 0}, with_roots({in_time(2, -3, 0)}));
+  ASSERT_TRUE(second.has_value());
+  EXPECT_EQ(compare(*second, third), 1);
+  expect_roots(Polynomial(square.begin(), square.end()), {1.0 / 3.0});
+}
+
+/// Found by the fuzzer: what doubles cannot reach was guessed as 0, and narrowing took minutes.
+TEST(AlgebraicInstant, NarrowsQuicklyBesideAnEnd) {
+  // (2t − 1)² = 2^-1080: roots 2^-541 from 1/2.
+  const BigInteger large = BigInteger(1) << 1080;
+  const Polynomial pair{large - 1, BigInteger(-2) * (large + 1), large - 1};
+  const Dyadic half{1, 1};
+  for (const auto& [lower, upper] :
+       {std::pair{Dyadic{0, 0}, half}, std::pair{half, Dyadic{1, 0}}}) {
+    Instant root(pair, lower, upper);
+    for (int i = 0; i < 3; ++i) root.narrow();
+    const long exponent = std::max(root.lower().exponent, root.upper().exponent);
+    const BigInteger width = (root.upper().numerator << (exponent - root.upper().exponent)) -
+                             (root.lower().numerator << (exponent - root.lower().exponent));
+    EXPECT_EQ(width.sign(), 1);
+    EXPECT_LT(width.bit_length() - exponent, -600);
+    EXPECT_LT(exponent, 1500);
+  }
+}
+
+TEST(AlgebraicInstant, ComparesInstants) {
+  Instant a(cubic(1, 0, -2, 0), {0, 0}, {1, 0});   // √½
+  Instant b(cubic(-3, 0, 6, 0), {1, 1}, {3, 2});   // the same
+  Instant c(cubic(-7, 10, 0, 0), {0, 0}, {1, 0});  // 7/10
+  Instant d(Dyadic{3, 2});
+  EXPECT_EQ(compare(a, b), 0);
+  EXPECT_EQ(compare(a, c), 1);
+  EXPECT_EQ(compare(c, a), -1);
+  EXPECT_EQ(compare(a, d), -1);
+  EXPECT_EQ(compare(d, c), 1);
+  EXPECT_EQ(compare(d, d), 0);
+}
+
+TEST(AlgebraicInstant, FindsTheFirstRootLaterThanATime) {
+  const Quadratic f = in_time(2, -9, 9);             // roots at 1/3 and 2/3
+  Instant half(cubic(1, 0, -2, 0), {0, 0}, {1, 0});  // √½, where f > 0
+  EXPECT_FALSE(first_root_after(half, {1, 0}, f).has_value());
+  Instant start(Dyadic{0, 0});
+  auto third = first_root_after(start, {1, 0}, f);
+  ASSERT_TRUE(third.has_value());
+  EXPECT_EQ(third->sign_of(root_at(1, 3)), 0);
+  EXPECT_FALSE(first_root_after(start, {1, 2}, f).has_value());
+  auto end = first_root_after(start, {1, 2}, in_time(1, -4, 0));  // at the limit itself
+  ASSERT_TRUE(end.has_value());
+  EXPECT_EQ(compare(end->lower(), {1, 2}), 0);
+}
+
+TEST(AlgebraicInstant, SeesSignsBetweenTimes) {
+  const Quadratic f = in_time(1, -2, 0);  // 1 − 2t
+  EXPECT_TRUE(is_positive_between(f, {0, 0}, {1, 2}));
+  EXPECT_FALSE(is_positive_between(f, {0, 0}, {1, 1}));
+  EXPECT_EQ(weak_sign_between(f, {0, 0}, {1, 1}), 1);
+  EXPECT_EQ(weak_sign_between(f, {1, 1}, {1, 0}), -1);
+  EXPECT_EQ(weak_sign_between(f, {0, 0}, {1, 0}), 0);
+}
+
+}  // namespace
+}  // namespace touchstone::fast::exact_stage

@@ -1,0 +1,204 @@
+#include "fast/certified/stages/closest_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "tests/support/random.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+/// One lane, as plain as can be.
+struct Lanes {
+  struct Mask {
+    bool set;
+
+    friend Mask operator&(Mask a, Mask b) { return {a.set && b.set}; }
+  };
+  struct Value {
+    double x = 0.0;
+
+    Value() = default;
+    explicit Value(double value) : x(value) {}
+    friend Value operator+(Value a, Value b) { return Value(a.x + b.x); }
+    friend Value operator-(Value a, Value b) { return Value(a.x - b.x); }
+    friend Value operator*(Value a, Value b) { return Value(a.x * b.x); }
+    friend Value operator/(Value a, Value b) { return Value(a.x / b.x); }
+    friend Mask operator<(Value a, Value b) { return {a.x < b.x}; }
+    friend Mask operator>(Value a, Value b) { return {a.x > b.x}; }
+    friend Mask operator<=(Value a, Value b) { return {a.x <= b.x}; }
+    friend Mask operator>=(Value a, Value b) { return {a.x >= b.x}; }
+    friend Value min(Value a, Value b) { return a.x < b.x ? a : b; }
+    friend Value max(Value a, Value b) { return a.x > b.x ? a : b; }
+    friend Value abs(Value a) { return Value(std::abs(a.x)); }
+    friend Value sqrt(Value a) { return Value(std::sqrt(a.x)); }
+    friend Value select(Mask mask, Value a, Value b) { return mask.set ? a : b; }
+  };
+};
+
+using Point = std::array<double, 3>;
+template <Kind kind>
+using Polygon = std::array<Point, kind == Kind::vertex_face ? 3 : 4>;
+
+/// What was found, in plain numbers.
+struct Found {
+  Point direction;
+  double u;
+  double v;
+};
+
+template <Kind kind, Norm norm>
+Found nearest(const Polygon<kind>& polygon) {
+  typename NearestPoint<Lanes, kind, norm>::Corners w;
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) w[i][k] = Lanes::Value(polygon[i][k]);
+  }
+  const NearestPoint<Lanes, kind, norm> point(w);
+  return {{point.direction[0].x, point.direction[1].x, point.direction[2].x}, point.u.x, point.v.x};
+}
+
+template <Kind kind>
+Point point_at(const Polygon<kind>& w, double u, double v) {
+  Point x;
+  for (std::size_t k = 0; k < 3; ++k) {
+    x[k] = w[0][k] + u * (w[1][k] - w[0][k]) + v * (w.back()[k] - w[0][k]);
+  }
+  return x;
+}
+
+double length(Norm norm, const Point& x) {
+  if (norm == Norm::l2) return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+  return std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+}
+
+double dual_length(Norm norm, const Point& x) {
+  return norm == Norm::l2 ? length(norm, x) : std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]);
+}
+
+/// How far the direction separates: at most the distance, and the distance if it is the best one.
+template <Kind kind>
+double separation(const Polygon<kind>& polygon, const Point& direction) {
+  double least = 1e300;
+  for (const Point& w : polygon) {
+    least = std::min(least, direction[0] * w[0] + direction[1] * w[1] + direction[2] * w[2]);
+  }
+  return least;
+}
+
+/// Of a polygon whose distance from the origin is not 0: the direction and the point prove the same
+/// distance from both sides.
+template <Kind kind, Norm norm>
+void expect_distance(const Polygon<kind>& polygon, double tolerance) {
+  const Found found = nearest<kind, norm>(polygon);
+  EXPECT_LE(dual_length(norm, found.direction), unit_length);
+  EXPECT_GE(dual_length(norm, found.direction), 1.0 - 1e-12);
+  const double least = 0.0 - 1e-12, most = 1.0 + 1e-12;
+  EXPECT_TRUE(found.u >= least && found.v >= least && found.u <= most && found.v <= most);
+  if (kind == Kind::vertex_face) {
+    EXPECT_LE(found.u + found.v, most);
+  }
+  const double below = separation<kind>(polygon, found.direction);
+  const double above = length(norm, point_at<kind>(polygon, found.u, found.v));
+  EXPECT_GT(below, 0.0);
+  EXPECT_NEAR(below, above, tolerance);
+}
+
+template <Kind kind>
+Polygon<kind> random_polygon(tests::Random& random) {
+  Polygon<kind> w;
+  // Off the origin in some direction, mostly.
+  const Point offset{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) w[i][k] = offset[k] + random.uniform(-1, 1);
+  }
+  if constexpr (kind == Kind::edge_edge) {
+    for (std::size_t k = 0; k < 3; ++k) w[3][k] = w[0][k] + w[2][k] - w[1][k];
+  }
+  return w;
+}
+
+/// By brute force: the least length on a grid of parameters.
+template <Kind kind>
+double least_on_grid(const Polygon<kind>& polygon, Norm norm) {
+  constexpr int steps = 60;
+  double least = 1e300;
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; j <= (kind == Kind::vertex_face ? steps - i : steps); ++j) {
+      least = std::min(least,
+                       length(norm, point_at<kind>(polygon, i / double{steps}, j / double{steps})));
+    }
+  }
+  return least;
+}
+
+template <Kind kind, Norm norm>
+void expect_distances_of_random_polygons() {
+  tests::Random random(3);
+  int apart = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto polygon = random_polygon<kind>(random);
+    if (least_on_grid<kind>(polygon, norm) < 0.1) continue;
+    ++apart;
+    expect_distance<kind, norm>(polygon, 1e-12);
+  }
+  EXPECT_GT(apart, 200);
+}
+
+TEST(NearestPoint, DirectionAndPointProveTheSameDistance) {
+  expect_distances_of_random_polygons<Kind::vertex_face, Norm::l2>();
+  expect_distances_of_random_polygons<Kind::vertex_face, Norm::linf>();
+  expect_distances_of_random_polygons<Kind::edge_edge, Norm::l2>();
+  expect_distances_of_random_polygons<Kind::edge_edge, Norm::linf>();
+}
+
+TEST(NearestPoint, IsInsideOnASideOrAtACorner) {
+  constexpr Kind kind = Kind::vertex_face;
+  const Found inside = nearest<kind, Norm::l2>({{{-1, -1, 2}, {3, -1, 2}, {-1, 3, 2}}});
+  EXPECT_NEAR(inside.direction[2], 1.0, 1e-14);
+  EXPECT_NEAR(inside.u, 0.25, 1e-14);
+  EXPECT_NEAR(inside.v, 0.25, 1e-14);
+  const Found side = nearest<kind, Norm::l2>({{{-1, 3, 4}, {1, 3, 4}, {0, 9, 4}}});
+  EXPECT_NEAR(side.direction[1], 0.6, 1e-14);
+  EXPECT_NEAR(side.direction[2], 0.8, 1e-14);
+  EXPECT_NEAR(side.u, 0.5, 1e-14);
+  EXPECT_EQ(side.v, 0.0);
+  const Found corner = nearest<kind, Norm::l2>({{{5, 5, 5}, {9, 5, 5}, {1, 2, 2}}});
+  EXPECT_NEAR(corner.direction[0], 1.0 / 3.0, 1e-14);
+  EXPECT_EQ(corner.u, 0.0);
+  EXPECT_EQ(corner.v, 1.0);
+}
+
+TEST(NearestPoint, ADirectionOfAShortDistanceIsUprightOnItsSide) {
+  // Past the origin at 1e-9: tilted by its rounding, the far ends would come nearer than that.
+  const Polygon<Kind::edge_edge> polygon{
+      {{-1.0 / 3, 1e-9, 0.1}, {2.0 / 3, 1e-9, -0.2}, {2.0 / 3, 1, -0.2}, {-1.0 / 3, 1, 0.1}}};
+  const Found found = nearest<Kind::edge_edge, Norm::l2>(polygon);
+  EXPECT_NEAR(separation<Kind::edge_edge>(polygon, found.direction), 1e-9, 1e-15);
+}
+
+TEST(NearestPoint, OfPointsAndSegmentsIsFoundToo) {
+  const Polygon<Kind::vertex_face> point{{{1, 2, 2}, {1, 2, 2}, {1, 2, 2}}};
+  expect_distance<Kind::vertex_face, Norm::l2>(point, 1e-14);
+  expect_distance<Kind::vertex_face, Norm::linf>(point, 1e-14);
+  const Polygon<Kind::edge_edge> segment{{{1, 2, 3}, {2, -1, 3}, {1, 2, 3}, {0, 5, 3}}};
+  expect_distance<Kind::edge_edge, Norm::l2>(segment, 1e-12);
+  expect_distance<Kind::edge_edge, Norm::linf>(segment, 1e-12);
+}
+
+TEST(NearestPoint, WhatIsNoDirectionSeparatesNothing) {
+  const double nan = std::nan("");
+  const Polygon<Kind::vertex_face> none{{{nan, 0, 0}, {0, nan, 0}, {0, 0, nan}}};
+  EXPECT_FALSE(separation<Kind::vertex_face>(
+                   none, nearest<Kind::vertex_face, Norm::l2>(none).direction) < 1e299);
+  const Polygon<Kind::vertex_face> zero{};
+  for (const double x : nearest<Kind::vertex_face, Norm::l2>(zero).direction) {
+    EXPECT_FALSE(std::abs(x) > 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::fast

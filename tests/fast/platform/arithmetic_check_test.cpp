@@ -1,0 +1,80 @@
+#include "fast/platform/arithmetic_check.hpp"
+
+#include <gtest/gtest.h>
+#include <xmmintrin.h>
+
+#include <cfenv>
+
+namespace touchstone::fast {
+namespace {
+
+/// Restores the floating-point environment that the test found.
+class ArithmeticCheck : public ::testing::Test {
+ public:
+  ArithmeticCheck() { std::fegetenv(&environment_); }
+  ArithmeticCheck(const ArithmeticCheck&) = delete;
+  ArithmeticCheck& operator=(const ArithmeticCheck&) = delete;
+  ArithmeticCheck(ArithmeticCheck&&) = delete;
+  ArithmeticCheck& operator=(ArithmeticCheck&&) = delete;
+  ~ArithmeticCheck() override { std::fesetenv(&environment_); }
+
+ private:
+  std::fenv_t environment_{};
+};
+
+TEST_F(ArithmeticCheck, AcceptsThisBuild) {
+  EXPECT_TRUE(check_arithmetic().is_strict());
+  EXPECT_NO_THROW(require_strict_arithmetic());
+}
+
+TEST_F(ArithmeticCheck, FindsEveryOtherRoundingMode) {
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(mode);
+    const ArithmeticReport report = check_arithmetic();
+    std::fesetround(FE_TONEAREST);
+    EXPECT_FALSE(report.rounds_to_nearest) << mode;
+    EXPECT_TRUE(report.gradual_underflow) << mode;
+  }
+}
+
+TEST_F(ArithmeticCheck, FindsFlushToZeroAndDenormalsAreZero) {
+  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  const unsigned control = _mm_getcsr();
+  for (const unsigned flag : {flush_to_zero, denormals_are_zero}) {
+    _mm_setcsr(control | flag);
+    const ArithmeticReport report = check_arithmetic();
+    _mm_setcsr(control);
+    EXPECT_FALSE(report.gradual_underflow) << flag;
+    EXPECT_TRUE(report.rounds_to_nearest) << flag;
+  }
+}
+
+TEST_F(ArithmeticCheck, SaysWhatIsWrong) {
+  std::fesetround(FE_UPWARD);
+  try {
+    require_strict_arithmetic();
+    FAIL() << "upward rounding was accepted";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("rounding mode"), std::string::npos);
+  }
+}
+
+TEST_F(ArithmeticCheck, SeesTheEnvironmentChangeAfterItsFirstCall) {
+  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
+  EXPECT_NO_THROW(require_strict_environment());
+  const unsigned control = _mm_getcsr();
+  for (const unsigned flag : {flush_to_zero, denormals_are_zero}) {
+    _mm_setcsr(control | flag);
+    EXPECT_THROW(require_strict_environment(), std::runtime_error) << flag;
+    _mm_setcsr(control);
+  }
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(mode);
+    EXPECT_THROW(require_strict_environment(), std::runtime_error) << mode;
+    std::fesetround(FE_TONEAREST);
+  }
+  EXPECT_NO_THROW(require_strict_environment());
+}
+
+}  // namespace
+}  // namespace touchstone::fast

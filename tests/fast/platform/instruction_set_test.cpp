@@ -1,0 +1,61 @@
+#include "fast/platform/instruction_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace touchstone::fast {
+namespace {
+
+struct Kernel {
+  InstructionSet instructions;
+  bool is_strict = true;
+};
+
+bool rounds_products(const Kernel& kernel) { return kernel.is_strict; }
+
+TEST(InstructionSet, IsNamed) {
+  EXPECT_EQ(to_string(InstructionSet::scalar), "scalar");
+  EXPECT_EQ(to_string(InstructionSet::avx2), "avx2");
+  EXPECT_EQ(to_string(InstructionSet::avx512), "avx512");
+}
+
+TEST(InstructionSet, EveryProcessorRunsTheScalarOne) {
+  EXPECT_TRUE(is_supported(InstructionSet::scalar));
+}
+
+TEST(InstructionSet, OnlySupportedKernelsAreRunnableInTheirOrder) {
+  static constexpr Kernel scalar{InstructionSet::scalar}, avx2{InstructionSet::avx2},
+      avx512{InstructionSet::avx512};
+  const auto kernels = runnable_kernels<Kernel>({&scalar, &avx2, &avx512}, "k", rounds_products);
+  std::vector<const Kernel*> expected{&scalar};
+  if (is_supported(InstructionSet::avx2)) expected.push_back(&avx2);
+  if (is_supported(InstructionSet::avx512)) expected.push_back(&avx512);
+  EXPECT_EQ(kernels, expected);
+}
+
+TEST(InstructionSet, AContractedKernelIsRefusedByName) {
+  static constexpr Kernel contracted{InstructionSet::scalar, false};
+  try {
+    const auto kernels = runnable_kernels<Kernel>({&contracted}, "test kernel", rounds_products);
+    FAIL() << kernels.size() << " kernels";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("scalar test kernel"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(InstructionSet, AKernelIsFoundByItsInstructions) {
+  static constexpr Kernel scalar{InstructionSet::scalar}, avx2{InstructionSet::avx2};
+  static constexpr std::array<const Kernel*, 2> kernels{&scalar, &avx2};
+  const std::span<const Kernel* const> all(kernels);
+  EXPECT_EQ(find_kernel(all, InstructionSet::avx2), &avx2);
+  EXPECT_EQ(find_kernel(all, InstructionSet::avx512), nullptr);
+}
+
+}  // namespace
+}  // namespace touchstone::fast

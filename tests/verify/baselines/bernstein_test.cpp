@@ -1,0 +1,154 @@
+/// \file
+/// The forms against their definitions and the theorems as identities, in exact numbers: forms are
+/// evaluated at t : s with integers, so both sides are integers.
+
+#include "verify/baselines/bernstein.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/baselines/exact_number.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+using Number = ExactNumber;
+
+/// A time t/(t+s).
+struct Time {
+  Number t, s;
+
+  [[nodiscard]] Number sum() const { return t + s; }
+};
+
+Time random_time(tests::Random& random) { return {random.between(0, 20), random.between(1, 20)}; }
+
+Number random_number(tests::Random& random) { return random.between(-9, 9); }
+
+template <std::size_t degree>
+Bernstein<Number, degree> random_form(tests::Random& random) {
+  Bernstein<Number, degree> form;
+  for (Number& x : form) x = random_number(random);
+  return form;
+}
+
+Number value(const Bernstein<Number, 1>& q, const Time& at) { return q[0] * at.s + q[1] * at.t; }
+Number value(const Bernstein<Number, 2>& q, const Time& at) { return value_at(q, at.t, at.s); }
+Number value(const Bernstein<Number, 3>& q, const Time& at) { return value_at(q, at.t, at.s); }
+/// By de Casteljau, not by the binomial theorem.
+template <std::size_t degree>
+Number casteljau(Bernstein<Number, degree> q, const Time& at) {
+  for (std::size_t step = degree; step > 0; --step) {
+    for (std::size_t i = 0; i < step; ++i) q[i] = at.s * q[i] + at.t * q[i + 1];
+  }
+  return q[0];
+}
+
+TEST(Values, AreDeCasteljaus) {
+  tests::Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    const Time at = random_time(random);
+    const auto quadratic = random_form<2>(random);
+    const auto cubic = random_form<3>(random);
+    EXPECT_TRUE(value(quadratic, at) == casteljau<2>(quadratic, at));
+    EXPECT_TRUE(value(cubic, at) == casteljau<3>(cubic, at));
+  }
+}
+
+/// A point at a time, times t + s.
+Vector<Number> position(const Moving<Number>& point, const Time& at) {
+  Vector<Number> result;
+  for (std::size_t i = 0; i < 3; ++i) result[i] = at.s * point[0][i] + at.t * point[1][i];
+  return result;
+}
+
+TEST(Forms, AreTheirDefinitions) {
+  tests::Random random(2);
+  for (int trial = 0; trial < tests::trials(200); ++trial) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      const Query query = tests::integer_query(random, 5);
+      const auto points = moving_points_of(kind, scaled_to_integers(query.coordinates, 1));
+      const auto normal = normal_of(points);
+      const Time at = random_time(random);
+      const auto a = position(points[0], at), b = position(points[1], at);
+      const auto c = position(points[2], at), d = position(points[3], at);
+      const auto n = cross(b - a, c - a);
+      EXPECT_TRUE(value(coplanarity(points, normal), at) == Number(3) * dot(n, d - a));
+      const std::array m{cross(b - d, c - d), cross(c - d, a - d), cross(a - d, b - d)};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Number sign = kind == Kind::edge_edge && i == 2 ? -1 : 1;
+        EXPECT_TRUE(casteljau<4>(inside(kind, points, normal, i), at) ==
+                    sign * Number(6) * dot(m[i], n));
+      }
+    }
+  }
+}
+
+TEST(Points, AreTheFaceAndTheVertexOrTheEdges) {
+  Query query{};
+  for (std::size_t i = 0; i < 24; ++i) query.coordinates[i] = static_cast<double>(i);
+  const auto face = moving_points_of<double>(Kind::vertex_face, query);
+  const auto edges = moving_points_of<double>(Kind::edge_edge, query);
+  EXPECT_EQ(face[0][0], (Vector<double>{3, 4, 5}));
+  EXPECT_EQ(face[3][0], (Vector<double>{0, 1, 2}));
+  EXPECT_EQ(face[3][1], (Vector<double>{12, 13, 14}));
+  EXPECT_EQ(edges[0][0], (Vector<double>{0, 1, 2}));
+  EXPECT_EQ(edges[3][1], (Vector<double>{21, 22, 23}));
+}
+
+TEST(Reduction, IsGWithoutAMultipleOfY) {
+  tests::Random random(3);
+  for (int trial = 0; trial < tests::trials(1000); ++trial) {
+    const auto k = random_form<3>(random);
+    const auto l = random_form<4>(random);
+    const Time at = random_time(random);
+    const Number y = value(k, at), g = casteljau<4>(l, at), j = value(reduce(k, l), at);
+    const Number s0 = Number(12) * (l[1] * Number(4) * k[0] - l[0] * (k[0] + Number(3) * k[1]));
+    EXPECT_TRUE(at.t * at.t * j == Number(24) * k[0] * k[0] * g -
+                                       Number(24) * k[0] * l[0] * y * at.sum() -
+                                       Number(2) * at.t * s0 * y);
+  }
+}
+
+TEST(Decomposition, IsDivisionWithRemainder) {
+  tests::Random random(4);
+  for (int trial = 0; trial < tests::trials(1000); ++trial) {
+    const auto k = random_form<3>(random);
+    const auto j = random_form<2>(random);
+    const auto parts = decompose(k, j);
+    const Time at = random_time(random);
+    EXPECT_TRUE(parts.t * value(k, at) ==
+                value(parts.l, at) * value(j, at) + value(parts.k, at) * at.sum() * at.sum());
+    const Number root = Number(2) * j[1] - j[0] - j[2];
+    EXPECT_TRUE(parts.t == root * root);
+  }
+}
+
+TEST(Course, IsReadFromTheCoefficients) {
+  const auto opposite = [](double a, double b) { return a * b < 0.0; };
+  const auto course = [&](const Bernstein<double, 3>& k) {
+    return course_of(k, opposite, opposite);
+  };
+  EXPECT_EQ(course({1, -1, -2, -1}), Course::monotone);  // a lone end
+  EXPECT_EQ(course({-1, -1, -3, 1}), Course::monotone);
+  EXPECT_EQ(course({4, 3, 2, 1}), Course::monotone);
+  EXPECT_EQ(course({3, 1, 1, 3}), Course::one_extremum);
+  EXPECT_EQ(course({3, 2, -2, -3}), Course::inflection);
+  EXPECT_EQ(course({3, -35.0 / 3, 41.0 / 3, 7}), Course::inflection);
+  EXPECT_EQ(course_without_inflection(Bernstein<double, 3>{0, 1, -1, 1}, opposite),
+            Course::monotone);
+  EXPECT_TRUE(has_lone_end(Bernstein<double, 3>{1, -1, -2, -1}, opposite));
+  EXPECT_FALSE(has_lone_end(Bernstein<double, 3>{1, 0, -2, -1}, opposite));
+}
+
+TEST(Derivative, IsTheDifferences) {
+  EXPECT_EQ(derivative(Bernstein<double, 3>{1, 3, 2, 7}), (Bernstein<double, 2>{2, -1, 5}));
+}
+
+}  // namespace
+}  // namespace touchstone::baselines

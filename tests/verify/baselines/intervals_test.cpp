@@ -1,0 +1,136 @@
+#include "verify/baselines/intervals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cfenv>
+#include <cmath>
+#include <limits>
+
+#include "exact/algebra/number.hpp"
+#include "exact/query.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+using exact::Rational;
+using tests::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool holds(const Interval& interval, const Rational& value) {
+  return Rational(interval.lower()) <= value && value <= Rational(interval.upper());
+}
+
+/// Is it the narrowest interval of doubles that holds the value?
+bool is_tight(const Interval& interval, const Rational& value) {
+  if (!holds(interval, value)) return false;
+  if (interval.lower() == interval.upper()) return true;
+  return std::nextafter(interval.lower(), infinity) == interval.upper() &&
+         Rational(interval.lower()) != value && Rational(interval.upper()) != value;
+}
+
+TEST(Intervals, OperationsOnNumbersAreTight) {
+  Random random(1);
+  int wide = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const double x = random.few_bit_double(53, -60, 4);
+    const double y = random.few_bit_double(53, -60, 4);
+    const Interval sum = Interval(x) + Interval(y);
+    const Interval difference = Interval(x) - Interval(y);
+    const Interval product = Interval(x) * Interval(y);
+    EXPECT_TRUE(is_tight(sum, Rational(x) + Rational(y))) << x << ' ' << y;
+    EXPECT_TRUE(is_tight(difference, Rational(x) - Rational(y))) << x << ' ' << y;
+    EXPECT_TRUE(is_tight(product, Rational(x) * Rational(y))) << x << ' ' << y;
+    wide += product.lower() < product.upper() ? 1 : 0;
+  }
+  EXPECT_GT(wide, 9000) << "two directions give two numbers";
+}
+
+TEST(Intervals, OperationsHoldAllResultsOfWideOperands) {
+  Random random(2);
+  const auto draw = [&] {
+    const double x = random.uniform(-2.0, 2.0);
+    return Interval(x, x + random.uniform(0.0, 1.0));
+  };
+  const auto within = [&](const Interval& x) {
+    return std::min(x.upper(), x.lower() + random.uniform() * (x.upper() - x.lower()));
+  };
+  for (int i = 0; i < 10000; ++i) {
+    const Interval a = draw();
+    const Interval b = draw();
+    const double x = within(a);
+    const double y = within(b);
+    EXPECT_TRUE(holds(a + b, Rational(x) + Rational(y)));
+    EXPECT_TRUE(holds(a - b, Rational(x) - Rational(y)));
+    EXPECT_TRUE(holds(a * b, Rational(x) * Rational(y)));
+  }
+}
+
+TEST(Intervals, PutTheRoundingModeBack) {
+  const Interval x = Interval(0.1) * Interval(0.3) + Interval(0.7);
+  EXPECT_LT(x.lower(), x.upper());
+  EXPECT_EQ(std::fegetround(), FE_TONEAREST);
+}
+
+TEST(Intervals, HoldWhatOverflows) {
+  const double huge = std::numeric_limits<double>::max();
+  const Interval x = (Interval(huge) - Interval(-huge)) * Interval(0.0, 1.0) + Interval(-huge);
+  EXPECT_EQ(x.lower(), -huge);
+  EXPECT_EQ(x.upper(), infinity);
+  EXPECT_TRUE(may_be_zero(x));
+}
+
+TEST(Intervals, MayBeZeroUnlessTheyExcludeIt) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(may_be_zero(Interval(-1.0, 1.0)));
+  EXPECT_TRUE(may_be_zero(Interval(0.0, 1.0)));
+  EXPECT_TRUE(may_be_zero(Interval(-1.0, 0.0)));
+  EXPECT_FALSE(may_be_zero(Interval(0x1p-1074, 1.0)));
+  EXPECT_FALSE(may_be_zero(Interval(-1.0, -0x1p-1074)));
+  EXPECT_TRUE(may_be_zero(Interval(nan)));
+}
+
+TEST(Intervals, VectorsMultiplyAsVectorsDo) {
+  const IntervalVector a{Interval(1.0), Interval(2.0), Interval(3.0)};
+  const IntervalVector b{Interval(-4.0), Interval(5.0), Interval(7.0)};
+  const auto is = [](const Interval& x, double value) {
+    return x.lower() == value && x.upper() == value;
+  };
+  EXPECT_TRUE(is(dot(a, b), 27.0));
+  const IntervalVector product = cross(a, b);
+  EXPECT_TRUE(is(product[0], -1.0) && is(product[1], -19.0) && is(product[2], 13.0));
+  const IntervalVector difference = minus(a, b);
+  EXPECT_TRUE(is(difference[0], 5.0) && is(difference[1], -3.0) && is(difference[2], -4.0));
+}
+
+TEST(IntervalMotion, HoldsThePointsOnTheirWay) {
+  Random random(3);
+  for (int i = 0; i < 500; ++i) {
+    const Query query = tests::full_significand_query(random);
+    const double from = random.uniform(0.0, 0.9);
+    const Interval times(from, from + random.uniform(0.0, 0.1));
+    const auto points = IntervalMotion(query).at(times);
+    for (const double t : {times.lower(), times.upper()}) {
+      for (std::size_t point = 0; point < moving_points; ++point) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const Rational start(query.at(0, point, axis));
+          const Rational end(query.at(1, point, axis));
+          EXPECT_TRUE(holds(points[point][axis], start + Rational(t) * (end - start)));
+        }
+      }
+    }
+  }
+}
+
+TEST(IntervalMotion, GreatestDisplacementIsThatOfOnePoint) {
+  const Query query = tests::moving({0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3},  //
+                                    {1, 0, 0, 1, 4, 5, 2, 2, 2, 3, 5, 3});
+  EXPECT_EQ(greatest_displacement(query), 5.0);
+  EXPECT_EQ(greatest_displacement(tests::over_triangle(1, 1, 2, 2).query), 0.0);
+}
+
+}  // namespace
+}  // namespace touchstone::baselines

@@ -1,0 +1,115 @@
+#include "verify/baselines/method_support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cfenv>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "tests/support/queries.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double opaque(double x) {
+  const volatile double hidden = x;
+  return hidden;
+}
+
+Answer solve(Answer (*function)(Kind, const Query&, const MethodOptions&), const Query& query,
+             const MethodOptions& options = {}) {
+  const auto method =
+      baseline_method({.name = "some", .promise = Promise::none, .answer = function});
+  Answer answer;
+  method->solve(Kind::vertex_face, {&query, 1}, {&answer, 1}, options);
+  return answer;
+}
+
+Answer always_no(Kind, const Query&, const MethodOptions&) { return {.verdict = Verdict::no}; }
+
+Answer always_throws(Kind, const Query&, const MethodOptions&) {
+  throw std::runtime_error("given up");
+}
+
+Answer number_thrown(Kind, const Query&, const MethodOptions&) { throw 1; }
+
+Answer yes_if_rounding_to_nearest(Kind, const Query&, const MethodOptions&) {
+  const bool nearest = opaque(1.0) + opaque(0x1p-53) == 1.0 &&
+                       opaque(1.0) + opaque(0x1.8p-53) > 1.0 && std::fegetround() == FE_TONEAREST;
+  return {.verdict = nearest ? Verdict::yes : Verdict::no};
+}
+
+TEST(BaselineMethod, AnswersWithItsFunction) {
+  const auto method =
+      baseline_method({.name = "some", .promise = Promise::conservative, .answer = always_no});
+  EXPECT_EQ(method->name(), "some");
+  EXPECT_EQ(method->promise(), Promise::conservative);
+  EXPECT_EQ(solve(always_no, Query{}).verdict, Verdict::no);
+}
+
+TEST(BaselineMethod, WhatIsThrownIsACollision) {
+  EXPECT_EQ(solve(always_throws, Query{}).verdict, Verdict::yes);
+  EXPECT_TRUE(std::isnan(solve(always_throws, Query{}).toi_lower));
+  EXPECT_EQ(solve(number_thrown, Query{}).verdict, Verdict::yes);
+}
+
+TEST(BaselineMethod, RefusesWhatIsNotFinite) {
+  for (const double bad : {nan, infinity, -infinity}) {
+    for (const std::size_t place : {0U, 11U, 23U}) {
+      Query query{};
+      query.coordinates[place] = bad;
+      EXPECT_FALSE(is_finite(query));
+      EXPECT_EQ(solve(always_no, query).verdict, Verdict::error);
+    }
+  }
+  EXPECT_TRUE(is_finite(Query{}));
+}
+
+TEST(BaselineMethod, RefusesOptionsThatMeanNothing) {
+  const auto bad = std::to_array<MethodOptions>({{.tolerance = 0.0},
+                                                 {.tolerance = nan},
+                                                 {.tolerance = infinity},
+                                                 {.min_separation = -1.0},
+                                                 {.min_separation = nan},
+                                                 {.min_separation = infinity},
+                                                 {.t_max = -0.5},
+                                                 {.t_max = 1.5},
+                                                 {.t_max = nan}});
+  for (const MethodOptions& options : bad) {
+    EXPECT_FALSE(are_valid(options));
+    EXPECT_EQ(solve(always_no, Query{}, options).verdict, Verdict::error);
+  }
+  EXPECT_TRUE(are_valid({}));
+  EXPECT_TRUE(are_valid({.min_separation = 1e-100, .t_max = 0.0}));
+}
+
+TEST(BaselineMethod, RoundsToNearestWhateverTheCallerDoes) {
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
+    std::fesetround(mode);
+    const Verdict verdict = solve(yes_if_rounding_to_nearest, Query{}).verdict;
+    const int after = std::fegetround();
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(verdict, Verdict::yes) << mode;
+    EXPECT_EQ(after, mode);
+  }
+}
+
+TEST(MethodSupport, PointsMoveFromStartToEnd) {
+  const Query query = tests::over_triangle(1, 2, 3, -1).query;
+  EXPECT_EQ(position_at(query, 0, 0.0), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(position_at(query, 0, 0.25), Eigen::Vector3d(1, 2, 2));
+  EXPECT_EQ(position_at(query, 0, 1.0), Eigen::Vector3d(1, 2, -1));
+}
+
+TEST(MethodSupport, ChecksEndWhereAnswersDo) {
+  EXPECT_EQ(to_checks(7), 7U);
+  EXPECT_EQ(to_checks(std::int64_t{1} << 40U), std::numeric_limits<std::uint32_t>::max());
+}
+
+}  // namespace
+}  // namespace touchstone::baselines

@@ -1,0 +1,145 @@
+#include "verify/baselines/msrf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "tests/support/baselines.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+using tests::answer_to;
+using tests::missed_centre_hits;
+using tests::Motion;
+using tests::over_edge;
+using tests::over_triangle;
+using tests::Score;
+
+const std::unique_ptr<Method> method = baselines::msrf_method();
+constexpr int hits = 4000;
+
+constexpr MethodOptions within(double h) { return {.min_separation = h, .norm = Norm::l2}; }
+
+TEST(Msrf, AnswersThePrintedQueriesAsItWasSeenTo) {
+  EXPECT_EQ(method->name(), "msrf");
+  EXPECT_EQ(method->promise(), Promise::none);
+  for (const double h : {1e-16, 1e-30, 1e-100}) {
+    EXPECT_EQ(answer_to(*method, tests::printed_hourglass(), within(h)).verdict, Verdict::no) << h;
+  }
+  const Answer hourglass = answer_to(*method, tests::printed_hourglass(), within(1e-8));
+  EXPECT_EQ(hourglass.verdict, Verdict::yes);
+  EXPECT_NEAR(hourglass.toi_lower, 0.9, 1e-4);
+  EXPECT_EQ(answer_to(*method, tests::printed_inflection(), within(1e-8)).verdict, Verdict::no);
+}
+
+TEST(Msrf, MissesTheMoreTheSmallerItsSeparation) {
+  const auto share = [](Kind kind, double h) {
+    return static_cast<double>(
+               missed_centre_hits(*method, kind, Motion::independent, within(h), hits)) /
+           hits;
+  };
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    EXPECT_GT(share(kind, 1e-100), 0.995) << to_string(kind);
+    EXPECT_NEAR(share(kind, 1e-8), 0.045, 0.015) << to_string(kind);
+    EXPECT_LT(share(kind, 1e-2), 0.002) << to_string(kind);
+  }
+}
+
+TEST(Msrf, HasASeparationWhereNoneIsAskedFor) {
+  EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Motion::independent, {}, hits),
+            missed_centre_hits(*method, Kind::vertex_face, Motion::independent,
+                               within(msrf_default_separation), hits));
+}
+
+TEST(Msrf, ReachesTheRootOfItsSeparation) {
+  // √(h² + 0.1 h) = 3.16e-5 for h = 1e-8: where a vertex just misses an edge.
+  const auto passes_at = [](double distance) {
+    return answer_to(*method, over_triangle(-distance, 1, 1, -1), within(1e-8)).verdict;
+  };
+  EXPECT_EQ(passes_at(3e-5), Verdict::yes) << "a false positive";
+  EXPECT_EQ(passes_at(3.3e-5), Verdict::no);
+}
+
+TEST(Msrf, MissesWhatIsWithinItsSeparationFromTheStart) {
+  // Within 0.5 all the time, and moving.
+  const auto near = tests::vertex_face({1, 1, 0.25, 0, 0, 0, 4, 0, 0, 0, 4, 0},
+                                       {1.5, 1, 0.125, 0, 0, 0, 4, 0, 0, 0, 4, 0});
+  EXPECT_EQ(answer_to(*method, near, within(0.5)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, 0.25), within(0.5)).verdict, Verdict::yes);
+}
+
+TEST(Msrf, MissesEndsOfEdgesAndParallelEdges) {
+  // An end 0.25 beside the other edge's end, where the lines pass at 0.
+  EXPECT_EQ(answer_to(*method, over_edge(4.25, 2, 1, -1), within(0.25)).verdict, Verdict::no);
+  const auto parallel = tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 1, 3, 0, 1},  //
+                                         {0, 0, 0, 4, 0, 0, 1, 0, -1, 3, 0, -1});
+  EXPECT_EQ(answer_to(*method, parallel, within(0.25)).verdict, Verdict::no);
+  // A vertex has candidates for the edges and vertices of a face.
+  EXPECT_EQ(answer_to(*method, over_triangle(-0.125, 1, 1, -1), within(0.25)).verdict,
+            Verdict::yes);
+  EXPECT_EQ(answer_to(*method, over_triangle(-0.125, -0.125, 1, -1), within(0.25)).verdict,
+            Verdict::yes);
+}
+
+TEST(Msrf, QuickTestsRuleOutWhatHasNoZero) {
+  const auto ruled_out = [](std::array<double, 7> c) { return msrf_rules_out_zeros(c); };
+  EXPECT_TRUE(ruled_out({1, 0, 0, 2, 0, 0, 3}));
+  EXPECT_TRUE(ruled_out({-1, -1, -2, -3, -1, -1, -1}));
+  EXPECT_TRUE(ruled_out({8, -1, 1, -1, 1, -1, 1}));
+  EXPECT_TRUE(ruled_out({3, 4, -1, 1, -1, 1, -1})) << "the first ones together";
+  EXPECT_FALSE(ruled_out({1, -2, 0, 0, 0, 0, 0}));
+  EXPECT_FALSE(ruled_out({-1, 0, 0, 0, 0, 0, 2}));
+  EXPECT_FALSE(ruled_out({-1, -1, 0, 0, 0, 0, 3})) << "its first ones are together less";
+  EXPECT_TRUE(ruled_out({5, -2, 0, 0, 0, 0, 0}));
+}
+
+TEST(Msrf, QuickTestsRuleOutZerosToo) {
+  const auto ruled_out = [](std::array<double, 7> c) { return msrf_rules_out_zeros(c); };
+  // 10 − 9t − 1.25t⁶ is 10 at 0 and −0.25 at 1; without the last it is 1 there.
+  EXPECT_TRUE(ruled_out({10, -9, 0, 0, 0, 0, -1.25}));
+  EXPECT_FALSE(ruled_out({10, -9, 0, 0, 0, 0, -1.5})) << "not steep enough to be sure: 9 = 6 · 1.5";
+  // t² is 0 at 0.
+  EXPECT_TRUE(ruled_out({0, 0, 1, 0, 0, 0, 0}));
+}
+
+TEST(Msrf, CountsImpactsUpToTheGivenTime) {
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.75}).verdict, Verdict::yes);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.25}).verdict, Verdict::no);
+}
+
+TEST(Msrf, AgreesWithTheTruthElsewhere) {
+  const Answer face = answer_to(*method, over_triangle(1, 1, 1, -3));
+  EXPECT_EQ(face.verdict, Verdict::yes);
+  EXPECT_NEAR(face.toi_lower, 0.25, 1e-7);
+  const Answer edge = answer_to(*method, over_edge(1, 2, 1, -3));
+  EXPECT_EQ(edge.verdict, Verdict::yes);
+  EXPECT_NEAR(edge.toi_lower, 0.25, 1e-7);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, Verdict::no);
+  // All at rest: every polynomial is constant or 0.
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 0, 0)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, {Kind::vertex_face, Query{}}).verdict, Verdict::no);
+  const Score score = tests::score_on_random(*method, {}, 500);
+  EXPECT_GT(score.false_negatives, 0);
+  EXPECT_LT(score.false_negatives + score.false_positives, (score.hits + score.misses) / 4);
+  EXPECT_EQ(score.errors + score.undecided, 0);
+}
+
+TEST(Msrf, MissesContactsOfThePublicData) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const Score simulation = tests::score_on_public_data(*method, {}, "simulation", kind, 1);
+    if (simulation.hits == 0) GTEST_SKIP() << "public data missing";
+    EXPECT_GT(simulation.false_negatives, 0);
+    EXPECT_LT(simulation.false_negatives, simulation.hits / 5);
+    EXPECT_GT(simulation.false_positives, 0);
+    const Score handcrafted = tests::score_on_public_data(*method, {}, "handcrafted", kind, 1);
+    EXPECT_GT(handcrafted.false_positives, 0);
+    EXPECT_LT(handcrafted.false_negatives, handcrafted.hits / 10);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::baselines

@@ -1,0 +1,141 @@
+#include "verify/baselines/rpoly.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <stdexcept>
+#include <vector>
+
+#include "tests/support/random.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+using Complex = std::complex<double>;
+using tests::Random;
+
+/// The coefficients of c Π (x − z), the highest power's first. \pre conjugates come in pairs.
+std::vector<double> with_zeros(const std::vector<Complex>& zeros, double c = 1.0) {
+  std::vector<Complex> product{c};
+  for (const Complex& zero : zeros) {
+    product.emplace_back(0.0);
+    for (std::size_t i = product.size() - 1; i > 0; --i) product[i] -= zero * product[i - 1];
+  }
+  std::vector<double> result(product.size());
+  std::ranges::transform(product, result.begin(), [](const Complex& x) { return x.real(); });
+  return result;
+}
+
+/// The greatest distance of an expected zero and the found one that is left nearest to it.
+double worst_distance(const std::vector<Complex>& expected, const Zeros& found) {
+  std::vector<Complex> left;
+  for (const Zero& zero : found) left.emplace_back(zero.re, zero.im);
+  if (left.size() != expected.size()) return 1e300;
+  double worst = 0.0;
+  for (const Complex& zero : expected) {
+    const auto nearest = std::ranges::min_element(
+        left, {}, [&](const Complex& other) { return std::abs(other - zero); });
+    worst = std::max(worst, std::abs(*nearest - zero));
+    left.erase(nearest);
+  }
+  return worst;
+}
+
+TEST(Rpoly, FindsWhatIsKnown) {
+  EXPECT_LT(worst_distance({3.0}, zeros_of(with_zeros({3.0}))), 1e-15);
+  EXPECT_LT(worst_distance({1.0, 2.0}, zeros_of(with_zeros({1.0, 2.0}, -4.0))), 1e-14);
+  EXPECT_LT(worst_distance({1.0, 2.0, 3.0}, zeros_of(with_zeros({1.0, 2.0, 3.0}))), 1e-12);
+  const std::vector<Complex> roots_of_minus_one{
+      {0.5, std::sqrt(0.75)}, {0.5, -std::sqrt(0.75)}, -1};
+  EXPECT_LT(worst_distance(roots_of_minus_one, zeros_of(std::vector{1.0, 0.0, 0.0, 1.0})), 1e-12);
+  std::vector<Complex> wilkinson;
+  for (int i = 1; i <= 8; ++i) wilkinson.emplace_back(i);
+  EXPECT_LT(worst_distance(wilkinson, zeros_of(with_zeros(wilkinson))), 1e-8);
+}
+
+TEST(Rpoly, FindsTheZerosOfThePrintedInflection) {
+  // −72t³ + 120t² − 44t + 3 (docs/methods.md, section 1.4).
+  std::vector<double> real;
+  for (const Zero& zero : zeros_of(std::vector{-72.0, 120.0, -44.0, 3.0})) {
+    EXPECT_EQ(zero.im, 0.0);
+    real.push_back(zero.re);
+  }
+  std::ranges::sort(real);
+  ASSERT_EQ(real.size(), 3U);
+  EXPECT_NEAR(real[0], 0.0883, 1e-4);
+  EXPECT_NEAR(real[1], 0.4005, 1e-4);
+  EXPECT_NEAR(real[0] + real[1] + real[2], 120.0 / 72.0, 1e-12);
+}
+
+TEST(Rpoly, FindsRandomZeros) {
+  Random random(3);
+  for (int i = 0; i < 3000; ++i) {
+    std::vector<Complex> zeros;
+    const auto degree = static_cast<std::size_t>(random.between(1, 6));
+    while (zeros.size() < degree) {
+      const Complex z(random.uniform(-2.0, 2.0), random.uniform(0.1, 2.0));
+      if (degree - zeros.size() >= 2 && random.coin()) {
+        zeros.push_back(z);
+        zeros.push_back(std::conj(z));
+      } else {
+        zeros.emplace_back(z.real());
+      }
+    }
+    double separation = 1.0;
+    for (std::size_t a = 0; a < zeros.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        separation = std::min(separation, std::abs(zeros[a] - zeros[b]));
+      }
+    }
+    if (separation < 0.2) continue;
+    const double scale = std::ldexp(1.0, random.between(-40, 40));
+    EXPECT_LT(worst_distance(zeros, zeros_of(with_zeros(zeros, scale))), 1e-9);
+  }
+}
+
+TEST(Rpoly, GivesZerosAtZeroExactly) {
+  const Zeros found = zeros_of(with_zeros({0.0, 0.0, 0.5, 0.25}));
+  ASSERT_EQ(found.count, 4U);
+  EXPECT_EQ(std::ranges::count_if(found, [](const Zero& z) { return z.re == 0.0 && z.im == 0.0; }),
+            2);
+}
+
+TEST(Rpoly, MultipleZerosComeOutAsClustersWithoutTheirLastDigits) {
+  Random random(4);
+  int complex_pairs = 0;
+  double worst = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    const double a = random.uniform(0.1, 0.4);
+    const double b = random.uniform(0.6, 0.9);
+    const double c = random.uniform(1.5, 3.0);
+    const std::vector<Complex> zeros{a, a, b, b, c, c};
+    const Zeros found = zeros_of(with_zeros(zeros));
+    worst = std::max(worst, worst_distance(zeros, found));
+    complex_pairs += std::ranges::any_of(found, [](const Zero& z) { return z.im != 0.0; }) ? 1 : 0;
+  }
+  EXPECT_LT(worst, 1e-3);
+  EXPECT_GT(worst, 1e-9) << "half of the digits";
+  EXPECT_GT(complex_pairs, 100);
+}
+
+TEST(Rpoly, HasNoZerosToGiveForNoPolynomial) {
+  EXPECT_EQ(zeros_of(std::vector{0.0, 1.0, 2.0}).count, 0U);
+  EXPECT_EQ(zeros_of(std::vector{5.0}).count, 0U);
+  EXPECT_THROW(static_cast<void>(zeros_of({})), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(zeros_of(std::vector<double>(10, 1.0))), std::invalid_argument);
+}
+
+TEST(Rpoly, EndsOnCoefficientsOfAllMagnitudes) {
+  Random random(5);
+  for (int i = 0; i < 3000; ++i) {
+    std::array<double, 7> coefficients{};
+    std::ranges::generate(coefficients, [&] { return random.finite_double(); });
+    EXPECT_LE(zeros_of(coefficients).count, 6U);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::baselines

@@ -1,0 +1,112 @@
+/// \file
+/// Intervals hold the results of rationals, over the whole range of doubles.
+
+#include "verify/baselines/upward_interval.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "exact/algebra/number.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/baselines/upward_rounding.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+using exact::Rational;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool holds(const UpwardInterval& interval, const Rational& x) {
+  if (std::isnan(interval.minus_lower) || std::isnan(interval.upper)) return false;
+  return (interval.minus_lower == infinity || Rational(-interval.minus_lower) <= x) &&
+         (interval.upper == infinity || x <= Rational(interval.upper));
+}
+
+/// The three operations, computed where the mode is upward.
+[[gnu::noinline]] std::array<UpwardInterval, 4> operations(const UpwardInterval& a,
+                                                           const UpwardInterval& b) {
+  return {a + b, a - b, a * b, half(a)};
+}
+
+std::array<UpwardInterval, 4> rounded_operations(const UpwardInterval& a, const UpwardInterval& b) {
+  const UpwardRounding upward;
+  return operations(a, b);
+}
+
+UpwardInterval from_to(double lower, double upper) { return {-lower, upper}; }
+
+UpwardInterval random_interval(tests::Random& random, bool any_exponent) {
+  const auto draw = [&] {
+    return any_exponent ? random.finite_double() : random.few_bit_double(53, -53, -50);
+  };
+  const double a = random.between(0, 7) == 0 ? 0.0 : draw();
+  const double b = random.between(0, 3) == 0 ? a : draw();
+  return from_to(std::min(a, b), std::max(a, b));
+}
+
+TEST(UpwardInterval, HoldsTheResultsOfItsEnds) {
+  tests::Random random(2);
+  for (int i = 0; i < tests::trials(20000); ++i) {
+    const UpwardInterval a = random_interval(random, i % 2 == 0);
+    const UpwardInterval b = random_interval(random, i % 2 == 0);
+    const auto results = rounded_operations(a, b);
+    for (const double x : {-a.minus_lower, a.upper}) {
+      for (const double y : {-b.minus_lower, b.upper}) {
+        ASSERT_TRUE(holds(results[0], Rational(x) + Rational(y)));
+        ASSERT_TRUE(holds(results[1], Rational(x) - Rational(y)));
+        ASSERT_TRUE(holds(results[2], Rational(x) * Rational(y)));
+      }
+      ASSERT_TRUE(holds(results[3], Rational(x) / 2));
+    }
+  }
+}
+
+TEST(UpwardInterval, IsAsNarrowAsItsEndsAllow) {
+  const std::array pairs{
+      std::array{from_to(2, 3), from_to(5, 7), from_to(10, 21)},
+      std::array{from_to(-3, -2), from_to(5, 7), from_to(-21, -10)},
+      std::array{from_to(2, 3), from_to(-7, 5), from_to(-21, 15)},
+      std::array{from_to(-3, -2), from_to(-7, 5), from_to(-15, 21)},
+      std::array{from_to(-2, 3), from_to(5, 7), from_to(-14, 21)},
+      std::array{from_to(-2, 3), from_to(-7, -5), from_to(-21, 14)},
+      std::array{from_to(-2, 3), from_to(-7, 5), from_to(-21, 15)},
+      std::array{from_to(0, 3), from_to(-7, 5), from_to(-21, 15)},
+      std::array{from_to(0, 0), from_to(-7, 5), from_to(0, 0)},
+  };
+  for (const auto& [a, b, product] : pairs) {
+    for (const auto& result : {rounded_operations(a, b)[2], rounded_operations(b, a)[2]}) {
+      EXPECT_EQ(result.minus_lower, product.minus_lower);
+      EXPECT_EQ(result.upper, product.upper);
+    }
+  }
+}
+
+TEST(UpwardInterval, StandsForFiniteNumbersWhereItsEndsAreInfinite) {
+  const UpwardInterval unbounded{infinity, infinity}, zero(0.0);
+  const auto product = rounded_operations(unbounded, zero)[2];
+  EXPECT_TRUE(is_zero(product));
+  const auto of_large = rounded_operations(from_to(1e300, 1e308), from_to(-1e308, 1e300))[2];
+  EXPECT_EQ(of_large.minus_lower, infinity);
+  EXPECT_EQ(of_large.upper, infinity);
+  EXPECT_EQ(of_large.sign(), 0);
+}
+
+TEST(UpwardInterval, KnowsItsSign) {
+  EXPECT_EQ(from_to(0x1p-1074, 1).sign(), 1);
+  EXPECT_EQ(from_to(-1, -0x1p-1074).sign(), -1);
+  EXPECT_EQ(from_to(0, 1).sign(), 0);
+  EXPECT_EQ(from_to(-1, 0).sign(), 0);
+  EXPECT_TRUE(same_sign(from_to(0, 1), from_to(-2, -1)));
+  EXPECT_TRUE(same_sign(from_to(-3, -1), from_to(-2, -1)));
+  EXPECT_FALSE(same_sign(from_to(1, 1), from_to(-2, -1)));
+  EXPECT_EQ(from_to(1, 3).estimate(), 2.0);
+}
+
+}  // namespace
+}  // namespace touchstone::baselines

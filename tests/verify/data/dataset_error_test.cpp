@@ -1,0 +1,64 @@
+#include "verify/data/dataset_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace touchstone::verify {
+namespace {
+
+TEST(DatasetError, says_path_line_column_and_reason_without_the_parts_that_are_zero) {
+  EXPECT_STREQ(DatasetError("a/b.csv", {.line = 12, .column = 3}, "bad").what(),
+               "a/b.csv:12:3: bad");
+  EXPECT_STREQ(DatasetError("a/b.csv", {.line = 12}, "bad").what(), "a/b.csv:12: bad");
+  EXPECT_STREQ(DatasetError("a/b.csv", {}, "bad").what(), "a/b.csv: bad");
+}
+
+TEST(DatasetError, keeps_its_parts) {
+  const DatasetError error("a/b.csv", {.line = 12, .column = 3}, "bad");
+  EXPECT_EQ(error.path(), "a/b.csv");
+  EXPECT_EQ(error.line(), 12U);
+  EXPECT_EQ(error.column(), 3U);
+  EXPECT_EQ(error.reason(), "bad");
+}
+
+TEST(DatasetError, has_a_bounded_length) {
+  const DatasetError error(std::string(100000, 'p'), {.line = 12, .column = 3},
+                           std::string(100000, 'r'));
+  EXPECT_EQ(error.what(), std::string(4096, 'p') + "...:12:3: " + std::string(1000, 'r') + "...");
+  EXPECT_EQ(error.reason(), std::string(1000, 'r') + "...");
+  EXPECT_EQ(error.path().string().size(), 100000U) << "only what is printed is cut";
+  EXPECT_EQ(DatasetError("p", {}, std::string(1000, 'r')).reason(), std::string(1000, 'r'));
+}
+
+TEST(DatasetError, cuts_no_character_in_two) {
+  for (std::size_t before = 996; before <= 1000; ++before) {
+    const std::string reason = DatasetError("p", {},
+                                            std::string(before, 'r') +
+                                                "\xF0\x9F\x98\x80"
+                                                "end")
+                                   .reason();
+    EXPECT_EQ(reason, std::string(before, 'r') + (before == 996 ? "\xF0\x9F\x98\x80..." : "..."));
+  }
+}
+
+TEST(Beginning, takes_whole_characters) {
+  EXPECT_EQ(beginning("abc", 3), "abc");
+  EXPECT_EQ(beginning("abc", 2), "ab");
+  EXPECT_EQ(beginning("", 0), "");
+  EXPECT_EQ(beginning("a\xC3\xA9", 2), "a");
+  EXPECT_EQ(beginning("a\xC3\xA9", 3), "a\xC3\xA9");
+  EXPECT_EQ(beginning("\xF0\x9F\x98\x80", 3), "");
+  EXPECT_EQ(beginning(std::string(10, '\x80'), 5).size(), 2U) << "where it is not UTF-8 it ends";
+}
+
+TEST(Quote, cuts_long_text_and_hides_what_a_terminal_would_obey) {
+  EXPECT_EQ(quote("1.5"), "\"1.5\"");
+  EXPECT_EQ(quote(std::string_view("a\x1b[31m\0\n", 7)), "\"a?[31m?\"");
+  EXPECT_EQ(quote("\xc3\xa9"), "\"??\"");
+  EXPECT_EQ(quote(std::string(40, 'x')), "\"" + std::string(40, 'x') + "\"");
+  EXPECT_EQ(quote(std::string(41, 'x')), "\"" + std::string(40, 'x') + "...\"");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

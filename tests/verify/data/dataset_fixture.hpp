@@ -1,0 +1,216 @@
+#pragma once
+
+/// \file
+/// What the tests of dataset readers and writers share.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/data/npy.hpp"
+
+namespace touchstone::verify::test {
+
+/// A folder of the running test, removed with all its files at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static unsigned count = 0;
+    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string("touchstone-") + info->test_suite_name() + "-" + info->name() +
+                       "-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
+    std::replace(name.begin(), name.end(), '/', '-');
+    path_ = std::filesystem::path(::testing::TempDir()) / name;
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  TemporaryFolder(TemporaryFolder&&) = delete;
+  TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  /// Makes a file with this text, and its folders, and returns its path.
+  [[nodiscard]] std::filesystem::path file(const std::filesystem::path& name,
+                                           std::string_view text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream stream(path_ / name, std::ios::binary);
+    stream << text;
+    return path_ / name;
+  }
+
+  /// Names in the folder itself.
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path_)) {
+      names.push_back(entry.path().filename().string());
+    }
+    return names;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+[[nodiscard]] inline std::string contents(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// All queries of a .npy file.
+[[nodiscard]] inline std::vector<Query> npy_queries(const std::filesystem::path& path) {
+  NpyReader npy(path);
+  std::vector<Query> queries;
+  while (npy.position() < npy.count()) queries.push_back(npy.next());
+  return queries;
+}
+
+[[nodiscard]] inline std::vector<RecordedQuery> read_all(QuerySource& source) {
+  std::vector<RecordedQuery> records;
+  while (auto record = source.next()) records.push_back(*record);
+  return records;
+}
+
+/// what() of the DatasetError that the action throws, with `folder` (if any) cut off its front.
+template <class Action>
+[[nodiscard]] std::string error_of(const std::filesystem::path& folder, const Action& action) {
+  try {
+    action();
+  } catch (const DatasetError& error) {
+    const std::string text = error.what();
+    const std::string prefix = folder.empty() ? "" : folder.string() + "/";
+    return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
+  }
+  return "no DatasetError";
+}
+
+/// A stream read with keep_going.
+struct Survivors {
+  std::vector<RecordedQuery> records;
+  std::uint64_t skipped;
+  /// what() of each error, without the folder.
+  std::vector<std::string> messages;
+};
+
+[[nodiscard]] inline Survivors read_survivors(const std::filesystem::path& path,
+                                              const std::filesystem::path& folder,
+                                              DatasetOptions options = {}) {
+  Survivors survivors;
+  options.keep_going = true;
+  options.on_skip = [&](const DatasetError& fault) {
+    survivors.messages.push_back(error_of(folder, [&] { throw fault; }));
+  };
+  const auto source = open_dataset(path, options);
+  survivors.records = read_all(*source);
+  survivors.skipped = source->skipped();
+  return survivors;
+}
+
+/// Coordinates all different from query to query, point to point and axis to axis.
+[[nodiscard]] inline Query numbered_query(std::size_t index) {
+  Query query{};
+  for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
+    query.coordinates.at(i) = static_cast<double>(100 * index + i) / 4.0;
+  }
+  return query;
+}
+
+/// The eight lines of numbered_query(index) without line ends; labelled: odd ones collide.
+[[nodiscard]] inline std::vector<std::string> numbered_rows(std::size_t index, bool labelled) {
+  std::vector<std::string> rows;
+  for (std::size_t row = 0; row < query_points; ++row) {
+    std::string text;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      text += (axis == 0 ? "" : ",") + std::to_string(100 * index + 3 * row + axis) + ",4";
+    }
+    rows.push_back(text + (labelled ? "," + std::to_string(index % 2) : ""));
+  }
+  return rows;
+}
+
+[[nodiscard]] inline std::vector<std::string> numbered_lines(std::size_t queries, bool labelled) {
+  std::vector<std::string> lines;
+  for (std::size_t index = 0; index < queries; ++index) {
+    for (const std::string& row : numbered_rows(index, labelled)) lines.push_back(row);
+  }
+  return lines;
+}
+
+[[nodiscard]] inline std::string joined(const std::vector<std::string>& lines,
+                                        std::string_view line_end = "\n") {
+  std::string text;
+  for (const std::string& line : lines) {
+    text += line;
+    text += line_end;
+  }
+  return text;
+}
+
+/// Expects exactly the numbered queries of these indices, each with its index.
+inline void expect_numbered(const std::vector<RecordedQuery>& records,
+                            const std::vector<std::uint64_t>& indices) {
+  ASSERT_EQ(records.size(), indices.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    EXPECT_EQ(records[i].index, indices[i]);
+    EXPECT_EQ(records[i].query, numbered_query(indices[i]));
+  }
+}
+
+/// Finite doubles of all exponents, subnormals and zeros among them.
+[[nodiscard]] inline Query random_query(std::mt19937_64& random) {
+  Query query{};
+  for (double& x : query.coordinates) {
+    do {
+      x = std::bit_cast<double>(random());
+    } while (!std::isfinite(x));
+    if (random() % 16 == 0) x = std::bit_cast<double>(random() >> 12U);
+    if (random() % 64 == 0) x = 0.0;
+  }
+  return query;
+}
+
+/// Most bytes that were resident since the last call of reset_peak_resident().
+[[nodiscard]] inline std::size_t peak_resident() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return 1024 * std::stoull(line.substr(6));
+  }
+  throw std::runtime_error("no VmHWM in /proc/self/status");
+}
+
+inline void reset_peak_resident() { std::ofstream("/proc/self/clear_refs") << "5"; }
+
+/// How far the peak of resident memory rises above its present height, in bytes, while this runs.
+/// getrusage's peak never falls, so an earlier test could hide the rise; this one is reset.
+template <class Action>
+[[nodiscard]] std::size_t resident_growth(const Action& action) {
+  reset_peak_resident();
+  const std::size_t before = peak_resident();
+  action();
+  return peak_resident() - before;
+}
+
+}  // namespace touchstone::verify::test

@@ -1,0 +1,289 @@
+#include "verify/data/dataset.hpp"
+#include "tests/support/built_files.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "tests/verify/data/dataset_fixture.hpp"
+#include "verify/data/csv_dataset.hpp"
+#include "verify/data/npy.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+namespace fs = std::filesystem;
+using test::error_of;
+using test::expect_numbered;
+using test::joined;
+using test::numbered_lines;
+using test::numbered_query;
+using test::read_all;
+using test::TemporaryFolder;
+
+std::vector<fs::path> found_in(const fs::path& path) {
+  return find_datasets(std::vector<fs::path>{path});
+}
+
+TEST(FindDatasets, finds_datasets_and_none_of_what_accompanies_them) {
+  const TemporaryFolder folder;
+  for (const std::string other :
+       {"s/toi/1vf_toi.csv", "s/toi/odd.csv", "s/mma_bool/1vf_mma_bool.json", "s/mma_bool/odd.csv",
+        "s/boxes/1vf.json", "s/boxes/1vf.csv", "s/frames/1.ply", "s/frames/deep/1.npy",
+        "s/queries/1vf_toi.csv", "s/queries/1vf_mma_bool.json", "s/queries/toi/1vf_toi.csv",
+        "README.md", "LICENSE", "s/queries/1vf.csv.partial-1-0", "s/queries/1vf.npz"}) {
+    (void)folder.file(other, "");
+  }
+  std::vector<fs::path> expected;
+  for (const std::string dataset : {"a/edge-edge/data_0_0.csv", "a/vertex-face/data_0_0.csv",
+                                    "s/queries/1ee.csv", "s/queries/1vf.csv", "z.npy"}) {
+    expected.push_back(folder.file(dataset, ""));
+  }
+  EXPECT_EQ(found_in(folder.path()), expected);
+}
+
+TEST(FindDatasets, keeps_the_given_order_and_takes_named_files_as_they_are) {
+  const TemporaryFolder folder;
+  const fs::path toi = folder.file("toi/1vf_toi.csv", ""), text = folder.file("x.txt", "");
+  const fs::path second = folder.file("d/b.csv", ""), first = folder.file("d/a.csv", "");
+  const std::vector<fs::path> given{text, folder.path() / "d", toi};
+  EXPECT_EQ(find_datasets(given), (std::vector<fs::path>{text, first, second, toi}));
+}
+
+TEST(FindDatasets, a_folder_named_like_a_companion_is_searched_if_it_is_named_itself) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.file("boxes/1vf.csv", "");
+  EXPECT_EQ(found_in(folder.path() / "boxes"), std::vector<fs::path>{path});
+}
+
+TEST(FindDatasets, names_what_is_not_there_and_folders_without_datasets) {
+  const TemporaryFolder folder;
+  (void)folder.file("empty/toi/1vf_toi.csv", "");
+  EXPECT_EQ(error_of(folder.path(), [&] { (void)found_in(folder.path() / "none.csv"); }),
+            "none.csv: does not exist");
+  EXPECT_EQ(error_of(folder.path(), [&] { (void)found_in(folder.path() / "empty"); }),
+            "empty: no dataset (.csv, .npy) in this folder");
+}
+
+/// What is left out below a folder, without the folder.
+std::vector<std::string> left_out_in(const TemporaryFolder& folder) {
+  std::vector<std::string> messages;
+  (void)find_datasets(std::vector<fs::path>{folder.path()}, [&](const DatasetError& error) {
+    messages.push_back(error_of(folder.path(), [&] { throw DatasetError(error); }));
+  });
+  return messages;
+}
+
+TEST(FindDatasets, follows_links_to_files_and_folders) {
+  const TemporaryFolder folder, elsewhere;
+  const fs::path file = folder.file("a/1vf.csv", "");
+  (void)elsewhere.file("deep/er/2vf.csv", "");
+  fs::create_symlink(elsewhere.path() / "deep", folder.path() / "link");
+  fs::create_symlink(elsewhere.path() / "deep/er/2vf.csv", folder.path() / "z.csv");
+  EXPECT_EQ(found_in(folder.path()), (std::vector<fs::path>{file, folder.path() / "link/er/2vf.csv",
+                                                            folder.path() / "z.csv"}));
+  EXPECT_EQ(left_out_in(folder), std::vector<std::string>{});
+  EXPECT_EQ(found_in(folder.path() / "link"), std::vector{folder.path() / "link/er/2vf.csv"});
+}
+
+TEST(FindDatasets, searches_no_folder_twice_however_links_lead_to_it) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("b/1vf.csv", ""), second = folder.file("b/c/2vf.csv", "");
+  fs::create_symlink(folder.path(), folder.path() / "b/c/ring");
+  fs::create_symlink("b", folder.path() / "a");
+  fs::create_symlink("itself", folder.path() / "itself");
+  fs::create_symlink("nothing", folder.path() / "b/nowhere.csv");
+  EXPECT_EQ(found_in(folder.path()), (std::vector{file, second})) << "by their plain paths";
+  EXPECT_EQ(
+      left_out_in(folder),
+      (std::vector<std::string>{"b/nowhere.csv: left out: a link that leads to no file or folder",
+                                "itself: left out: a link that leads to no file or folder",
+                                "a: left out: leads to a folder that is searched already",
+                                "b/c/ring: left out: leads to a folder that is searched already"}));
+}
+
+TEST(FindDatasets, names_what_it_leaves_out_but_for_companions) {
+  const TemporaryFolder folder;
+  for (const std::string name :
+       {"s/1vf.csv", "s/toi/1vf_toi.csv", "s/1ee_toi.csv", "s/mma_bool/1vf_mma_bool.json",
+        "s/1ee_mma_bool.json", "s/separation.json", "s/boxes/1vf.json", "s/frames/1.ply"}) {
+    (void)folder.file(name, "");
+  }
+  EXPECT_EQ(left_out_in(folder), std::vector<std::string>{});
+  for (const std::string name :
+       {"README.md", "s/1vf.npz", "s/frames/deep/1vf.npy", "s/toi/1vf.csv"}) {
+    (void)folder.file(name, "");
+  }
+  ASSERT_EQ(::mkfifo((folder.path() / "s/pipe.csv").c_str(), 0600), 0);
+  const std::string in_companions =
+      ": left out: in a folder of what accompanies datasets; name the file itself to read it";
+  EXPECT_EQ(
+      left_out_in(folder),
+      (std::vector<std::string>{
+          "README.md: left out: no dataset (.csv, .npy)",
+          "s/1vf.npz: left out: no dataset (.csv, .npy)", "s/frames/deep/1vf.npy" + in_companions,
+          "s/pipe.csv: left out: neither a file nor a folder", "s/toi/1vf.csv" + in_companions}));
+}
+
+TEST(FindDatasets, a_folder_named_like_a_file_is_a_folder) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.file("data.csv/1vf.csv", "");
+  EXPECT_EQ(found_in(folder.path()), std::vector<fs::path>{path});
+}
+
+const std::string no_kind =
+    ": the path does not say whether its queries are vertex-face or edge-edge; pass --kind "
+    "vertex-face or --kind edge-edge";
+
+TEST(KindFromPath, the_deepest_part_wins_then_the_ending_of_the_name) {
+  EXPECT_EQ(kind_from_path("a/vertex-face/data_0_0.csv"), Kind::vertex_face);
+  EXPECT_EQ(kind_from_path("a/edge-edge/data_0_0.csv"), Kind::edge_edge);
+  EXPECT_EQ(kind_from_path("vertex-face/x/edge-edge/d.csv"), Kind::edge_edge);
+  EXPECT_EQ(kind_from_path("edge-edge/my-vertex-face-set.npy"), Kind::vertex_face);
+  EXPECT_EQ(kind_from_path("my-edge-edge-queries/1vf.csv"), Kind::edge_edge);
+  EXPECT_EQ(kind_from_path("queries/326vf.csv"), Kind::vertex_face);
+  EXPECT_EQ(kind_from_path("ee.npy"), Kind::edge_edge);
+}
+
+TEST(KindFromPath, takes_letters_for_a_kind_only_where_they_are_a_word) {
+  for (const std::string name :
+       {"x_ee", "x-ee", "x ee", "x.ee", "ee", "326ee", "x_326ee", "3d-ee"}) {
+    EXPECT_EQ(kind_from_path(name + ".npy"), Kind::edge_edge) << name;
+  }
+  for (const std::string name : {"x_vf", "vf", "92vf", "cloth-92vf", "a_vf"}) {
+    EXPECT_EQ(kind_from_path(name + ".csv"), Kind::vertex_face) << name;
+  }
+  EXPECT_EQ(kind_from_path("2edge-edge_queries/d.csv"), Kind::edge_edge);
+  for (const std::string path :
+       {"tree.npy", "x_tree.csv", "coffee.csv", "4fa9ee.npy", "w1ee.csv", "pdvf.csv",
+        "n\xC3\xA9"
+        "ee.csv",
+        "knowledge-edge.csv", "edge-edges/d.csv", "vertex-facet/d.csv", "x_EE.csv", "ee_.csv"}) {
+    EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }), path + no_kind);
+  }
+}
+
+TEST(KindFromPath, asks_for_the_kind_where_the_path_does_not_say_it) {
+  for (const std::string path : {"data.csv", "vf/data.csv", "vertex_face/data.csv", "vf1.csv"}) {
+    EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }), path + no_kind);
+  }
+  EXPECT_EQ(
+      error_of("", [] { (void)kind_from_path("vertex-face/edge-edge-vertex-face.csv"); }),
+      "vertex-face/edge-edge-vertex-face.csv: \"edge-edge-vertex-face.csv\" names both kinds; "
+      "pass --kind");
+}
+
+TEST(OpenDataset, picks_the_format_and_the_kind) {
+  const TemporaryFolder folder;
+  const fs::path csv = folder.file("1vf.csv", joined(numbered_lines(2, true)));
+  const fs::path npy = folder.path() / "1ee.npy";
+  NpyWriter writer(npy);
+  for (std::size_t i = 0; i < 2; ++i) writer.write(numbered_query(i));
+  writer.close();
+  const auto from_csv = open_dataset(csv), from_npy = open_dataset(npy);
+  EXPECT_EQ(from_csv->kind(), Kind::vertex_face);
+  EXPECT_EQ(from_npy->kind(), Kind::edge_edge);
+  expect_numbered(read_all(*from_csv), {0, 1});
+  expect_numbered(read_all(*from_npy), {0, 1});
+  EXPECT_EQ(open_dataset(csv, {.kind = Kind::edge_edge})->kind(), Kind::edge_edge);
+}
+
+TEST(OpenDataset, opening_errors_throw_even_if_it_keeps_going) {
+  const TemporaryFolder folder;
+  const auto opening_error = [&](const fs::path& path) {
+    return error_of(folder.path(), [&] { (void)open_dataset(path, {.keep_going = true}); });
+  };
+  fs::create_directory(folder.path() / "folder-vf.csv");
+  EXPECT_EQ(opening_error(folder.path() / "folder-vf.csv"), "folder-vf.csv: is a folder");
+  EXPECT_EQ(opening_error(folder.path() / "1vf.csv"),
+            "1vf.csv: cannot open: No such file or directory");
+  fs::create_symlink("/proc/self/mem", folder.path() / "2vf.csv");
+  EXPECT_EQ(opening_error(folder.path() / "2vf.csv"), "2vf.csv: cannot read: Input/output error");
+  EXPECT_EQ(opening_error(folder.file("1vf.txt", "")),
+            "1vf.txt: unknown format: only .csv and .npy are datasets");
+  EXPECT_EQ(opening_error(folder.file("empty_vf.csv", "")), "empty_vf.csv: no queries");
+  EXPECT_EQ(opening_error(folder.file("empty_vf.npy", "")), "empty_vf.npy: not a NumPy file");
+  EXPECT_TRUE(opening_error(folder.file("a.csv", joined(numbered_lines(1, true))))
+                  .ends_with("pass --kind vertex-face or --kind edge-edge"));
+}
+
+/// The public benchmark data, which the project does not contain.
+class PublicData : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const char* const from_environment = std::getenv("TOUCHSTONE_DATA");
+    folder_ = from_environment != nullptr ? fs::path(from_environment)
+                                          : fs::path(tests::source_folder()) / "../shared/datasets";
+    if (fs::is_directory(folder_)) return;
+    std::cerr << "\n*** WARNING: no public data at " << folder_
+              << "; nothing is tested against it. Set TOUCHSTONE_DATA. ***\n\n";
+    GTEST_SKIP() << "no public data";
+  }
+
+  struct Counts {
+    std::uint64_t queries = 0, collisions = 0, labels = 0, tois = 0;
+
+    friend bool operator==(const Counts&, const Counts&) = default;
+  };
+
+  [[nodiscard]] Counts count(const fs::path& path) const {
+    Counts counts;
+    for (const fs::path& file : found_in(folder_ / path)) {
+      const auto source = open_dataset(file);
+      for (const RecordedQuery& record : read_all(*source)) {
+        ++counts.queries;
+        counts.labels += record.collides.has_value() ? 1U : 0U;
+        counts.collisions += record.collides.value_or(false) ? 1U : 0U;
+        counts.tois += record.toi.has_value() ? 1U : 0U;
+        EXPECT_TRUE(!record.toi || record.collides.value_or(false)) << file << record.index;
+      }
+    }
+    return counts;
+  }
+
+  [[nodiscard]] const fs::path& folder() const { return folder_; }
+
+ private:
+  fs::path folder_;
+};
+
+TEST_F(PublicData, handcrafted_has_4884_labelled_queries_in_22_files) {
+  EXPECT_EQ(found_in(folder() / "handcrafted").size(), 22U);
+  const Counts counts = count("handcrafted");
+  EXPECT_EQ(counts.queries, 4884U);
+  EXPECT_EQ(counts.labels, 4884U);
+  EXPECT_EQ(counts.tois, 0U);
+}
+
+TEST_F(PublicData, simulation_has_the_published_labels_and_times) {
+  EXPECT_EQ(found_in(folder() / "simulation").size(), 3U);
+  EXPECT_EQ(count("simulation/armadillo-rollers"),
+            (Counts{.queries = 4652, .collisions = 4650, .labels = 4652, .tois = 4650}));
+  EXPECT_EQ(count("simulation/cloth-funnel/queries/227vf.csv"),
+            (Counts{.queries = 92, .collisions = 27, .labels = 92, .tois = 27}));
+  EXPECT_EQ(count("simulation/cloth-funnel/queries/227ee.csv"),
+            (Counts{.queries = 263, .collisions = 107, .labels = 263, .tois = 107}));
+}
+
+TEST_F(PublicData, writing_a_handcrafted_file_again_gives_the_same_bytes) {
+  const TemporaryFolder temporary;
+  for (const fs::path& original : found_in(folder() / "handcrafted")) {
+    const fs::path copy = temporary.path() / "copy.csv";
+    CsvWriter writer(copy);
+    for (const RecordedQuery& record : read_all(*open_dataset(original))) {
+      writer.write(record.query, record.collides.value());
+    }
+    writer.close();
+    const std::string text = test::contents(original);
+    EXPECT_EQ(test::contents(copy), text + (text.ends_with('\n') ? "" : "\n")) << original;
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify

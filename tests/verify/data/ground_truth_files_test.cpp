@@ -1,0 +1,226 @@
+#include "verify/data/ground_truth_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/verify/data/dataset_fixture.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using exact::Rational;
+using test::error_of;
+using test::TemporaryFolder;
+
+/// What a reader says of queries 0 to count−1 and behind them: "1", "0", a toi, "-" or the error.
+template <class Reader>
+std::vector<std::string> answers(const std::string& text, std::uint64_t count) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("f", text);
+  std::vector<std::string> result;
+  const std::string opening = error_of(folder.path(), [&] {
+    Reader reader(path);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::string error = error_of(folder.path(), [&] {
+        if constexpr (std::is_same_v<Reader, LabelReader>) {
+          result.emplace_back(reader.at(i) ? "1" : "0");
+        } else {
+          const auto toi = reader.at(i);
+          result.push_back(toi ? toi->get_str() : "-");
+        }
+      });
+      if (error != "no DatasetError") result.push_back(error);
+    }
+    if (const auto fault = reader.beyond(count)) {
+      result.push_back("behind " + error_of(folder.path(), [&] { throw DatasetError(*fault); }));
+    }
+  });
+  if (opening != "no DatasetError") result.push_back("opening " + opening);
+  return result;
+}
+
+using Answers = std::vector<std::string>;
+
+Answers labels(const std::string& text, std::uint64_t count) {
+  return answers<LabelReader>(text, count);
+}
+Answers tois(const std::string& text, std::uint64_t count) {
+  return answers<ToiReader>(text, count);
+}
+
+TEST(LabelReader, reads_booleans_and_bits_with_any_white_space) {
+  EXPECT_EQ(labels("[true,false,1,0]", 4), (Answers{"1", "0", "1", "0"}));
+  EXPECT_EQ(labels("\r\n [\ttrue ,\n false\n]\n ", 2), (Answers{"1", "0"}));
+  EXPECT_EQ(labels("[]", 0), Answers{});
+  EXPECT_EQ(labels("[ ]\n", 0), Answers{});
+}
+
+TEST(LabelReader, reads_more_than_its_buffer) {
+  std::string text = "[";
+  Answers expected;
+  for (int i = 0; i < 20000; ++i) {
+    text += std::string(i == 0 ? "" : ",") + (i % 7 == 0 ? "true" : "false");
+    expected.emplace_back(i % 7 == 0 ? "1" : "0");
+  }
+  EXPECT_EQ(labels(text + "]", 20000), expected);
+}
+
+TEST(LabelReader, passes_over_the_labels_of_queries_that_nobody_asks_for) {
+  const TemporaryFolder folder;
+  LabelReader reader(folder.file("f", "[false,null,true,false,true]"));
+  EXPECT_TRUE(reader.at(2));
+  EXPECT_TRUE(reader.at(4));
+  EXPECT_FALSE(reader.beyond(5).has_value());
+}
+
+TEST(LabelReader, a_word_that_is_no_boolean_concerns_one_query) {
+  EXPECT_EQ(labels("[true,\n null,2,True,-1,1.0,false]", 7),
+            (Answers{"1", "f:2:2: not a boolean: \"null\"", "f:2:7: not a boolean: \"2\"",
+                     "f:2:9: not a boolean: \"True\"", "f:2:14: not a boolean: \"-1\"",
+                     "f:2:17: not a boolean: \"1.0\"", "0"}));
+}
+
+TEST(LabelReader, other_json_ends_it_with_a_place) {
+  EXPECT_EQ(labels("{\"a\":true}", 1), Answers{"opening f:1:1: expected a JSON array of booleans"});
+  EXPECT_EQ(labels("", 1), Answers{"opening f:1:1: expected a JSON array of booleans"});
+  EXPECT_EQ(labels("\n true", 1), Answers{"opening f:2:2: expected a JSON array of booleans"});
+  const auto twice = [](const std::string& error) { return Answers{"1", error, error}; };
+  EXPECT_EQ(labels("[true,[false],true]", 3), twice("f:1:7: expected true or false"));
+  EXPECT_EQ(labels("[true,\"false\",true]", 3), twice("f:1:7: expected true or false"));
+  EXPECT_EQ(labels("[true,,true]", 3), twice("f:1:7: expected true or false"));
+  EXPECT_EQ(labels("[true,]", 3), twice("f:1:7: expected true or false"));
+  EXPECT_EQ(labels("[true true]", 3), twice("f:1:7: expected ',' or ']'"));
+  EXPECT_EQ(labels("[true", 3), twice("f:1:6: expected ',' or ']'"));
+  EXPECT_EQ(labels("[true," + std::string(100, 'x') + "]", 3),
+            twice("f:1:71: expected true or false"));
+}
+
+TEST(LabelReader, counts) {
+  EXPECT_EQ(labels("[true,\nfalse]", 4),
+            (Answers{"1", "0", "f:2:6: no label for query 2: the array has only 2",
+                     "f:2:6: no label for query 3: the array has only 2"}));
+  EXPECT_EQ(labels("[true,\nfalse]", 1),
+            (Answers{"1", "behind f:2:1: more labels than the 1 queries"}));
+  EXPECT_EQ(labels("[]", 1), Answers{"f:1:2: no label for query 0: the array has only 0"});
+}
+
+TEST(LabelReader, reports_what_is_wrong_behind_the_last_label) {
+  EXPECT_EQ(labels("[true", 1), (Answers{"1", "behind f:1:6: expected ',' or ']'"}));
+  EXPECT_EQ(labels("[true] x", 1),
+            (Answers{"1", "behind f:1:8: expected nothing after the array"}));
+  EXPECT_EQ(labels("[true,]", 1), (Answers{"1", "behind f:1:7: expected true or false"}));
+}
+
+TEST(LabelReader, a_read_error_is_no_end_of_the_array) {
+  EXPECT_EQ(error_of("", [] { LabelReader reader("/proc/self/mem"); }),
+            "/proc/self/mem: cannot read: Input/output error");
+}
+
+TEST(ToiReader, reads_what_is_there) {
+  EXPECT_EQ(tois("query,toi\n0,2.5E-1\n2,1\n3,0.125\n", 5), (Answers{"1/4", "-", "1", "1/8", "-"}));
+  EXPECT_EQ(tois(" query , toi \r\n 1 , 5e-1 \r\n\r\n", 2), (Answers{"-", "1/2"}));
+  EXPECT_EQ(tois("query,toi", 1), Answers{"-"});
+}
+
+TEST(ToiReader, keeps_every_digit) {
+  const std::string digits = "2.875962581638275129155259856997960214033566086";
+  EXPECT_EQ(tois("query,toi\n0," + digits + "E-1\n", 1),
+            Answers{exact::rational_from_decimal("0.2875962581638275129155259856997960214033566086")
+                        .get_str()});
+}
+
+TEST(ToiReader, a_bad_decimal_concerns_one_query) {
+  EXPECT_EQ(tois("query,toi\n0,1\n1,x\n2,\n3,0\n", 4),
+            (Answers{"1", "f:3:2: not a decimal number: \"x\"", "f:4:2: not a decimal number: \"\"",
+                     "0"}));
+}
+
+TEST(ToiReader, other_headers_are_opening_errors) {
+  EXPECT_EQ(tois("", 1), Answers{"opening f: expected the header query,toi"});
+  for (const std::string header : {"0,1", "toi,query", "query", "query,toi,x", "\nquery,toi"}) {
+    EXPECT_EQ(tois(header + "\n0,1\n", 1), Answers{"opening f:1: expected the header query,toi"});
+  }
+}
+
+TEST(ToiReader, lines_of_no_known_query_end_it_with_a_place) {
+  const auto fault = [](const std::string& line) {
+    return tois("query,toi\n0,1\n" + line + "\n9,1\n", 3);
+  };
+  const auto twice = [](const std::string& error) { return Answers{"1", error, error}; };
+  EXPECT_EQ(fault("x,1"), twice("f:3:1: not a query number: \"x\""));
+  EXPECT_EQ(fault("-1,1"), twice("f:3:1: not a query number: \"-1\""));
+  EXPECT_EQ(fault("99999999999999999999,1"),
+            twice("f:3:1: not a query number: \"99999999999999999999\""));
+  EXPECT_EQ(fault("0,1"), twice("f:3:1: query numbers do not ascend"));
+  EXPECT_EQ(fault("1"), twice("f:3: expected two columns, query and toi"));
+  EXPECT_EQ(fault("1,1,1"), twice("f:3: expected two columns, query and toi"));
+  EXPECT_EQ(fault(""), twice("f:3: expected two columns, query and toi"));
+  EXPECT_EQ(fault(std::string(LineReader::longest_line + 1, '1')),
+            twice("f:3: line longer than 1 MiB"));
+}
+
+TEST(ToiReader, reports_what_is_wrong_behind_the_last_query) {
+  EXPECT_EQ(tois("query,toi\n0,1\n2,1\n3,1\n", 2),
+            (Answers{"1", "-", "behind f:3:1: toi of query 2, but there are 2 queries"}));
+  EXPECT_EQ(tois("query,toi\n0,1\n?\n", 1),
+            (Answers{"1", "behind f:3: expected two columns, query and toi"}));
+  EXPECT_EQ(tois("query,toi\n0,1\n1,1\n0,1\n", 2),
+            (Answers{"1", "1", "behind f:4:1: query numbers do not ascend"}));
+}
+
+TEST(Companions, are_found_beside_and_below_the_folder_of_the_dataset_in_order) {
+  const TemporaryFolder folder;
+  const auto dataset = folder.file("scene/queries/7vf.csv", "");
+  const auto path_of_labels = [&] { return Companions(dataset).label_path().lexically_normal(); };
+  EXPECT_EQ(path_of_labels(), "");
+  for (const std::string place :
+       {"scene/queries/7vf_mma_bool.json", "scene/queries/mma_bool/7vf_mma_bool.json",
+        "scene/mma_bool/7vf_mma_bool.json"}) {
+    const auto path = folder.file(place, "[true]");
+    EXPECT_EQ(path_of_labels(), path);
+  }
+  for (const std::string place :
+       {"scene/queries/7vf_toi.csv", "scene/queries/toi/7vf_toi.csv", "scene/toi/7vf_toi.csv"}) {
+    (void)folder.file(place, "query,toi\n0," + std::to_string(place.size()) + "\n");
+    Companions companions(dataset);
+    const RecordedTruth truth = companions.at(0);
+    EXPECT_EQ(truth.collides, std::optional(true));
+    EXPECT_EQ(truth.toi, std::optional(Rational(place.size())));
+    EXPECT_TRUE(companions.beyond(1).empty());
+  }
+}
+
+TEST(Companions, are_known_by_their_paths) {
+  const TemporaryFolder folder;
+  const auto dataset = folder.file("queries/7vf.csv", "");
+  EXPECT_TRUE(find_companions(dataset).empty());
+  const auto tois = folder.file("toi/7vf_toi.csv", "");
+  const auto labels = folder.file("queries/7vf_mma_bool.json", "");
+  const auto found = find_companions(dataset);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].lexically_normal(), labels);
+  EXPECT_EQ(found[1].lexically_normal(), tois);
+}
+
+TEST(Companions, of_other_datasets_do_not_count) {
+  const TemporaryFolder folder;
+  const auto dataset = folder.file("queries/7vf.npy", "");
+  (void)folder.file("mma_bool/17vf_mma_bool.json", "[true]");
+  (void)folder.file("toi/8vf_toi.csv", "query,toi\n0,1\n");
+  Companions companions(dataset);
+  EXPECT_EQ(companions.at(0).collides, std::nullopt);
+  EXPECT_EQ(companions.at(0).toi, std::nullopt);
+}
+
+TEST(Companions, that_cannot_be_read_are_errors) {
+  const TemporaryFolder folder;
+  const auto dataset = folder.file("7vf.csv", "");
+  std::filesystem::create_directory(folder.path() / "7vf_toi.csv");
+  EXPECT_EQ(error_of(folder.path(), [&] { Companions companions(dataset); }),
+            "7vf_toi.csv: is a folder");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

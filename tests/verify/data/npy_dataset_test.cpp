@@ -1,0 +1,143 @@
+#include "verify/data/npy_dataset.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/verify/data/dataset_fixture.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using test::contents;
+using test::error_of;
+using test::expect_numbered;
+using test::npy_queries;
+using test::numbered_query;
+using test::read_all;
+using test::read_survivors;
+using test::resident_growth;
+using test::TemporaryFolder;
+
+/// Writes numbered queries and then spoils one double; NpyWriter itself would refuse it.
+std::filesystem::path spoiled_file(const TemporaryFolder& folder, std::size_t query,
+                                   std::size_t coordinate, double value) {
+  std::filesystem::path path = folder.path() / "a_vf.npy";
+  NpyWriter writer(path);
+  for (std::size_t i = 0; i < 4; ++i) writer.write(numbered_query(i));
+  writer.close();
+  std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(static_cast<std::streamoff>(128 + 192 * query + 8 * coordinate));
+  const void* const bytes = &value;
+  file.write(static_cast<const char*>(bytes), sizeof(value));
+  return path;
+}
+
+TEST(NpyDataset, streams_all_queries_without_truth) {
+  const TemporaryFolder folder;
+  const auto path = spoiled_file(folder, 0, 0, 0.0);
+  NpyDataset source(path, {});
+  EXPECT_EQ(source.kind(), Kind::vertex_face);
+  EXPECT_EQ(source.name(), path.string());
+  EXPECT_EQ(source.progress(), 0.0);
+  ASSERT_TRUE(source.next().has_value());
+  EXPECT_EQ(source.progress(), 0.25);
+  const auto records = read_all(source);
+  expect_numbered(records, {1, 2, 3});
+  for (const auto& record : records) {
+    EXPECT_FALSE(record.collides.has_value());
+    EXPECT_FALSE(record.toi.has_value());
+  }
+  EXPECT_EQ(source.progress(), 1.0);
+}
+
+TEST(NpyDataset, names_the_coordinate_that_is_not_finite_and_skips_its_query_only) {
+  using Limits = std::numeric_limits<double>;
+  for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
+    for (std::size_t coordinate = 0; coordinate < 24; ++coordinate) {
+      const TemporaryFolder folder;
+      const auto path = spoiled_file(folder, 2, coordinate, bad);
+      const std::string expected = "a_vf.npy: query 2, point " + std::to_string(coordinate / 3) +
+                                   ", " + "xyz"[coordinate % 3] + ": not finite";
+      EXPECT_EQ(error_of(folder.path(),
+                         [&] {
+                           NpyDataset source(path, {});
+                           (void)read_all(source);
+                         }),
+                expected);
+      const auto kept = read_survivors(path, folder.path());
+      expect_numbered(kept.records, {0, 1, 3});
+      EXPECT_EQ(kept.skipped, 1U);
+      EXPECT_EQ(kept.messages, std::vector<std::string>{expected});
+    }
+  }
+}
+
+TEST(NpyDataset, of_no_queries_ends_at_once) {
+  const TemporaryFolder folder;
+  NpyWriter(folder.path() / "a_vf.npy").close();
+  NpyDataset source(folder.path() / "a_vf.npy", {});
+  EXPECT_FALSE(source.next().has_value());
+  EXPECT_EQ(source.progress(), 1.0);
+  EXPECT_EQ(source.skipped(), 0U);
+}
+
+TEST(NpyDataset, that_becomes_shorter_gives_what_is_there_and_then_one_error) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a_vf.npy";
+  for (const bool keep_going : {false, true}) {
+    NpyWriter writer(path);
+    for (std::size_t i = 0; i < 3000; ++i) writer.write(numbered_query(i));
+    writer.close();
+    std::vector<std::string> messages;
+    NpyDataset source(path, {.keep_going = keep_going, .on_skip = [&](const DatasetError& fault) {
+                               messages.emplace_back(fault.reason());
+                             }});
+    std::vector<RecordedQuery> records{source.next().value()};
+    std::filesystem::resize_file(path, 128 + 192 * 2000);
+    const std::string error = error_of(folder.path(), [&] {
+      while (auto record = source.next()) records.push_back(*record);
+    });
+    std::vector<std::uint64_t> there(2000);
+    std::iota(there.begin(), there.end(), 0);
+    expect_numbered(records, there);
+    const std::string reason =
+        "has become shorter while it was read: query 2000 of 3000 is missing";
+    EXPECT_EQ(error, keep_going ? "no DatasetError" : "a_vf.npy: " + reason);
+    EXPECT_EQ(messages, std::vector<std::string>(keep_going ? 1 : 0, reason));
+    EXPECT_EQ(source.skipped(), keep_going ? 1U : 0U);
+    EXPECT_FALSE(source.next().has_value()) << "it has ended";
+  }
+}
+
+TEST(NpyDataset, memory_does_not_grow_with_the_file) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a_vf.npy";
+  constexpr std::size_t queries = 300000;
+  {
+    NpyWriter writer(path);
+    for (std::size_t i = 0; i < queries; ++i) writer.write(numbered_query(i));
+    writer.close();
+  }
+  ASSERT_GT(std::filesystem::file_size(path), 50'000'000U);
+  const std::size_t streamed = resident_growth([&] {
+    NpyDataset source(path, {});
+    std::size_t count = 0;
+    while (source.next()) ++count;
+    EXPECT_EQ(count, queries);
+  });
+  EXPECT_LT(streamed, 8'000'000U);
+  const std::size_t whole = resident_growth([&] {
+    double sum = 0.0;
+    for (const Query& query : npy_queries(path)) sum += query.coordinates[0];
+    EXPECT_EQ(sum, 25.0 * (queries - 1.0) * queries / 2.0);
+  });
+  EXPECT_GT(whole, 40'000'000U) << "the measure must see a reader that keeps the file";
+}
+
+}  // namespace
+}  // namespace touchstone::verify

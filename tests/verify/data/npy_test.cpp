@@ -1,0 +1,269 @@
+#include "verify/data/npy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/verify/data/dataset_fixture.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using test::contents;
+using test::error_of;
+using test::npy_queries;
+using test::numbered_query;
+using test::random_query;
+using test::TemporaryFolder;
+
+using Limits = std::numeric_limits<double>;
+
+constexpr const char* good_dictionary =
+    "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 8, 3), }";
+
+/// Magic, version, length and dictionary padded so that the data begins at a multiple of `align`.
+std::string header(const std::string& dictionary, char version = 1, std::size_t align = 64) {
+  const std::size_t prefix = version == 1 ? 10 : 12;
+  const std::size_t total = (prefix + dictionary.size() + 1 + align - 1) / align * align;
+  const std::size_t length = total - prefix;
+  std::string text = "\x93NUMPY";
+  text += version;
+  text += '\0';
+  text += static_cast<char>(length % 256);
+  text += static_cast<char>(length / 256);
+  if (version != 1) text += std::string(2, '\0');
+  text += dictionary;
+  text.resize(total - 1, ' ');
+  return text + "\n";
+}
+
+std::string bytes_of(const std::vector<Query>& queries) {
+  std::string bytes(queries.size() * sizeof(Query), '\0');
+  std::memcpy(bytes.data(), queries.data(), bytes.size());
+  return bytes;
+}
+
+std::vector<Query> two_queries() { return {numbered_query(0), numbered_query(1)}; }
+
+std::string open_error(const std::string& file) {
+  const TemporaryFolder folder;
+  const auto path = folder.file("a.npy", file);
+  return error_of(folder.path(), [&] { NpyReader npy(path); });
+}
+
+std::string header_error(const std::string& dictionary) {
+  return open_error(header(dictionary) + bytes_of(two_queries()));
+}
+
+void expect_two_queries(const std::string& file) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(npy_queries(folder.file("a.npy", file)), two_queries());
+}
+
+TEST(NpyReader, reads_a_version_1_file_made_byte_by_byte) {
+  std::string file = "\x93NUMPY";
+  file += '\x01';
+  file += '\x00';
+  file += '\x46';  // 70 bytes of header: 10 + 70 is a multiple of 16, as old NumPy aligned it.
+  file += '\x00';
+  file += "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 8, 3), }";
+  file += "       \n";
+  ASSERT_EQ(file.size(), 80U);
+  for (int i = 0; i < 24; ++i) file += std::string("\0\0\0\0\0\0\xf8\xbf", 8);
+  const TemporaryFolder folder;
+  const std::vector<Query> queries = npy_queries(folder.file("a.npy", file));
+  ASSERT_EQ(queries.size(), 1U);
+  for (const double x : queries[0].coordinates) EXPECT_EQ(x, -1.5);
+}
+
+TEST(NpyReader, reads_versions_1_to_3_and_headers_that_others_write) {
+  const std::string data = bytes_of(two_queries());
+  for (const char version : {'\1', '\2', '\3'}) {
+    expect_two_queries(header(good_dictionary, version) + data);
+  }
+  for (const std::string dictionary :
+       {R"({"shape":(2,8,3),"fortran_order":False,"descr":"<f8"})",
+        " { 'fortran_order' : False , 'descr' : '<f8' , 'shape' : ( 2 , 8 , 3 , ) } "}) {
+    expect_two_queries(header(dictionary) + data);
+  }
+  expect_two_queries(header(good_dictionary, 1, 8) + data);
+  expect_two_queries(header(good_dictionary, 1, 77) + data);
+  expect_two_queries(header(good_dictionary + std::string(60000, ' '), 2) + data);
+}
+
+TEST(NpyReader, names_what_is_no_numpy_file) {
+  EXPECT_EQ(open_error(""), "a.npy: not a NumPy file");
+  EXPECT_EQ(open_error("1,1,1,1,1,1\n"), "a.npy: not a NumPy file");
+  EXPECT_EQ(open_error("\x93NUMPY\x01"), "a.npy: not a NumPy file");
+  const TemporaryFolder folder;
+  EXPECT_EQ(error_of(folder.path(), [&] { NpyReader npy(folder.path() / "none.npy"); }),
+            "none.npy: cannot open: No such file or directory");
+  std::filesystem::create_directory(folder.path() / "folder.npy");
+  EXPECT_EQ(error_of(folder.path(), [&] { NpyReader npy(folder.path() / "folder.npy"); }),
+            "folder.npy: is a folder");
+}
+
+TEST(NpyReader, names_unknown_versions_and_truncated_headers) {
+  EXPECT_EQ(open_error(header(good_dictionary, 4)),
+            "a.npy: version 4 of the NumPy format, expected 1, 2 or 3");
+  EXPECT_EQ(open_error(header(good_dictionary, 0)),
+            "a.npy: version 0 of the NumPy format, expected 1, 2 or 3");
+  const std::string whole = header(good_dictionary, 2);
+  for (std::size_t size = 10; size < whole.size(); ++size) {
+    EXPECT_EQ(open_error(whole.substr(0, size)), "a.npy: truncated header") << size;
+  }
+}
+
+TEST(NpyReader, names_every_other_kind_of_array) {
+  const auto with_descr = [](const std::string& descr) {
+    return "{'descr': " + descr + ", 'fortran_order': False, 'shape': (2, 8, 3), }";
+  };
+  for (const std::string dtype : {">f8", "<f4", "=f8", "|f8", "<i8", "<c16", "f8", "float64", ""}) {
+    EXPECT_EQ(header_error(with_descr("'" + dtype + "'")),
+              "a.npy: dtype \"" + dtype + "\", expected \"<f8\" (little-endian float64)");
+  }
+  EXPECT_EQ(header_error(with_descr("[('x', '<f8'), ('y', '<f8')]")),
+            "a.npy: the array has named fields, expected float64");
+  EXPECT_EQ(header_error("{'descr': '<f8', 'fortran_order': True, 'shape': (2, 8, 3), }"),
+            "a.npy: Fortran order, expected C order");
+}
+
+TEST(NpyReader, names_every_other_shape) {
+  for (const std::string shape :
+       {"", "48", "2, 24", "2, 8, 3, 1", "8, 2, 3", "2, 3, 8", "16, 3", "2, 4, 6"}) {
+    EXPECT_EQ(header_error("{'descr': '<f8', 'fortran_order': False, 'shape': (" + shape + "), }"),
+              "a.npy: shape (" + shape + "), expected (N, 8, 3)");
+  }
+}
+
+TEST(NpyReader, an_array_of_no_queries_is_one) {
+  const TemporaryFolder folder;
+  NpyReader npy(folder.file(
+      "a.npy", header("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 8, 3), }")));
+  EXPECT_EQ(npy.count(), 0U);
+  EXPECT_EQ(npy.position(), 0U);
+  NpyWriter(folder.path() / "b.npy").close();
+  EXPECT_EQ(NpyReader(folder.path() / "b.npy").count(), 0U);
+}
+
+TEST(NpyReader, names_headers_that_are_no_dictionary_of_these_three) {
+  for (const std::string dictionary :
+       {"", "{", "[]", "{'descr': '<f8'", "{'descr'; '<f8'}", "{descr: '<f8'}",
+        "{'descr': '<f8, 'fortran_order': False, 'shape': (2, 8, 3), }",
+        "{'descr': '<f8', 'fortran_order': 0, 'shape': (2, 8, 3), }",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 8, x), }",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (-2, 8, 3), }",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999999999999, 8, 3), }",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (2 8 3), }",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': [2, 8, 3], }",
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 8, 3), } x",
+        "{'descr': '<f8' 'fortran_order': False, 'shape': (2, 8, 3)}"}) {
+    EXPECT_EQ(header_error(dictionary), "a.npy: malformed header") << dictionary;
+  }
+  EXPECT_EQ(header_error("{'descr': '<f8', 'fortran_order': False}"),
+            "a.npy: the header lacks descr, fortran_order or shape");
+  EXPECT_EQ(header_error("{'descr': '<f8', 'descr': '<f8'}"),
+            "a.npy: unknown or repeated key in the header: \"descr\"");
+  EXPECT_EQ(header_error("{'version': 1}"),
+            "a.npy: unknown or repeated key in the header: \"version\"");
+}
+
+TEST(NpyReader, names_data_of_another_size_or_alignment) {
+  const std::string data = bytes_of(two_queries());
+  const auto size_error = [](std::size_t bytes, const std::string& count) {
+    return "a.npy: " + std::to_string(bytes) + " bytes of data, but the shape says " + count +
+           " queries of 192 bytes";
+  };
+  EXPECT_EQ(open_error(header(good_dictionary)), size_error(0, "2"));
+  EXPECT_EQ(open_error(header(good_dictionary) + data.substr(1)), size_error(383, "2"));
+  EXPECT_EQ(open_error(header(good_dictionary) + data.substr(192)), size_error(192, "2"));
+  EXPECT_EQ(open_error(header(good_dictionary) + data + "x"), size_error(385, "2"));
+  // 2 + 2^61 times 192 is 384 again in 64 bits.
+  const std::string overflowing = "2305843009213693954";
+  EXPECT_EQ(header_error("{'descr': '<f8', 'fortran_order': False, 'shape': (" + overflowing +
+                         ", 8, 3), }"),
+            size_error(384, overflowing));
+}
+
+TEST(NpyReader, bounds_the_header) {
+  std::string length{"\0\0\x10\0", 4};
+  const std::string begin = std::string("\x93NUMPY\2\0", 8), room(std::size_t{1} << 21U, ' ');
+  EXPECT_EQ(open_error(begin + length + room), "a.npy: malformed header");
+  length[0] = '\1';
+  EXPECT_EQ(open_error(begin + length + room), "a.npy: header longer than 1 MiB");
+}
+
+TEST(NpyReader, a_file_that_becomes_shorter_ends_with_an_error) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.npy";
+  for (const std::size_t left : {0U, 1000U, 1001U, 1500U, 1999U}) {
+    NpyWriter writer(path);
+    for (std::size_t i = 0; i < 2000; ++i) writer.write(numbered_query(i));
+    writer.close();
+    NpyReader npy(path);
+    // A block is read ahead.
+    EXPECT_EQ(npy.next(), numbered_query(0));
+    std::filesystem::resize_file(path, 128 + 192 * left + 191);
+    const std::size_t last = std::max<std::size_t>(left, 512);
+    const std::string error = error_of(folder.path(), [&] {
+      while (npy.position() < npy.count()) {
+        const std::uint64_t position = npy.position();
+        ASSERT_EQ(npy.next(), numbered_query(position));
+      }
+    });
+    EXPECT_EQ(npy.position(), last);
+    EXPECT_EQ(error, "a.npy: has become shorter while it was read: query " + std::to_string(last) +
+                         " of 2000 is missing");
+  }
+}
+
+TEST(NpyWriter, what_is_read_is_what_was_written_bit_for_bit) {
+  const TemporaryFolder folder;
+  std::mt19937_64 random(11);
+  std::vector<Query> queries(2000);
+  for (Query& query : queries) query = random_query(random);
+  queries[3].coordinates = {4.9e-324, 1.797e308, -0.0, -Limits::max(), Limits::min()};
+  NpyWriter writer(folder.path() / "a.npy");
+  for (const Query& query : queries) writer.write(query);
+  writer.close();
+  EXPECT_EQ(bytes_of(npy_queries(folder.path() / "a.npy")), bytes_of(queries));
+}
+
+TEST(NpyWriter, writes_a_header_that_numpy_reads) {
+  const TemporaryFolder folder;
+  NpyWriter writer(folder.path() / "a.npy");
+  for (const Query& query : two_queries()) writer.write(query);
+  writer.close();
+  std::string expected = std::string("\x93NUMPY\x01\x00\x76\x00", 10) + good_dictionary;
+  expected.resize(127, ' ');
+  EXPECT_EQ(contents(folder.path() / "a.npy"), expected + "\n" + bytes_of(two_queries()));
+}
+
+TEST(NpyWriter, refuses_what_is_not_finite_and_stays_usable) {
+  const TemporaryFolder folder;
+  NpyWriter writer(folder.path() / "a.npy");
+  for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
+    Query query = numbered_query(0);
+    query.at(1, 3, 2) = bad;
+    EXPECT_THROW(writer.write(query), std::invalid_argument);
+  }
+  writer.write(numbered_query(0));
+  writer.close();
+  EXPECT_EQ(npy_queries(folder.path() / "a.npy"), std::vector{numbered_query(0)});
+}
+
+TEST(NpyWriter, without_close_there_is_no_file) {
+  const TemporaryFolder folder;
+  { NpyWriter(folder.path() / "a.npy").write(numbered_query(0)); }
+  EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace touchstone::verify

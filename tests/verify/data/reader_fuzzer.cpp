@@ -1,0 +1,212 @@
+/// \file
+/// libFuzzer on everything that reads foreign bytes: no file makes a reader crash, hang, read or write
+/// where it must not, or throw anything but the errors it announces. What it accepts must be what it
+/// promises: finite coordinates, indices in range, and text that reads back as the same numbers.
+///
+/// Which reader is fuzzed stands in the environment: TOUCHSTONE_READER is one of the names below, each
+/// with its corpus in corpus/NAME. The bytes lie in a file that exists in memory only.
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "exact/algebra/number.hpp"
+#include "exact/query.hpp"
+#include "verify/data/csv_dataset.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/data/dataset_error.hpp"
+#include "verify/data/ground_truth_files.hpp"
+#include "verify/data/npy_dataset.hpp"
+#include "verify/data/separation_file.hpp"
+#include "verify/io/coordinate_text.hpp"
+#include "verify/mesh/mesh.hpp"
+#include "verify/mesh/obj.hpp"
+#include "verify/mesh/ply.hpp"
+#include "verify/solvers/answers.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using touchstone::Kind;
+using touchstone::Query;
+using touchstone::verify::DatasetError;
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+/// A file in memory with the given bytes.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(memfd_create("fuzzed", 0)) { require(descriptor_ >= 0); }
+
+  [[nodiscard]] fs::path holding(const std::uint8_t* data, std::size_t size) const {
+    require(ftruncate(descriptor_, 0) == 0);
+    require(pwrite(descriptor_, data, size, 0) == static_cast<ssize_t>(size));
+    return "/proc/self/fd/" + std::to_string(descriptor_);
+  }
+
+ private:
+  int descriptor_;
+};
+
+/// Finite, and written as text the same again.
+void check_query(const Query& query) {
+  for (const double x : query.coordinates) {
+    require(std::isfinite(x));
+    std::string text;
+    touchstone::verify::append_coordinate(text, x);
+    const std::size_t comma = text.find(',');
+    const auto parsed =
+        touchstone::verify::parse_coordinate(text.substr(0, comma), text.substr(comma + 1));
+    require(parsed.exact && parsed.value == x);
+  }
+}
+
+/// Reads a dataset to its end. One that keeps going has no error on the way.
+template <class Dataset>
+void read_dataset(const fs::path& path, bool keep_going) {
+  touchstone::verify::DatasetOptions options;
+  options.kind = Kind::edge_edge;
+  options.round = keep_going;
+  options.keep_going = keep_going;
+  std::optional<Dataset> source;
+  try {
+    source.emplace(path, options);
+  } catch (const DatasetError&) {
+    return;
+  }
+  std::uint64_t least = 0;
+  const auto read_all = [&] {
+    while (const auto query = source->next()) {
+      require(query->index >= least);
+      least = query->index + 1;
+      check_query(query->query);
+    }
+  };
+  if (keep_going) {
+    read_all();
+    return;
+  }
+  try {
+    read_all();
+  } catch (const DatasetError& error) {
+    require(!std::string_view(error.what()).empty());
+  }
+}
+
+void read_csv(const fs::path& path) {
+  read_dataset<touchstone::verify::CsvDataset>(path, false);
+  read_dataset<touchstone::verify::CsvDataset>(path, true);
+}
+
+void read_npy(const fs::path& path) {
+  read_dataset<touchstone::verify::NpyDataset>(path, false);
+  read_dataset<touchstone::verify::NpyDataset>(path, true);
+}
+
+void read_answers(const fs::path& path) {
+  const auto answers = touchstone::verify::load_answers(path);
+  std::uint64_t sum = 0;
+  for (const auto& group : answers.groups()) {
+    sum += group.answers;
+    require(group.unasked == group.answers);
+    for (std::uint64_t index = 0; index < 10; ++index) {
+      const auto recorded = answers.answer_to(group.file, group.kind, index);
+      if (!recorded) continue;
+      const touchstone::fast::Answer& answer = recorded->answer;
+      require(!std::isinf(answer.toi_lower) && !std::isinf(answer.toi_upper));
+      require(!(answer.tolerance < 0.0));
+      require(answer.verdict == touchstone::fast::Verdict::yes || std::isnan(answer.toi_lower));
+    }
+  }
+  require(sum == answers.size());
+}
+
+void check_mesh(const touchstone::verify::Mesh& mesh) {
+  const auto is_vertex = [&](int i) { return i >= 0 && i < mesh.vertices.rows(); };
+  require(mesh.vertices.rows() > 0 && mesh.vertices.allFinite());
+  for (const auto& face : mesh.faces) require(std::ranges::all_of(face, is_vertex));
+  for (const auto& edge : mesh.edges) {
+    require(std::ranges::all_of(edge, is_vertex) && edge[0] != edge[1]);
+  }
+}
+
+void read_obj_file(const fs::path& path) { check_mesh(touchstone::verify::read_obj(path)); }
+
+void read_ply_file(const fs::path& path) { check_mesh(touchstone::verify::read_ply(path)); }
+
+void read_labels(const fs::path& path) {
+  touchstone::verify::LabelReader labels(path);
+  std::uint64_t index = 0;
+  for (; index < 100; index += 1 + index % 3) {
+    try {
+      static_cast<void>(labels.at(index));
+    } catch (const DatasetError&) {  // One label may be at fault and the next one not.
+    }
+  }
+  static_cast<void>(labels.beyond(index));
+}
+
+void read_tois(const fs::path& path) {
+  touchstone::verify::ToiReader tois(path);
+  std::uint64_t index = 0;
+  for (; index < 100; index += 1 + index % 3) {
+    try {
+      static_cast<void>(tois.at(index));
+    } catch (const DatasetError&) {  // As above.
+    }
+  }
+  static_cast<void>(tois.beyond(index));
+}
+
+void read_separation_file(const fs::path& path) {
+  require(touchstone::is_valid(touchstone::verify::read_separation(path)));
+}
+
+struct Reader {
+  std::string_view name;
+  void (*read)(const fs::path& path);
+};
+
+constexpr std::array<Reader, 8> readers{{{"csv", read_csv},
+                                         {"npy", read_npy},
+                                         {"answers", read_answers},
+                                         {"obj", read_obj_file},
+                                         {"ply", read_ply_file},
+                                         {"labels", read_labels},
+                                         {"tois", read_tois},
+                                         {"separation", read_separation_file}}};
+
+const Reader& chosen_reader() {
+  const char* const name = std::getenv("TOUCHSTONE_READER");
+  const auto* const found =
+      std::ranges::find(readers, std::string_view(name == nullptr ? "" : name), &Reader::name);
+  require(found != readers.end());
+  return *found;
+}
+
+}  // namespace
+
+// The name is libFuzzer's.
+// NOLINTNEXTLINE(readability-identifier-naming)
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Reader& reader = chosen_reader();
+  static MemoryFile file;
+  try {
+    reader.read(file.holding(data, size));
+  } catch (const DatasetError& error) {
+    require(!std::string_view(error.what()).empty());
+  }
+  return 0;
+}

@@ -1,0 +1,145 @@
+#include "verify/fuzz/triage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "exact/query.hpp"
+#include "fast/tight_inclusion.hpp"
+#include "tests/support/queries.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/solvers/registry.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::CertifiedResult;
+using fast::Promise;
+using fast::Verdict;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Touches at 1/3, at 1/2, and never.
+const tests::PosedQuery at_third = tests::over_triangle(1, 1, 1, -2);
+const tests::PosedQuery at_half = tests::over_triangle(1, 1, 1, -1);
+const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
+
+/// What the oracle says, after a check that the quick look does not excuse what is wrong.
+std::optional<FindingKind> fault(const tests::PosedQuery& posed, const Answer& answer,
+                                 const Standard& standard = {}) {
+  const Truth truth = truth_of(0, Decision(posed.kind, posed.query, standard.separation));
+  const CertifiedResult judged =
+      fast::certified(posed.kind, posed.query, {.separation = standard.separation});
+  const auto accusation = accuse(posed.kind, posed.query, truth, answer, standard);
+  EXPECT_FALSE(accusation && is_beyond_doubt(posed.kind, posed.query, judged, answer, standard));
+  if (!accusation) return std::nullopt;
+  EXPECT_FALSE(accusation->detail.empty());
+  return accusation->what;
+}
+
+Answer yes(double lower, double upper, double tolerance = Answer::none) {
+  return {.verdict = Verdict::yes, .toi_lower = lower, .toi_upper = upper, .tolerance = tolerance};
+}
+
+TEST(Referee, KnowsEveryFaultOfACollision) {
+  EXPECT_EQ(fault(at_half, {.verdict = Verdict::no}), FindingKind::false_negative);
+  EXPECT_EQ(fault(at_half, {.verdict = Verdict::error}), FindingKind::no_verdict);
+  EXPECT_EQ(fault(at_half, {.verdict = Verdict::undecided}), std::nullopt);
+  EXPECT_EQ(fault(at_half, yes(0.5, 0.5)), std::nullopt);
+  EXPECT_EQ(fault(at_half, yes(Answer::none, Answer::none)), std::nullopt);
+  EXPECT_EQ(fault(at_half, yes(std::nextafter(0.5, 1.0), 1.0)), FindingKind::late_toi);
+  EXPECT_EQ(fault(at_half, yes(0.0, std::nextafter(0.5, 0.0))), FindingKind::early_toi_upper);
+  EXPECT_EQ(fault(at_half, yes(-infinity, 0.5)), FindingKind::not_finite);
+  EXPECT_EQ(fault(at_half, yes(0.0, infinity)), FindingKind::not_finite);
+  EXPECT_EQ(fault(at_half, yes(0.0, 1.0, -1.0)), FindingKind::not_finite);
+}
+
+/// 1/3 is no double: its neighbours are the tightest right bounds.
+TEST(Referee, IsExactAboutTimesThatAreNoDoubles) {
+  const double third = 1.0 / 3.0;  // rounded down
+  const double above = std::nextafter(third, 1.0);
+  EXPECT_EQ(fault(at_third, yes(third, above)), std::nullopt);
+  EXPECT_EQ(fault(at_third, yes(above, 1.0)), FindingKind::late_toi);
+  EXPECT_EQ(fault(at_third, yes(0.0, third)), FindingKind::early_toi_upper);
+}
+
+TEST(Referee, HoldsOnlyWhatIsExactToMisses) {
+  const Standard exact{.promise = Promise::exact};
+  EXPECT_EQ(fault(never, {.verdict = Verdict::yes}), std::nullopt);
+  EXPECT_EQ(fault(never, {.verdict = Verdict::yes}, exact), FindingKind::false_positive);
+  EXPECT_EQ(fault(never, {.verdict = Verdict::undecided}), std::nullopt);
+  EXPECT_EQ(fault(never, {.verdict = Verdict::undecided}, exact), FindingKind::undecided);
+  EXPECT_EQ(fault(never, {.verdict = Verdict::no}, exact), std::nullopt);
+  EXPECT_EQ(fault(at_half, {.verdict = Verdict::undecided}, exact), std::nullopt);
+}
+
+/// The primitives come within 1, and no nearer.
+TEST(Referee, HoldsAYesToItsTolerance) {
+  const Standard standard{.promise = Promise::conservative, .reach = reach_of("tight_inclusion")};
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 1.0), standard), std::nullopt);
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.99), standard), FindingKind::beyond_tolerance);
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none), standard), std::nullopt);
+  EXPECT_EQ(fault(never, {.verdict = Verdict::undecided, .tolerance = 0.1}, standard),
+            std::nullopt);
+}
+
+/// In the norm of the separation, for a solver of which no more is known.
+TEST(Referee, HoldsAYesToItsToleranceBeyondTheSeparation) {
+  const Separation separation{.distance = 0.5, .norm = Norm::l2};
+  const Standard standard{.separation = separation, .reach = stated_reach};
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.5), standard), std::nullopt);
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.49), standard), FindingKind::beyond_tolerance);
+  EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.0), standard), FindingKind::beyond_tolerance);
+}
+
+TEST(Referee, TellsFailuresApart) {
+  const auto what = [](const Failure& failure) { return accuse_failure(failure, 10.0).what; };
+  for (const FailureKind kind : all_failure_kinds) {
+    EXPECT_EQ(to_string(what({.kind = kind})), to_string(kind));
+  }
+  EXPECT_EQ(accuse_failure({.kind = FailureKind::hang}, 10.0).detail, "takes more than 10 s");
+  EXPECT_EQ(accuse_failure({.kind = FailureKind::exit, .number = 3}, 0.0).detail, "exit: status 3");
+}
+
+TEST(Referee, JudgesAtTheSeparation) {
+  const Standard standard{.promise = Promise::exact, .separation = {.distance = 1.5}};
+  EXPECT_EQ(fault(never, {.verdict = Verdict::no}, standard), FindingKind::false_negative);
+  EXPECT_EQ(fault(never, yes(0.5, 0.5), standard), std::nullopt);
+  EXPECT_EQ(fault(never, yes(0.75, 0.75), standard), FindingKind::late_toi);
+}
+
+TEST(Referee, FindsMostRightAnswersRightAtAGlance) {
+  const auto glance = [](const tests::PosedQuery& posed, const Answer& answer,
+                         const Standard& standard) {
+    return is_beyond_doubt(posed.kind, posed.query, fast::certified(posed.kind, posed.query),
+                           answer, standard);
+  };
+  EXPECT_TRUE(glance(at_third, yes(0.333, 0.334), {.promise = Promise::exact}));
+  EXPECT_TRUE(glance(at_third, {.verdict = Verdict::undecided}, {}));
+  EXPECT_TRUE(glance(never, {.verdict = Verdict::no}, {.promise = Promise::exact}));
+  EXPECT_TRUE(glance(never, yes(0.5, Answer::none), {}));
+  EXPECT_TRUE(glance(never, yes(0.5, Answer::none, 2.0), {.reach = reach_of("tight_inclusion")}));
+}
+
+TEST(Referee, AccusesAJudgeThatTheOracleContradicts) {
+  const Truth truth = truth_of(0, Decision(at_half.kind, at_half.query, {}));
+  CertifiedResult judged = fast::certified(at_half.kind, at_half.query);
+  EXPECT_FALSE(accuse_judge(truth, judged));
+  judged.toi_lower = 0.75;
+  EXPECT_EQ(accuse_judge(truth, judged)->what, FindingKind::late_toi);
+  judged = {.verdict = Verdict::no};
+  EXPECT_EQ(accuse_judge(truth, judged)->what, FindingKind::false_negative);
+  const Truth miss = truth_of(0, Decision(never.kind, never.query, {}));
+  EXPECT_EQ(accuse_judge(miss, {.verdict = Verdict::yes})->what, FindingKind::false_positive);
+}
+
+TEST(Referee, SaysAnswersInWords) {
+  EXPECT_EQ(to_text(Answer{.verdict = Verdict::no}), "no");
+  EXPECT_EQ(to_text(yes(0.5, Answer::none, 1e-6)), "yes, toi_lower 0.5, tolerance 1e-06");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

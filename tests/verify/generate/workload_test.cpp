@@ -1,0 +1,135 @@
+#include "verify/generate/workload.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "exact/oracle.hpp"
+#include "verify/generate/families.hpp"
+#include "verify/run/statistics.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+std::vector<Query> patch_queries(const MovingMesh& mesh, Kind kind) {
+  const auto pairs = find_candidates(mesh, kind);
+  return queries_of(mesh, candidates_of(mesh, kind, pairs));
+}
+
+TEST(Workload, PatchesHaveEnoughCandidatesOfWhichSomePerCentCollideWithAnySeed) {
+  static constexpr std::size_t asked = 2000;
+  for (const std::uint64_t seed : {0U, 1U, 2021U, 4711U, 0xFFFFFFFFU}) {
+    const MovingMesh mesh = moving_patches({.seed = seed});
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      const auto queries = patch_queries(mesh, kind);
+      EXPECT_GE(queries.size(), 100'000U) << seed << to_string(kind);
+      EXPECT_LE(queries.size(), 1'000'000U) << seed << to_string(kind);
+      std::size_t collisions = 0;
+      for (const std::size_t i : spread_sample(queries.size(), asked)) {
+        collisions += exact::decide(kind, queries[i]).collides() ? 1U : 0U;
+      }
+      EXPECT_GE(collisions, asked / 200) << seed << to_string(kind);
+      EXPECT_LE(collisions, asked / 5) << seed << to_string(kind);
+    }
+  }
+}
+
+TEST(Workload, PatchesAreTwoGridsOfTriangles) {
+  const MovingMesh mesh = moving_patches({.seed = 5, .cells = 3});
+  EXPECT_EQ(mesh.vertices.size(), 2U * 16);
+  EXPECT_EQ(mesh.faces.size(), 2U * 18);
+  // Of each grid: 3·4 along either axis, and a diagonal a cell.
+  EXPECT_EQ(mesh.edges.size(), 2U * (24 + 9));
+  for (const fast::Face& face : mesh.faces) {
+    const auto [least, greatest] = std::ranges::minmax(face);
+    EXPECT_EQ(least / 16, greatest / 16) << "a face of both patches";
+    EXPECT_NE(face[0], face[1]);
+    EXPECT_NE(face[1], face[2]);
+    EXPECT_NE(face[2], face[0]);
+  }
+}
+
+TEST(Workload, PatchesMoveTowardsAndThroughEachOther) {
+  const MovingMesh mesh = moving_patches();
+  const std::size_t half = mesh.vertices.size() / 2;
+  std::size_t passed = 0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const fast::MovingVertex& vertex = mesh.vertices[i];
+    const bool is_upper = i >= half;
+    EXPECT_GT(is_upper ? vertex.start[2] : -vertex.start[2], 0.0) << "begins on its own side";
+    EXPECT_GT(is_upper ? vertex.start[2] - vertex.end[2] : vertex.end[2] - vertex.start[2], 0.0);
+    passed += (vertex.end[2] < 0.0) == is_upper ? 1U : 0U;
+  }
+  EXPECT_GT(passed, mesh.vertices.size() / 10);
+}
+
+TEST(Workload, PatchesDependOnTheSeedAndOnNothingElse) {
+  const MovingMesh once = moving_patches({.seed = 8, .cells = 10});
+  const MovingMesh again = moving_patches({.seed = 8, .cells = 10});
+  const MovingMesh other = moving_patches({.seed = 9, .cells = 10});
+  EXPECT_EQ(once.faces, again.faces);
+  std::size_t differences = 0;
+  for (std::size_t i = 0; i < once.vertices.size(); ++i) {
+    EXPECT_EQ(once.vertices[i].start, again.vertices[i].start);
+    EXPECT_EQ(once.vertices[i].end, again.vertices[i].end);
+    differences += once.vertices[i].start != other.vertices[i].start ? 1U : 0U;
+  }
+  EXPECT_EQ(differences, once.vertices.size());
+}
+
+TEST(Workload, RefusesPatchesWithoutACell) {
+  EXPECT_THROW(static_cast<void>(moving_patches({.cells = 0})), std::invalid_argument);
+}
+
+TEST(Workload, EndContactsTouchAtOne) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    for (const double scale : {0.01, 1.0, 1000.0}) {
+      for (const bool two_decimals : {false, true}) {
+        const QueryGroup group =
+            end_contacts(kind, {.scale = scale, .two_decimals = two_decimals, .count = 50});
+        ASSERT_EQ(group.queries().size(), 50U);
+        double greatest = 0.0;
+        for (const Query& query : group.queries()) {
+          const exact::Verdict truth = exact::decide(kind, query);
+          ASSERT_TRUE(truth.collides());
+          for (const double x : query.coordinates) {
+            greatest = std::max(greatest, std::abs(x));
+            if (two_decimals) {
+              EXPECT_EQ(std::stod(fmt::format("{:.6g}", x)), x) << "a short decimal";
+            }
+          }
+        }
+        EXPECT_LE(greatest, scale);
+        EXPECT_GT(greatest, 0.9 * scale);
+      }
+    }
+  }
+}
+
+TEST(Workload, TheHardSetIsThatOfTheFamilies) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const QueryGroup group = hard_set(kind, 7, 3);
+    EXPECT_EQ(group.kind(), kind);
+    std::size_t position = 0;
+    for (const Family& family : families()) {
+      if (!supports(family, kind)) continue;
+      for (std::uint64_t index = 0; index < 3; ++index, ++position) {
+        ASSERT_LT(position, group.queries().size());
+        EXPECT_EQ(group.queries()[position], make_query(family, kind, 7, index).query);
+        EXPECT_EQ(group.place_of(position).source, family.name);
+        EXPECT_EQ(group.place_of(position).index, index);
+      }
+    }
+    EXPECT_EQ(position, group.queries().size());
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify

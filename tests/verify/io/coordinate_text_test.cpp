@@ -1,0 +1,208 @@
+#include "verify/io/coordinate_text.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <string_view>
+
+#include "exact/algebra/number.hpp"
+#include "tests/verify/data/dataset_fixture.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using Limits = std::numeric_limits<double>;
+
+std::string text_of(const exact::Integer& n) { return n.get_str(); }
+exact::Integer power(unsigned long exponent) { return exact::Integer(1) << exponent; }
+
+/// Compares with the definition: the nearest double of the rational, exact if it is the rational.
+void expect_correct(const exact::Integer& numerator, const exact::Integer& denominator) {
+  exact::Rational quotient(numerator, denominator);
+  quotient.canonicalize();
+  SCOPED_TRACE(text_of(numerator) + " / " + text_of(denominator));
+  const ParsedCoordinate parsed = parse_coordinate(text_of(numerator), text_of(denominator));
+  EXPECT_EQ(parsed.value, exact::round_to_nearest(quotient));
+  EXPECT_EQ(parsed.exact, exact::Rational(parsed.value) == quotient);
+  EXPECT_FALSE(std::signbit(parsed.value) && parsed.value == 0.0);
+}
+
+void expect_exact(std::string_view numerator, std::string_view denominator, double value) {
+  SCOPED_TRACE(std::string(numerator) + " / " + std::string(denominator));
+  const ParsedCoordinate parsed = parse_coordinate(numerator, denominator);
+  EXPECT_TRUE(parsed.exact);
+  EXPECT_EQ(parsed.value, value);
+  EXPECT_FALSE(std::signbit(parsed.value) && parsed.value == 0.0);
+}
+
+/// "numerator: reason" or "denominator: reason".
+std::string fault_of(std::string_view numerator, std::string_view denominator) {
+  try {
+    (void)parse_coordinate(numerator, denominator);
+  } catch (const CoordinateError& error) {
+    const bool at_numerator = error.part() == CoordinateError::Part::numerator;
+    return (at_numerator ? "numerator: " : "denominator: ") + std::string(error.what());
+  }
+  return "no error";
+}
+
+TEST(ParseCoordinate, takes_signs_leading_zeros_and_any_representation_of_a_double) {
+  expect_exact("3", "4", 0.75);
+  expect_exact("+3", "+4", 0.75);
+  expect_exact("3", "-4", -0.75);
+  expect_exact("-3", "-4", 0.75);
+  expect_exact("007", "002", 3.5);
+  expect_exact("9", "12", 0.75);
+  expect_exact("0", "7", 0.0);
+  expect_exact("-0", "1", 0.0);
+  expect_exact("-0", "-3", 0.0);
+  expect_exact("9223372036854775807", "9223372036854775807", 1.0);
+  expect_exact("-9223372036854775808", "9223372036854775808", -1.0);
+  expect_exact("18446744073709551616", "1", 0x1p64);
+}
+
+TEST(ParseCoordinate, takes_decimals_that_are_doubles) {
+  expect_exact("-0.75", "1", -0.75);
+  expect_exact("+.5", "1", 0.5);
+  expect_exact("3.", "1", 3.0);
+  expect_exact("1.5e3", "1", 1500.0);
+  expect_exact("15E-1", "3", 0.5);
+  expect_exact("3", "0.5", 6.0);
+  expect_exact("0.3", "0.1", 3.0);
+  expect_exact("-0.0", "1", 0.0);
+  expect_exact("-0e-9999", "1", 0.0);
+  expect_exact("0.1000000000000000055511151231257827021181583404541015625", "1", 0.1);
+  expect_exact("4.0e-1", "6.4e0", 0.0625);
+}
+
+TEST(ParseCoordinate, takes_the_nearest_double_of_other_decimals) {
+  for (const std::string_view decimal :
+       {"0.1", "-0.00058163201902061701", "1e-330", "1.7976931348623158e308", "-2.5e-324"}) {
+    const exact::Rational number = exact::rational_from_decimal(decimal);
+    const ParsedCoordinate parsed = parse_coordinate(decimal, "1");
+    EXPECT_FALSE(parsed.exact) << decimal;
+    EXPECT_EQ(parsed.value, exact::round_to_nearest(number)) << decimal;
+  }
+  EXPECT_FALSE(std::signbit(parse_coordinate("-1e-330", "1").value));
+  EXPECT_EQ(fault_of("-1.8e308", "1"), "numerator: beyond the range of double");
+  EXPECT_EQ(fault_of("1", "1e-400"), "numerator: beyond the range of double");
+}
+
+TEST(ParseCoordinate, what_17_digits_give_back_is_the_double) {
+  std::mt19937_64 random(9);
+  for (const double x : test::random_query(random).coordinates) {
+    EXPECT_EQ(parse_coordinate(fmt::format("{:.17g}", x), "1").value, x);
+    EXPECT_EQ(parse_coordinate(fmt::format("{:.1100f}", x), "1").value, x);
+    EXPECT_TRUE(parse_coordinate(fmt::format("{:.1100f}", x), "1").exact);
+  }
+}
+
+TEST(ParseCoordinate, names_what_is_no_number) {
+  for (const std::string bad : {"", "-", "+", ".", "+-1", "--1", "1.5.0", "1e", "e3", "1e3.5",
+                                "0x10", "1 2", "a", "1a", "1,5", "1e99999"}) {
+    EXPECT_EQ(fault_of(bad, "1"), "numerator: not a number: \"" + bad + "\"");
+    EXPECT_EQ(fault_of("1", bad), "denominator: not a number: \"" + bad + "\"");
+  }
+  EXPECT_EQ(fault_of(std::string_view("1\0", 2), "1"), "numerator: not a number: \"1?\"");
+  for (const std::string bad : {"nan", "-nan", "NaN", "inf", "-Inf", "+infinity"}) {
+    EXPECT_EQ(fault_of(bad, "1"), "numerator: not a finite number: \"" + bad + "\"");
+  }
+}
+
+TEST(IsNumeric, tells_what_begins_like_a_number_from_names) {
+  for (const char* numeric : {"0", "-1", "+.5", "1x", "1e", "--1", "nan", "+inf"}) {
+    EXPECT_TRUE(is_numeric(numeric)) << numeric;
+  }
+  for (const char* other : {"", "-", "x", "x1", "e3", "_1", "#1", "nano", " 1"}) {
+    EXPECT_FALSE(is_numeric(other)) << other;
+  }
+}
+
+TEST(ParseCoordinate, refuses_zero_denominators) {
+  for (const std::string zero : {"0", "-0", "+0", "000", "0.0", "0e5"}) {
+    EXPECT_EQ(fault_of("1", zero), "denominator: zero denominator");
+    EXPECT_EQ(fault_of("0", zero), "denominator: zero denominator");
+  }
+}
+
+TEST(ParseCoordinate, is_exact_up_to_53_significant_bits_and_says_so_beyond) {
+  const std::int64_t most = (std::int64_t{1} << 53) - 1;
+  expect_exact(std::to_string(most), "1", 9007199254740991.0);
+  expect_exact(std::to_string(2 * most), "1", 18014398509481982.0);
+  EXPECT_FALSE(parse_coordinate(std::to_string(2 * most + 1), "1").exact);
+  EXPECT_EQ(parse_coordinate(std::to_string(2 * most + 1), "1").value, 0x1p54);
+  EXPECT_FALSE(parse_coordinate("1", "3").exact);
+  EXPECT_EQ(parse_coordinate("1", "3").value, 1.0 / 3.0);
+}
+
+TEST(ParseCoordinate, reaches_both_ends_of_the_range_and_not_beyond) {
+  const exact::Integer largest = power(1024) - power(971);
+  expect_exact(text_of(largest), "1", Limits::max());
+  expect_exact(text_of(-largest), "1", -Limits::max());
+  expect_exact("1", text_of(power(1074)), Limits::denorm_min());
+  expect_exact("-1", text_of(power(1074)), -Limits::denorm_min());
+  expect_exact(text_of(power(52) - 1), text_of(power(1074)), Limits::min() - Limits::denorm_min());
+  const exact::Integer half_past = largest + power(970);
+  EXPECT_EQ(fault_of(text_of(half_past), "1"), "numerator: beyond the range of double");
+  EXPECT_EQ(fault_of(text_of(-power(1024)), "1"), "numerator: beyond the range of double");
+  EXPECT_EQ(parse_coordinate(text_of(half_past - 1), "1").value, Limits::max());
+  EXPECT_FALSE(parse_coordinate(text_of(half_past - 1), "1").exact);
+  EXPECT_EQ(parse_coordinate("-1", text_of(power(1075))).value, 0.0);
+  EXPECT_FALSE(parse_coordinate("-1", text_of(power(1075))).exact);
+  EXPECT_FALSE(std::signbit(parse_coordinate("-1", text_of(power(1075))).value));
+}
+
+TEST(ParseCoordinate, takes_integers_of_400_digits) {
+  const exact::Integer common("1" + std::string(398, '7') + "3", 10);
+  expect_exact(text_of(3 * common), text_of(4 * common), 0.75);
+  EXPECT_FALSE(parse_coordinate(text_of(3 * common + 1), text_of(4 * common)).exact);
+  EXPECT_EQ(parse_coordinate(text_of(3 * common + 1), text_of(4 * common)).value, 0.75);
+}
+
+TEST(ParseCoordinate, agrees_with_rational_arithmetic_on_every_path) {
+  std::mt19937_64 random(20210814);
+  const auto signed_bits = [&](unsigned bits) {
+    return exact::Integer(static_cast<long>(random()) >> (64U - bits));
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const auto bits = static_cast<unsigned>(2 + random() % 63);
+    const exact::Integer n = signed_bits(bits), odd = abs(signed_bits(bits)) + 1;
+    expect_correct(n, power(random() % 64));
+    expect_correct(n, power(random() % 1200));
+    expect_correct(n * power(random() % 900), power(random() % 1200));
+    expect_correct(n, odd);
+    expect_correct(n * odd * power(random() % 80), odd * power(random() % 80));
+  }
+}
+
+TEST(AppendCoordinate, writes_lowest_terms) {
+  const auto text = [](double x) {
+    std::string result;
+    append_coordinate(result, x);
+    return result;
+  };
+  EXPECT_EQ(text(0.0), "0,1");
+  EXPECT_EQ(text(-0.0), "0,1");
+  EXPECT_EQ(text(-0.75), "-3,4");
+  EXPECT_EQ(text(6.0), "6,1");
+  EXPECT_EQ(text(0x1p70), "1180591620717411303424,1");
+  EXPECT_EQ(text(0.1), "3602879701896397,36028797018963968");
+  EXPECT_EQ(text(Limits::denorm_min()), "1," + text_of(power(1074)));
+  EXPECT_EQ(text(Limits::max()), text_of(power(1024) - power(971)) + ",1");
+}
+
+TEST(AppendCoordinate, refuses_what_is_not_finite) {
+  std::string text = "kept";
+  for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
+    EXPECT_THROW(append_coordinate(text, bad), std::invalid_argument);
+  }
+  EXPECT_EQ(text, "kept");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

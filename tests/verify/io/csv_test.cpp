@@ -1,0 +1,114 @@
+#include "verify/io/csv.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace touchstone::verify {
+namespace {
+
+using Fault = CsvSplit::Fault;
+
+/// The fields of a record that has no more than four.
+std::vector<std::string> fields_of(std::string_view record) {
+  std::array<std::string, 4> fields{"old", "old", "old", "old"};
+  const CsvSplit split = split_csv(record, fields);
+  EXPECT_EQ(split.fault, Fault::none) << record;
+  EXPECT_LE(split.count, fields.size()) << record;
+  return {fields.begin(), fields.begin() + static_cast<std::ptrdiff_t>(split.count)};
+}
+
+using Fields = std::vector<std::string>;
+
+TEST(CsvField, QuotesWhereItMust) {
+  EXPECT_EQ(csv_field("a b.csv"), "a b.csv");
+  EXPECT_EQ(csv_field(""), "");
+  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_field("a\"b"), "\"a\"\"b\"");
+}
+
+TEST(CsvField, IsPrintable) {
+  EXPECT_EQ(csv_field("a\nb"), "a\\x0ab");
+  EXPECT_EQ(csv_field("a\r,b"), "\"a\\x0d,b\"");
+  EXPECT_EQ(csv_field("\x1b[31m"), "\\x1b[31m");
+  EXPECT_EQ(csv_field("caf\xe9"), "caf\\xe9");
+  EXPECT_EQ(csv_field("\u202eabc"), "\\u202eabc");
+}
+
+TEST(CsvField, IsNoFormula) {
+  EXPECT_EQ(csv_field("=1+1"), "'=1+1");
+  EXPECT_EQ(csv_field("+x"), "'+x");
+  EXPECT_EQ(csv_field("-x"), "'-x");
+  EXPECT_EQ(csv_field("@SUM(A1)"), "'@SUM(A1)");
+  EXPECT_EQ(csv_field("=HYPERLINK(\"a\",1)"), "\"'=HYPERLINK(\"\"a\"\",1)\"");
+  EXPECT_EQ(csv_field("'=1"), "''=1");
+  EXPECT_EQ(csv_field("'a"), "'a");
+  for (const std::string number : {"-1", "+1.5", "-1e-300", "-inf", "-"}) {
+    EXPECT_EQ(csv_field(number), number);
+  }
+}
+
+TEST(TextOfField, IsWhatTheFieldWasMadeOf) {
+  for (const std::string text :
+       {"a b", "=1+1", "'=1+1", "''-x", "'a", "-1", "-x", "a'=b", "", "'"}) {
+    const std::string field = csv_field(text);
+    EXPECT_EQ(text_of_field(field), text);
+  }
+  EXPECT_EQ(text_of_field(csv_field("a\nb")), "a\\x0ab");
+  EXPECT_EQ(text_of_field("a\nb"), "a\\x0ab") << "as others write it";
+  EXPECT_EQ(text_of_field("=1+1"), "=1+1") << "as others write it";
+}
+
+TEST(SplitCsv, SplitsAtCommas) {
+  EXPECT_EQ(fields_of("a,b,c"), (Fields{"a", "b", "c"}));
+  EXPECT_EQ(fields_of("a"), Fields{"a"});
+  EXPECT_EQ(fields_of(""), Fields{""});
+  EXPECT_EQ(fields_of(","), (Fields{"", ""}));
+  EXPECT_EQ(fields_of("a,,b,"), (Fields{"a", "", "b", ""}));
+}
+
+TEST(SplitCsv, KeepsSpaces) { EXPECT_EQ(fields_of(" a ,\tb"), (Fields{" a ", "\tb"})); }
+
+TEST(SplitCsv, TakesQuotesOff) {
+  EXPECT_EQ(fields_of("\"a,b\",c"), (Fields{"a,b", "c"}));
+  EXPECT_EQ(fields_of("\"\",c"), (Fields{"", "c"}));
+  EXPECT_EQ(fields_of("\"\"\"\",c"), (Fields{"\"", "c"}));
+  EXPECT_EQ(fields_of("c,\"a\"\"b\""), (Fields{"c", "a\"b"}));
+  EXPECT_EQ(fields_of("\"a\nb\",c"), (Fields{"a\nb", "c"}));
+}
+
+TEST(SplitCsv, QuotesInsideAFieldAreText) {
+  EXPECT_EQ(fields_of("a\"b,\"c\""), (Fields{"a\"b", "c"}));
+}
+
+TEST(SplitCsv, CountsFieldsBeyondThoseAskedFor) {
+  std::array<std::string, 2> fields;
+  EXPECT_EQ(split_csv("a,b,c,\"d,e\"", fields).count, 4U);
+  EXPECT_EQ(fields, (std::array<std::string, 2>{"a", "b"}));
+}
+
+TEST(SplitCsv, NamesTheFieldAtFault) {
+  std::array<std::string, 4> fields;
+  for (const std::string_view record : {"a,\"b", "a,\"b,c\n", "a,\"", R"(a,"b"")", R"(a,""")"}) {
+    const CsvSplit split = split_csv(record, fields);
+    EXPECT_EQ(split.fault, Fault::open_quote) << record;
+    EXPECT_EQ(split.count, 2U) << record;
+  }
+  for (const std::string_view record : {"a,\"b\"c", "a,\"b\" ,c", R"(a,""b")"}) {
+    const CsvSplit split = split_csv(record, fields);
+    EXPECT_EQ(split.fault, Fault::text_after_quote) << record;
+    EXPECT_EQ(split.count, 2U) << record;
+  }
+}
+
+TEST(SplitCsv, UndoesTheQuotesOfCsvField) {
+  for (const std::string_view text : {"", "a", " ", ",", "\"", "\"\"", ",\"", "\",\"", "é,ü"}) {
+    EXPECT_EQ(fields_of(csv_field(text) + "," + csv_field(text)),
+              (Fields{std::string(text), std::string(text)}));
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify

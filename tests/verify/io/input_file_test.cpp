@@ -1,0 +1,168 @@
+#include "verify/io/input_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/verify/data/dataset_fixture.hpp"
+#include "verify/io/terminal.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using test::error_of;
+using test::TemporaryFolder;
+
+struct OwnedLine {
+  std::string text;
+  std::uint64_t number;
+  bool too_long;
+
+  friend bool operator==(const OwnedLine&, const OwnedLine&) = default;
+};
+
+std::vector<OwnedLine> lines_of(const std::string& text) {
+  const TemporaryFolder folder;
+  LineReader reader(folder.file("text", text));
+  std::vector<OwnedLine> lines;
+  while (const auto line = reader.next()) {
+    lines.push_back({std::string(line->text), line->number, line->too_long});
+  }
+  EXPECT_TRUE(reader.at_end());
+  return lines;
+}
+
+TEST(InputFile, names_a_file_that_is_not_there_and_a_folder) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(error_of(folder.path(), [&] { InputFile file(folder.path() / "none"); }),
+            "none: cannot open: No such file or directory");
+  EXPECT_EQ(error_of(folder.path().parent_path(), [&] { InputFile file(folder.path()); }),
+            folder.path().filename().string() + ": is a folder");
+}
+
+TEST(InputFile, a_read_error_is_reported_once_and_ends_the_file) {
+  // Address 0 is never mapped, so the system answers the first read of this file with an error.
+  InputFile file("/proc/self/mem");
+  std::array<char, 8> buffer{};
+  EXPECT_EQ(error_of("", [&] { (void)file.read(buffer); }),
+            "/proc/self/mem: cannot read: Input/output error");
+  EXPECT_EQ(file.read(buffer), 0U);
+}
+
+TEST(InputFile, opens_a_pipe_without_a_writer_and_waits_where_it_reads) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  InputFile file(pipe);
+  std::thread writer([&pipe] { std::ofstream(pipe) << "text"; });
+  std::array<char, 8> buffer{};
+  EXPECT_EQ(file.read(buffer), 4U);
+  writer.join();
+  EXPECT_EQ(file.read(buffer), 0U);
+}
+
+TEST(InputFile, an_interrupt_ends_a_read) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto read_nothing = [&pipe] {
+    static_cast<void>(interrupted());
+    InputFile file(pipe);
+    std::raise(SIGINT);
+    std::array<char, 8> buffer{};
+    try {
+      static_cast<void>(file.read(buffer));
+    } catch (const Interrupted&) {
+      _exit(0);
+    }
+    _exit(1);
+  };
+  EXPECT_EXIT(read_nothing(), ::testing::ExitedWithCode(0), "");
+}
+
+TEST(InputFile, is_read_whole_up_to_a_limit) {
+  const TemporaryFolder folder;
+  const std::string text(200'000, 'x');
+  const auto path = folder.file("text", text);
+  EXPECT_EQ(read_file(path, text.size()), text);
+  EXPECT_EQ(error_of(folder.path(), [&] { (void)read_file(path, text.size() - 1); }),
+            "text: has more than 199999 bytes");
+  EXPECT_EQ(error_of("", [] { (void)read_file("/dev/zero", 10); }),
+            "/dev/zero: has more than 10 bytes");
+}
+
+TEST(InputFile, progress_is_the_fraction_read) {
+  const TemporaryFolder folder;
+  InputFile file(folder.file("eight", "12345678"));
+  std::array<char, 2> buffer{};
+  EXPECT_EQ(file.size(), 8U);
+  EXPECT_EQ(file.progress(), 0.0);
+  EXPECT_EQ(file.read(buffer), 2U);
+  EXPECT_EQ(file.progress(), 0.25);
+}
+
+TEST(LineReader, reads_all_line_ends) {
+  const std::vector<OwnedLine> expected{{"a", 1, false}, {"b", 2, false}};
+  EXPECT_EQ(lines_of("a\nb\n"), expected);
+  EXPECT_EQ(lines_of("a\nb"), expected);
+  EXPECT_EQ(lines_of("a\r\nb\r\n"), expected);
+  EXPECT_EQ(lines_of("a\r\nb\r"), expected);
+}
+
+TEST(LineReader, blank_lines_count_except_at_the_end) {
+  EXPECT_TRUE(lines_of("").empty());
+  EXPECT_TRUE(lines_of("\n \t\n\r\n").empty());
+  const std::vector<OwnedLine> expected{
+      {"", 1, false}, {"a", 2, false}, {"", 3, false}, {"", 4, false}, {"b", 5, false}};
+  EXPECT_EQ(lines_of("\na\n \n\t\r\nb\n\n  \n"), expected);
+}
+
+TEST(LineReader, lines_across_chunks_stay_whole) {
+  std::string text;
+  for (std::size_t i = 0; i < 3000; ++i)
+    text += std::string(i % 211, 'x') + std::to_string(i) + "\n";
+  const std::vector<OwnedLine> lines = lines_of(text);
+  ASSERT_EQ(lines.size(), 3000U);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    EXPECT_EQ(lines[i], (OwnedLine{std::string(i % 211, 'x') + std::to_string(i), i + 1, false}));
+  }
+}
+
+TEST(LineReader, refuses_a_line_without_an_end) {
+  LineReader reader("/dev/zero");
+  EXPECT_EQ(error_of("", [&] { (void)reader.next(); }),
+            "/dev/zero:1: no line end within 64 MiB: not a text file");
+}
+
+TEST(LineReader, passes_over_lines_beyond_the_limit_and_no_others) {
+  const std::string longest(LineReader::longest_line, 'x');
+  const std::vector<OwnedLine> fits{{longest, 1, false}, {"b", 2, false}};
+  EXPECT_EQ(lines_of(longest + "\nb"), fits);
+  EXPECT_EQ(lines_of(longest + "\r\nb"), fits);
+  const std::vector<OwnedLine> too_long{{"", 1, true}, {"b", 2, false}};
+  EXPECT_EQ(lines_of(longest + "x\nb"), too_long);
+  EXPECT_EQ(lines_of(longest + "x\r\nb"), too_long);
+  EXPECT_EQ(lines_of(longest + longest + longest + "\nb"), too_long);
+  EXPECT_EQ(lines_of("b\n" + longest + longest),
+            (std::vector<OwnedLine>{{"b", 1, false}, {"", 2, true}}));
+  EXPECT_EQ(lines_of(std::string(longest.size() + 2, ' ') + "\n"),
+            (std::vector<OwnedLine>{{"", 1, true}}));
+}
+
+TEST(Trimmed, removes_spaces_and_tabs_at_both_ends_only) {
+  EXPECT_EQ(trimmed(" \ta b\t "), "a b");
+  EXPECT_EQ(trimmed("a"), "a");
+  EXPECT_EQ(trimmed(" \t "), "");
+  EXPECT_EQ(trimmed(""), "");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,135 @@
+#include "verify/judge/claimed_distance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "exact/algebra/number.hpp"
+#include "exact/distance/distance_oracle.hpp"
+#include "fast/tight_inclusion.hpp"
+#include "verify/generate/families.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using exact::Rational;
+using fast::Answer;
+using fast::ErrorModel;
+using fast::Verdict;
+
+constexpr Query falling{{1, 1, 2, 0, 0, 0, 4, 0, 0, 0, 4, 0,  //
+                         1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+
+double reach_of_yes(double tolerance, const Query& query, double distance) {
+  return tight_inclusion_reach(Kind::vertex_face, query,
+                               {.verdict = Verdict::yes, .tolerance = tolerance},
+                               {.distance = distance}, ErrorModel::derived)
+      .distance;
+}
+
+Separation stated(double tolerance, const Separation& separation) {
+  return stated_reach(Kind::vertex_face, falling, {.verdict = Verdict::yes, .tolerance = tolerance},
+                      separation);
+}
+
+TEST(StatedReach, IsToleranceAndSeparationRoundedUpInTheNormAskedFor) {
+  EXPECT_EQ(stated(0.0, {}), Separation{});
+  EXPECT_EQ(stated(0.25, {}).distance, 0.25);
+  EXPECT_EQ(stated(0.0, {.distance = 1e-3, .norm = Norm::l2}),
+            (Separation{.distance = 1e-3, .norm = Norm::l2}));
+  const Separation sum = stated(0.1, {.distance = 1e-3, .norm = Norm::l2});
+  EXPECT_EQ(sum.norm, Norm::l2);
+  EXPECT_GE(Rational(sum.distance), Rational(0.1) + Rational(1e-3));
+  EXPECT_LT(sum.distance, 0.1 + 1e-3 + 1e-15);
+}
+
+TEST(StatedReach, WithoutAToleranceOrWithAnInfiniteOneNothingIsClaimed) {
+  EXPECT_FALSE(is_valid(stated(Answer::none, {})));
+  EXPECT_FALSE(is_valid(stated(std::numeric_limits<double>::infinity(), {})));
+}
+
+TEST(Reach, IsTheSumRoundedUpAndHardlyMore) {
+  const double tolerance = 0.1, distance = 1e-3;
+  const double filter = fast::error_filter(Kind::vertex_face, {4, 4, 2}, distance)[0];
+  ASSERT_GT(filter, 0.0);
+  const Rational sum = Rational(tolerance) + Rational(distance) + 2 * Rational(filter);
+  const Rational reach(reach_of_yes(tolerance, falling, distance));
+  EXPECT_GT(reach, sum);
+  EXPECT_LT(reach, sum + Rational(0x1p-52));
+}
+
+TEST(Reach, WithoutAToleranceOrBeyondTheScaleNothingIsClaimed) {
+  EXPECT_TRUE(std::isinf(reach_of_yes(Answer::none, falling, 0.0)));
+  EXPECT_TRUE(std::isinf(reach_of_yes(1.0, falling, 0x1p1017)));
+  Query huge = falling;
+  huge.at(0, 2, 1) = -0x1p1017;
+  EXPECT_TRUE(std::isinf(reach_of_yes(1.0, huge, 0.0)));
+  EXPECT_FALSE(std::isinf(reach_of_yes(1.0, falling, 0.0)));
+}
+
+/// The claim itself, held against the oracle.
+TEST(Reach, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
+  std::size_t claims = 0;
+  for (const double distance : {0.0, 1e-8, 1e-30}) {
+    const Separation separation{.distance = distance};
+    for (const Family& family : families(separation)) {
+      for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+        if (!supports(family, kind)) continue;
+        for (std::uint64_t index = 0; index < 4; ++index) {
+          const Query query = make_query(family, kind, 7, index, separation).query;
+          const auto result =
+              fast::tight_inclusion(kind, query, {.max_checks = 1000, .min_separation = distance});
+          if (result.verdict != Verdict::yes) continue;
+          const Separation reach = tight_inclusion_reach(
+              kind, query, {.verdict = Verdict::yes, .tolerance = result.tolerance}, separation,
+              ErrorModel::derived);
+          if (!is_valid(reach)) continue;
+          ++claims;
+          ASSERT_TRUE(exact::decide(kind, query, reach).collides()) << family.name;
+        }
+      }
+    }
+  }
+  EXPECT_GT(claims, 300U);
+}
+
+/// The vertex comes down from 2 to 1 over the triangle.
+TEST(Reach, NearnessIsSeenWhereTheBoundsLeaveRoom) {
+  const auto is_seen = [](double t, double distance) {
+    return is_seen_within(Kind::vertex_face, falling, t, distance);
+  };
+  EXPECT_TRUE(is_seen(1.0, 1.0 + 1e-12));
+  EXPECT_FALSE(is_seen(1.0, 1.0)) << "right, but within the bounds";
+  EXPECT_FALSE(is_seen(1.0, 1.0 - 1e-12));
+  EXPECT_TRUE(is_seen(0.75, 1.25 + 1e-12));
+  EXPECT_FALSE(is_seen(0.75, 1.25 - 1e-12));
+  EXPECT_FALSE(is_seen(Answer::none, 10.0));
+  EXPECT_FALSE(is_seen(1.5, 10.0));
+}
+
+TEST(Reach, WhatIsSeenIsTrue) {
+  std::size_t seen = 0, near = 0;
+  for (const Family& family : families({})) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (!supports(family, kind)) continue;
+      for (std::uint64_t index = 0; index < 6; ++index) {
+        const Query query = make_query(family, kind, 11, index, {}).query;
+        const double size = std::abs(query.at(0, 0, 0)) + std::abs(query.at(1, 3, 1));
+        for (const double distance : {1e-12 * size, 1e-3 * size, 0.3 * size}) {
+          if (!is_valid({.distance = distance})) continue;
+          const bool is_seen = is_seen_within(kind, query, 0.375, distance);
+          const bool is_near = exact::decide(kind, query, {.distance = distance}).collides();
+          EXPECT_TRUE(is_near || !is_seen) << family.name << " " << index;
+          seen += is_seen ? 1U : 0U;
+          near += is_near ? 1U : 0U;
+        }
+      }
+    }
+  }
+  EXPECT_GT(4 * seen, near);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

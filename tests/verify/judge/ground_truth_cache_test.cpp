@@ -1,0 +1,85 @@
+#include "verify/judge/ground_truth_cache.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+#include "tests/support/queries.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+/// Vertices over a triangle that fall from height 1: through it, to half of it, and so on.
+QueryGroup falling() {
+  std::vector<Query> queries;
+  for (const double end : {-1.0, 0.5, -3.0, 0.25}) {
+    queries.push_back(tests::over_triangle(1, 1, 1, end).query);
+  }
+  return {"falling", Kind::vertex_face, std::move(queries)};
+}
+
+using Positions = std::vector<std::size_t>;
+
+TEST(Truths, AreThoseOfTheQueriesAskedFor) {
+  const QueryGroup group = falling();
+  Truths truths(group, 1);
+  const std::vector<Truth> found = truths.of({}, Positions{0, 1, 2});
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].index, 0U);
+  EXPECT_TRUE(found[0].collides);
+  EXPECT_EQ(found[0].toi.value().lower, 0.5);
+  EXPECT_EQ(found[0].toi.value().upper, 0.5);
+  EXPECT_FALSE(found[1].collides);
+  EXPECT_FALSE(found[1].toi.has_value());
+  EXPECT_EQ(found[2].toi.value().lower, 0.25);
+}
+
+TEST(Truths, AskTheOracleOnceAQueryAndSeparation) {
+  const QueryGroup group = falling();
+  Truths truths(group);
+  static_cast<void>(truths.of({}, Positions{0, 2}));
+  EXPECT_EQ(truths.decided(), 2U);
+  EXPECT_EQ(truths.of({}, Positions{0, 1, 2, 3}).size(), 4U);
+  EXPECT_EQ(truths.decided(), 4U);
+  static_cast<void>(truths.of({.distance = 0.0, .norm = Norm::l2}, Positions{3}));
+  EXPECT_EQ(truths.decided(), 4U) << "at distance 0 the norm does not matter";
+  static_cast<void>(truths.of({.distance = 0.5}, Positions{3, 3}));
+  EXPECT_EQ(truths.decided(), 5U);
+}
+
+TEST(Truths, AreAboutTheSeparation) {
+  const QueryGroup group = falling();
+  Truths truths(group);
+  const Positions all{0, 1, 2, 3};
+  const auto hits = [&](const Separation& separation) {
+    std::size_t count = 0;
+    for (const Truth& truth : truths.of(separation, all)) count += truth.collides ? 1U : 0U;
+    return count;
+  };
+  EXPECT_EQ(hits({}), 2U);
+  EXPECT_EQ(hits({.distance = 0.25, .norm = Norm::l2}), 3U);
+  EXPECT_EQ(hits({.distance = 0.5, .norm = Norm::linf}), 4U);
+}
+
+TEST(Truths, OnceStoppedNoMoreAreDecided) {
+  const QueryGroup group = falling();
+  Truths truths(group);
+  static_cast<void>(truths.of({}, Positions{0}));
+  const std::atomic<bool> stop = true;
+  const std::vector<Truth> known = truths.of({}, Positions{0, 1}, &stop);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known[0].index, 0U);
+  EXPECT_EQ(truths.decided(), 1U);
+}
+
+TEST(Truths, PositionsBeyondTheGroupAreRefused) {
+  const QueryGroup group = falling();
+  Truths truths(group);
+  EXPECT_THROW(static_cast<void>(truths.of({}, Positions{4})), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

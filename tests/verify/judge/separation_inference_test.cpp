@@ -1,0 +1,50 @@
+#include "verify/judge/separation_inference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace touchstone::verify {
+namespace {
+
+constexpr Separation contact{};
+constexpr Separation contact_l2{.distance = -0.0, .norm = Norm::l2};
+constexpr Separation one_linf{.distance = 1.0, .norm = Norm::linf};
+constexpr Separation one_l2{.distance = 1.0, .norm = Norm::l2};
+constexpr Separation two_linf{.distance = 2.0, .norm = Norm::linf};
+
+TEST(Separation, AtDistanceZeroTheNormDoesNotMatter) {
+  EXPECT_TRUE(is_contact(contact_l2));
+  EXPECT_TRUE(same_question(contact, contact_l2));
+  EXPECT_FALSE(same_question(one_l2, one_linf));
+  EXPECT_FALSE(same_question(one_linf, two_linf));
+}
+
+TEST(Separation, OnlyWhatFollowsIsInferred) {
+  EXPECT_EQ(infer(one_l2, one_l2), Inference::all);
+  EXPECT_EQ(infer(contact_l2, contact), Inference::all);
+  EXPECT_EQ(infer(contact_l2, one_linf), Inference::collisions);
+  EXPECT_EQ(infer(one_linf, two_linf), Inference::collisions);
+  EXPECT_EQ(infer(one_l2, one_linf), Inference::collisions);
+  EXPECT_EQ(infer(one_l2, two_linf), Inference::collisions);
+  // Within 1 of each other on every axis may be farther than 1.
+  EXPECT_EQ(infer(one_linf, one_l2), Inference::nothing);
+  EXPECT_EQ(infer(two_linf, one_linf), Inference::nothing);
+  EXPECT_EQ(infer(one_linf, contact), Inference::nothing);
+}
+
+TEST(Separation, ACommonOneIsOfAllAndMoreThanContact) {
+  EXPECT_EQ(common_separation({}), std::nullopt);
+  EXPECT_EQ(common_separation(std::vector{one_l2, one_l2}), one_l2);
+  EXPECT_EQ(common_separation(std::vector{one_l2, one_linf}), std::nullopt);
+  EXPECT_EQ(common_separation(std::vector{contact, contact_l2}), std::nullopt);
+}
+
+TEST(Separation, TextAndJsonGiveTheSameDoubleAgain) {
+  EXPECT_EQ(to_text({.distance = 1e-100, .norm = Norm::l2}), "1e-100 (l2)");
+  EXPECT_EQ(to_json({.distance = 0.1}).dump(), R"({"min_separation":0.1,"norm":"linf"})");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

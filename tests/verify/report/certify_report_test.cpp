@@ -1,0 +1,318 @@
+#include "verify/report/certify_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace touchstone::verify {
+namespace {
+
+std::vector<CertifyResult> results() {
+  CertifyResult clean;
+  clean.name = "a/vertex-face.csv";
+  clean.kind = Kind::vertex_face;
+  clean.queries = 8;
+  clean.collisions = 3;
+  clean.labels = 8;
+  clean.microseconds = 16.0;
+  CertifyResult wrong;
+  wrong.name = "b,c/edge-edge.csv";
+  wrong.kind = Kind::edge_edge;
+  wrong.queries = 2;
+  wrong.collisions = 2;
+  wrong.labels = 2;
+  wrong.label_mismatches = 1;
+  wrong.tois = 1;
+  wrong.toi_mismatches = 1;
+  wrong.skipped = 4;
+  wrong.rounded = 9;
+  wrong.microseconds = 34.0;
+  wrong.mismatches = {{Mismatch::Of::label, 0, "no collision", "collision"},
+                      {Mismatch::Of::toi, 1, "2.5E-1", "5E-1"}};
+  wrong.fail("b,c/edge-edge.csv:17:3: denominator is zero");
+  return {clean, wrong};
+}
+
+std::vector<std::string> words(const std::string& line) {
+  std::istringstream stream(line);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+TEST(CertifyReport, TextHasARowASourceTheTotalAndEachMismatch) {
+  std::istringstream text(to_text(results()));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 8U);
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(words(lines[1]),
+            (Words{"a/vertex-face.csv", "vertex-face", "8", "3", "8", "0", "0", "0", "2.00"}));
+  EXPECT_EQ(words(lines[2]),
+            (Words{"b,c/edge-edge.csv", "edge-edge", "2", "2", "2", "1", "1", "1", "17.00"}));
+  EXPECT_EQ(words(lines[3]), (Words{"total", "10", "5", "10", "1", "1", "1", "5.00"}));
+  EXPECT_EQ(lines[4], "4 queries in error skipped");
+  EXPECT_EQ(lines[5], "9 coordinates rounded to double");
+  EXPECT_EQ(lines[6],
+            "mismatch: b,c/edge-edge.csv: edge-edge query 0: recorded label no collision, truth "
+            "collision");
+  EXPECT_EQ(lines[7],
+            "mismatch: b,c/edge-edge.csv: edge-edge query 1: recorded toi 2.5E-1, truth 5E-1");
+}
+
+TEST(CertifyReport, TextShowsNamesOnOneLine) {
+  std::vector<CertifyResult> named = results();
+  named[1].name = "x\x1b[2J\ntotal 9\u202e";
+  const std::string text = to_text(named);
+  EXPECT_NE(text.find("\nx\\x1b[2J\\x0atotal 9\\u202e  edge-edge "), std::string::npos) << text;
+  EXPECT_NE(text.find("mismatch: x\\x1b[2J\\x0atotal 9\\u202e: edge-edge query 0"),
+            std::string::npos);
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  EXPECT_EQ(text.find("\ntotal 9"), std::string::npos);
+}
+
+TEST(CertifyReport, JsonHasTotalFilesAndMismatches) {
+  const nlohmann::json json = to_json(results());
+  EXPECT_EQ(json.at("queries"), 10);
+  EXPECT_EQ(json.at("collisions"), 5);
+  EXPECT_EQ(json.at("label_mismatches"), 1);
+  EXPECT_EQ(json.at("toi_mismatches"), 1);
+  EXPECT_EQ(json.at("skipped"), 4);
+  EXPECT_EQ(json.at("rounded"), 9);
+  EXPECT_EQ(json.at("errors"), 1);
+  EXPECT_EQ(json.at("us_per_query"), 5.0);
+  EXPECT_EQ(json.at("interrupted"), false);
+  ASSERT_EQ(json.at("files").size(), 2U);
+  EXPECT_EQ(json.at("files")[0].at("file"), "a/vertex-face.csv");
+  EXPECT_EQ(json.at("files")[0].at("us_per_query"), 2.0);
+  EXPECT_FALSE(json.at("files")[0].contains("error"));
+  EXPECT_EQ(json.at("files")[1].at("kind"), "edge-edge");
+  EXPECT_EQ(json.at("files")[1].at("error"), "b,c/edge-edge.csv:17:3: denominator is zero");
+  ASSERT_EQ(json.at("mismatches").size(), 2U);
+  EXPECT_EQ(json.at("mismatches")[1], (nlohmann::json{{"file", "b,c/edge-edge.csv"},
+                                                      {"index", 1},
+                                                      {"kind", "edge-edge"},
+                                                      {"of", "toi"},
+                                                      {"recorded", "2.5E-1"},
+                                                      {"truth", "5E-1"}}));
+}
+
+TEST(CertifyReport, JsonHasTheProofsWhereThereAreAny) {
+  std::vector<CertifyResult> proved = results();
+  EXPECT_FALSE(to_json(proved).contains("proofs"));
+  for (CertifyResult& result : proved) result.proofs = {.no_collision = 3, .bytes = 70};
+  EXPECT_EQ(to_json(proved).at("proofs").at("no_collision"), 6);
+  EXPECT_EQ(to_json(proved).at("proofs").at("bytes"), 140);
+}
+
+TEST(CertifyReport, NothingGivesAnEmptyReport) {
+  const nlohmann::json json = to_json(std::vector<CertifyResult>());
+  EXPECT_EQ(json.at("queries"), 0);
+  EXPECT_EQ(json.at("us_per_query"), 0.0);
+  EXPECT_TRUE(json.at("mismatches").is_array());
+}
+
+// ---- Solvers ------------------------------------------------------------------------------------
+
+using fast::Answer;
+using fast::Promise;
+using fast::Verdict;
+
+constexpr Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
+const Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
+
+/// A source where `careful` is right and `hasty` is wrong in each way, and one where both are right.
+std::vector<CertifyResult> judged_results(Promise promise_of_hasty) {
+  MethodResult careful{
+      .name = "careful", .promise = Promise::exact, .timed = true, .judgement = {}};
+  MethodResult hasty{.name = "hasty", .promise = promise_of_hasty, .timed = false, .judgement = {}};
+  careful.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.25});
+  careful.judgement.nanoseconds = 12.5;
+  hasty.judgement.add(hit, {.verdict = Verdict::yes});
+  std::vector<CertifyResult> all = results();
+  all[0].methods = {careful, hasty};
+  for (int i = 0; i < 23; ++i) hasty.judgement.add(hit, {.verdict = Verdict::no});
+  hasty.judgement.add(miss, {.verdict = Verdict::yes});
+  hasty.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.75});
+  hasty.judgement.add(hit, {.verdict = Verdict::yes, .toi_upper = 0.25});
+  hasty.judgement.add(hit, {.verdict = Verdict::undecided});
+  hasty.judgement.add(hit, {.verdict = Verdict::error});
+  hasty.judgement.add_missing(9);
+  all[1].methods = {careful, hasty};
+  return all;
+}
+
+std::vector<std::string> method_lines(const std::vector<CertifyResult>& judged) {
+  std::istringstream text(to_text(judged));
+  std::vector<std::string> lines;
+  bool seen = false;
+  for (std::string line; std::getline(text, line);) {
+    seen = seen || line.starts_with("method ");
+    if (seen) lines.push_back(line);
+  }
+  return lines;
+}
+
+TEST(CertifyReport, TextHasTheTotalOfEachMethodAndWhereItBrokeItsPromise) {
+  using Words = std::vector<std::string>;
+  const auto lines = method_lines(judged_results(Promise::conservative));
+  ASSERT_EQ(lines.size(), 5U + 20 + 1 + 3);
+  EXPECT_EQ(words(lines[1]), (Words{"careful", "2", "0", "0", "0", "0", "0", "0", "12.5",
+                                    "2.50e-01", "2.50e-01", "2.50e-01"}));
+  EXPECT_EQ(words(lines[2]), (Words{"hasty", "30", "23", "1", "1", "1", "1", "1", "-", "2.50e-01",
+                                    "2.50e-01", "2.50e-01"}));
+  EXPECT_EQ(words(lines[3]), (Words{"b,c/edge-edge.csv", "edge-edge", "29", "23", "1", "1", "1",
+                                    "1", "1", "-", "2.50e-01", "2.50e-01", "2.50e-01"}));
+  EXPECT_EQ(lines[4], "no answer: hasty: 1 no_verdict, 1 undecided");
+  EXPECT_EQ(lines[5],
+            "false negative: hasty: b,c/edge-edge.csv: edge-edge query 4: answer no, truth "
+            "collision at 0.5");
+  EXPECT_EQ(lines[24], lines[5]);
+  EXPECT_EQ(lines[25],
+            "late toi: hasty: b,c/edge-edge.csv: edge-edge query 4: answer toi_lower 0.75, truth "
+            "collision at 0.5");
+  EXPECT_EQ(lines[28], "false negative: hasty: b,c/edge-edge.csv: and 3 more");
+}
+
+TEST(CertifyReport, TextListsFalsePositivesOfThoseHeldToExactness) {
+  const auto count = [](const std::vector<std::string>& lines) {
+    return std::ranges::count_if(
+        lines, [](const std::string& line) { return line.starts_with("false positive: "); });
+  };
+  EXPECT_EQ(count(method_lines(judged_results(Promise::conservative))), 0);
+  EXPECT_EQ(count(method_lines(judged_results(Promise::exact))), 1);
+}
+
+TEST(CertifyReport, NobodyJudgedNoTable) {
+  EXPECT_TRUE(method_lines(results()).empty());
+  EXPECT_EQ(to_json(results()).at("methods"), nlohmann::json::array());
+}
+
+TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
+  const nlohmann::json json = to_json(judged_results(Promise::conservative));
+  ASSERT_EQ(json.at("methods").size(), 2U);
+  nlohmann::json careful = json.at("methods")[0], hasty = json.at("methods")[1];
+  nlohmann::json no_failures;
+  for (const FailureKind kind : all_failure_kinds) no_failures[to_string(kind)] = 0;
+  EXPECT_EQ(
+      careful,
+      (nlohmann::json{
+          {"name", "careful"},
+          {"promise", "exact"},
+          {"queries", 2},
+          {"false_negatives", 0},
+          {"false_positives", 0},
+          {"late_toi", 0},
+          {"early_toi_upper", 0},
+          {"undecided", 0},
+          {"errors", 0},
+          {"failures", no_failures},
+          {"unplaced_crashes", 0},
+          {"beyond_tolerance", 0},
+          {"missing", 0},
+          {"ns_per_query", 12.5},
+          {"toi_error", {{"count", 2}, {"p50", 0.25}, {"p90", 0.25}, {"p99", 0.25}, {"max", 0.25}}},
+          {"wrong_answers", nlohmann::json::array()}}));
+  EXPECT_EQ(hasty.at("queries"), 30);
+  EXPECT_EQ(hasty.at("false_negatives"), 23);
+  EXPECT_EQ(hasty.at("false_positives"), 1);
+  EXPECT_EQ(hasty.at("late_toi"), 1);
+  EXPECT_EQ(hasty.at("early_toi_upper"), 1);
+  EXPECT_EQ(hasty.at("undecided"), 1);
+  EXPECT_EQ(hasty.at("errors"), 1);
+  EXPECT_EQ(hasty.at("failures").at("no_verdict"), 1);
+  EXPECT_EQ(hasty.at("failures").at("undecided"), 1);
+  EXPECT_EQ(hasty.at("missing"), 1);
+  EXPECT_TRUE(hasty.at("ns_per_query").is_null());
+  ASSERT_EQ(hasty.at("wrong_answers").size(), 27U) << "false positives too";
+  EXPECT_EQ(hasty.at("wrong_answers")[0], (nlohmann::json{{"file", "b,c/edge-edge.csv"},
+                                                          {"index", 4},
+                                                          {"kind", "edge-edge"},
+                                                          {"fault", "false negative"},
+                                                          {"answer", "no"},
+                                                          {"truth", "collision at 0.5"}}));
+  EXPECT_EQ(json.at("files")[0].at("methods")[1].at("queries"), 1);
+  EXPECT_TRUE(json.at("files")[0].at("methods")[1].at("toi_error").is_null());
+  EXPECT_EQ(json.at("files")[1].at("methods")[1].at("queries"), 29);
+}
+
+// ---- Separations --------------------------------------------------------------------------------
+
+constexpr Separation near{.distance = 1e-8, .norm = Norm::l2};
+
+std::vector<CertifyResult> separated_results() {
+  std::vector<CertifyResult> all = judged_results(Promise::conservative);
+  for (CertifyResult& result : all) result.separation = near;
+  return all;
+}
+
+TEST(CertifyReport, TextNamesTheSeparationAndWhatIsCompared) {
+  std::vector<CertifyResult> all = separated_results();
+  EXPECT_TRUE(to_text(all).starts_with("minimum separation 1e-08 (l2)\nfile "));
+  all[1].compared = Inference::collisions;
+  EXPECT_TRUE(to_text(all).starts_with(
+      "minimum separation 1e-08 (l2)\nrecorded answers are about less separation: only their "
+      "collisions are compared, which must collide, no later\nfile "));
+  all[1].separation.norm = Norm::linf;
+  EXPECT_TRUE(
+      to_text(all).starts_with("minimum separation 1e-08 (l2): a/vertex-face.csv\n"
+                               "minimum separation 1e-08 (linf): b,c/edge-edge.csv\n"));
+}
+
+TEST(CertifyReport, JsonHasTheSeparationOfFilesAndOfTheTotalIfItIsOne) {
+  std::vector<CertifyResult> all = separated_results();
+  EXPECT_EQ(to_json(all).at("separation").dump(), R"({"min_separation":1e-08,"norm":"l2"})");
+  EXPECT_EQ(to_json(all).at("files")[1].at("compared"), "all");
+  all[1].separation.norm = Norm::linf;
+  EXPECT_FALSE(to_json(all).contains("separation"));
+  EXPECT_EQ(to_json(all).at("files")[1].at("separation").at("norm"), "linf");
+}
+
+TEST(CertifyReport, TolerancesHaveAColumnWithASeparationOrAFault) {
+  std::vector<CertifyResult> all = separated_results();
+  all[0].methods[0].judgement.add_beyond_tolerance(miss,
+                                                   {.verdict = Verdict::yes, .tolerance = 0.5});
+  const auto lines = method_lines(all);
+  EXPECT_TRUE(lines[0].ends_with("  beyond tol"));
+  EXPECT_EQ(words(lines[1]).back(), "1");
+  EXPECT_EQ(words(lines[3]).back(), "0");
+  EXPECT_EQ(lines[0].size(), lines[1].size());
+  const auto fault = std::ranges::find_if(
+      lines, [](const std::string& line) { return line.starts_with("beyond tolerance: "); });
+  ASSERT_NE(fault, lines.end());
+  EXPECT_EQ(*fault,
+            "beyond tolerance: careful: a/vertex-face.csv: vertex-face query 3: answer yes, "
+            "tolerance 0.5, truth no collision");
+  EXPECT_EQ(to_json(all).at("methods")[0].at("beyond_tolerance"), 1);
+  EXPECT_EQ(to_json(all).at("methods")[1].at("beyond_tolerance"), 0);
+  for (CertifyResult& result : all) result.separation = {};
+  EXPECT_TRUE(method_lines(all)[0].ends_with("  beyond tol"));
+  all = judged_results(Promise::none);
+  EXPECT_FALSE(method_lines(all)[0].ends_with("  beyond tol"));
+  EXPECT_EQ(to_json(all).at("methods")[0].at("beyond_tolerance"), 0);
+}
+
+TEST(CertifyReport, TruthIsCsvWhoseDoublesComeBack) {
+  const double lower = 0.1, upper = std::nextafter(0.1, 1.0);
+  const double least = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(truth_header(), "file,index,kind,collides,toi_lower,toi_upper\n");
+  EXPECT_EQ(truth_row("plain.csv", Kind::vertex_face,
+                      {.index = 0, .collides = false, .toi = std::nullopt}),
+            "plain.csv,0,vertex-face,0,,\n");
+  EXPECT_EQ(truth_row("with,comma \"and quotes\"", Kind::edge_edge,
+                      {.index = 7, .collides = true, .toi = exact::DoubleInterval{lower, upper}}),
+            "\"with,comma \"\"and quotes\"\"\",7,edge-edge,1,0.1,0.10000000000000002\n");
+  EXPECT_EQ(truth_row("tiny", Kind::edge_edge,
+                      {.index = 8, .collides = true, .toi = exact::DoubleInterval{0.0, least}}),
+            "tiny,8,edge-edge,1,0,5e-324\n");
+  EXPECT_EQ(std::stod("0.10000000000000002"), upper);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,198 @@
+#include "verify/report/experiments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/support/queries.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+/// Vertices over a triangle, every second of which falls through it.
+std::vector<QueryGroup> falling() {
+  std::vector<Query> queries;
+  queries.reserve(20);
+  for (int i = 0; i < 20; ++i) {
+    queries.push_back(tests::over_triangle(1, 1, 1, i % 2 == 0 ? -1.0 : 0.5).query);
+  }
+  std::vector<QueryGroup> groups;
+  groups.emplace_back("falling", Kind::vertex_face, std::move(queries));
+  return groups;
+}
+
+SurveyOptions quick() {
+  SurveyOptions options;
+  options.methods = {"certified", "tight_inclusion"};
+  options.count = 10;
+  options.seconds = 0.02;
+  options.repetitions = 1;
+  options.stability_count = 2;
+  return options;
+}
+
+std::size_t settings_in(const std::vector<Trial>& trials, Experiment experiment) {
+  std::size_t count = 0;
+  for (const Trial& trial : trials) {
+    if (trial.experiment == experiment) count += trial.settings.size();
+  }
+  return count;
+}
+
+TEST(Survey, TrialsAreThoseOfTheMethodsThere) {
+  const std::vector<std::string> all{"certified", "tight_inclusion", "irf", "uirf", "fprf", "msrf",
+                                     "tccd"};
+  const std::vector<Trial> trials = trials_of(all);
+  EXPECT_EQ(settings_in(trials, Experiment::field), 7U);
+  EXPECT_EQ(settings_in(trials, Experiment::tolerance), 3U * 9U);
+  EXPECT_EQ(settings_in(trials, Experiment::checks), 6U);
+  EXPECT_EQ(settings_in(trials, Experiment::separation), 7U * (2U + 3U));
+
+  const std::vector<std::string> one{"tccd"};
+  const std::vector<Trial> few = trials_of(one);
+  ASSERT_EQ(few.size(), 1U);
+  EXPECT_EQ(few[0].experiment, Experiment::field);
+  EXPECT_EQ(few[0].settings[0].method, "tccd");
+}
+
+TEST(Survey, EachMeasuresDistanceInItsOwnNorm) {
+  const std::vector<std::string> all{"certified", "tight_inclusion", "fprf", "msrf"};
+  for (const Trial& trial : trials_of(all)) {
+    if (trial.experiment != Experiment::separation) continue;
+    for (const double distance : separation_distances()) {
+      std::map<Norm, std::set<std::string>> names;
+      for (const auto& [method, options] : trial.settings) {
+        if (options.min_separation == distance) names[options.norm].insert(method);
+      }
+      EXPECT_EQ(names[Norm::linf], (std::set<std::string>{"certified", "tight_inclusion"}));
+      EXPECT_EQ(names[Norm::l2], (std::set<std::string>{"certified", "fprf", "msrf"}));
+    }
+  }
+}
+
+TEST(Survey, DistancesHoldThoseOfThePapersTables) {
+  for (const double distance : {1e-2, 1e-8, 1e-16, 1e-30, 1e-100}) {
+    EXPECT_TRUE(std::ranges::count(separation_distances(), distance) == 1) << distance;
+  }
+  EXPECT_TRUE(std::ranges::is_sorted(separation_distances()));
+}
+
+TEST(Survey, SlowSearchersAreLimitedMore) {
+  const std::vector<std::string> all{"tight_inclusion", "irf"};
+  const Trial field = trials_of(all).front();
+  EXPECT_EQ(field.settings[0].options.max_checks, 1'000'000);
+  EXPECT_EQ(field.settings[1].options.max_checks, 100'000);
+}
+
+TEST(Survey, MeasuresEveryTrialAndTheMapOfStability) {
+  const std::vector<QueryGroup> groups = falling();
+  const Measurements result = survey(groups, quick());
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_FALSE(result.machine.empty());
+  const std::vector<std::string> methods = quick().methods;
+  std::size_t settings = 0;
+  for (const Trial& trial : trials_of(methods)) settings += trial.settings.size();
+  ASSERT_EQ(result.all.size(), settings);
+  for (const Measurement& measurement : result.all) {
+    EXPECT_EQ(measurement.group, "falling");
+    EXPECT_EQ(measurement.asked, measurement.experiment == Experiment::separation ? 3U : 10U);
+    EXPECT_TRUE(measurement.keeps_promise) << measurement.method;
+    if (measurement.experiment == Experiment::field) {
+      EXPECT_EQ(measurement.collisions, 5U);
+    }
+    if (measurement.separation.distance == 1.0) {
+      EXPECT_EQ(measurement.collisions, 3U);
+    }
+  }
+  EXPECT_EQ(result.all[0].method, "certified");
+  EXPECT_EQ(result.all[0].stages.size(), 5U);
+  // Six hardnesses, eleven levels, two kinds, two methods.
+  ASSERT_EQ(result.stability.size(), 6U * 11U * 2U * 2U);
+  for (const StabilityMark& mark : result.stability) {
+    EXPECT_EQ(mark.queries, 2U);
+    EXPECT_EQ(mark.collisions, 1U);
+    if (mark.method == "certified") {
+      EXPECT_EQ(mark.worst, "");
+    }
+  }
+}
+
+TEST(Survey, WithoutNamesAllMethodsTakePart) {
+  const std::vector<QueryGroup> groups = falling();
+  SurveyOptions options = quick();
+  options.methods.clear();
+  options.stability_count = 0;
+  const Measurements result = survey(groups, options);
+  std::set<std::string> names;
+  for (const Measurement* measurement : of_experiment(result, Experiment::field)) {
+    names.insert(measurement->method);
+  }
+  EXPECT_TRUE(names.contains("tight_inclusion_published"));
+  EXPECT_TRUE(result.stability.empty());
+}
+
+TEST(Survey, FiltersAreComparedOnFamiliesAndOverTheScale) {
+  const std::vector<QueryGroup> groups = falling();
+  SurveyOptions options = quick();
+  options.methods = {"tight_inclusion", "tight_inclusion_released"};
+  options.count = 40;
+  options.experiments = {Experiment::filter};
+  options.stability_count = 0;
+  const Measurements result = survey(groups, options);
+  std::set<double> scales;
+  std::map<std::string, std::uint64_t> missed;
+  for (const Measurement& m : result.all) {
+    EXPECT_EQ(m.experiment, Experiment::filter);
+    EXPECT_EQ(m.kind, Kind::vertex_face) << "the groups are of one kind";
+    EXPECT_EQ(m.asked, 40U);
+    if (m.scale) {
+      EXPECT_EQ(m.collisions, 40U);
+      scales.insert(*m.scale);
+      missed[m.method] += m.false_negatives;
+    }
+  }
+  EXPECT_EQ(scales.size(), filter_scales().size());
+  EXPECT_EQ(missed["tight_inclusion"], 0U);
+  EXPECT_GT(missed["tight_inclusion_released"], 0U);
+}
+
+TEST(Survey, OnlyTheChosenExperimentsAreDone) {
+  const std::vector<QueryGroup> groups = falling();
+  SurveyOptions options = quick();
+  options.experiments = {Experiment::checks};
+  options.stability_count = 0;
+  const Measurements result = survey(groups, options);
+  EXPECT_EQ(result.all.size(), 6U);
+  EXPECT_EQ(of_experiment(result, Experiment::checks).size(), 6U);
+}
+
+TEST(Survey, StoppedItKeepsWhatIsMeasured) {
+  const std::vector<QueryGroup> groups = falling();
+  std::atomic<bool> stop = false;
+  SurveyOptions options = quick();
+  options.stop = &stop;
+  options.on_progress = [&](double fraction) {
+    if (fraction > 0.3) stop = true;
+  };
+  const Measurements result = survey(groups, options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_GE(result.all.size(), 2U);
+  EXPECT_TRUE(result.stability.empty());
+}
+
+TEST(Survey, UnknownMethodsAreRefused) {
+  const std::vector<QueryGroup> groups = falling();
+  SurveyOptions options = quick();
+  options.methods = {"nonsense"};
+  EXPECT_THROW(static_cast<void>(survey(groups, options)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,425 @@
+#include "verify/solvers/answers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "tests/verify/data/dataset_fixture.hpp"
+#include "verify/io/printable.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::Verdict;
+using test::TemporaryFolder;
+
+constexpr auto vf = Kind::vertex_face;
+constexpr auto ee = Kind::edge_edge;
+/// Files may do without the last column.
+const std::string header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
+const std::string full_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n";
+
+RecordedAnswers load(const TemporaryFolder& folder, const std::string& text) {
+  return load_answers(folder.file("answers.csv", text));
+}
+
+/// The answers of a file with the header and this text.
+RecordedAnswers load_rows(const std::string& text) {
+  const TemporaryFolder folder;
+  return load(folder, header + text);
+}
+
+/// The same of text that was written here.
+RecordedAnswers load_written(const std::string& text) {
+  const TemporaryFolder folder;
+  return load(folder, answers_header() + text);
+}
+
+std::string error_in(const std::string& text) {
+  const TemporaryFolder folder;
+  return test::error_of(folder.path(), [&] { static_cast<void>(load(folder, text)); });
+}
+
+std::string error_in_rows(const std::string& text) { return error_in(header + text); }
+
+void expect_same_bits(double a, double b) {
+  if (std::isnan(a) && std::isnan(b)) return;
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << ' ' << b;
+}
+
+void expect_same(const std::optional<RecordedAnswer>& recorded, const Answer& b,
+                 std::optional<FailureKind> failure = std::nullopt) {
+  ASSERT_TRUE(recorded.has_value());
+  const Answer& a = recorded->answer;
+  EXPECT_EQ(a.verdict, b.verdict);
+  expect_same_bits(a.toi_lower, b.toi_lower);
+  expect_same_bits(a.toi_upper, b.toi_upper);
+  expect_same_bits(a.tolerance, b.tolerance);
+  EXPECT_EQ(recorded->failure, failure);
+}
+
+// ---- Writing ------------------------------------------------------------------------------------
+
+TEST(AnswerRow, IsWrittenAsDocumented) {
+  EXPECT_EQ(answers_header(), full_header);
+  EXPECT_EQ(answer_row("a.csv", 3, vf, {Verdict::yes, 0, 0.1, 0.25, 1e-6}),
+            "a.csv,3,vertex-face,yes,0.1,0.25,1e-06,\n");
+  EXPECT_EQ(answer_row("a.csv", 0, ee, {.verdict = Verdict::no}), "a.csv,0,edge-edge,no,,,,\n");
+  EXPECT_EQ(answer_row("a.csv", 1, ee, {.verdict = Verdict::undecided, .tolerance = 0.5}),
+            "a.csv,1,edge-edge,undecided,,,0.5,\n");
+  EXPECT_EQ(answer_row("a.csv", 2, ee, {.verdict = Verdict::error}),
+            "a.csv,2,edge-edge,error,,,,no_verdict\n");
+  EXPECT_EQ(answer_row("a.csv", 2, ee, {.verdict = Verdict::yes, .toi_upper = 1.0}),
+            "a.csv,2,edge-edge,yes,,1,,\n");
+}
+
+TEST(AnswerRow, QuotesNames) {
+  EXPECT_EQ(answer_row("a,\"b\".csv", 0, vf, {.verdict = Verdict::no}),
+            "\"a,\"\"b\"\".csv\",0,vertex-face,no,,,,\n");
+}
+
+TEST(AnswerRow, SaysWhyThereIsNoAnswer) {
+  const auto row = [](const Answer& answer, const Failure& failure) {
+    return answer_row("a", 0, ee, answer, &failure);
+  };
+  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = FailureKind::crash, .number = 11}),
+            "a,0,edge-edge,error,,,,crash: SIGSEGV\n");
+  EXPECT_EQ(row({.verdict = Verdict::undecided}, {.kind = FailureKind::hang}),
+            "a,0,edge-edge,undecided,,,,hang\n");
+  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = FailureKind::exception, .what = "a,b"}),
+            "a,0,edge-edge,error,,,,\"exception: a,b\"\n");
+  // No reader takes an infinite time.
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(answer_row("a", 0, ee, {.verdict = Verdict::yes, .toi_lower = infinity}),
+            "a,0,edge-edge,error,,,,not_finite: toi_lower inf\n");
+}
+
+TEST(Answers, ReadAsTheyWereWritten) {
+  std::mt19937_64 random(5);
+  const auto finite = [&random] {
+    double x = 0.0;
+    do {
+      x = std::bit_cast<double>(random());
+    } while (!std::isfinite(x));
+    return x;
+  };
+  std::vector<Answer> written{
+      {Verdict::no},
+      {Verdict::undecided},
+      {Verdict::error},
+      {Verdict::yes},
+      {Verdict::yes, 0, -0.0, std::numeric_limits<double>::denorm_min(), 0.0}};
+  for (int i = 0; i < 2000; ++i) {
+    written.push_back({Verdict::yes, 0, finite(), finite(), std::abs(finite())});
+  }
+  std::string text;
+  for (std::size_t i = 0; i < written.size(); ++i) text += answer_row("n,\n\"", i, ee, written[i]);
+  const RecordedAnswers answers = load_written(text);
+  ASSERT_EQ(answers.size(), written.size());
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    expect_same(answers.answer_to("n,\n\"", ee, i), written[i],
+                i == 2 ? std::optional(FailureKind::no_verdict) : std::nullopt);
+  }
+}
+
+TEST(Answers, AreFoundUnderNamesThatAreWrittenOut) {
+  for (const std::string name :
+       {"=1+1.csv", "'=1.csv", "-a.csv", "a\x1b[2J\n\u202e.csv", "caf\xe9.csv"}) {
+    const std::string row = answer_row(name, 0, vf, {.verdict = Verdict::yes, .toi_lower = 0.5});
+    EXPECT_TRUE(is_printable(row.substr(0, row.size() - 1))) << row;
+    EXPECT_EQ(std::string_view("=+-@").find(row.front()), std::string_view::npos) << row;
+    const RecordedAnswers answers = load_written(row);
+    ASSERT_TRUE(answers.answer_to(name, vf, 0)) << row;
+    EXPECT_EQ(answers.unasked(), 0U);
+  }
+  // As others may write them.
+  EXPECT_TRUE(load_rows("=1+1.csv,0,vertex-face,no,,,\n").answer_to("=1+1.csv", vf, 0));
+}
+
+// ---- Reading ------------------------------------------------------------------------------------
+
+TEST(LoadAnswers, ReadsEveryVerdict) {
+  const RecordedAnswers answers = load_rows(
+      "a,0,vertex-face,no,,,\n"
+      "a,1,vertex-face,yes,0.25,0.5,1e-3\n"
+      "a,2,vertex-face,undecided,,,\n"
+      "a,3,vertex-face,error,,,\n"
+      "a,4,vertex-face,yes,,,\n");
+  expect_same(answers.answer_to("a", vf, 0), {.verdict = Verdict::no});
+  expect_same(answers.answer_to("a", vf, 1), {Verdict::yes, 0, 0.25, 0.5, 1e-3});
+  expect_same(answers.answer_to("a", vf, 2), {.verdict = Verdict::undecided});
+  expect_same(answers.answer_to("a", vf, 3), {.verdict = Verdict::error});
+  expect_same(answers.answer_to("a", vf, 4), {.verdict = Verdict::yes});
+}
+
+TEST(LoadAnswers, ReadsWhyThereIsNoAnswer) {
+  const TemporaryFolder folder;
+  const RecordedAnswers answers = load(folder, full_header +
+                                                   "a,0,edge-edge,error,,,,crash: SIGSEGV\n"
+                                                   "a,1,edge-edge,undecided,,,,hang\n"
+                                                   "a,2,edge-edge,no,,,,\n");
+  expect_same(answers.answer_to("a", ee, 0), {.verdict = Verdict::error}, FailureKind::crash);
+  expect_same(answers.answer_to("a", ee, 1), {.verdict = Verdict::undecided}, FailureKind::hang);
+  expect_same(answers.answer_to("a", ee, 2), {.verdict = Verdict::no});
+  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,error,,,,bang\n"),
+            "answers.csv:2:8: must be a kind of failure or empty: \"bang\"");
+  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,,crash\n"),
+            "answers.csv:2:8: a failure of kind crash is no answer no");
+  EXPECT_EQ(error_in(full_header + "a,0,edge-edge,no,,,\n"),
+            "answers.csv:2: 7 columns, expected 8");
+}
+
+TEST(LoadAnswers, DropsTimesWithoutAYes) {
+  const RecordedAnswers answers =
+      load_rows("a,0,vertex-face,no,1,1,0.5\na,1,vertex-face,undecided,0,1,0.5\n");
+  expect_same(answers.answer_to("a", vf, 0), {.verdict = Verdict::no, .tolerance = 0.5});
+  expect_same(answers.answer_to("a", vf, 1), {.verdict = Verdict::undecided, .tolerance = 0.5});
+}
+
+TEST(LoadAnswers, TimesWithoutAYesMayBeAnyNumber) {
+  const RecordedAnswers answers = load_rows(
+      "a,0,vertex-face,no,inf,inf,inf\n"
+      "a,1,vertex-face,undecided,-inf,nan,\n"
+      "a,2,vertex-face,error,nan,inf,0\n");
+  expect_same(answers.answer_to("a", vf, 0),
+              {.verdict = Verdict::no, .tolerance = std::numeric_limits<double>::infinity()});
+  expect_same(answers.answer_to("a", vf, 1), {.verdict = Verdict::undecided});
+  expect_same(answers.answer_to("a", vf, 2), {.verdict = Verdict::error, .tolerance = 0.0});
+}
+
+TEST(LoadAnswers, AnInfiniteToleranceClaimsNothingAndIsReadBack) {
+  const Answer answer{Verdict::yes, 0, 0.25, 0.5, std::numeric_limits<double>::infinity()};
+  expect_same(load_written(answer_row("a", 0, vf, answer)).answer_to("a", vf, 0), answer);
+}
+
+TEST(LoadAnswers, LeavesTheRangeOfTimesToTheJudge) {
+  expect_same(load_rows("a,0,vertex-face,yes,-1e-17,1.5,\n").answer_to("a", vf, 0),
+              {.verdict = Verdict::yes, .toi_lower = -1e-17, .toi_upper = 1.5});
+}
+
+TEST(LoadAnswers, TakesRowsInAnyOrder) {
+  const RecordedAnswers answers = load_rows(
+      "b,7,edge-edge,yes,0.5,,\n"
+      "a,2,vertex-face,yes,0.25,,\n"
+      "b,1,edge-edge,no,,,\n"
+      "a,0,vertex-face,no,,,\n"
+      "a,1,vertex-face,undecided,,,\n");
+  EXPECT_EQ(answers.answer_to("a", vf, 0)->answer.verdict, Verdict::no);
+  EXPECT_EQ(answers.answer_to("a", vf, 1)->answer.verdict, Verdict::undecided);
+  EXPECT_EQ(answers.answer_to("a", vf, 2)->answer.toi_lower, 0.25);
+  EXPECT_EQ(answers.answer_to("b", ee, 1)->answer.verdict, Verdict::no);
+  EXPECT_EQ(answers.answer_to("b", ee, 7)->answer.toi_lower, 0.5);
+}
+
+TEST(LoadAnswers, KnowsNoOtherQueries) {
+  const RecordedAnswers answers = load_rows("a,1,vertex-face,no,,,\na,3,vertex-face,no,,,\n");
+  for (const std::uint64_t index : {0U, 2U, 4U}) {
+    EXPECT_FALSE(answers.answer_to("a", vf, index).has_value()) << index;
+  }
+  EXPECT_FALSE(answers.answer_to("a", ee, 1).has_value());
+  EXPECT_FALSE(answers.answer_to("b", vf, 1).has_value());
+  EXPECT_FALSE(answers.answer_to("", vf, 1).has_value());
+}
+
+TEST(LoadAnswers, KeepsKindsOfOneNameApart) {
+  const RecordedAnswers answers =
+      load_rows("family,0,vertex-face,no,,,\nfamily,0,edge-edge,yes,,,\n");
+  EXPECT_EQ(answers.answer_to("family", vf, 0)->answer.verdict, Verdict::no);
+  EXPECT_EQ(answers.answer_to("family", ee, 0)->answer.verdict, Verdict::yes);
+}
+
+TEST(LoadAnswers, TakesWindowsLineEndsAndBlankLinesAtTheEnd) {
+  const TemporaryFolder folder;
+  const RecordedAnswers answers =
+      load(folder, header.substr(0, header.size() - 1) + "\r\na,0,vertex-face,yes,0.5,,\r\n\r\n\n");
+  EXPECT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers.answer_to("a", vf, 0)->answer.toi_lower, 0.5);
+}
+
+TEST(LoadAnswers, TakesQuotesAroundAnyField) {
+  const TemporaryFolder folder;
+  const RecordedAnswers answers =
+      load(folder,
+           "\"file\",\"index\",\"kind\",\"verdict\",\"toi_lower\",\"toi_upper\",\"tolerance\"\n"
+           "\"a \"\"b\"\", c\",\"0\",\"vertex-face\",\"yes\",\"0.5\",\"\",\"\"\n"
+           "\"two\nlines\",0,vertex-face,yes,0.25,,\n"
+           "three,0,vertex-face,yes,0.125,,");
+  EXPECT_EQ(answers.answer_to("a \"b\", c", vf, 0)->answer.toi_lower, 0.5);
+  EXPECT_EQ(answers.answer_to("two\nlines", vf, 0)->answer.toi_lower, 0.25);
+  EXPECT_EQ(answers.answer_to("three", vf, 0)->answer.toi_lower, 0.125);
+}
+
+TEST(LoadAnswers, TakesSpacesAroundAllFieldsButTheName) {
+  const RecordedAnswers answers = load_rows(" a , 5 , edge-edge , yes , 0.5 ,\t, \n");
+  EXPECT_EQ(answers.answer_to(" a ", ee, 5)->answer.toi_lower, 0.5);
+}
+
+TEST(LoadAnswers, TakesAFileWithoutAnswers) {
+  EXPECT_EQ(load_rows("").size(), 0U);
+  EXPECT_TRUE(load_rows("").groups().empty());
+}
+
+// ---- What was asked for -------------------------------------------------------------------------
+
+TEST(RecordedAnswers, SayWhatWasNeverAskedFor) {
+  const RecordedAnswers answers = load_rows(
+      "b,1,edge-edge,no,,,\n"
+      "a,2,vertex-face,no,,,\n"
+      "a,0,vertex-face,no,,,\n"
+      "a,1,vertex-face,no,,,\n"
+      "a,1,edge-edge,no,,,\n");
+  EXPECT_EQ(answers.size(), 5U);
+  EXPECT_EQ(answers.unasked(), 5U);
+  static_cast<void>(answers.answer_to("a", vf, 0));
+  static_cast<void>(answers.answer_to("a", vf, 0));
+  static_cast<void>(answers.answer_to("a", vf, 9));
+  static_cast<void>(answers.answer_to("b", ee, 1));
+  EXPECT_EQ(answers.unasked(), 3U);
+
+  const std::vector<RecordedAnswers::Group> groups = answers.groups();
+  ASSERT_EQ(groups.size(), 3U);
+  EXPECT_EQ(groups[0].file, "a");
+  EXPECT_EQ(groups[0].kind, vf);
+  EXPECT_EQ(groups[0].answers, 3U);
+  EXPECT_EQ(groups[0].unasked, 2U);
+  EXPECT_EQ(groups[0].first_unasked_line, 5U);
+  EXPECT_EQ(groups[1].file, "a");
+  EXPECT_EQ(groups[1].kind, ee);
+  EXPECT_EQ(groups[1].unasked, 1U);
+  EXPECT_EQ(groups[1].first_unasked_line, 6U);
+  EXPECT_EQ(groups[2].file, "b");
+  EXPECT_EQ(groups[2].answers, 1U);
+  EXPECT_EQ(groups[2].unasked, 0U);
+  EXPECT_EQ(groups[2].first_unasked_line, 0U);
+}
+
+TEST(RecordedAnswers, CountLinesOfNamesOverSeveralLines) {
+  const RecordedAnswers answers =
+      load_rows("\"x\ny\",0,vertex-face,no,,,\na,0,vertex-face,no,,,\n");
+  ASSERT_EQ(answers.groups().size(), 2U);
+  EXPECT_EQ(answers.groups()[0].first_unasked_line, 4U);
+  EXPECT_EQ(answers.groups()[1].first_unasked_line, 2U);
+}
+
+TEST(RecordedAnswers, MayBeAskedFromSeveralThreads) {
+  constexpr std::uint64_t count = 10'000;
+  std::string text;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    text += answer_row("a", i, vf, {.verdict = Verdict::yes, .toi_lower = static_cast<double>(i)});
+  }
+  const RecordedAnswers answers = load_written(text);
+  std::vector<std::uint64_t> right(4);
+  {
+    std::vector<std::jthread> threads;
+    for (std::uint64_t thread = 0; thread < 4; ++thread) {
+      threads.emplace_back([&, thread] {
+        for (std::uint64_t i = thread / 2; i < count; i += 2) {
+          const auto answer = answers.answer_to("a", vf, i);
+          right[thread] += answer && answer->answer.toi_lower == static_cast<double>(i) ? 1U : 0U;
+        }
+      });
+    }
+  }
+  EXPECT_EQ(right, std::vector<std::uint64_t>(4, count / 2));
+  EXPECT_EQ(answers.unasked(), 0U);
+}
+
+// ---- Errors -------------------------------------------------------------------------------------
+
+TEST(LoadAnswers, NeedsItsHeader) {
+  const std::string reason =
+      "first line must be file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure";
+  EXPECT_EQ(error_in(""), "answers.csv: " + reason);
+  EXPECT_EQ(error_in("a,0,vertex-face,no,,,\n"), "answers.csv:1: " + reason);
+  EXPECT_EQ(error_in("index,file,kind,verdict,toi_lower,toi_upper,tolerance\n"),
+            "answers.csv:1: " + reason);
+  EXPECT_EQ(error_in("file,index,kind,verdict,toi_lower,toi_upper\n"), "answers.csv:1: " + reason);
+  EXPECT_EQ(error_in("file,index,kind,verdict,toi_lower,toi_upper,tolerance,x\n"),
+            "answers.csv:1: " + reason);
+}
+
+TEST(LoadAnswers, NeedsAFile) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(test::error_of(folder.path(),
+                           [&] { static_cast<void>(load_answers(folder.path() / "none.csv")); }),
+            "none.csv: cannot open: No such file or directory");
+}
+
+struct BadRow {
+  std::string row;
+  std::string error;
+};
+
+TEST(LoadAnswers, NamesLineColumnAndReason) {
+  const std::vector<BadRow> rows{
+      {"a,0,vertex-face,no,,", "6 columns, expected 7"},
+      {"a,0,vertex-face,no,,,,", "8 columns, expected 7"},
+      {"", "blank line before the end of the file"},
+      {"\"a\"b,0,vertex-face,no,,,", "1: text after a quoted field"},
+      {",0,vertex-face,no,,,", "1: no file name"},
+      {"a,-1,vertex-face,no,,,", "2: index must be a whole number from 0 on: \"-1\""},
+      {"a,1.0,vertex-face,no,,,", "2: index must be a whole number from 0 on: \"1.0\""},
+      {"a,,vertex-face,no,,,", "2: index must be a whole number from 0 on: \"\""},
+      {"a,18446744073709551616,vertex-face,no,,,",
+       "2: index must be a whole number from 0 on: \"18446744073709551616\""},
+      {"a,0,vf,no,,,", "3: kind must be vertex-face or edge-edge: \"vf\""},
+      {"a,0,vertex-face,1,,,", "4: verdict must be yes, no, undecided or error: \"1\""},
+      {"a,0,vertex-face,Yes,,,", "4: verdict must be yes, no, undecided or error: \"Yes\""},
+      {"a,0,vertex-face,yes,half,,", "5: must be a finite double or empty: \"half\""},
+      {"a,0,vertex-face,yes,0.5x,,", "5: must be a finite double or empty: \"0.5x\""},
+      {"a,0,vertex-face,yes,nan,,", "5: must be a finite double or empty: \"nan\""},
+      {"a,0,vertex-face,yes,inf,,", "5: must be a finite double or empty: \"inf\""},
+      {"a,0,vertex-face,no,soon,,", "5: must be a finite double or empty: \"soon\""},
+      {"a,0,vertex-face,yes,,-inf,", "6: must be a finite double or empty: \"-inf\""},
+      {"a,0,vertex-face,yes,,1e999,", "6: must be a finite double or empty: \"1e999\""},
+      {"a,0,vertex-face,yes,,\"0,5\",", "6: must be a finite double or empty: \"0,5\""},
+      {"a,0,vertex-face,yes,,,1e-6 m", "7: must be a double or empty: \"1e-6 m\""},
+      {"a,0,vertex-face,yes,,,nan", "7: must be a double or empty: \"nan\""},
+      {"a,0,vertex-face,yes,,,-inf", "7: tolerance must not be negative"},
+      {"a,0,vertex-face,yes,,,-1", "7: tolerance must not be negative"},
+  };
+  for (const auto& [row, error] : rows) {
+    std::string expected = "answers.csv:3:";
+    if (error.substr(1, 1) != ":") expected += ' ';
+    expected += error;
+    EXPECT_EQ(error_in_rows("a,9,vertex-face,no,,,\n" + row + "\nb,0,vertex-face,no,,,\n"),
+              expected)
+        << row;
+  }
+}
+
+TEST(LoadAnswers, FindsQueriesAnsweredTwice) {
+  EXPECT_EQ(error_in_rows("a,0,vertex-face,no,,,\na,1,vertex-face,no,,,\na,1,vertex-face,no,,,\n"),
+            "answers.csv:4:2: vertex-face query 1 of \"a\" is answered in line 3 already");
+  EXPECT_EQ(error_in_rows("a,5,edge-edge,no,,,\n"
+                          "a,2,edge-edge,no,,,\n"
+                          "b,2,edge-edge,no,,,\n"
+                          "a,5,edge-edge,yes,,,\n"),
+            "answers.csv:5:2: edge-edge query 5 of \"a\" is answered in line 2 already");
+}
+
+TEST(LoadAnswers, FindsQuotesThatDoNotEnd) {
+  const std::string error = "answers.csv:3:1: quoted field does not end";
+  const std::string good = "a,0,vertex-face,no,,,\n";
+  EXPECT_EQ(error_in_rows(good + "\"a,1,vertex-face,no,,,\n" + "b,0,vertex-face,no,,,\n"), error);
+  std::string many = good + "\"a,1,vertex-face,no,,,\n";
+  for (int i = 0; i < 20'000; ++i) many += "b,0,vertex-face,no,,,\n";
+  EXPECT_EQ(error_in_rows(many), error);
+}
+
+TEST(LoadAnswers, FindsLinesThatAreTooLong) {
+  EXPECT_EQ(error_in_rows(std::string((1U << 20U) + 1, 'x') + "\n"),
+            "answers.csv:2: line longer than 1 MiB");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

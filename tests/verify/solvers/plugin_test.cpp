@@ -1,0 +1,358 @@
+#include "verify/solvers/plugin.hpp"
+#include "tests/support/built_files.hpp"
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exact/oracle.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/verify/data/dataset_fixture.hpp"
+#include "tests/verify/solvers/plugins/misbehaviour.hpp"
+#include "verify/solvers/solver_process.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::Verdict;
+using test::error_of;
+using test::TemporaryFolder;
+using tests::Misbehaviour;
+using tests::PosedQuery;
+
+const std::filesystem::path box_overlap = tests::plugin_library("box_overlap");
+const std::filesystem::path misbehaving = tests::plugin_library("misbehaving");
+
+Query query_for(Misbehaviour what) {
+  Query query{};
+  query.coordinates[0] = static_cast<double>(what);
+  return query;
+}
+
+Answer ask(const fast::Method& method, Kind kind, const Query& query,
+           const fast::MethodOptions& options = {}) {
+  Answer answer{.verdict = Verdict::no, .toi_lower = 7.0, .toi_upper = 7.0, .tolerance = 7.0};
+  method.solve(kind, {&query, 1}, {&answer, 1}, options);
+  return answer;
+}
+
+Answer ask(const fast::Method& method, const PosedQuery& posed,
+           const fast::MethodOptions& options = {}) {
+  return ask(method, posed.kind, posed.query, options);
+}
+
+Answer ask_misbehaving(Misbehaviour what) {
+  return ask(*load_plugin(misbehaving), Kind::vertex_face, query_for(what));
+}
+
+void expect_nothing_but(const Answer& answer, Verdict verdict) {
+  EXPECT_EQ(answer.verdict, verdict);
+  EXPECT_TRUE(std::isnan(answer.toi_lower));
+  EXPECT_TRUE(std::isnan(answer.toi_upper));
+  EXPECT_TRUE(std::isnan(answer.tolerance));
+}
+
+std::string load_error(const std::filesystem::path& path) {
+  return error_of(path.parent_path(), [&] { static_cast<void>(load_plugin(path)); });
+}
+
+/// Goes back to the old working directory at the end.
+class WorkingDirectory {
+ public:
+  explicit WorkingDirectory(const std::filesystem::path& path)
+      : before_(std::filesystem::current_path()) {
+    std::filesystem::current_path(path);
+  }
+  WorkingDirectory(const WorkingDirectory&) = delete;
+  WorkingDirectory& operator=(const WorkingDirectory&) = delete;
+  WorkingDirectory(WorkingDirectory&&) = delete;
+  WorkingDirectory& operator=(WorkingDirectory&&) = delete;
+  ~WorkingDirectory() { std::filesystem::current_path(before_); }
+
+ private:
+  std::filesystem::path before_;
+};
+
+// ---- The example --------------------------------------------------------------------------------
+
+TEST(BoxOverlap, HasItsNameAndPromise) {
+  const auto method = load_plugin(box_overlap);
+  EXPECT_EQ(method->name(), "box_overlap");
+  EXPECT_EQ(method->promise(), fast::Promise::conservative);
+  EXPECT_EQ(load_plugin(box_overlap, {.promise = fast::Promise::exact})->promise(),
+            fast::Promise::exact);
+}
+
+TEST(BoxOverlap, SaysYesFromTheStartWhereBoxesOverlap) {
+  const auto method = load_plugin(box_overlap);
+  // The last one is a false positive: the boxes overlap, the primitives do not.
+  for (const PosedQuery& posed :
+       {tests::over_triangle(1, 1, 1, -2), tests::over_edge(1, 1, 1, -2),
+        tests::over_triangle(1, 1, 1, 0), tests::over_triangle(3, 3, 1, -2)}) {
+    const Answer answer = ask(*method, posed);
+    EXPECT_EQ(answer.verdict, Verdict::yes) << posed;
+    EXPECT_EQ(answer.toi_lower, 0.0) << posed;
+    EXPECT_TRUE(std::isnan(answer.toi_upper)) << posed;
+    EXPECT_TRUE(std::isnan(answer.tolerance)) << posed;
+  }
+  EXPECT_FALSE(
+      exact::decide(Kind::vertex_face, tests::over_triangle(3, 3, 1, -2).query).collides());
+}
+
+TEST(BoxOverlap, SaysNoWhereAnAxisSeparatesByTheLeastDouble) {
+  const auto method = load_plugin(box_overlap);
+  const double above_zero = std::numeric_limits<double>::denorm_min();
+  const double above_four = std::nextafter(4.0, 5.0);
+  for (const PosedQuery& posed :
+       {tests::over_triangle(1, 1, above_zero, 2), tests::over_triangle(1, 1, -2, -above_zero),
+        tests::over_triangle(above_four, 1, 1, -2), tests::over_triangle(1, above_four, 1, -2),
+        tests::over_edge(1, 1, above_zero, 2), tests::over_edge(above_four, 1, 1, -2)}) {
+    expect_nothing_but(ask(*method, posed), Verdict::no);
+  }
+}
+
+TEST(BoxOverlap, TakesTheSeparationIntoAccount) {
+  const auto method = load_plugin(box_overlap);
+  const PosedQuery posed = tests::over_triangle(1, 1, 2, 1);
+  EXPECT_EQ(ask(*method, posed, {.min_separation = std::nextafter(1.0, 0.0)}).verdict, Verdict::no);
+  EXPECT_EQ(ask(*method, posed, {.min_separation = 1.0}).verdict, Verdict::yes);
+  EXPECT_EQ(ask(*method, posed, {.min_separation = -1.0}).verdict, Verdict::error);
+}
+
+TEST(BoxOverlap, RefusesNaN) {
+  const auto method = load_plugin(box_overlap);
+  for (std::size_t i = 0; i < 24; ++i) {
+    Query query = tests::over_triangle(1, 1, 1, -2).query;
+    query.coordinates.at(i) = std::nan("");
+    expect_nothing_but(ask(*method, Kind::vertex_face, query), Verdict::error);
+  }
+}
+
+TEST(BoxOverlap, IsConservative) {
+  const auto method = load_plugin(box_overlap);
+  tests::Random random(20);
+  std::size_t misses = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
+    const Query query = tests::integer_query(random, 2);
+    if (ask(*method, kind, query).verdict == Verdict::yes) continue;
+    ++misses;
+    EXPECT_FALSE(exact::decide(kind, query).collides()) << PosedQuery{kind, query};
+  }
+  EXPECT_GT(misses, 20U);
+}
+
+// ---- Loading ------------------------------------------------------------------------------------
+
+TEST(LoadPlugin, TakesABareNameAsAFileInTheWorkingDirectory) {
+  const WorkingDirectory there(box_overlap.parent_path());
+  EXPECT_EQ(load_plugin(box_overlap.filename())->name(), "box_overlap");
+}
+
+TEST(LoadPlugin, DoesNotSearch) {
+  const TemporaryFolder folder;
+  const WorkingDirectory there(folder.path());
+  EXPECT_EQ(load_error("libc.so.6"),
+            "libc.so.6: cannot load: cannot open shared object file: No such file or directory");
+}
+
+TEST(LoadPlugin, NamesFileAndReason) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(load_error(folder.path() / "missing.so"),
+            "missing.so: cannot load: cannot open shared object file: No such file or directory");
+  EXPECT_EQ(load_error(folder.file("text.so", std::string(4096, 'x'))),
+            "text.so: cannot load: invalid ELF header");
+  EXPECT_EQ(load_error(tests::plugin_library("other_library")),
+            "other_library.so: defines no touchstone_plugin_version");
+  EXPECT_EQ(load_error(tests::plugin_library("wrong_version")),
+            "wrong_version.so: made for version 43 of the plugin interface, this program has "
+            "version 2");
+  EXPECT_EQ(load_error(tests::plugin_library("without_solve")),
+            "without_solve.so: defines no touchstone_plugin_solve");
+  EXPECT_EQ(load_error(tests::plugin_library("without_name")),
+            "without_name.so: name is not one line of text: \"two?lines\"");
+}
+
+/// Each would end this process, or never come back.
+TEST(LoadPlugin, SurvivesWhatALibraryDoesOnTheWay) {
+  const auto error = [](const char* how) {
+    ::setenv("TOUCHSTONE_TEST_LOADING", how, 1);
+    const std::filesystem::path path = tests::plugin_library("bad_loading");
+    const double limit = std::string_view(how).ends_with("hangs") ? 0.5 : 600.0;
+    const std::string text = error_of(
+        path.parent_path(), [&] { static_cast<void>(load_plugin(path, {.load_seconds = limit})); });
+    ::unsetenv("TOUCHSTONE_TEST_LOADING");
+    return text;
+  };
+  const std::string prefix = "bad_loading.so: cannot load: ";
+  EXPECT_EQ(error("constructor exits"), prefix + "its constructors: exit: status 0");
+  EXPECT_EQ(error("constructor crashes"), prefix + "its constructors: crash: SIGSEGV");
+  EXPECT_EQ(error("version exits"), prefix + "touchstone_plugin_version(): exit: status 0");
+  EXPECT_EQ(error("version throws"), prefix + "touchstone_plugin_version(): exception: no version");
+  EXPECT_EQ(error("name exits"), prefix + "touchstone_plugin_name(): exit: status 0");
+  EXPECT_EQ(error("name crashes"), prefix + "touchstone_plugin_name(): crash: SIGSEGV");
+  EXPECT_EQ(error("name hangs"), prefix + "touchstone_plugin_name(): hang");
+  // Forks without end, but for the child that may not.
+  EXPECT_EQ(error("constructor forks"), prefix + "its constructors: exit: status 11");
+  EXPECT_EQ(load_plugin(tests::plugin_library("bad_loading"))->name(), "bad_loading");
+}
+
+/// Nothing of it runs in this process before somebody solves here.
+TEST(LoadPlugin, LoadsNothingIntoThisProcess) {
+  const auto is_loaded = [] {
+    void* const handle =
+        ::dlopen(tests::plugin_library("box_overlap").c_str(), RTLD_LAZY | RTLD_NOLOAD);
+    if (handle != nullptr) ::dlclose(handle);
+    return handle != nullptr;
+  };
+  const auto method = load_plugin(box_overlap);
+  EXPECT_FALSE(is_loaded());
+  EXPECT_EQ(ask(*method, tests::over_triangle(1, 1, 1, -2)).verdict, Verdict::yes);
+  EXPECT_TRUE(is_loaded());
+}
+
+TEST(Plugin, NameIsOneLineOfText) {
+  const auto set_name = [](const char* name) {
+    ::setenv("TOUCHSTONE_PLUGIN_NAME", name, 1);  // NOLINT(concurrency-mt-unsafe)
+  };
+  for (const char* name :
+       {"two\u2028lines", "\u202egnol", "\u009b31m", "caf\xe9", "\x1b[31m", "\x7f", ""}) {
+    set_name(name);
+    EXPECT_TRUE(load_error(tests::plugin_library("latin_name"))
+                    .starts_with("latin_name.so: name is not one line of text: "))
+        << name;
+  }
+  for (const char* name : {"café", "δ-solver (v2)", "法"}) {
+    set_name(name);
+    EXPECT_EQ(load_plugin(tests::plugin_library("latin_name"))->name(), name);
+  }
+  ::unsetenv("TOUCHSTONE_PLUGIN_NAME");  // NOLINT(concurrency-mt-unsafe)
+}
+
+// ---- Answers ------------------------------------------------------------------------------------
+
+TEST(Plugin, GetsTheQueryAndItsKind) {
+  const auto method = load_plugin(misbehaving);
+  Query query = query_for(Misbehaviour::repeats_query);
+  query.coordinates[1] = 0.125;
+  query.coordinates[23] = 0.75;
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const Answer answer = ask(*method, kind, query);
+    EXPECT_EQ(answer.verdict, Verdict::yes);
+    EXPECT_EQ(answer.toi_lower, 0.125);
+    EXPECT_EQ(answer.toi_upper, 0.75);
+    EXPECT_EQ(answer.tolerance, kind == Kind::vertex_face ? 0.0 : 1.0);
+  }
+}
+
+TEST(Plugin, GetsTheOptions) {
+  const auto method = load_plugin(misbehaving);
+  const Answer answer =
+      ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_options),
+          {.tolerance = 0.0625, .max_checks = 77, .min_separation = 0.25, .t_max = 0.5});
+  EXPECT_EQ(answer.verdict, Verdict::yes);
+  EXPECT_EQ(answer.toi_lower, 0.0625);
+  EXPECT_EQ(answer.toi_upper, 0.25);
+  EXPECT_EQ(answer.tolerance, 0.5);
+}
+
+TEST(Plugin, GetsTheNorm) {
+  const auto method = load_plugin(misbehaving);
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    const Answer answer = ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_norm),
+                              {.min_separation = 0.25, .norm = norm});
+    EXPECT_EQ(answer.toi_lower, norm == Norm::l2 ? 1.0 : 0.0);
+  }
+}
+
+TEST(Plugin, MayBeOfTheVersionBeforeTheNorm) {
+  const auto method = load_plugin(tests::plugin_library("old_version"));
+  EXPECT_EQ(method->name(), "old_version");
+  const Answer answer =
+      ask(*method, Kind::vertex_face, {}, {.min_separation = 0.25, .norm = Norm::l2, .t_max = 0.5});
+  EXPECT_EQ(answer.toi_lower, 0.25);
+  EXPECT_EQ(answer.toi_upper, 0.5);
+}
+
+TEST(Plugin, MayGiveNoTimeOfImpact) {
+  expect_nothing_but(ask_misbehaving(Misbehaviour::yes_without_toi), Verdict::yes);
+}
+
+TEST(Plugin, MayBeUndecided) {
+  expect_nothing_but(ask_misbehaving(Misbehaviour::is_undecided), Verdict::undecided);
+}
+
+TEST(Plugin, HasTimesOfImpactOnlyWithYes) {
+  const Answer answer = ask_misbehaving(Misbehaviour::says_no_with_toi);
+  EXPECT_EQ(answer.verdict, Verdict::no);
+  EXPECT_TRUE(std::isnan(answer.toi_lower));
+  EXPECT_TRUE(std::isnan(answer.toi_upper));
+  EXPECT_EQ(answer.tolerance, 1e-9);
+}
+
+TEST(Plugin, WhatIsNoToleranceIsDropped) {
+  for (const Misbehaviour what : {Misbehaviour::negative_tolerance, Misbehaviour::nan_tolerance}) {
+    const Answer answer = ask_misbehaving(what);
+    EXPECT_EQ(answer.verdict, Verdict::yes);
+    EXPECT_EQ(answer.toi_lower, 0.25);
+    EXPECT_TRUE(std::isnan(answer.tolerance));
+  }
+  EXPECT_EQ(ask_misbehaving(Misbehaviour::infinite_tolerance).tolerance,
+            std::numeric_limits<double>::infinity());
+}
+
+TEST(Plugin, AVerdictThatIsNoneIsAnError) {
+  for (const Misbehaviour what : {Misbehaviour::verdict_too_large, Misbehaviour::verdict_negative,
+                                  Misbehaviour::leaves_answer_alone}) {
+    SCOPED_TRACE(static_cast<int>(what));
+    const Answer answer = ask_misbehaving(what);
+    expect_nothing_but(answer, Verdict::error);
+    EXPECT_EQ(failure_of(answer).value().kind, FailureKind::no_verdict);
+  }
+}
+
+TEST(Plugin, HandsOnTimesThatAreNotFinite) {
+  for (const Misbehaviour what :
+       {Misbehaviour::infinite_toi_lower, Misbehaviour::infinite_toi_upper}) {
+    const Answer answer = ask_misbehaving(what);
+    EXPECT_EQ(answer.verdict, Verdict::yes);
+    EXPECT_EQ(failure_of(answer).value().kind, FailureKind::not_finite);
+  }
+}
+
+TEST(Plugin, InAProcessOfItsOwnItsWorstCostsOneQueryEach) {
+  const auto method = load_plugin(misbehaving);
+  const std::vector<Query> queries{
+      query_for(Misbehaviour::aborts), query_for(Misbehaviour::says_no),
+      query_for(Misbehaviour::hangs),  query_for(Misbehaviour::yes_without_toi),
+      query_for(Misbehaviour::throws), query_for(Misbehaviour::writes_to_null),
+      query_for(Misbehaviour::says_no)};
+  const std::vector<Verdict> expected{Verdict::error, Verdict::no,    Verdict::undecided,
+                                      Verdict::yes,   Verdict::error, Verdict::error,
+                                      Verdict::no};
+  std::vector<Answer> answers(queries.size());
+  SolverProcess process(*method, {.query_limit_seconds = 0.5});
+  const SolverRun run = process.solve(Kind::vertex_face, queries, answers, {});
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    SCOPED_TRACE(i);
+    expect_nothing_but(answers[i], expected[i]);
+  }
+  std::string failures;
+  for (const QueryFailure& failure : run.failures) {
+    failures += std::to_string(failure.position) + " " + to_text(failure.failure) + "\n";
+  }
+  EXPECT_EQ(failures,
+            "0 crash: SIGABRT\n2 hang\n4 exception: thrown by a plugin\n5 crash: SIGSEGV\n");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

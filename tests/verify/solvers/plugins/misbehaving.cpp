@@ -1,0 +1,144 @@
+/// \file
+/// A plugin that does what the first coordinate says: from good answers to the worst.
+
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "tests/verify/solvers/plugins/misbehaviour.hpp"
+#include "verify/plugin.h"
+
+namespace {
+
+using touchstone::tests::Misbehaviour;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Not for a sanitizer to stop before it happens.
+[[gnu::no_sanitize("undefined")]] void write_to_null() {
+  volatile int* volatile nowhere = nullptr;
+  *nowhere = 1;  // NOLINT(clang-analyzer-core.NullDereference): meant
+}
+
+[[noreturn]] void hang() {
+  for (volatile bool go_on = true;;) static_cast<void>(go_on);
+}
+
+/// Makes a few processes.
+void fork_often() {
+  for (int i = 0; i < 8; ++i) {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    if (child < 0) throw std::runtime_error("fork is refused");
+  }
+}
+
+/// Allocates a lot, and touches none of it.
+void allocate_much() {
+  std::vector<std::unique_ptr<char[]>> blocks;
+  for (int i = 0; i < 32; ++i) blocks.push_back(std::make_unique_for_overwrite<char[]>(1U << 26U));
+}
+
+/// Calls of what is to die after so many.
+int calls = 0;
+
+/// Those that end without an answer.
+void fail(Misbehaviour what) {
+  if (what == Misbehaviour::dies_at_call_1500 && ++calls == 1500) std::abort();
+  if (what == Misbehaviour::throws) throw std::runtime_error("thrown by a plugin");
+  if (what == Misbehaviour::exits_with_3) std::exit(3);
+  if (what == Misbehaviour::aborts) std::abort();
+  if (what == Misbehaviour::hangs) hang();
+  if (what == Misbehaviour::writes_to_null) write_to_null();
+}
+
+}  // namespace
+
+std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+
+const char* touchstone_plugin_name() { return "misbehaving"; }
+
+void touchstone_plugin_solve(std::int32_t kind, const double* coordinates,
+                             const touchstone_options* options, touchstone_answer* answer) {
+  const auto what = static_cast<Misbehaviour>(static_cast<int>(coordinates[0]));
+  fail(what);
+  switch (what) {
+    case Misbehaviour::forks:
+      fork_often();
+      answer->verdict = touchstone_no;
+      return;
+    case Misbehaviour::allocates:
+      allocate_much();
+      answer->verdict = touchstone_no;
+      return;
+    case Misbehaviour::prints:
+      std::puts("printed by a plugin\x1b[31m");
+      std::fputs("and as error\n", stderr);
+      answer->verdict = touchstone_no;
+      return;
+    case Misbehaviour::writes_a_file:
+      answer->verdict =
+          std::ofstream("written_by_a_plugin") << "x" ? touchstone_no : touchstone_yes;
+      return;
+    case Misbehaviour::yes_with_tolerance_0:
+      answer->verdict = touchstone_yes;
+      answer->toi_lower = 0.0;
+      answer->tolerance = 0.0;
+      return;
+    case Misbehaviour::says_no:
+    case Misbehaviour::dies_at_call_1500:
+      answer->verdict = touchstone_no;
+      return;
+    case Misbehaviour::says_no_with_toi:
+      *answer = {touchstone_no, 0.25, 0.5, 1e-9};
+      return;
+    case Misbehaviour::is_undecided:
+      answer->verdict = touchstone_undecided;
+      return;
+    case Misbehaviour::verdict_too_large:
+      *answer = {touchstone_error + 1, 0.25, 0.5, 1e-9};
+      return;
+    case Misbehaviour::verdict_negative:
+      *answer = {-1, 0.25, 0.5, 1e-9};
+      return;
+    case Misbehaviour::infinite_toi_lower:
+      *answer = {touchstone_yes, -infinity, 0.5, 1e-9};
+      return;
+    case Misbehaviour::infinite_toi_upper:
+      *answer = {touchstone_yes, 0.25, infinity, 1e-9};
+      return;
+    case Misbehaviour::yes_without_toi:
+      answer->verdict = touchstone_yes;
+      return;
+    case Misbehaviour::negative_tolerance:
+      *answer = {touchstone_yes, 0.25, 0.5, -1e-9};
+      return;
+    case Misbehaviour::nan_tolerance:
+      *answer = {touchstone_yes, 0.25, 0.5, std::numeric_limits<double>::quiet_NaN()};
+      return;
+    case Misbehaviour::infinite_tolerance:
+      *answer = {touchstone_yes, 0.25, 0.5, infinity};
+      return;
+    case Misbehaviour::repeats_query:
+      *answer = {touchstone_yes, coordinates[1], coordinates[23], static_cast<double>(kind)};
+      return;
+    case Misbehaviour::repeats_norm:
+      answer->verdict = touchstone_yes;
+      answer->toi_lower = static_cast<double>(options->norm);
+      return;
+    case Misbehaviour::repeats_options:
+      *answer = {options->max_checks == 77 ? touchstone_yes : touchstone_no, options->tolerance,
+                 options->min_separation, options->t_max};
+      return;
+    default:
+      return;
+  }
+}

@@ -1,0 +1,89 @@
+#include "verify/baselines/accd.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "verify/baselines/closest_features.hpp"
+#include "verify/baselines/method_support.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+constexpr double step_share = 0.9;
+
+using Points = std::array<Eigen::Vector3d, moving_points>;
+
+double squared_distance(Kind kind, const Points& x) {
+  return kind == Kind::vertex_face ? feature_squared_distance(x[0], Triangle{x[1], x[2], x[3]})
+                                   : feature_squared_distance(Segment{x[0], x[1]}, {x[2], x[3]});
+}
+
+/// What stands for the squared distance while stepping.
+double stepping_squared_distance(Kind kind, const Points& x, double separation) {
+  const double distance = squared_distance(kind, x);
+  if (kind == Kind::vertex_face || distance - separation * separation > 0.0) return distance;
+  return std::min({(x[0] - x[2]).squaredNorm(), (x[0] - x[3]).squaredNorm(),
+                   (x[1] - x[2]).squaredNorm(), (x[1] - x[3]).squaredNorm()});
+}
+
+/// The displacements, less their mean.
+Points centred_displacements(const Query& query) {
+  Points displacement;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < moving_points; ++i) {
+    displacement[i] = query.point(1, i) - query.point(0, i);
+    mean += displacement[i] / static_cast<double>(moving_points);
+  }
+  for (Eigen::Vector3d& x : displacement) x -= mean;
+  return displacement;
+}
+
+/// ℓ: how much nearer the primitives can come in [0,1].
+double greatest_approach(Kind kind, const Points& displacement) {
+  const auto length = [&](std::size_t i) { return displacement[i].norm(); };
+  return kind == Kind::vertex_face
+             ? length(0) + std::max({length(1), length(2), length(3)})
+             : std::max(length(0), length(1)) + std::max(length(2), length(3));
+}
+
+}  // namespace
+
+fast::Answer accd(Kind kind, const Query& query, const fast::MethodOptions& options) {
+  const double separation = options.min_separation;
+  Points x;
+  for (std::size_t i = 0; i < moving_points; ++i) x[i] = query.point(0, i);
+  if (squared_distance(kind, x) <= separation * separation) {
+    return {.verdict = fast::Verdict::yes, .toi_lower = 0.0};
+  }
+  const Points displacement = centred_displacements(query);
+  const double approach = greatest_approach(kind, displacement);
+  if (approach == 0.0) return {.verdict = fast::Verdict::no};
+  // (d² − ξ²)/(d + ξ), which is d − ξ.
+  const auto gap_of = [&] {
+    const double square = stepping_squared_distance(kind, x, separation);
+    return (square - separation * separation) / (std::sqrt(square) + separation);
+  };
+  double gap = gap_of();
+  const double enough = (1.0 - step_share) * gap;
+  double toi = 0.0;
+  for (std::int64_t steps = 1; options.max_checks <= 0 || steps <= options.max_checks; ++steps) {
+    const double step = step_share * gap / approach;
+    for (std::size_t i = 0; i < moving_points; ++i) x[i] += step * displacement[i];
+    gap = gap_of();
+    if (toi > 0.0 && gap < enough) {
+      return {.verdict = fast::Verdict::yes, .checks = to_checks(steps), .toi_lower = toi};
+    }
+    toi += step;
+    if (toi > options.t_max) return {.verdict = fast::Verdict::no, .checks = to_checks(steps)};
+  }
+  return {.verdict = fast::Verdict::yes, .checks = to_checks(options.max_checks), .toi_lower = toi};
+}
+
+std::unique_ptr<fast::Method> accd_method() {
+  return baseline_method({.name = "accd", .promise = fast::Promise::none, .answer = accd});
+}
+
+}  // namespace touchstone::baselines

@@ -1,0 +1,134 @@
+#include "verify/baselines/fprf.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "verify/baselines/method_support.hpp"
+#include "verify/baselines/moving_polynomials.hpp"
+#include "verify/baselines/sign_intervals.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+/// Edges whose product is shorter are parallel, at any scale.
+constexpr double parallel_product = 1e-8;
+
+using Intervals = std::vector<TimeInterval>;
+
+template <std::size_t Degree>
+Intervals not_negative(const Polynomial<Degree>& polynomial) {
+  return sign_intervals(descending(polynomial), WantedSign::not_negative);
+}
+
+/// D(t) ≤ 0: where the plane of e and g through 0 is within η of q.
+Intervals near_plane(const LinearMotion& q, const LinearMotion& e, const LinearMotion& g,
+                     double eta) {
+  const VectorPolynomial<2> normal = cross(e, g);
+  const Polynomial<3> f = dot(q, normal);
+  const Polynomial<6> distance = f * f - (eta * eta) * squared_norm(normal);
+  return sign_intervals(descending(distance), WantedSign::not_positive);
+}
+
+/// e(t) × g(t) as if it were linear: its value at t=0, and the product of the velocities for a
+/// velocity.
+LinearMotion linearised_normal(const LinearMotion& e, const LinearMotion& g) {
+  const VectorPolynomial<2> normal = cross(e, g);
+  LinearMotion result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result[axis] = {{normal[axis].c[0], normal[axis].c[2]}};
+  }
+  return result;
+}
+
+/// Not negative where p is on the face's side of the edge e from corner c, in the face's plane; g
+/// is the other edge there.
+Polynomial<3> edge_side(const LinearMotion& p, const LinearMotion& c, const LinearMotion& e,
+                        const LinearMotion& g) {
+  return dot(p - c, cross(linearised_normal(e, g), e));
+}
+
+/// Not negative where, along α, β's start is behind γ's: the nearest point of the line β, seen from
+/// the line α, is not before β's start.
+Polynomial<4> end_side(const LinearMotion& alpha, const LinearMotion& beta,
+                       const LinearMotion& gamma) {
+  return dot(beta, alpha) * dot(gamma, alpha) - dot(alpha, alpha) * dot(gamma, beta);
+}
+
+bool overlap(const TimeInterval& a, const TimeInterval& b) {
+  return a.from <= b.to && b.from <= a.to;
+}
+
+/// The earliest choice of one interval of each list, overlapping pairwise and hence all, that does
+/// not overlap an interval of `forbidden`: its greatest left end. None if there is no choice.
+std::optional<double> earliest_overlap(std::span<const Intervals> lists, const Intervals& forbidden,
+                                       const TimeInterval& so_far = {0.0, 1.0}) {
+  if (lists.empty()) {
+    const auto is_hit = [&](const TimeInterval& other) { return overlap(so_far, other); };
+    return std::ranges::any_of(forbidden, is_hit) ? std::nullopt : std::optional(so_far.from);
+  }
+  std::optional<double> earliest;
+  for (const TimeInterval& interval : lists.front()) {
+    if (!overlap(interval, so_far)) continue;
+    const auto time =
+        earliest_overlap(lists.subspan(1), forbidden,
+                         {std::max(so_far.from, interval.from), std::min(so_far.to, interval.to)});
+    if (time && (!earliest || *time < *earliest)) earliest = time;
+  }
+  return earliest;
+}
+
+std::optional<double> vertex_face_time(const Query& query, double eta) {
+  const auto [p, v1, v2, v3] = motions_of(query);
+  std::array<Intervals, 4> lists;
+  lists[0] = not_negative(edge_side(p, v1, v3 - v1, v2 - v1));
+  if (lists[0].empty()) return std::nullopt;
+  lists[1] = not_negative(edge_side(p, v2, v1 - v2, v3 - v2));
+  if (lists[1].empty()) return std::nullopt;
+  lists[2] = not_negative(edge_side(p, v3, v2 - v3, v1 - v3));
+  if (lists[2].empty()) return std::nullopt;
+  lists[3] = near_plane(p - v1, v2 - v1, v3 - v1, eta);
+  return earliest_overlap(lists, {});
+}
+
+/// Are the edges parallel at that time?
+bool are_parallel(const Query& query, double t) {
+  const Eigen::Vector3d a = position_at(query, 0, t) - position_at(query, 1, t);
+  const Eigen::Vector3d b = position_at(query, 2, t) - position_at(query, 3, t);
+  return a.cross(b).norm() < parallel_product;
+}
+
+std::optional<double> edge_edge_time(const Query& query, double eta) {
+  const auto [a0, a1, b0, b1] = motions_of(query);
+  std::array<Intervals, 5> lists;
+  Intervals parallel;
+  for (const TimeInterval& near : near_plane(a1 - b1, a1 - a0, b1 - b0, eta)) {
+    (are_parallel(query, (near.from + near.to) / 2.0) ? parallel : lists[0]).push_back(near);
+  }
+  if (lists[0].empty()) return std::nullopt;
+  lists[1] = not_negative(end_side(b1 - b0, a1 - a0, a0 - b0));
+  lists[2] = not_negative(end_side(b1 - b0, a0 - a1, a1 - b0));
+  lists[3] = not_negative(end_side(a1 - a0, b1 - b0, b0 - a0));
+  lists[4] = not_negative(end_side(a1 - a0, b0 - b1, b1 - a0));
+  return earliest_overlap(lists, parallel);
+}
+
+}  // namespace
+
+fast::Answer fprf(Kind kind, const Query& query, const fast::MethodOptions& options) {
+  const double eta = options.min_separation;
+  const auto time =
+      kind == Kind::vertex_face ? vertex_face_time(query, eta) : edge_edge_time(query, eta);
+  if (!time || *time > options.t_max) return {.verdict = fast::Verdict::no};
+  return {.verdict = fast::Verdict::yes, .toi_lower = *time};
+}
+
+std::unique_ptr<fast::Method> fprf_method() {
+  return baseline_method({.name = "fprf", .promise = fast::Promise::none, .answer = fprf});
+}
+
+}  // namespace touchstone::baselines

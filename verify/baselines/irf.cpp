@@ -1,0 +1,75 @@
+#include "verify/baselines/irf.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "verify/baselines/interval_search.hpp"
+#include "verify/baselines/intervals.hpp"
+#include "verify/baselines/method_support.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+using Box = ParameterBox<3>;
+
+/// The greater of a segment's lengths at t=0 and t=1.
+double greatest_length(const Query& query, std::size_t from, std::size_t to) {
+  return std::max((query.point(0, to) - query.point(0, from)).norm(),
+                  (query.point(1, to) - query.point(1, from)).norm());
+}
+
+/// F of a query, in intervals.
+class ContactFunction {
+ public:
+  ContactFunction(Kind kind, const Query& query) : kind_(kind), motion_(query) {}
+
+  [[nodiscard]] bool may_vanish(const Box& box) const {
+    const auto [t, u, v] = box;
+    const auto [a, b, c, d] = motion_.at(t);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Interval f =
+          kind_ == Kind::vertex_face
+              ? a[axis] - (b[axis] + u * (c[axis] - b[axis]) + v * (d[axis] - b[axis]))
+              : ((b[axis] - a[axis]) * u + a[axis]) - ((d[axis] - c[axis]) * v + c[axis]);
+      if (!may_be_zero(f)) return false;
+    }
+    return true;
+  }
+
+  /// Does the box reach down to u + v ≤ 1?
+  [[nodiscard]] bool reaches_domain(const Box& box) const {
+    return kind_ == Kind::edge_edge ||
+           (Interval(box[1].lower()) + Interval(box[2].lower())).lower() <= 1.0;
+  }
+
+  [[nodiscard]] static bool accepts(const Box& /*box*/) { return true; }
+
+ private:
+  Kind kind_;
+  IntervalMotion motion_;
+};
+
+/// δ over what moves a point of F by at most 1 for each unit of the parameter. Infinite where
+/// nothing moves: that parameter needs no splitting.
+std::array<double, 3> parameter_tolerances(Kind kind, const Query& query, double tolerance) {
+  const bool is_face = kind == Kind::vertex_face;
+  return {tolerance / greatest_displacement(query),
+          tolerance / greatest_length(query, is_face ? 1 : 0, is_face ? 2 : 1),
+          tolerance / greatest_length(query, is_face ? 1 : 2, 3)};
+}
+
+}  // namespace
+
+fast::Answer irf(Kind kind, const Query& query, const fast::MethodOptions& options) {
+  const Box domain{Interval(0.0, options.t_max), Interval(0.0, 1.0), Interval(0.0, 1.0)};
+  const auto found =
+      search_box(ContactFunction(kind, query), domain,
+                 parameter_tolerances(kind, query, options.tolerance), options.max_checks);
+  return {.verdict = found.verdict, .checks = to_checks(found.checks)};
+}
+
+std::unique_ptr<fast::Method> irf_method() {
+  return baseline_method({.name = "irf", .promise = fast::Promise::conservative, .answer = irf});
+}
+
+}  // namespace touchstone::baselines

@@ -1,0 +1,76 @@
+#include "verify/baselines/method_support.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace touchstone::baselines {
+namespace {
+
+fast::Answer answer_of(const Baseline& baseline, Kind kind, const Query& query,
+                       const fast::MethodOptions& options) {
+  if (!is_finite(query)) return {.verdict = fast::Verdict::error};
+  try {
+    return baseline.answer(kind, query, options);
+  } catch (...) {
+    return {.verdict = fast::Verdict::yes};
+  }
+}
+
+class BaselineMethod final : public fast::Method {
+ public:
+  explicit BaselineMethod(const Baseline& baseline) : baseline_(baseline) {}
+
+  [[nodiscard]] std::string_view name() const override { return baseline_.name; }
+  [[nodiscard]] fast::Promise promise() const override { return baseline_.promise; }
+
+  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+             const fast::MethodOptions& options) const override {
+    if (!are_valid(options)) {
+      std::ranges::fill(answers, fast::Answer{.verdict = fast::Verdict::error});
+      return;
+    }
+    const NearestRounding state;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      answers[i] = answer_of(baseline_, kind, queries[i], options);
+    }
+  }
+
+ private:
+  Baseline baseline_;
+};
+
+}  // namespace
+
+NearestRounding::NearestRounding() : callers_{} {
+  std::fegetenv(&callers_);
+  std::fesetenv(FE_DFL_ENV);
+}
+
+NearestRounding::~NearestRounding() { std::fesetenv(&callers_); }
+
+bool are_valid(const fast::MethodOptions& options) {
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  return is_number(options.tolerance) && options.tolerance > 0.0 &&
+         is_number(options.min_separation) && options.min_separation >= 0.0 &&
+         options.t_max >= 0.0 && options.t_max <= 1.0;
+}
+
+bool is_finite(const Query& query) {
+  return std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); });
+}
+
+std::uint32_t to_checks(std::int64_t steps) {
+  return static_cast<std::uint32_t>(
+      std::min<std::int64_t>(steps, std::numeric_limits<std::uint32_t>::max()));
+}
+
+Eigen::Vector3d position_at(const Query& query, std::size_t point, double t) {
+  return query.point(0, point) + t * (query.point(1, point) - query.point(0, point));
+}
+
+std::unique_ptr<fast::Method> baseline_method(const Baseline& baseline) {
+  return std::make_unique<BaselineMethod>(baseline);
+}
+
+}  // namespace touchstone::baselines

@@ -1,0 +1,116 @@
+#include "verify/baselines/msrf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "verify/baselines/closest_features.hpp"
+#include "verify/baselines/method_support.hpp"
+#include "verify/baselines/moving_polynomials.hpp"
+#include "verify/baselines/rpoly.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+/// Candidate times, in the order they were found in.
+class Candidates {
+ public:
+  /// Adds the zeros in [0,1] that came out real.
+  template <std::size_t Degree>
+  void add_zeros(const Polynomial<Degree>& polynomial) {
+    const auto coefficients = descending(polynomial);
+    const auto left = without_leading_zeros(coefficients);
+    if (left.empty()) return;
+    for (const Zero& zero : zeros_of(left)) {
+      if (zero.im == 0.0 && zero.re >= 0.0 && zero.re <= 1.0) times_.push_back(zero.re);
+    }
+  }
+
+  /// Adds those of the squared distance of q and the plane of e and g, less h² (times what e × g is
+  /// squared).
+  void add_plane(const LinearMotion& q, const LinearMotion& e, const LinearMotion& g, double h) {
+    const VectorPolynomial<2> normal = cross(e, g);
+    const Polynomial<3> f = dot(q, normal);
+    const Polynomial<6> distance = f * f - (h * h) * squared_norm(normal);
+    if (!msrf_rules_out_zeros(distance.c)) add_zeros(distance);
+  }
+
+  [[nodiscard]] const std::vector<double>& times() const { return times_; }
+
+ private:
+  std::vector<double> times_;
+};
+
+Candidates vertex_face_candidates(const Query& query, double h) {
+  const auto [p, v1, v2, v3] = motions_of(query);
+  Candidates candidates;
+  candidates.add_plane(p - v1, v2 - v1, v3 - v1, h);
+  const std::array<LinearMotion, 3> face{v1, v2, v3};
+  const Polynomial<0> square{{h * h}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const LinearMotion to_vertex = p - face[i];
+    const LinearMotion edge = face[(i + 1) % 3] - face[i];
+    candidates.add_zeros(squared_norm(to_vertex) - square);
+    candidates.add_zeros(squared_norm(cross(to_vertex, edge)) - square * squared_norm(edge));
+  }
+  return candidates;
+}
+
+Candidates edge_edge_candidates(const Query& query, double h) {
+  const auto [a0, a1, b0, b1] = motions_of(query);
+  Candidates candidates;
+  candidates.add_plane(b1 - a0, a1 - a0, b1 - b0, h);
+  return candidates;
+}
+
+double squared_distance_at(Kind kind, const Query& query, double t) {
+  const auto at = [&](std::size_t point) { return position_at(query, point, t); };
+  return kind == Kind::vertex_face
+             ? closest_point_squared_distance(at(0), {at(1), at(2), at(3)})
+             : closest_points_squared_distance({at(0), at(1)}, {at(2), at(3)});
+}
+
+}  // namespace
+
+bool msrf_rules_out_zeros(std::span<const double, 7> c) {
+  const auto is_negative = [](double x) { return x < 0.0; };
+  if (std::ranges::none_of(c, is_negative) || std::ranges::all_of(c, is_negative)) return true;
+  const auto magnitude_from = [&](std::size_t first) {
+    double sum = 0.0;
+    for (std::size_t i = first; i < c.size(); ++i) sum += std::abs(c[i]);
+    return sum;
+  };
+  if (std::abs(c[0]) > magnitude_from(1)) return true;
+  double slope = 0.0;
+  for (std::size_t i = 2; i < c.size(); ++i) slope += static_cast<double>(i) * std::abs(c[i]);
+  if (c[0] * c[1] < 0.0 && std::abs(c[1]) > slope && c[0] * (c[0] + c[1] + c[2] + c[3]) > 0.0) {
+    return true;
+  }
+  double sum = c[0];
+  for (std::size_t m = 1; m < c.size() - 1 && c[0] * c[m] > 0.0; ++m) {
+    sum += c[m];
+    if (std::abs(sum) > magnitude_from(m + 1)) return true;
+  }
+  return false;
+}
+
+fast::Answer msrf(Kind kind, const Query& query, const fast::MethodOptions& options) {
+  const double h = options.min_separation > 0.0 ? options.min_separation : msrf_default_separation;
+  const Candidates candidates =
+      kind == Kind::vertex_face ? vertex_face_candidates(query, h) : edge_edge_candidates(query, h);
+  constexpr double never = 2.0;
+  double earliest = never;
+  for (const double t : candidates.times()) {
+    const double s = squared_distance_at(kind, query, t);
+    if (t < earliest && std::abs(s) <= h * h + 0.1 * h) earliest = t;
+  }
+  if (earliest == never || earliest > options.t_max) return {.verdict = fast::Verdict::no};
+  return {.verdict = fast::Verdict::yes, .toi_lower = earliest};
+}
+
+std::unique_ptr<fast::Method> msrf_method() {
+  return baseline_method({.name = "msrf", .promise = fast::Promise::none, .answer = msrf});
+}
+
+}  // namespace touchstone::baselines

@@ -1,0 +1,76 @@
+#include "verify/baselines/uirf.hpp"
+
+#include <array>
+
+#include "verify/baselines/interval_search.hpp"
+#include "verify/baselines/intervals.hpp"
+#include "verify/baselines/method_support.hpp"
+
+namespace touchstone::baselines {
+namespace {
+
+using Box = ParameterBox<1>;
+using Points = std::array<IntervalVector, moving_points>;
+
+/// May p be on the same side of the line ab as x, in the plane of all four?
+bool may_be_inside(const IntervalVector& p, const IntervalVector& a, const IntervalVector& b,
+                   const IntervalVector& x) {
+  const IntervalVector edge = minus(b, a);
+  return !(dot(cross(edge, minus(p, a)), cross(edge, minus(x, a))).upper() < 0.0);
+}
+
+bool may_touch_face(const Points& points) {
+  const auto& [p, v1, v2, v3] = points;
+  return may_be_inside(p, v2, v3, v1) && may_be_inside(p, v3, v1, v2) &&
+         may_be_inside(p, v1, v2, v3);
+}
+
+bool may_touch_edge(const Points& points) {
+  const auto& [a, b, c, d] = points;
+  const IntervalVector n = cross(minus(b, a), minus(c, a));
+  return !(dot(cross(minus(b, d), minus(c, d)), n).upper() < 0.0) &&
+         !(dot(cross(minus(c, d), minus(a, d)), n).upper() < 0.0) &&
+         !(dot(cross(minus(a, d), minus(b, d)), n).lower() > 0.0);
+}
+
+/// f of a query, in intervals, and the inside test.
+class Coplanarity {
+ public:
+  Coplanarity(Kind kind, const Query& query) : kind_(kind), motion_(query) {}
+
+  [[nodiscard]] bool may_vanish(const Box& box) const {
+    const auto [a, b, c, d] = motion_.at(box[0]);
+    return may_be_zero(kind_ == Kind::vertex_face
+                           ? dot(cross(minus(c, b), minus(d, b)), minus(a, b))
+                           : dot(cross(minus(b, a), minus(d, c)), minus(c, a)));
+  }
+
+  [[nodiscard]] static bool reaches_domain(const Box& /*box*/) { return true; }
+
+  [[nodiscard]] bool accepts(const Box& box) const {
+    const Points points = motion_.at(box[0]);
+    return kind_ == Kind::vertex_face ? may_touch_face(points) : may_touch_edge(points);
+  }
+
+ private:
+  Kind kind_;
+  IntervalMotion motion_;
+};
+
+}  // namespace
+
+fast::Answer uirf(Kind kind, const Query& query, const fast::MethodOptions& options) {
+  const std::array<double, 1> tolerances{options.tolerance / greatest_displacement(query)};
+  const auto found = search_box(Coplanarity(kind, query), Box{Interval(0.0, options.t_max)},
+                                tolerances, options.max_checks);
+  const bool hit = found.verdict == fast::Verdict::yes;
+  return {.verdict = found.verdict,
+          .checks = to_checks(found.checks),
+          .toi_lower = hit ? found.box[0].lower() : fast::Answer::none};
+}
+
+std::unique_ptr<fast::Method> uirf_method() {
+  return baseline_method({.name = "uirf", .promise = fast::Promise::conservative, .answer = uirf});
+}
+
+}  // namespace touchstone::baselines

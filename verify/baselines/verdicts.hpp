@@ -1,0 +1,67 @@
+#pragma once
+
+/// \file
+/// Verdicts of methods that say yes or no and nothing else: the same answer to bad input, and to an
+/// exception inside the method, for all of them.
+///
+/// The published comparison wraps every method and turns whatever it throws into "collision". That
+/// decides most answers of some methods (bsc.hpp), so it is reproduced here.
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <span>
+#include <string_view>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "fast/platform/floating_point_state.hpp"
+#include "verify/baselines/method_support.hpp"
+
+namespace touchstone::baselines {
+
+/// The verdict of `collides(kind, query)`: error where a coordinate is not finite, yes where it throws.
+/// \throws std::bad_alloc if that is what it throws.
+template <class Collides>
+[[nodiscard]] fast::Verdict verdict_of(Kind kind, const Query& query, const Collides& collides) {
+  if (!is_finite(query)) return fast::Verdict::error;
+  try {
+    return collides(kind, query) ? fast::Verdict::yes : fast::Verdict::no;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+    return fast::Verdict::yes;
+  }
+}
+
+/// Answers query i in answers[i] with its verdict alone, rounding to nearest whatever the caller does.
+/// \pre both spans have the same length. \throws std::bad_alloc
+template <class Collides>
+void answer_each(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+                 const Collides& collides) {
+  const fast::StrictFloatingPoint strict;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    answers[i] = {.verdict = verdict_of(kind, queries[i], collides)};
+  }
+}
+
+/// A method of verdicts alone, which promises nothing and has no use for options.
+class VerdictMethod final : public fast::Method {
+ public:
+  using Collides = bool (*)(Kind, const Query&);
+
+  VerdictMethod(std::string_view name, Collides collides) : name_(name), collides_(collides) {}
+
+  [[nodiscard]] std::string_view name() const override { return name_; }
+  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+             const fast::MethodOptions& /*options*/) const override {
+    answer_each(kind, queries, answers, collides_);
+  }
+
+ private:
+  std::string_view name_;
+  Collides collides_;
+};
+
+}  // namespace touchstone::baselines

@@ -1,0 +1,178 @@
+#include "verify/data/csv_dataset.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <utility>
+
+#include "verify/io/coordinate_text.hpp"
+#include "verify/io/csv.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+bool is_format(std::size_t columns) {
+  return columns == 3 || columns == 4 || columns == 6 || columns == 7;
+}
+
+/// Can it be the name of a column?
+bool is_name(std::string_view text) {
+  if (text.empty() || is_numeric(text)) return false;
+  const auto first = static_cast<unsigned char>(text.front());
+  return std::isalpha(first) != 0 || first == '_' || first == '#' || first >= 0x80U;
+}
+
+}  // namespace
+
+CsvDataset::CsvDataset(const std::filesystem::path& path, const DatasetOptions& options)
+    : DatasetSource(path, options), lines_(path) {
+  if (CsvDataset::at_end()) throw DatasetError(path, {}, "no queries");
+}
+
+/// Passes over what may stand between two queries.
+bool CsvDataset::at_end() {
+  while (!ahead_) {
+    ahead_ = lines_.next();
+    if (!ahead_) return true;
+    if (ahead_->too_long) break;
+    if (trimmed(ahead_->text).empty() || is_header(ahead_->text)) ahead_.reset();
+  }
+  return false;
+}
+
+/// Is the line, which stands between two queries or before the first, the file's header?
+bool CsvDataset::is_header(std::string_view line) {
+  if (columns_ || is_numeric(trimmed(line))) return !header_.empty() && line == header_;
+  const CsvSplit split = split_csv(line, fields_);
+  if (split.fault != CsvSplit::Fault::none || !is_format(split.count)) return false;
+  for (std::size_t column = 0; column < split.count; ++column) {
+    if (!is_name(field(column))) return false;
+  }
+  columns_ = split.count;
+  header_ = line;
+  return true;
+}
+
+DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
+  Rows rows{.query = {}, .rounded = 0};
+  std::optional<DatasetError> fault;
+  std::uint64_t last_line = 0;
+  for (std::size_t row = 0; row < query_points; ++row) {
+    const std::optional<Line> line = ahead_ ? std::exchange(ahead_, std::nullopt) : lines_.next();
+    if (!line) {
+      if (fault) break;
+      throw DatasetError(path(), {.line = last_line},
+                         fmt::format("truncated query: {} of {} rows; if a row is missing further "
+                                     "up, queries behind it were put together of two",
+                                     row, query_points));
+    }
+    last_line = line->number;
+    split_row(*line);
+    // The labels of all rows, for they tell whether these are the rows of one query.
+    std::optional<DatasetError> label_fault = read_label(*line, rows);
+    if (!fault) fault = read_point(*line, row, rows);
+    if (!fault) fault = std::move(label_fault);
+  }
+  if (fault) throw DatasetError(*fault);
+  rounded_ += rows.rounded;
+  return rows.query;
+}
+
+/// Splits the line into fields_, or gives up if it is no row.
+void CsvDataset::split_row(const Line& line) {
+  if (line.too_long) lose_count(line, 0, "line longer than 1 MiB");
+  if (trimmed(line.text).empty()) lose_count(line, 0, "blank line inside a query");
+  const CsvSplit split = split_csv(line.text, fields_);
+  if (split.fault != CsvSplit::Fault::none) {
+    lose_count(line, split.count, "malformed quoted field");
+  }
+  if (!columns_ && !is_format(split.count)) {
+    lose_count(line, 0, fmt::format("{} columns, expected 3, 4, 6 or 7", split.count));
+  }
+  if (split.count != columns_.value_or(split.count)) {
+    lose_count(line, 0, fmt::format("{} columns, expected {} as before", split.count, *columns_));
+  }
+  const auto first = fields_.begin(), last = first + static_cast<std::ptrdiff_t>(split.count);
+  if (std::none_of(first, last,
+                   [](const std::string& text) { return is_numeric(trimmed(text)); })) {
+    lose_count(line, 0, "no number in the line");
+  }
+  columns_ = split.count;
+}
+
+std::optional<DatasetError> CsvDataset::read_label(const Line& line, Rows& rows) {
+  if (columns_ != 4 && columns_ != 7) return std::nullopt;
+  const std::size_t column = columns_.value();
+  const std::string_view text = field(column - 1);
+  if (text != "0" && text != "1") {
+    return error(line, column, "label must be 0 or 1: " + quote(text));
+  }
+  const bool label = text == "1";
+  if (!rows.query.label) {
+    rows.query.label = label;
+    rows.query.label_position = {.line = line.number, .column = column};
+  }
+  if (rows.query.label != label) {
+    lose_count(line, column, "label differs from that of the query's first row");
+  }
+  return std::nullopt;
+}
+
+std::optional<DatasetError> CsvDataset::read_point(const Line& line, std::size_t row,
+                                                   Rows& rows) const {
+  const bool is_fraction = columns_ >= 6;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t column = is_fraction ? 2 * axis : axis;
+    try {
+      const ParsedCoordinate coordinate =
+          parse_coordinate(field(column), is_fraction ? field(column + 1) : "1");
+      if (!coordinate.exact && !options().round) {
+        return error(line, column + 1, "not exactly a double (--round takes the nearest)");
+      }
+      if (!coordinate.exact) ++rows.rounded;
+      rows.query.query.at(row / moving_points, row % moving_points, axis) = coordinate.value;
+    } catch (const CoordinateError& fault) {
+      const bool numerator = fault.part() == CoordinateError::Part::numerator;
+      return error(line, column + (numerator ? 1 : 2), fault.what());
+    }
+  }
+  return std::nullopt;
+}
+
+std::string_view CsvDataset::field(std::size_t column) const { return trimmed(fields_.at(column)); }
+
+DatasetError CsvDataset::error(const Line& line, std::size_t column,
+                               const std::string& reason) const {
+  return {path(), {.line = line.number, .column = column}, reason};
+}
+
+void CsvDataset::lose_count(const Line& line, std::size_t column, const std::string& reason) {
+  give_up(error(line, column,
+                reason +
+                    "; the rest of the file is left out, since it is unknown from here on which "
+                    "eight rows are a query: mend this line"));
+}
+
+std::string csv_rows(const Query& query, std::optional<bool> collides) {
+  const std::string_view label = !collides ? "" : *collides ? ",1" : ",0";
+  std::string text;
+  for (std::size_t row = 0; row < query_points; ++row) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axis != 0) text += ',';
+      append_coordinate(text, query.at(row / moving_points, row % moving_points, axis));
+    }
+    text += label;
+    text += '\n';
+  }
+  return text;
+}
+
+CsvWriter::CsvWriter(std::filesystem::path path) : file_(std::move(path)) {}
+
+void CsvWriter::write(const Query& query, std::optional<bool> collides) {
+  file_.write(csv_rows(query, collides));
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,72 @@
+#pragma once
+
+/// \file
+/// What the streams of all dataset formats have in common.
+///
+/// A format only says whether there is another query and reads it. Here the queries are numbered,
+/// joined with what their companion files say, and, with keep_going, left out one by one if they
+/// are in error. A format that no longer knows where queries begin gives up: the rest of the file
+/// is left out. The companions are asked by number, so a query left out leaves its label behind
+/// unread and cannot put the labels of the others out of step.
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "verify/data/dataset.hpp"
+#include "verify/data/ground_truth_files.hpp"
+#include "verify/data/query_source.hpp"
+
+namespace touchstone::verify {
+
+/// Base of the streams of all formats.
+class DatasetSource : public QuerySource {
+ public:
+  [[nodiscard]] const std::string& name() const final { return name_; }
+  [[nodiscard]] Kind kind() const final { return kind_; }
+  [[nodiscard]] std::optional<RecordedQuery> next() final;
+  [[nodiscard]] std::uint64_t skipped() const final { return skipped_; }
+  [[nodiscard]] Separation recorded_separation() const final { return separation_; }
+
+ protected:
+  /// A query as the file itself records it.
+  struct StoredQuery {
+    Query query;
+    std::optional<bool> label;
+    /// Where the label stands first.
+    FilePosition label_position;
+  };
+
+  /// \throws DatasetError if the kind is unknown, or a companion file or the separation's cannot be read.
+  DatasetSource(const std::filesystem::path& path, DatasetOptions options);
+
+  /// Ends the stream with this error, with and without keep_going: for a fault behind which nothing
+  /// tells where the next query is. What companions hold beyond is not looked at.
+  [[noreturn]] void give_up(const DatasetError& fault);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] const DatasetOptions& options() const { return options_; }
+
+ private:
+  /// No query is left.
+  [[nodiscard]] virtual bool at_end() = 0;
+  /// The next query, number `index`. Consumes it also if it throws.
+  [[nodiscard]] virtual StoredQuery read(std::uint64_t index) = 0;
+
+  [[nodiscard]] std::optional<RecordedQuery> read_record();
+  void finish();
+  void skip(const DatasetError& fault);
+
+  std::filesystem::path path_;
+  std::string name_;
+  DatasetOptions options_;
+  Kind kind_;
+  Companions companions_;
+  Separation separation_;
+  std::uint64_t count_ = 0;
+  std::uint64_t skipped_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace touchstone::verify

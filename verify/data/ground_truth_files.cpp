@@ -1,0 +1,263 @@
+#include "verify/data/ground_truth_files.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "verify/data/separation_file.hpp"
+#include "verify/io/csv.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+constexpr int end_of_file = -1;
+
+bool is_word_character(int c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' ||
+         c == '-' || c == '.';
+}
+
+/// Splits a line of two columns; false if it is none.
+bool split_fields(std::string_view line, std::array<std::string, 2>& fields) {
+  const CsvSplit split = split_csv(line, fields);
+  return split.count == fields.size() && split.fault == CsvSplit::Fault::none;
+}
+
+std::optional<std::uint64_t> parse_number(std::string_view text) {
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+std::optional<std::filesystem::path> find_companion(const std::filesystem::path& dataset,
+                                                    const std::string& folder,
+                                                    const std::string& ending) {
+  const std::filesystem::path directory = dataset.parent_path();
+  const std::string name = dataset.stem().string() + ending;
+  for (const auto& candidate :
+       {directory / ".." / folder / name, directory / folder / name, directory / name}) {
+    std::error_code error;
+    if (std::filesystem::exists(std::filesystem::status(candidate, error))) return candidate;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::filesystem::path> find_labels(const std::filesystem::path& dataset) {
+  return find_companion(dataset, "mma_bool", "_mma_bool.json");
+}
+
+std::optional<std::filesystem::path> find_tois(const std::filesystem::path& dataset) {
+  return find_companion(dataset, "toi", "_toi.csv");
+}
+
+}  // namespace
+
+LabelReader::LabelReader(std::filesystem::path path) : file_(std::move(path)) {
+  if (skip_whitespace() != '[') fail("expected a JSON array of booleans");
+  take();
+}
+
+bool LabelReader::at(std::uint64_t index) {
+  if (broken_) throw DatasetError(*broken_);
+  while (elements_ <= index) {
+    const std::optional<Element> element = next_element();
+    if (!element) {
+      throw DatasetError(
+          path(), position_,
+          fmt::format("no label for query {}: the array has only {}", index, elements_));
+    }
+    if (elements_ <= index) continue;
+    if (element->text == "true" || element->text == "1") return true;
+    if (element->text == "false" || element->text == "0") return false;
+    throw DatasetError(path(), element->position, "not a boolean: " + quote(element->text));
+  }
+  throw std::logic_error("labels are read in ascending order");
+}
+
+std::optional<DatasetError> LabelReader::beyond(std::uint64_t count) {
+  if (broken_ || closed_) return std::nullopt;
+  try {
+    while (const std::optional<Element> element = next_element()) {
+      if (elements_ > count) {
+        return DatasetError(path(), element->position,
+                            fmt::format("more labels than the {} queries", count));
+      }
+    }
+    take();
+    if (skip_whitespace() != end_of_file) fail("expected nothing after the array");
+  } catch (const DatasetError& fault) {
+    return fault;
+  }
+  return std::nullopt;
+}
+
+/// The next element, or nothing at the closing bracket, where the position stays.
+std::optional<LabelReader::Element> LabelReader::next_element() {
+  if (closed_) return std::nullopt;
+  int c = skip_whitespace();
+  if (c == ']') {
+    closed_ = true;
+    return std::nullopt;
+  }
+  if (elements_ > 0) {
+    if (c != ',') fail("expected ',' or ']'");
+    take();
+    c = skip_whitespace();
+  }
+  if (!is_word_character(c)) fail("expected true or false");
+  Element element = read_word();
+  ++elements_;
+  return element;
+}
+
+LabelReader::Element LabelReader::read_word() {
+  static constexpr std::size_t longest_word = 64;
+  Element element{.text = {}, .position = position_};
+  for (int c = peek(); is_word_character(c); c = peek()) {
+    if (element.text.size() == longest_word) fail("expected true or false");
+    element.text += static_cast<char>(c);
+    take();
+  }
+  return element;
+}
+
+/// The next byte, which stays, or end_of_file.
+int LabelReader::peek() {
+  if (begin_ == end_) {
+    begin_ = 0;
+    end_ = file_.read(buffer_);
+    if (end_ == 0) return end_of_file;
+  }
+  return static_cast<unsigned char>(buffer_.at(begin_));
+}
+
+void LabelReader::take() {
+  if (peek() == '\n') {
+    position_ = {.line = position_.line + 1, .column = 1};
+  } else {
+    ++position_.column;
+  }
+  ++begin_;
+}
+
+int LabelReader::skip_whitespace() {
+  int c = peek();
+  for (; c == ' ' || c == '\t' || c == '\r' || c == '\n'; c = peek()) take();
+  return c;
+}
+
+void LabelReader::fail(const std::string& reason) {
+  broken_.emplace(path(), position_, reason);
+  throw DatasetError(*broken_);
+}
+
+ToiReader::ToiReader(std::filesystem::path path) : lines_(std::move(path)) {
+  const std::optional<Line> header = lines_.next();
+  if (!header) throw DatasetError(lines_.path(), {}, "expected the header query,toi");
+  std::array<std::string, 2> fields;
+  if (!split_fields(header->text, fields) || trimmed(fields[0]) != "query" ||
+      trimmed(fields[1]) != "toi") {
+    throw DatasetError(lines_.path(), {.line = 1}, "expected the header query,toi");
+  }
+}
+
+std::optional<exact::Rational> ToiReader::at(std::uint64_t index) {
+  if (broken_) throw DatasetError(*broken_);
+  seek(index);
+  if (!entry_ || entry_->query != index) return std::nullopt;
+  try {
+    return exact::rational_from_decimal(entry_->decimal);
+  } catch (const std::invalid_argument&) {
+    throw DatasetError(lines_.path(), {.line = entry_->line, .column = 2},
+                       "not a decimal number: " + quote(entry_->decimal));
+  }
+}
+
+std::optional<DatasetError> ToiReader::beyond(std::uint64_t count) {
+  if (broken_) return std::nullopt;
+  try {
+    seek(count);
+  } catch (const DatasetError& fault) {
+    return fault;
+  }
+  if (!entry_) return std::nullopt;
+  return DatasetError(
+      lines_.path(), {.line = entry_->line, .column = 1},
+      fmt::format("toi of query {}, but there are {} queries", entry_->query, count));
+}
+
+void ToiReader::seek(std::uint64_t index) {
+  try {
+    while (!ended_ && (!entry_ || entry_->query < index)) {
+      entry_ = next_entry();
+      ended_ = !entry_;
+    }
+  } catch (const DatasetError& fault) {
+    broken_ = fault;
+    throw;
+  }
+}
+
+std::optional<ToiReader::Entry> ToiReader::next_entry() {
+  const std::optional<Line> line = lines_.next();
+  if (!line) return std::nullopt;
+  if (line->too_long) fail({.line = line->number}, "line longer than 1 MiB");
+  std::array<std::string, 2> fields;
+  if (!split_fields(line->text, fields)) {
+    fail({.line = line->number}, "expected two columns, query and toi");
+  }
+  const std::string_view query_text = trimmed(fields[0]);
+  const std::optional<std::uint64_t> query = parse_number(query_text);
+  const FilePosition position{.line = line->number, .column = 1};
+  if (!query) fail(position, "not a query number: " + quote(query_text));
+  if (entry_ && *query <= entry_->query) fail(position, "query numbers do not ascend");
+  return Entry{.query = *query, .decimal = std::string(trimmed(fields[1])), .line = line->number};
+}
+
+void ToiReader::fail(FilePosition position, const std::string& reason) const {
+  throw DatasetError(lines_.path(), position, reason);
+}
+
+std::vector<std::filesystem::path> find_companions(const std::filesystem::path& dataset) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& path : {find_labels(dataset), find_tois(dataset)}) {
+    if (path) paths.push_back(*path);
+  }
+  if (const auto path = find_separation_file(dataset)) paths.push_back(*path);
+  return paths;
+}
+
+Companions::Companions(const std::filesystem::path& dataset) {
+  if (auto path = find_labels(dataset)) labels_.emplace(*path);
+  if (auto path = find_tois(dataset)) tois_.emplace(*path);
+}
+
+RecordedTruth Companions::at(std::uint64_t index) {
+  RecordedTruth truth;
+  if (labels_) truth.collides = labels_->at(index);
+  if (tois_) truth.toi = tois_->at(index);
+  return truth;
+}
+
+std::vector<DatasetError> Companions::beyond(std::uint64_t count) {
+  std::vector<DatasetError> faults;
+  if (labels_) {
+    if (auto fault = labels_->beyond(count)) faults.push_back(*fault);
+  }
+  if (tois_) {
+    if (auto fault = tois_->beyond(count)) faults.push_back(*fault);
+  }
+  return faults;
+}
+
+std::filesystem::path Companions::label_path() const {
+  return labels_ ? labels_->path() : std::filesystem::path();
+}
+
+}  // namespace touchstone::verify

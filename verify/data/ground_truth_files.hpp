@@ -1,0 +1,133 @@
+#pragma once
+
+/// \file
+/// Truth that lies beside a dataset: labels in <name>_mma_bool.json, times of impact in
+/// <name>_toi.csv.
+///
+/// Both are read as streams in step with the queries: readers are asked for queries by ascending
+/// number and pass over what lies before. A fault that leaves no doubt where the next entry is
+/// (`null` in place of a label, a malformed decimal) concerns one query. After any other fault
+/// nothing tells which query an entry belongs to: from there on every query gets the same error.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "verify/data/dataset_error.hpp"
+#include "verify/io/input_file.hpp"
+
+namespace touchstone::verify {
+
+/// Labels from a flat JSON array of true, false, 1 and 0, one a query. Columns of errors count the
+/// bytes of a line.
+class LabelReader {
+ public:
+  /// \throws DatasetError if the file cannot be read or does not begin with '['.
+  explicit LabelReader(std::filesystem::path path);
+
+  /// The label of a query; numbers must ascend from call to call.
+  /// \throws DatasetError if there is none, or what stands there is no label.
+  [[nodiscard]] bool at(std::uint64_t index);
+
+  /// The error, if any, that lies behind the labels of `count` queries: a further label, or faulty
+  /// JSON that at() has not reported. To be called last.
+  [[nodiscard]] std::optional<DatasetError> beyond(std::uint64_t count);
+
+  [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+
+ private:
+  /// An element of the array: a bare word or number, not yet known to be a label.
+  struct Element {
+    std::string text;
+    FilePosition position;
+  };
+
+  [[nodiscard]] std::optional<Element> next_element();
+  [[nodiscard]] Element read_word();
+  [[nodiscard]] int peek();
+  int skip_whitespace();
+  void take();
+  [[noreturn]] void fail(const std::string& reason);
+
+  InputFile file_;
+  std::array<char, 4096> buffer_{};
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+  FilePosition position_{.line = 1, .column = 1};
+  std::uint64_t elements_ = 0;
+  bool closed_ = false;
+  std::optional<DatasetError> broken_;
+};
+
+/// Times of impact from lines "query,toi" below that header: query numbers strictly ascending, not
+/// every query among them; decimals of any length. Columns of errors count fields.
+class ToiReader {
+ public:
+  /// \throws DatasetError if the file cannot be read or has another header.
+  explicit ToiReader(std::filesystem::path path);
+
+  /// The time of impact of a query, if it has one; numbers must ascend from call to call.
+  /// \throws DatasetError if what stands there is none, or the file is faulty before it.
+  [[nodiscard]] std::optional<exact::Rational> at(std::uint64_t index);
+
+  /// The error, if any, that lies behind the entries of `count` queries: an entry of a query past
+  /// them, or a faulty line that at() has not reported. To be called last.
+  [[nodiscard]] std::optional<DatasetError> beyond(std::uint64_t count);
+
+ private:
+  struct Entry {
+    std::uint64_t query;
+    std::string decimal;
+    std::uint64_t line;
+  };
+
+  /// Makes entry_ the first one of query `index` or later.
+  void seek(std::uint64_t index);
+  [[nodiscard]] std::optional<Entry> next_entry();
+  [[noreturn]] void fail(FilePosition position, const std::string& reason) const;
+
+  LineReader lines_;
+  std::optional<Entry> entry_;
+  bool ended_ = false;
+  std::optional<DatasetError> broken_;
+};
+
+/// What companion files say about a query.
+struct RecordedTruth {
+  std::optional<bool> collides;
+  std::optional<exact::Rational> toi;
+};
+
+/// The companion files that there are of a dataset, the one of its separation included.
+[[nodiscard]] std::vector<std::filesystem::path> find_companions(
+    const std::filesystem::path& dataset);
+
+/// The companion files that a dataset has: of <dir>/<name>.csv the first that exists of
+/// <dir>/../mma_bool/<name>_mma_bool.json, <dir>/mma_bool/<name>_mma_bool.json and
+/// <dir>/<name>_mma_bool.json, and likewise toi/<name>_toi.csv.
+class Companions {
+ public:
+  /// \throws DatasetError if a companion exists but its beginning cannot be read.
+  explicit Companions(const std::filesystem::path& dataset);
+
+  /// What is known of a query; numbers must ascend from call to call.
+  /// \throws DatasetError if what is recorded cannot be read.
+  [[nodiscard]] RecordedTruth at(std::uint64_t index);
+
+  /// The errors that lie behind the entries of `count` queries, at most one a file.
+  [[nodiscard]] std::vector<DatasetError> beyond(std::uint64_t count);
+
+  /// The file of the labels, empty if there is none.
+  [[nodiscard]] std::filesystem::path label_path() const;
+
+ private:
+  std::optional<LabelReader> labels_;
+  std::optional<ToiReader> tois_;
+};
+
+}  // namespace touchstone::verify

@@ -1,0 +1,72 @@
+#pragma once
+
+/// \file
+/// NumPy's .npy files of queries: little-endian float64 of shape (N, 8, 3), in C order.
+///
+/// Such an array has the layout of N consecutive Query objects, so its bytes *are* the queries:
+/// nothing is parsed. An array of no queries, shape (0, 8, 3), is one as well. The file begins with "\x93NUMPY", two bytes of version (1 to 3),
+/// the length of the header (2 bytes in version 1, else 4, little-endian) and the header: a Python
+/// dictionary of exactly descr, fortran_order and shape.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "verify/io/input_file.hpp"
+#include "verify/io/output_file.hpp"
+
+namespace touchstone::verify {
+
+/// Reads such a file front to back, a block of queries at a time. The file is not mapped into
+/// memory: the system ends a process that reads mapped pages of a file that has become shorter.
+class NpyReader {
+ public:
+  /// \throws DatasetError if the file cannot be read, is not such an array, or its size does not
+  /// fit its shape.
+  explicit NpyReader(const std::filesystem::path& path);
+
+  /// Number of queries, as the header says it.
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+
+  /// Number of the query that next() returns.
+  [[nodiscard]] std::uint64_t position() const { return position_; }
+
+  /// The next query, valid until the next call. Coordinates are as they are in the file: not
+  /// checked for NaN and infinities.
+  /// \pre position() < count().
+  /// \throws DatasetError if the system reports an error, or the file has become shorter.
+  [[nodiscard]] const Query& next();
+
+ private:
+  void fill();
+
+  InputFile file_;
+  std::uint64_t count_ = 0;
+  std::uint64_t position_ = 0;
+  std::vector<Query> block_;
+  std::size_t next_in_block_ = 0;
+};
+
+/// Writes such a file as a stream; the number of queries is filled in at the end.
+class NpyWriter {
+ public:
+  /// \throws DatasetError if no file can be made there.
+  explicit NpyWriter(std::filesystem::path path);
+
+  /// Appends a query.
+  /// \throws DatasetError if it cannot be written.
+  /// \throws std::invalid_argument if a coordinate is not finite; nothing is written then.
+  void write(const Query& query);
+
+  /// Completes the file and gives it its name; without this call there is no file.
+  /// \throws DatasetError if it cannot be written.
+  void close();
+
+ private:
+  OutputFile file_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace touchstone::verify

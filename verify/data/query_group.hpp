@@ -1,0 +1,57 @@
+#pragma once
+
+/// \file
+/// Queries of one kind in memory, from one source or several, that are measured together.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "verify/data/query_source.hpp"
+
+namespace touchstone::verify {
+
+/// Where a query comes from.
+struct QueryPlace {
+  std::string source;       ///< QuerySource::name
+  std::uint64_t index = 0;  ///< RecordedQuery::index
+};
+
+/// Some queries of one kind, and where they come from.
+class QueryGroup {
+ public:
+  QueryGroup(std::string name, Kind kind) : name_(std::move(name)), kind_(kind) {}
+
+  /// Queries that were made here: their source is the group, their index their position.
+  QueryGroup(std::string name, Kind kind, std::vector<Query> queries);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] Kind kind() const { return kind_; }
+  [[nodiscard]] const std::vector<Query>& queries() const { return queries_; }
+
+  /// Appends the queries of a source, up to its end or until `stopped`.
+  /// \param progress is told now and then the fraction of the source that is read.
+  /// \throws DatasetError as the source does, std::invalid_argument if it is of another kind.
+  void read(QuerySource& source, const std::function<void(double)>& progress,
+            const std::function<bool()>& stopped);
+
+  /// Where the query at a position of queries() comes from. \pre there is one.
+  [[nodiscard]] QueryPlace place_of(std::size_t position) const;
+
+ private:
+  /// A run of queries with consecutive indices, up to where the next one begins.
+  struct Run {
+    std::size_t position;
+    QueryPlace place;
+  };
+
+  std::string name_;
+  Kind kind_;
+  std::vector<Query> queries_;
+  std::vector<Run> runs_;
+};
+
+}  // namespace touchstone::verify

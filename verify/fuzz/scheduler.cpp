@@ -1,0 +1,66 @@
+#include "verify/fuzz/scheduler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace touchstone::verify {
+namespace {
+
+constexpr unsigned table_bits = 16;
+
+/// An arm that has done nothing yet is believed to bring this by so much work: little, but no less
+/// than a dull one.
+constexpr double first_reward = 1.0;
+constexpr double first_work = 100.0;
+
+}  // namespace
+
+SignatureTable::SignatureTable() : counts_(std::size_t{1} << table_bits) {}
+
+std::uint32_t SignatureTable::add(std::uint64_t signature) {
+  std::uint32_t& count = counts_[builtin::mix(signature) >> (64U - table_bits)];
+  size_ += count == 0 ? 1U : 0U;
+  const std::uint32_t before = count;
+  if (count != std::numeric_limits<std::uint32_t>::max()) ++count;
+  return before;
+}
+
+Steering::Steering(std::size_t arms, std::uint64_t seed, const SteeringOptions& options)
+    : random_(builtin::mix(seed)), options_(options), arms_(arms) {}
+
+double Steering::rate(const Arm& arm) {
+  return (arm.reward + first_reward) / (arm.work + first_work);
+}
+
+double Steering::share(std::size_t arm) const {
+  double sum = 0.0;
+  for (const Arm& other : arms_) sum += rate(other);
+  return options_.explored / static_cast<double>(arms_.size()) +
+         (1.0 - options_.explored) * rate(arms_.at(arm)) / sum;
+}
+
+std::size_t Steering::choose() {
+  double sum = 0.0;
+  for (const Arm& arm : arms_) sum += rate(arm);
+  const double alike = options_.explored / static_cast<double>(arms_.size());
+  double left = random_.unit();
+  for (std::size_t i = 0; i + 1 < arms_.size(); ++i) {
+    left -= alike + (1.0 - options_.explored) * rate(arms_[i]) / sum;
+    if (left < 0.0) return i;
+  }
+  return arms_.size() - 1;
+}
+
+void Steering::learn(std::size_t arm, double reward, double work) {
+  // 1/(1+x), not exp: the same on every machine.
+  const double kept = 1.0 / (1.0 + options_.forgetting * work);
+  for (Arm& other : arms_) {
+    other.reward *= kept;
+    other.work *= kept;
+  }
+  arms_.at(arm).reward += reward;
+  arms_.at(arm).work += work;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,73 @@
+#pragma once
+
+/// \file
+/// What makes the search go where it pays.
+///
+/// Queries fall into sorts, told apart by a *signature*: at which stage the judge decided, where
+/// the time of impact is, how far the answer is from it, and so on. A query of a sort that is rare
+/// so far is worth more than one of many. The *steering* is a bandit: it draws arms (generators)
+/// with a probability that grows with their worth by the work they took, most recent work counting
+/// most, and leaves to every arm a small share, so that one that pays late is found.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "verify/generate/random.hpp"
+
+namespace touchstone::verify {
+
+/// How often each signature was seen.
+class SignatureTable {
+ public:
+  SignatureTable();
+
+  /// Counts a signature, and returns how often it was seen before. Two signatures may be taken for
+  /// one (their hashes lie in 2^16 places).
+  std::uint32_t add(std::uint64_t signature);
+
+  /// Places that are taken: about the number of different signatures.
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  std::vector<std::uint32_t> counts_;
+  std::size_t size_ = 0;
+};
+
+struct SteeringOptions {
+  /// What was learnt counts so much less after each unit of work learnt later: half after 0.7 /
+  /// this.
+  double forgetting = 1e-4;
+  /// Share of the draws that goes to all arms alike, 0 to 1.
+  double explored = 0.25;
+};
+
+/// Chooses among arms. The same calls give the same choices everywhere.
+class Steering {
+ public:
+  /// \pre arms > 0
+  Steering(std::size_t arms, std::uint64_t seed, const SteeringOptions& options = {});
+
+  /// The arm to play next.
+  [[nodiscard]] std::size_t choose();
+
+  /// Notes what an arm brought and the work that it took. \pre reward ≥ 0, work > 0
+  void learn(std::size_t arm, double reward, double work);
+
+  /// The probability that choose() returns that arm.
+  [[nodiscard]] double share(std::size_t arm) const;
+
+ private:
+  struct Arm {
+    double reward = 0.0;
+    double work = 0.0;
+  };
+
+  [[nodiscard]] static double rate(const Arm& arm);
+
+  builtin::Random random_;
+  SteeringOptions options_;
+  std::vector<Arm> arms_;
+};
+
+}  // namespace touchstone::verify

@@ -1,0 +1,132 @@
+#include "verify/fuzz/triage.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "exact/distance/distance_oracle.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/answers.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::CertifiedResult;
+using fast::Promise;
+using fast::Verdict;
+
+/// Of a yes: a bound that is infinite, or a tolerance that is none. (NaN says: not given.)
+bool has_bad_number(const Answer& answer) {
+  return std::isinf(answer.toi_lower) || std::isinf(answer.toi_upper) || answer.tolerance < 0.0;
+}
+
+/// How near they come by what a yes claims, if it claims anything.
+std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& answer,
+                                   const Standard& standard) {
+  if (!standard.reach) return std::nullopt;
+  const Separation claimed = standard.reach(kind, query, answer, standard.separation);
+  return is_valid(claimed) ? std::optional(claimed) : std::nullopt;
+}
+
+/// Of a yes to what does not collide; what collides is near enough for any claim.
+std::optional<Accusation> accuse_reach(Kind kind, const Query& query, const Answer& answer,
+                                       const Standard& standard) {
+  const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
+  if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
+  return Accusation{FindingKind::beyond_tolerance,
+                    fmt::format("{}, but they never come within {}, as that claims",
+                                to_text(answer), to_text(*claimed))};
+}
+
+std::optional<Accusation> accuse_toi(const Truth& truth, const Answer& answer) {
+  const auto [lower, upper] = truth.toi.value();
+  // The enclosure's ends are neighbouring doubles, or one: these comparisons are exact.
+  if (answer.toi_lower > lower) {
+    return Accusation{FindingKind::late_toi, fmt::format("toi_lower {} is late", answer.toi_lower)};
+  }
+  if (answer.toi_upper < upper) {
+    return Accusation{FindingKind::early_toi_upper,
+                      fmt::format("toi_upper {} is early", answer.toi_upper)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judged,
+                     const Answer& answer, const Standard& standard) {
+  if (answer.verdict == Verdict::error || judged.verdict == Verdict::error) return false;
+  const bool is_yes = answer.verdict == Verdict::yes;
+  if (is_yes && has_bad_number(answer)) return false;
+  if (judged.verdict == Verdict::no) {
+    if (answer.verdict == Verdict::no) return true;
+    if (standard.promise == Promise::exact) return false;
+    if (!is_yes) return true;
+    const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
+    return !claimed ||
+           (claimed->norm == Norm::linf &&
+            is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
+           fast::certified(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
+  }
+  if (answer.verdict == Verdict::no) return false;
+  if (!is_yes) return true;
+  // No comparison holds of a NaN.
+  return !(answer.toi_lower > judged.toi_lower) && !(answer.toi_upper < judged.toi_upper);
+}
+
+std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& truth,
+                                 const Answer& answer, const Standard& standard) {
+  if (answer.verdict == Verdict::error) return accuse_failure(failure_of(answer).value(), 0.0);
+  if (answer.verdict == Verdict::yes && has_bad_number(answer)) {
+    return Accusation{FindingKind::not_finite, to_text(answer)};
+  }
+  if (truth.collides) {
+    if (answer.verdict == Verdict::no) {
+      return Accusation{FindingKind::false_negative, "no, but they collide"};
+    }
+    return answer.verdict == Verdict::yes ? accuse_toi(truth, answer) : std::nullopt;
+  }
+  if (answer.verdict == Verdict::no) return std::nullopt;
+  if (standard.promise == Promise::exact) {
+    return Accusation{
+        answer.verdict == Verdict::yes ? FindingKind::false_positive : FindingKind::undecided,
+        to_text(answer) + ", but they do not collide, and it promises exactness"};
+  }
+  return answer.verdict == Verdict::yes ? accuse_reach(kind, query, answer, standard)
+                                        : std::nullopt;
+}
+
+Accusation accuse_failure(const Failure& failure, double limit_seconds) {
+  const FindingKind what = finding_kind_of(failure.kind);
+  switch (failure.kind) {
+    case FailureKind::hang:
+      return {what, fmt::format("takes more than {} s", limit_seconds)};
+    case FailureKind::no_verdict:
+      return {what, "error or no verdict, of a valid query"};
+    default:
+      return {what, to_text(failure)};
+  }
+}
+
+std::optional<Accusation> accuse_judge(const Truth& truth, const CertifiedResult& judged) {
+  const Answer answer{.verdict = judged.verdict,
+                      .toi_lower = judged.toi_lower,
+                      .toi_upper = judged.toi_upper,
+                      .tolerance = Answer::none};
+  return accuse(Kind::vertex_face, {}, truth, answer, {.promise = Promise::exact});
+}
+
+std::string to_text(const Answer& answer) {
+  std::string text(to_string(answer.verdict));
+  const auto add = [&text](std::string_view name, double value) {
+    if (!std::isnan(value)) text += fmt::format(", {} {}", name, value);
+  };
+  add("toi_lower", answer.toi_lower);
+  add("toi_upper", answer.toi_upper);
+  add("tolerance", answer.tolerance);
+  return text;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,67 @@
+#pragma once
+
+/// \file
+/// Right or wrong: one answer held against the truth.
+///
+/// The certified solver decides blocks of queries at speed. Its verdicts and enclosures tell at
+/// once that most answers are right; the others are *suspect*, and only the oracle says of them
+/// that they are wrong. So a fault of the judge costs a finding, which the oracle's share of all
+/// queries brings to light, and never accuses an innocent solver.
+
+#include <optional>
+#include <string>
+
+#include "exact/query.hpp"
+#include "fast/certified.hpp"
+#include "fast/method.hpp"
+#include "verify/fuzz/finding.hpp"
+#include "verify/judge/claimed_distance.hpp"
+#include "verify/judge/judge.hpp"
+#include "verify/solvers/failure.hpp"
+
+namespace touchstone::verify {
+
+/// What a solver is held to.
+struct Standard {
+  fast::Promise promise = fast::Promise::conservative;
+  Separation separation = {};
+  /// What its tolerances claim; null: nothing is known of it.
+  Reach reach = nullptr;
+};
+
+/// What is wrong, and in words.
+struct Accusation {
+  FindingKind what;
+  std::string detail;
+};
+
+/// Is there nothing in the answer that could be wrong, by what the certified solver found? If not,
+/// it may still be right.
+[[nodiscard]] bool is_beyond_doubt(Kind kind, const Query& query,
+                                   const fast::CertifiedResult& judged, const fast::Answer& answer,
+                                   const Standard& standard);
+
+/// What is wrong with the answer to a valid query, if anything is:
+/// - no_verdict: the verdict is `error`;
+/// - not_finite: yes with an infinite bound, or a tolerance below 0;
+/// - false_negative: no, but they collide;
+/// - false_positive, undecided: though they do not collide, of what promises exactness;
+/// - beyond_tolerance: yes, but they never come as near as its tolerance claims;
+/// - late_toi, early_toi_upper: yes with a bound on the wrong side of the exact time of impact.
+/// \param truth of the query at the standard's separation
+[[nodiscard]] std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& truth,
+                                               const fast::Answer& answer,
+                                               const Standard& standard);
+
+/// What is wrong with a solver that gave no answer, or none that can be.
+/// \param limit_seconds that a query may take
+[[nodiscard]] Accusation accuse_failure(const Failure& failure, double limit_seconds);
+
+/// Does the oracle's truth contradict what the certified solver found?
+[[nodiscard]] std::optional<Accusation> accuse_judge(const Truth& truth,
+                                                     const fast::CertifiedResult& judged);
+
+/// "no", "yes, toi_lower 0.5, tolerance 1e-06": the verdict and the fields that are given.
+[[nodiscard]] std::string to_text(const fast::Answer& answer);
+
+}  // namespace touchstone::verify

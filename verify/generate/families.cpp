@@ -1,0 +1,194 @@
+#include "verify/generate/families.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "verify/generate/family_builder.hpp"
+#include "verify/generate/random.hpp"
+
+namespace touchstone::verify {
+
+namespace builtin {
+
+namespace {
+
+void append(std::vector<Definition>& list, std::span<const Definition> more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+std::vector<Definition> collect_base() {
+  std::vector<Definition> list;
+  append(list, dyadic_definitions());
+  append(list, endpoint_definitions());
+  append(list, silhouette_definitions());
+  append(list, degenerate_definitions());
+  append(list, coplanar_definitions());
+  append(list, product_definitions());
+  append(list, tangential_definitions());
+  append(list, published_definitions());
+  return list;
+}
+
+std::span<const Definition> all_definitions() {
+  static const std::vector<Definition> all = [] {
+    std::vector<Definition> list = collect_base();
+    append(list, scaled_definitions());
+    return list;
+  }();
+  return all;
+}
+
+const Definition& find_definition(std::string_view name) {
+  for (const auto list : {all_definitions(), separated_definitions()}) {
+    const auto found = std::ranges::find(
+        list, name, [](const Definition& definition) { return definition.family.name; });
+    if (found != list.end()) return *found;
+  }
+  throw std::invalid_argument("no family is named " + std::string(name));
+}
+
+bool is_about_separation(const Definition& definition) {
+  const auto list = separated_definitions();
+  return &definition >= list.data() && &definition < list.data() + list.size();
+}
+
+/// The definition of a family. \throws std::invalid_argument if it has no such queries.
+const Definition& find_definition(const Family& family, Kind kind, const Separation& separation) {
+  if (!supports(family, kind)) {
+    throw std::invalid_argument(std::string(family.name) + " has no " +
+                                std::string(to_string(kind)) + " queries");
+  }
+  const Definition& definition = find_definition(family.name);
+  if (is_about_separation(definition) && !has_separation_families(separation)) {
+    throw std::invalid_argument(std::string(family.name) +
+                                " needs a minimum separation from 2^-1000 to 2^1000");
+  }
+  return definition;
+}
+
+std::vector<Family> families_of(std::span<const Definition> definitions) {
+  std::vector<Family> list;
+  for (const Definition& definition : definitions) list.push_back(definition.family);
+  return list;
+}
+
+/// Every attempt at every query has its own stream, whatever was drawn for others.
+Random stream_of(std::string_view name, Kind kind, std::uint64_t seed, std::uint64_t index,
+                 std::uint64_t attempt) {
+  std::uint64_t state = mix(seed ^ hash(name));
+  state = mix(state + (kind == Kind::vertex_face ? 1 : 2));
+  state = mix(state + index);
+  return Random(mix(state + attempt));
+}
+
+/// Random significands end in zeros now and then: a query that is to be full but has too many of
+/// those (about one in ten thousand) is drawn again.
+KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t index,
+                 const Separation& separation) {
+  for (std::uint64_t attempt = 0;; ++attempt) {
+    Recipe recipe{.kind = kind,
+                  .index = index,
+                  .variant = index / 2,
+                  .full = index % 2 == 1,
+                  .random = stream_of(definition.family.name, kind, seed, index, attempt),
+                  .separation = separation};
+    KnownQuery known = definition.build(recipe);
+    const bool is_full = recipe.full && uses_full_significands(known.query);
+    if (recipe.full && !is_full && !is_about_separation(definition)) continue;
+    known.full_significands = is_full;
+    if (!recipe.as_printed) apply_random_symmetry(kind, recipe.random, known);
+    return known;
+  }
+}
+
+/// The stream of queries behind open_family.
+class FamilySource final : public QuerySource {
+ public:
+  FamilySource(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t count,
+               const Separation& separation)
+      : definition_(definition),
+        name_(definition.family.name),
+        kind_(kind),
+        seed_(seed),
+        count_(count),
+        separation_(is_about_separation(definition) ? separation : Separation{}) {}
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] Kind kind() const override { return kind_; }
+  [[nodiscard]] Separation recorded_separation() const override { return separation_; }
+
+  [[nodiscard]] std::optional<RecordedQuery> next() override {
+    if (index_ == count_) return std::nullopt;
+    KnownQuery known = build(definition_, kind_, seed_, index_, separation_);
+    return RecordedQuery{known.query, index_++, known.collides, std::move(known.toi)};
+  }
+
+  [[nodiscard]] double progress() const override {
+    return count_ == 0 ? 1.0 : static_cast<double>(index_) / static_cast<double>(count_);
+  }
+
+ private:
+  const Definition& definition_;
+  std::string name_;
+  Kind kind_;
+  std::uint64_t seed_;
+  std::uint64_t count_;
+  Separation separation_;
+  std::uint64_t index_ = 0;
+};
+
+}  // namespace
+
+std::span<const Definition> base_definitions() {
+  static const std::vector<Definition> base = collect_base();
+  return base;
+}
+
+}  // namespace builtin
+
+std::span<const Family> families() {
+  static const std::vector<Family> all = builtin::families_of(builtin::all_definitions());
+  return all;
+}
+
+std::span<const Family> separation_families() {
+  static const std::vector<Family> all = builtin::families_of(builtin::separated_definitions());
+  return all;
+}
+
+bool has_separation_families(const Separation& separation) {
+  return separation.distance >= 0x1p-1000 && separation.distance <= 0x1p1000;
+}
+
+std::vector<Family> families(const Separation& separation) {
+  std::vector<Family> list(families().begin(), families().end());
+  if (!has_separation_families(separation)) return list;
+  list.insert(list.end(), separation_families().begin(), separation_families().end());
+  return list;
+}
+
+const Family& family_from_name(std::string_view name) {
+  return builtin::find_definition(name).family;
+}
+
+bool supports(const Family& family, Kind kind) {
+  const builtin::Definition& definition = builtin::find_definition(family.name);
+  return kind == Kind::vertex_face ? definition.vertex_face : definition.edge_edge;
+}
+
+KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::uint64_t index,
+                      const Separation& separation) {
+  const builtin::Definition& definition = builtin::find_definition(family, kind, separation);
+  return builtin::build(definition, kind, seed, index, separation);
+}
+
+std::unique_ptr<QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,
+                                         std::uint64_t count, const Separation& separation) {
+  const builtin::Definition& definition = builtin::find_definition(family, kind, separation);
+  return std::make_unique<builtin::FamilySource>(definition, kind, seed, count, separation);
+}
+
+}  // namespace touchstone::verify

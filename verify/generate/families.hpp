@@ -1,0 +1,96 @@
+#pragma once
+
+/// \file
+/// The built-in set: degenerate queries made from a seed, whose truth is known by construction.
+///
+/// No oracle is asked for the truth of these queries, so they can judge one. Each family puts the
+/// contact (or its absence) there first and draws the coordinates around it; the family's `reason`
+/// says why that decides the verdict, and the comment above its function gives the argument.
+///
+/// Few-bit coordinates make every floating-point step exact and so catch no filter fault. Hence the
+/// queries with an odd index have full significands, at scales that are no powers of two (or, where
+/// sums must be exact, on a grid of some fifty bits); exactness then comes from equality: the same
+/// double in two places, an exact difference of two doubles, an integer sum below 2^53.
+///
+/// Every query is then turned by a random exact symmetry (axes permuted and mirrored, the
+/// primitives' points renumbered), so that no place among the 24 coordinates is special.
+///
+/// With a minimum separation there are further families, whose truth is about that separation: their
+/// odd queries have full significands only as far as the distance lets them. The claims of all other
+/// families stay what they are, about contact itself.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "exact/query.hpp"
+#include "verify/data/query_source.hpp"
+
+namespace touchstone::verify {
+
+/// Which verdicts occur in a family.
+enum class Verdicts : std::uint8_t { collisions, misses, both };
+
+/// A named kind of degeneracy.
+struct Family {
+  /// Unique, kebab-case.
+  std::string_view name;
+  /// Why the truth of its queries is known.
+  std::string_view reason;
+  /// Which verdicts occur among its queries.
+  Verdicts verdicts;
+};
+
+/// A query and what its construction knows of it.
+struct KnownQuery {
+  Query query{};
+  bool collides = false;
+  /// The exact time of impact, where the construction yields it: for nearly all collisions.
+  std::optional<exact::Rational> toi;
+  /// (u,v) of a contact point at the toi, where the construction yields it: F(toi,u,v) = 0.
+  std::optional<std::array<exact::Rational, 2>> contact;
+  /// For some misses a direction d with d·F > 0 for all t in [0,1] and all (u,v) of the domain.
+  std::optional<std::array<double, 3>> separating_direction;
+  /// Does it belong to the half with full significands.
+  bool full_significands = false;
+};
+
+/// All families about contact, always in the same order.
+[[nodiscard]] std::span<const Family> families();
+
+/// All families about a separation, always in the same order.
+[[nodiscard]] std::span<const Family> separation_families();
+
+/// Have those families queries for this separation? For distances from 2^-1000 to 2^1000.
+[[nodiscard]] bool has_separation_families(const Separation& separation);
+
+/// The built-in set for a separation: families(), and behind them separation_families() where they
+/// have queries.
+[[nodiscard]] std::vector<Family> families(const Separation& separation);
+
+/// The family of that name, about contact or about a separation.
+/// \throws std::invalid_argument if there is none.
+[[nodiscard]] const Family& family_from_name(std::string_view name);
+
+/// Does the family have queries of this kind? Nearly all have both kinds.
+/// \throws std::invalid_argument if no family has the name of `family`.
+[[nodiscard]] bool supports(const Family& family, Kind kind);
+
+/// Query number `index` of a family: a function of the arguments and nothing else, the same on every
+/// machine. Families about contact do not look at the separation. \throws std::invalid_argument if
+/// the family does not support the kind or is unknown, or has no queries for the separation.
+[[nodiscard]] KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed,
+                                    std::uint64_t index, const Separation& separation = {});
+
+/// The queries 0 to count−1 of one family and kind as a stream; its name is the family's name.
+/// \throws std::invalid_argument as make_query does.
+[[nodiscard]] std::unique_ptr<QuerySource> open_family(const Family& family, Kind kind,
+                                                       std::uint64_t seed, std::uint64_t count,
+                                                       const Separation& separation = {});
+
+}  // namespace touchstone::verify

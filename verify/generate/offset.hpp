@@ -1,0 +1,36 @@
+#pragma once
+
+/// \file
+/// A point that moves on a straight line, and when it first comes within a distance of the origin:
+/// the closed form that decides the families about a separation, in rationals.
+///
+/// In L∞ each coordinate is within d during an interval of t, and the first common time is the
+/// greatest of their beginnings. In L2 the squared distance minus d² is a quadratic in t that opens
+/// upward: it is within at t = 0, or from the smaller root on if its least value on [0,1] is not
+/// positive. That root is rational iff the discriminant is the square of a rational.
+
+#include <array>
+#include <optional>
+
+#include "exact/algebra/number.hpp"
+#include "exact/query.hpp"
+
+namespace touchstone::verify::builtin {
+
+/// A point at t=0 and at t=1.
+struct Offset3 {
+  std::array<exact::Rational, 3> start;
+  std::array<exact::Rational, 3> end;
+};
+
+/// Does the point come near enough, and when first.
+struct Arrival {
+  bool comes = false;
+  /// Where it is rational.
+  std::optional<exact::Rational> time;
+};
+
+/// When the point first comes within the separation of the origin, t in [0,1].
+[[nodiscard]] Arrival arrival(const Offset3& offset, const Separation& separation);
+
+}  // namespace touchstone::verify::builtin

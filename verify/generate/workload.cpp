@@ -1,0 +1,151 @@
+#include "verify/generate/workload.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "fast/broad_phase.hpp"
+#include "verify/generate/families.hpp"
+#include "verify/generate/random.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using builtin::Random;
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+// Lengths in units of a cell's side.
+constexpr double jitter = 0.2;        // of a vertex in the patch, on each axis
+constexpr double roughness = 0.1;     // of a vertex off the patch
+constexpr double gap = 0.6;           // between the bottoms of the bowls at the start
+constexpr double approach = 2.0;      // way of each patch towards the other
+constexpr double slide = 1.6;         // way of each patch sideways
+constexpr double perturbation = 0.2;  // of each vertex' way, on each axis
+
+/// How high the bowl's rim is above its bottom, in units of the patch's side.
+constexpr double bowl = 0.02;
+
+/// One of the two patches. Its own axes are those of the lower one; the upper one is turned by a
+/// Pythagorean angle and stands on its head.
+class Patch {
+ public:
+  Patch(int cells, bool is_upper, Random& random)
+      : cells_(cells), is_upper_(is_upper), random_(random) {}
+
+  [[nodiscard]] Eigen::Vector3d start(int i, int j) {
+    const double x = place(i), y = place(j);
+    const double height = -0.5 * gap * side() - bowl * (x * x + y * y) * 2.0;
+    return placed({x + noise(jitter), y + noise(jitter), height + noise(roughness)});
+  }
+
+  [[nodiscard]] Eigen::Vector3d way() {
+    return placed({slide * side() + noise(perturbation), noise(perturbation),
+                   approach * side() + noise(perturbation)});
+  }
+
+ private:
+  [[nodiscard]] double side() const { return 1.0 / cells_; }
+
+  /// From −½ to ½.
+  [[nodiscard]] double place(int index) const { return index * side() - 0.5; }
+
+  [[nodiscard]] double noise(double amplitude) {
+    return amplitude * side() * (2.0 * random_.unit() - 1.0);
+  }
+
+  [[nodiscard]] Eigen::Vector3d placed(const Eigen::Vector3d& point) const {
+    if (!is_upper_) return point;
+    return {0.8 * point.x() - 0.6 * point.y(), -0.6 * point.x() - 0.8 * point.y(), -point.z()};
+  }
+
+  int cells_;
+  bool is_upper_;
+  Random& random_;
+};
+
+/// Two triangles of a cell, cut along one diagonal or the other.
+void add_cell(int corner, int row, bool is_forward, std::vector<fast::Face>& faces) {
+  const std::array<std::int32_t, 4> around{corner, corner + 1, corner + row + 1, corner + row};
+  const std::size_t first = is_forward ? 0 : 1;
+  const auto vertex = [&](std::size_t k) { return around[(first + k) % 4]; };
+  faces.push_back({vertex(0), vertex(1), vertex(2)});
+  faces.push_back({vertex(0), vertex(2), vertex(3)});
+}
+
+void add_faces(int cells, int first_vertex, Random& random, std::vector<fast::Face>& faces) {
+  const int row = cells + 1;
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      add_cell(first_vertex + i * row + j, row, random.coin(), faces);
+    }
+  }
+}
+
+/// A coordinate of an end contact.
+double coordinate(const EndContactOptions& options, Random& random) {
+  if (!options.two_decimals) return options.scale * (2.0 * random.unit() - 1.0);
+  // A quotient of whole numbers is rounded as the decimal is.
+  const double parts = std::round(100.0 / std::min(options.scale, 1.0));
+  const auto most = static_cast<std::int64_t>(std::round(options.scale * parts));
+  return static_cast<double>(random.between(-most, most)) / parts;
+}
+
+}  // namespace
+
+MovingMesh moving_patches(const PatchOptions& options) {
+  if (options.cells < 1) throw std::invalid_argument("a patch must have a cell");
+  const int row = options.cells + 1;
+  Random random(builtin::mix(options.seed ^ builtin::hash("moving patches")));
+  Points start(2 * row * row, 3), end(2 * row * row, 3);
+  std::vector<fast::Face> faces;
+  int vertex = 0;
+  for (const bool is_upper : {false, true}) {
+    add_faces(options.cells, vertex, random, faces);
+    Patch patch(options.cells, is_upper, random);
+    for (int i = 0; i < row; ++i) {
+      for (int j = 0; j < row; ++j, ++vertex) {
+        start.row(vertex) = patch.start(i, j);
+        end.row(vertex) = start.row(vertex) + patch.way().transpose();
+      }
+    }
+  }
+  return {.name = "patches",
+          .vertices = fast::MovingVertices(start, end),
+          .faces = faces,
+          .edges = fast::edges_of(faces)};
+}
+
+QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
+                    const Separation& separation) {
+  QueryGroup group("hard set", kind);
+  for (const Family& family : families(separation)) {
+    if (!supports(family, kind)) continue;
+    group.read(
+        *open_family(family, kind, seed, count, separation), [](double) {}, [] { return false; });
+  }
+  return group;
+}
+
+QueryGroup end_contacts(Kind kind, const EndContactOptions& options) {
+  Random random(builtin::mix(options.seed ^ builtin::hash("end contacts")));
+  const bool has_face = kind == Kind::vertex_face;
+  std::vector<Query> queries(options.count);
+  for (Query& query : queries) {
+    for (double& x : query.coordinates) x = coordinate(options, random);
+    const std::int64_t first = has_face ? 0 : random.between(0, 1);
+    const std::int64_t second = has_face ? random.between(1, 3) : random.between(2, 3);
+    const auto at_end = [&](std::int64_t point) {
+      return query.coordinates.begin() + 3 * (static_cast<std::int64_t>(moving_points) + point);
+    };
+    std::copy_n(at_end(second), 3, at_end(first));
+  }
+  return {
+      options.two_decimals ? "contact at t=1, two decimals" : "contact at t=1, full significands",
+      kind, std::move(queries)};
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,53 @@
+#pragma once
+
+/// \file
+/// The built-in workload of the benchmark: two patches of triangle mesh that move through each
+/// other in one step, as cloth does when its step is too long, and the generated hard set. And the
+/// plainest contacts there are, at any scale, for the report.
+///
+/// The patches are square grids of cells, each cut into two triangles, bent like shallow bowls with
+/// their bottoms towards each other, one turned against the other so that no edges are parallel.
+/// Vertices are displaced at random from the grid, and each moves a little differently from its
+/// neighbours. As in a simulation, the candidates are whatever the broad phase leaves, pairs inside
+/// one patch included.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "exact/query.hpp"
+#include "verify/data/query_group.hpp"
+#include "verify/mesh/moving_mesh.hpp"
+
+namespace touchstone::verify {
+
+struct PatchOptions {
+  std::uint64_t seed = 2021;
+  /// Cells along a side of a patch, at least 1. The default gives well over 100,000 candidates of
+  /// each kind, some per cent of which collide, with any seed.
+  int cells = 60;
+};
+
+/// The two patches: a function of the options, the same on every machine.
+/// \throws std::invalid_argument if there is no cell.
+[[nodiscard]] MovingMesh moving_patches(const PatchOptions& options = {});
+
+/// All queries of one kind of the generated hard set for a separation (verify/generate/families.hpp),
+/// `count` a family.
+[[nodiscard]] QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
+                                  const Separation& separation = {});
+
+struct EndContactOptions {
+  /// No coordinate is greater in magnitude; positive and finite.
+  double scale = 1.0;
+  /// Coordinates are doubles next to multiples of a hundredth of min(scale, 1), as people type them;
+  /// else they have full significands. \pre then 1/scale is whole, or scale is.
+  bool two_decimals = false;
+  std::uint64_t seed = 2021;
+  std::size_t count = 1000;
+};
+
+/// Contacts at t=1 at the latest, exact by equality: there a vertex of one primitive has, double for
+/// double, the place of a vertex of the other. All other coordinates are uniform.
+[[nodiscard]] QueryGroup end_contacts(Kind kind, const EndContactOptions& options);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,131 @@
+#include "verify/io/coordinate_text.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "exact/algebra/number.hpp"
+#include "verify/data/dataset_error.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using Part = CoordinateError::Part;
+constexpr int double_bits = std::numeric_limits<double>::digits;
+
+/// The text as a machine integer, or nothing if it is none or does not fit.
+template <class Number>
+std::optional<Number> machine_integer(std::string_view text) {
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return std::nullopt;
+  }
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+/// The quotient by machine arithmetic, or nothing where this file's comment does not cover it.
+std::optional<double> machine_quotient(std::string_view numerator, std::string_view denominator) {
+  const auto n = machine_integer<std::int64_t>(numerator);
+  const auto d = machine_integer<std::uint64_t>(denominator);
+  if (!n || !d || !std::has_single_bit(*d)) return std::nullopt;
+  if (*n == 0) return 0.0;
+  const auto magnitude =
+      *n < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(*n) : static_cast<std::uint64_t>(*n);
+  const int significant_bits =
+      static_cast<int>(std::bit_width(magnitude)) - std::countr_zero(magnitude);
+  if (significant_bits > double_bits) return std::nullopt;
+  return std::ldexp(static_cast<double>(*n), -std::countr_zero(*d));
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The text as an integer of any length, or nothing if it is none.
+std::optional<exact::Integer> any_integer(std::string_view text) {
+  const bool has_sign = text.starts_with('-') || text.starts_with('+');
+  const std::string_view digits = text.substr(has_sign ? 1 : 0);
+  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit)) return std::nullopt;
+  exact::Integer magnitude(std::string(digits), 10);
+  return text.starts_with('-') ? exact::Integer(-magnitude) : magnitude;
+}
+
+/// Is it NaN or infinity, as the standard library and NumPy write them?
+bool is_not_finite(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end && !std::isfinite(value);
+}
+
+exact::Rational any_number(std::string_view text, Part part) {
+  try {
+    return exact::rational_from_decimal(text);
+  } catch (const std::invalid_argument&) {
+    const std::string_view reason =
+        is_not_finite(text) ? "not a finite number: " : "not a number: ";
+    throw CoordinateError(part, std::string(reason) + quote(text));
+  }
+}
+
+/// The quotient if it is a double and the denominator a power of two: odd · 2^exponent, where `odd`
+/// fits a significand and the bits lie between the ends of the range. Nothing otherwise.
+std::optional<double> dyadic_quotient(const exact::Integer& n, const exact::Integer& d) {
+  using Limits = std::numeric_limits<double>;
+  if (n == 0) return 0.0;
+  if (d < 0 || mpz_popcount(d.get_mpz_t()) != 1) return std::nullopt;
+  const auto zeros = [](const exact::Integer& x) {
+    return static_cast<long>(mpz_scan1(x.get_mpz_t(), 0));
+  };
+  const auto bits = static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2)) - zeros(n);
+  const long exponent = zeros(n) - zeros(d);
+  if (bits > Limits::digits || exponent < Limits::min_exponent - Limits::digits ||
+      bits + exponent > Limits::max_exponent) {
+    return std::nullopt;
+  }
+  const exact::Integer odd = n >> static_cast<mp_bitcnt_t>(zeros(n));
+  return std::ldexp(odd.get_d(), static_cast<int>(exponent));
+}
+
+}  // namespace
+
+ParsedCoordinate parse_coordinate(std::string_view numerator, std::string_view denominator) {
+  if (const auto value = machine_quotient(numerator, denominator)) {
+    return {.value = *value, .exact = true};
+  }
+  const std::optional<exact::Integer> n = any_integer(numerator), d = any_integer(denominator);
+  if (n && d && *d != 0) {
+    if (const auto value = dyadic_quotient(*n, *d)) return {.value = *value, .exact = true};
+  }
+  exact::Rational quotient = any_number(numerator, Part::numerator);
+  const exact::Rational divisor = any_number(denominator, Part::denominator);
+  if (divisor == 0) throw CoordinateError(Part::denominator, "zero denominator");
+  quotient /= divisor;
+  const double value = exact::round_to_nearest(quotient);
+  if (std::isinf(value)) {
+    throw CoordinateError(Part::numerator, "beyond the range of double");
+  }
+  return {.value = value, .exact = exact::Rational(value) == quotient};
+}
+
+bool is_numeric(std::string_view text) {
+  const std::size_t start = text.find_first_not_of("+-.");
+  return (start != std::string_view::npos && is_digit(text[start])) || is_not_finite(text);
+}
+
+void append_coordinate(std::string& text, double value) {
+  if (!std::isfinite(value)) throw std::invalid_argument("a coordinate must be finite");
+  const exact::Rational exact_value(value);
+  text += exact_value.get_num().get_str();
+  text += ',';
+  text += exact_value.get_den().get_str();
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,166 @@
+#include "verify/io/input_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "verify/data/dataset_error.hpp"
+#include "verify/io/terminal.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+constexpr std::size_t chunk = std::size_t{1} << 16U;
+// A line that is just not too long, its CR, and room to read on.
+constexpr std::size_t buffer_size = LineReader::longest_line + 1 + chunk;
+
+std::string last_system_error() { return std::generic_category().message(errno); }
+
+}  // namespace
+
+InputFile::InputFile(std::filesystem::path path)
+    : path_(std::move(path)),
+      // The open of a pipe does not wait for its writer: read() does, where an interrupt ends it.
+      descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+  if (descriptor_ < 0) throw DatasetError(path_, {}, "cannot open: " + last_system_error());
+  struct stat status {};
+  const bool known = ::fstat(descriptor_, &status) == 0;
+  if (!known || S_ISDIR(status.st_mode)) {
+    const std::string reason = known ? "is a folder" : "cannot open: " + last_system_error();
+    ::close(descriptor_);
+    throw DatasetError(path_, {}, reason);
+  }
+  size_ = static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0));
+}
+
+InputFile::~InputFile() { ::close(descriptor_); }
+
+std::size_t InputFile::read(std::span<char> buffer) {
+  if (failed_) return 0;
+  for (;;) {
+    wait_for_input(descriptor_);
+    const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
+    if (count >= 0) {
+      consumed_ += static_cast<std::uint64_t>(count);
+      return static_cast<std::size_t>(count);
+    }
+    if (errno == EINTR || errno == EAGAIN) continue;
+    failed_ = true;
+    throw DatasetError(path_, {}, "cannot read: " + last_system_error());
+  }
+}
+
+double InputFile::progress() const {
+  if (size_ == 0) return 0.0;
+  return std::min(1.0, static_cast<double>(consumed_) / static_cast<double>(size_));
+}
+
+LineReader::LineReader(std::filesystem::path path)
+    : file_(std::move(path)),
+      // NOLINTNEXTLINE(modernize-avoid-c-arrays): std::vector would fill it
+      buffer_(std::make_unique_for_overwrite<char[]>(buffer_size)) {}
+
+bool LineReader::at_end() {
+  if (ahead_) return false;
+  ahead_ = read_line();
+  while (ahead_ && !ahead_->too_long && trimmed(ahead_->text).empty()) {
+    ++blank_lines_ahead_;
+    ahead_ = read_line();
+  }
+  return !ahead_;
+}
+
+std::optional<Line> LineReader::next() {
+  if (at_end()) return std::nullopt;
+  if (blank_lines_ahead_ > 0) {
+    return Line{.text = {}, .number = ahead_->number - blank_lines_ahead_--, .too_long = false};
+  }
+  return std::exchange(ahead_, std::nullopt);
+}
+
+std::optional<Line> LineReader::read_line() {
+  std::size_t searched = 0;
+  for (;;) {
+    const char* const from = buffer_.get() + begin_;
+    const std::size_t available = end_ - begin_;
+    const void* const newline = std::memchr(from + searched, '\n', available - searched);
+    if (newline != nullptr) {
+      return take_line(static_cast<std::size_t>(static_cast<const char*>(newline) - from), 1);
+    }
+    searched = available;
+    if (available > longest_line + 1) {
+      pass_over_line();
+      return Line{.text = {}, .number = ++line_number_, .too_long = true};
+    }
+    if (fill()) continue;
+    if (available == 0) return std::nullopt;
+    return take_line(available, 0);
+  }
+}
+
+Line LineReader::take_line(std::size_t length, std::size_t terminator) {
+  std::string_view text(buffer_.get() + begin_, length);
+  begin_ += length + terminator;
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  const bool too_long = text.size() > longest_line;
+  return {
+      .text = too_long ? std::string_view() : text, .number = ++line_number_, .too_long = too_long};
+}
+
+void LineReader::pass_over_line() {
+  std::size_t length = 0;
+  do {
+    const char* const from = buffer_.get() + begin_;
+    const void* const newline = std::memchr(from, '\n', end_ - begin_);
+    if (newline != nullptr) {
+      begin_ += static_cast<std::size_t>(static_cast<const char*>(newline) - from) + 1;
+      return;
+    }
+    length += end_ - begin_;
+    if (length > longest_passed_line) {
+      throw DatasetError(path(), {.line = line_number_ + 1},
+                         "no line end within 64 MiB: not a text file");
+    }
+    begin_ = end_;
+  } while (fill());
+}
+
+/// Moves what is unread to the front and reads a chunk behind it; false at the end of the file.
+bool LineReader::fill() {
+  std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+  const std::size_t room = std::min(chunk, buffer_size - end_);
+  const std::size_t count = file_.read({buffer_.get() + end_, room});
+  end_ += count;
+  return count > 0;
+}
+
+std::string read_file(const std::filesystem::path& path, std::size_t limit) {
+  InputFile file(path);
+  std::string bytes;
+  for (std::size_t count = 1; count > 0;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + chunk);
+    count = file.read({bytes.data() + before, chunk});
+    bytes.resize(before + count);
+    if (bytes.size() > limit) {
+      throw DatasetError(path, {}, "has more than " + std::to_string(limit) + " bytes");
+    }
+  }
+  return bytes;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace touchstone::verify

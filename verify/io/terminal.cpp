@@ -1,0 +1,166 @@
+#include "verify/io/terminal.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <ctime>
+#include <system_error>
+
+#include "verify/io/printable.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+/// Why standard output failed; 0: it has not.
+std::atomic<int> output_error = 0;
+
+std::atomic<bool> interrupt_flag = false;
+std::atomic<std::int64_t> interrupt_time = 0;  // 0: none yet
+/// Readable from the first interrupt on, so that poll() returns however soon the signal comes.
+std::atomic<int> interrupt_descriptor = -1;
+/// The process whose interrupts these are: a child made by fork() has the descriptor, too.
+std::atomic<pid_t> interrupted_process = 0;
+static_assert(std::atomic<bool>::is_always_lock_free &&
+                  std::atomic<std::int64_t>::is_always_lock_free &&
+                  std::atomic<int>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
+              "a signal handler may touch nothing else");
+
+/// Of a clock that only goes forward, and that a signal handler may read.
+std::int64_t milliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
+}
+
+void wake_waiting_threads() {
+  if (::getpid() != interrupted_process) return;
+  const std::uint64_t one = 1;
+  // Whoever waits sees the flag in any case; only the first write matters.
+  [[maybe_unused]] const ssize_t written = ::write(interrupt_descriptor, &one, sizeof(one));
+}
+
+extern "C" void on_signal(int signal) {
+  const int error = errno;
+  const std::int64_t now = milliseconds();
+  std::int64_t first = 0;
+  if (interrupt_time.compare_exchange_strong(first, now)) {
+    interrupt_flag = true;
+    wake_waiting_threads();
+  } else if (now - first >= same_interrupt_milliseconds) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  errno = error;
+}
+
+void install_handlers() {
+  interrupted_process = ::getpid();
+  interrupt_descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+}
+
+/// Waits for one of the events on a descriptor (none if it is negative), at most so long; negative: as
+/// long as it takes. \throws Interrupted as wait_for_input().
+void wait_for(int descriptor, short events, int longest_milliseconds) {
+  // poll() passes over descriptors that are negative.
+  std::array<pollfd, 2> waited{{{.fd = descriptor, .events = events, .revents = 0},
+                                {.fd = interrupt_descriptor, .events = POLLIN, .revents = 0}}};
+  int ready = 0;
+  do {
+    if (interrupt_flag) throw Interrupted();
+    ready = ::poll(waited.data(), waited.size(), longest_milliseconds);
+  } while (ready < 0 && errno == EINTR);
+  if (interrupt_flag) throw Interrupted();
+}
+
+/// Leaves errno as it is.
+bool is_pipe(const std::string& path) {
+  const int error = errno;
+  struct stat status {};
+  const bool result = ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
+  errno = error;
+  return result;
+}
+
+}  // namespace
+
+void print(std::FILE* stream, std::string_view text) {
+  if (stream == stdout && output_error != 0) return;
+  errno = 0;
+  if (std::fwrite(text.data(), 1, text.size(), stream) == text.size()) return;
+  if (stream == stdout) output_error = errno != 0 ? errno : EIO;
+}
+
+void finish_printing() {
+  if (output_error == 0 && std::fflush(stdout) != 0) output_error = errno;
+  if (output_error == 0 || output_error == EPIPE) return;
+  throw std::runtime_error("standard output: cannot be written: " +
+                           std::generic_category().message(output_error));
+}
+
+ProgressBar::ProgressBar(std::string_view title) : title_(printable(title)) {}
+
+ProgressBar::~ProgressBar() { clear(); }
+
+void ProgressBar::clear() {
+  if (drawn_) print(stderr, "\r\x1b[K");
+  drawn_ = false;
+}
+
+void ProgressBar::update(double fraction) {
+  using namespace std::chrono_literals;
+  const Clock::time_point now = Clock::now();
+  if (now - start_ < 1s || now - last_draw_ < 100ms || isatty(STDERR_FILENO) == 0) return;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  print(stderr, fmt::format("\r{}\x1b[K", progress_line(title_, fraction, seconds)));
+  last_draw_ = now;
+  drawn_ = true;
+}
+
+std::string progress_line(const std::string& title, double fraction, double seconds) {
+  static constexpr int width = 30;
+  const double done = std::clamp(fraction, 0.0, 1.0);
+  const int filled = static_cast<int>(done * width);
+  std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {:3.0f} %", title, "", filled, "",
+                                 width - filled, 100.0 * done);
+  if (done > 0.0) line += fmt::format(", {:.0f} s left", seconds * (1.0 - done) / done);
+  return line;
+}
+
+const std::atomic<bool>& interrupted() {
+  static const bool installed = [] {
+    install_handlers();
+    return true;
+  }();
+  static_cast<void>(installed);
+  return interrupt_flag;
+}
+
+void wait_for_input(int descriptor) { wait_for(descriptor, POLLIN, -1); }
+
+int open_for_appending(const std::string& path) {
+  static constexpr int flags = O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY;
+  static constexpr int look_again_milliseconds = 20;
+  int descriptor = ::open(path.c_str(), flags | O_NONBLOCK);
+  while (descriptor < 0 && errno == ENXIO && is_pipe(path)) {
+    // It has no reader yet, and the system tells nobody when one comes.
+    wait_for(-1, 0, look_again_milliseconds);
+    descriptor = ::open(path.c_str(), flags | O_NONBLOCK);
+  }
+  // A pipe that is full is waited for by the write itself.
+  if (descriptor >= 0) ::fcntl(descriptor, F_SETFL, flags & ~O_CLOEXEC);
+  return descriptor;
+}
+
+}  // namespace touchstone::verify

@@ -1,0 +1,50 @@
+#pragma once
+
+/// \file
+/// What is true of the queries of a group, decided once by the oracle for all who ask in a run.
+
+#include <atomic>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "verify/data/query_group.hpp"
+#include "verify/judge/judge.hpp"
+
+namespace touchstone::verify {
+
+/// A memory of verdicts: of one group, at any number of separations. For one thread at a time; the
+/// oracle works on all cores.
+class Truths {
+ public:
+  /// The group must live as long as this. \param threads cores to use; 0: all of them
+  explicit Truths(const QueryGroup& group, unsigned threads = 0);
+
+  /// The truth of the queries at these positions, in their order; `index` is the position. Those that
+  /// are not known yet are decided; once *stop is true (it may be null) no more of them, and then only
+  /// those before the first unknown one are returned.
+  /// \throws std::invalid_argument if a coordinate is not finite, or the separation not valid.
+  [[nodiscard]] std::vector<Truth> of(const Separation& separation,
+                                      std::span<const std::size_t> positions,
+                                      const std::atomic<bool>* stop = nullptr);
+
+  /// Verdicts that the oracle was asked for so far.
+  [[nodiscard]] std::size_t decided() const { return decided_; }
+
+ private:
+  using Known = std::vector<std::optional<Truth>>;
+
+  [[nodiscard]] Known& known_at(const Separation& separation);
+  void decide(const Separation& separation, std::span<const std::size_t> positions, Known& known,
+              const std::atomic<bool>* stop);
+
+  const QueryGroup& group_;
+  int threads_;
+  std::vector<std::pair<Separation, Known>> known_;
+  std::size_t decided_ = 0;
+};
+
+}  // namespace touchstone::verify

@@ -1,0 +1,39 @@
+#include "verify/judge/separation_inference.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace touchstone::verify {
+
+bool is_contact(const Separation& separation) { return separation.distance == 0.0; }
+
+bool same_question(const Separation& a, const Separation& b) {
+  return a == b || (is_contact(a) && is_contact(b));
+}
+
+Inference infer(const Separation& claimed, const Separation& asked) {
+  if (same_question(claimed, asked)) return Inference::all;
+  const bool norm_allows =
+      is_contact(claimed) || claimed.norm == asked.norm || claimed.norm == Norm::l2;
+  const bool follows = norm_allows && claimed.distance <= asked.distance;
+  return follows ? Inference::collisions : Inference::nothing;
+}
+
+std::optional<Separation> common_separation(std::span<const Separation> all) {
+  if (all.empty() || is_contact(all.front())) return std::nullopt;
+  const bool is_one = std::ranges::all_of(
+      all, [&](const Separation& other) { return same_question(other, all.front()); });
+  return is_one ? std::optional(all.front()) : std::nullopt;
+}
+
+std::string to_text(const Separation& separation) {
+  return fmt::format("{} ({})", separation.distance, to_string(separation.norm));
+}
+
+nlohmann::json to_json(const Separation& separation) {
+  return {{"min_separation", separation.distance}, {"norm", to_string(separation.norm)}};
+}
+
+}  // namespace touchstone::verify

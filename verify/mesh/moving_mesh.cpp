@@ -1,0 +1,45 @@
+#include "verify/mesh/moving_mesh.hpp"
+
+#include "fast/broad_phase.hpp"
+#include "verify/data/dataset_error.hpp"
+#include "verify/mesh/mesh.hpp"
+
+namespace touchstone::verify {
+
+MovingMesh read_step(const std::filesystem::path& before, const std::filesystem::path& after) {
+  Mesh start = read_mesh(before);
+  const Mesh end = read_mesh(after);
+  if (start.vertices.rows() != end.vertices.rows() || start.faces != end.faces ||
+      start.edges != end.edges) {
+    throw DatasetError(after, {}, "is not the same mesh as " + before.string());
+  }
+  return {.name = before.stem().string() + "-" + after.stem().string(),
+          .vertices = fast::MovingVertices(start.vertices, end.vertices),
+          .faces = std::move(start.faces),
+          .edges = std::move(start.edges)};
+}
+
+std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind, int max_threads,
+                                             double min_separation) {
+  const fast::BroadPhaseOptions options{.min_separation = min_separation,
+                                        .max_threads = max_threads};
+  return kind == Kind::vertex_face
+             ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
+             : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);
+}
+
+fast::Candidates candidates_of(const MovingMesh& mesh, Kind kind,
+                               std::span<const fast::IndexPair> pairs) {
+  return {.kind = kind, .pairs = pairs, .edges = mesh.edges, .faces = mesh.faces};
+}
+
+std::vector<Query> queries_of(const MovingMesh& mesh, const fast::Candidates& candidates) {
+  std::vector<Query> queries;
+  queries.reserve(candidates.pairs.size());
+  for (const fast::IndexPair& pair : candidates.pairs) {
+    queries.push_back(fast::query_of(mesh.vertices, candidates, pair));
+  }
+  return queries;
+}
+
+}  // namespace touchstone::verify

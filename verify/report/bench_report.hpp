@@ -1,0 +1,57 @@
+#pragma once
+
+/// \file
+/// The results of a benchmark for people (tables) and for machines (JSON).
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "verify/run/bench.hpp"
+#include "verify/run/step_bench.hpp"
+
+namespace touchstone::verify {
+
+/// All that a run of `touchstone bench` found.
+struct BenchReport {
+  BenchOptions options;
+  std::vector<BenchResult> groups;
+  /// Of a whole step, if one was measured.
+  std::optional<StepResult> step = std::nullopt;
+};
+
+/// Is a number that was timed or counted not what was promised: did a contender break its promise on
+/// judged queries, or does the earliest impact of a step contradict its collisions?
+[[nodiscard]] bool has_wrong_answers(const BenchReport& report);
+
+/// A table for each group: a line for each contender with its time a query in nanoseconds, the same
+/// as a multiple of the memory pass, the times of single queries, on how many queries it was timed,
+/// how many of them were judged, the counts of the judge and the errors of the times of impact;
+/// below it the share of the queries that each of its stages ended. Then the answers that broke a
+/// promise, the first twenty of a fault and group. Then the step. Last, what the columns mean.
+[[nodiscard]] std::string to_text(const BenchReport& report);
+
+/// `repetitions`, `seconds` and `judge` as in BenchOptions; `groups`, a list of `name`, `kind`,
+/// `queries`, `judged`, `collisions` (of those judged), `interrupted`, `memory_pass` and `methods`;
+/// `step`, null if none was measured.
+///
+/// Times are objects of `ns_per_query` (the median), `min_ns_per_query` and `repetitions`, the first
+/// two null if there was no repetition. Each of `methods` has `name`, `promise`, `queries` (timed),
+/// `time`, `passes` (median time by that of the memory pass, or null), `single` (null, or `queries`,
+/// `p50_ns`, `p99_ns`, `max_ns`), `stages` (null, or the number of queries by the stage's name),
+/// `judged`, `false_negatives`, `false_positives`, `late_toi`, `early_toi_upper`, `undecided`,
+/// `errors`, `toi_error` (null, or `count`, `p50`, `p99`, `max`), `broke_promise`, and
+/// `wrong_answers`, a list of `source`, `index`, `fault`, `answer` and `truth`.
+///
+/// With a separation, groups and step have it as `separation`, an object of `min_separation` and
+/// `norm`.
+///
+/// `step` has `name`, `vertices`, `edges`, `faces`, `vertex_face` and `edge_edge` (`candidates` and
+/// `collisions` each), `earliest` (null, or `toi_lower` and `toi_upper`), `earliest_agrees`,
+/// `interrupted`, and `times`, a list of `threads` and of seconds: `broad_phase_s`, `collisions_s` and
+/// `earliest_s` are wall time, `broad_phase_processor_s` and so on processor time of all threads together.
+[[nodiscard]] nlohmann::json to_json(const BenchReport& report);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,52 @@
+#pragma once
+
+/// \file
+/// A judgement for people (a table), for machines (JSON), and as a dataset of its own (the truth).
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "verify/run/certify.hpp"
+
+namespace touchstone::verify {
+
+/// With a separation a line that names it (a line for each source where they differ), and one that
+/// says what was compared if the recorded answers are about another one. Then
+/// a line for each source and one for the total, then each mismatch with source, index and both
+/// answers. Where respondents were judged follow a line for each with its total, below it a line
+/// for each source where it broke its promise, the number of its failures of each kind (if there are
+/// any but undecided answers of its own), and the answers that broke its promise: the first twenty of
+/// a fault and source, and how many more there are.
+[[nodiscard]] std::string to_text(const std::vector<CertifyResult>& results);
+
+/// The total's fields `queries`, `collisions`, `labels`, `label_mismatches`, `tois`,
+/// `toi_mismatches`, `us_per_query`, `skipped`, `rounded`, `errors` (that ended the reading of a
+/// file), `interrupted`; `mismatches`, a list of objects with `file`, `index`, `kind`, `of` ("label"
+/// or "toi"), `recorded` and `truth`; `files`, a list with the total's fields a source, its name as
+/// `file`, its `kind`, and `error` if one ended the reading.
+///
+/// With a separation, the total (if it is that of all sources) and each file have it as `separation`,
+/// an object of `min_separation` and `norm`, and each file has `compared`: "all", "collisions"
+/// (recorded about another separation, so only these are compared) or "nothing".
+///
+/// `methods`, in the total and in each file, is a list of `name`, `promise` (what it was held to:
+/// "none", "conservative", "exact"), `queries`, `false_negatives`, `false_positives` (undecided
+/// answers among them), `late_toi`, `early_toi_upper`, `undecided`, `errors`, `missing`,
+/// `failures` (an object of the number of queries without an answer by FailureKind), `unplaced_crashes`
+/// (errors at no particular query), `beyond_tolerance`, `ns_per_query` (null where no time was taken), and `toi_error`: null where no time of impact
+/// was given, else `count`, `p50`, `p90`, `p99` and `max` of the distance from toi_lower to the
+/// exact time of impact, quantiles to 1.6%. In the total each has `wrong_answers`, a list of `file`,
+/// `index`, `kind`, `fault` ("false negative", "false positive", "late toi", "early toi_upper",
+/// "error", "beyond tolerance"), `answer` and `truth`, of each source and fault the first Judgement::most_kept.
+[[nodiscard]] nlohmann::json to_json(const std::vector<CertifyResult>& results);
+
+/// The header of the truth as CSV: `file,index,kind,collides,toi_lower,toi_upper`.
+[[nodiscard]] std::string truth_header();
+
+/// A row of it: collides as 0 or 1, the ends of the enclosure (neighbouring doubles or equal) with as
+/// many digits as give the same double again, empty without collision. The file's name is quoted
+/// where CSV demands it.
+[[nodiscard]] std::string truth_row(const std::string& file, Kind kind, const Truth& truth);
+
+}  // namespace touchstone::verify

@@ -1,0 +1,324 @@
+#include "verify/report/experiments.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "verify/generate/families.hpp"
+#include "verify/generate/workload.hpp"
+#include "verify/judge/ground_truth_cache.hpp"
+#include "verify/report/measure.hpp"
+#include "verify/solvers/contender.hpp"
+#include "verify/solvers/registry.hpp"
+#include "verify/solvers/respondent.hpp"
+#include "verify/stability/stability.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using Names = std::span<const std::string>;
+
+constexpr std::string_view certified_name = "certified";
+constexpr std::array<double, 7> distances{1e-100, 1e-30, 1e-16, 1e-8, 1e-4, 1e-2, 1.0};
+constexpr std::array<double, 9> tolerances{1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0};
+constexpr std::array<double, 7> scales{1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0, 1000.0};
+constexpr std::array<std::int64_t, 6> limits{10, 100, 1'000, 10'000, 100'000, 1'000'000};
+
+constexpr std::array<std::string_view, 3> tolerance_driven{"tight_inclusion", "irf", "uirf"};
+constexpr std::array<std::string_view, 3> with_filters{
+    "tight_inclusion", "tight_inclusion_published", "tight_inclusion_released"};
+constexpr std::array<std::string_view, 2> measuring_in_linf{"certified", "tight_inclusion"};
+constexpr std::array<std::string_view, 4> measuring_in_l2{"certified", "fprf", "msrf", "accd"};
+
+/// Methods that search so long that they are held to fewer checks than Tight-Inclusion.
+constexpr std::array<std::string_view, 2> slow_searchers{"irf", "uirf"};
+constexpr std::int64_t slow_limit = 100'000;
+/// On the map of stability, whose queries are the hardest.
+constexpr std::int64_t stability_limit = 10'000;
+
+/// The experiment on filters: checks a query, and queries of a family and of a scale.
+constexpr std::int64_t filter_limit = 100'000;
+constexpr std::size_t most_of_family = 500, most_of_scale = 10'000;
+
+/// What the experiments on groups take of the whole run, and that on filters; the rest is the map of
+/// stability's.
+constexpr double part_of_trials = 0.8, part_of_filters = 0.05;
+
+template <class Thing, class Range>
+bool is_one_of(const Thing& thing, const Range& things) {
+  return std::ranges::find(things, thing) != things.end();
+}
+
+fast::MethodOptions options_of(std::string_view method) {
+  fast::MethodOptions options;
+  if (is_one_of(method, slow_searchers)) options.max_checks = slow_limit;
+  return options;
+}
+
+Trial field_trial(Names methods) {
+  Trial trial{.experiment = Experiment::field};
+  for (const std::string& name : methods) trial.settings.push_back({name, options_of(name)});
+  return trial;
+}
+
+template <class Measuring>
+void add_settings(Names methods, const Measuring& measuring, const Separation& separation,
+                  Trial& trial) {
+  for (const std::string& name : methods) {
+    if (!is_one_of(name, measuring)) continue;
+    fast::MethodOptions options = options_of(name);
+    options.min_separation = separation.distance;
+    options.norm = separation.norm;
+    trial.settings.push_back({name, options});
+  }
+}
+
+Trial separation_trial(Names methods) {
+  Trial trial{.experiment = Experiment::separation};
+  for (const double distance : distances) {
+    add_settings(methods, measuring_in_linf, {.distance = distance, .norm = Norm::linf}, trial);
+    add_settings(methods, measuring_in_l2, {.distance = distance, .norm = Norm::l2}, trial);
+  }
+  return trial;
+}
+
+Trial tolerance_trial(Names methods) {
+  Trial trial{.experiment = Experiment::tolerance};
+  for (const std::string& name : methods) {
+    if (!is_one_of(name, tolerance_driven)) continue;
+    for (const double tolerance : tolerances) {
+      fast::MethodOptions options = options_of(name);
+      options.tolerance = tolerance;
+      trial.settings.push_back({name, options});
+    }
+  }
+  return trial;
+}
+
+Trial checks_trial(Names methods) {
+  Trial trial{.experiment = Experiment::checks};
+  for (const std::string& name : methods) {
+    if (name != "tight_inclusion") continue;
+    for (const std::int64_t limit : limits) {
+      fast::MethodOptions options;
+      options.max_checks = limit;
+      trial.settings.push_back({name, options});
+    }
+  }
+  return trial;
+}
+
+std::unique_ptr<Contender> contender_for(std::string_view name,
+                                         const fast::MethodOptions& options) {
+  return name == certified_name ? contend_certified(options) : contend(find_method(name), options);
+}
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown processor";
+}
+
+StabilityMark mark_of(const StabilityCell& cell, std::size_t method) {
+  const MethodResult& result = cell.judged.methods.at(method);
+  const Outcome outcome = outcome_of(cell.judged, method);
+  StabilityMark mark{.method = result.name,
+                     .hardness = std::string(cell.hardness->name),
+                     .measure = std::string(cell.hardness->measure),
+                     .exponent = cell.exponent,
+                     .kind = cell.kind,
+                     .queries = cell.judged.queries,
+                     .collisions = cell.judged.collisions,
+                     .false_positives = result.judgement.count(Fault::false_positive),
+                     .false_negatives = result.judgement.count(Fault::false_negative),
+                     .worst = {},
+                     .worst_rate = outcome.rate};
+  if (outcome.worst) mark.worst = to_string(*outcome.worst);
+  mark.nanoseconds = nanoseconds_per_query(result).value_or(Measurement::unknown);
+  return mark;
+}
+
+class Run {
+ public:
+  Run(std::span<const QueryGroup> groups, const SurveyOptions& options)
+      : groups_(groups), options_(options), methods_(options.methods) {
+    for (const std::string& name : methods_) static_cast<void>(find_method(name));
+    if (methods_.empty()) {
+      for (const auto& method : methods()) methods_.emplace_back(method->name());
+    }
+  }
+
+  [[nodiscard]] Measurements result() {
+    result_.machine = processor();
+    const std::vector<Trial> trials = chosen_trials();
+    for (std::size_t group = 0; group < groups_.size(); ++group) {
+      Truths truths(groups_[group], options_.threads);
+      for (std::size_t trial = 0; trial < trials.size() && !stopped(); ++trial) {
+        const auto place = static_cast<double>(group * trials.size() + trial);
+        const auto all = static_cast<double>(groups_.size() * trials.size());
+        measure_trial(groups_[group], truths, trials[trial],
+                      [&](double fraction) { tell(part_of_trials * (place + fraction) / all); });
+      }
+    }
+    judge_filters();
+    if (options_.stability_count > 0 && !stopped()) map_stability();
+    result_.interrupted = stopped();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] bool stopped() const { return options_.stop != nullptr && *options_.stop; }
+
+  void tell(double fraction) const {
+    if (options_.on_progress) options_.on_progress(fraction);
+  }
+
+  [[nodiscard]] std::vector<Trial> chosen_trials() const {
+    std::vector<Trial> trials = trials_of(methods_);
+    std::erase_if(trials, [this](const Trial& trial) { return !is_chosen(trial.experiment); });
+    return trials;
+  }
+
+  [[nodiscard]] bool is_chosen(Experiment experiment) const {
+    return options_.experiments.empty() || is_one_of(experiment, options_.experiments);
+  }
+
+  /// At least 1.
+  [[nodiscard]] std::size_t count_of(const Trial& trial) const {
+    return trial.experiment == Experiment::separation ? (options_.count + 3) / 4 : options_.count;
+  }
+
+  void measure_trial(const QueryGroup& group, Truths& truths, const Trial& trial,
+                     const std::function<void(double)>& on_progress) {
+    std::vector<Subject> subjects;
+    for (const auto& [method, method_options] : trial.settings) {
+      subjects.push_back({contender_for(method, method_options), method_options});
+    }
+    const auto make_reference = [](const fast::MethodOptions& about) {
+      return contend_certified(about);
+    };
+    std::vector<Measurement> measured =
+        measure(group, truths, subjects, make_reference,
+                {.experiment = trial.experiment,
+                 .count = count_of(trial),
+                 .seconds = options_.seconds,
+                 .repetitions = options_.repetitions,
+                 .same_sample = trial.experiment != Experiment::field,
+                 .on_progress = on_progress,
+                 .stop = options_.stop});
+    std::ranges::move(measured, std::back_inserter(result_.all));
+  }
+
+  // ---- Filters ----------------------------------------------------------------------------------
+
+  [[nodiscard]] std::vector<QueryGroup> groups_for_filters(Kind kind) const {
+    std::vector<QueryGroup> groups;
+    for (const Family& family : families()) {
+      if (!supports(family, kind)) continue;
+      QueryGroup& group = groups.emplace_back(std::string(family.name), kind);
+      group.read(
+          *open_family(family, kind, options_.seed, std::min(options_.count, most_of_family)),
+          [](double) {}, [] { return false; });
+    }
+    return groups;
+  }
+
+  void judge_filters() {
+    std::vector<const fast::Method*> chosen;
+    for (const std::string& name : methods_) {
+      if (is_one_of(name, with_filters)) chosen.push_back(&find_method(name));
+    }
+    if (chosen.size() < 2 || !is_chosen(Experiment::filter)) return;
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (std::ranges::find(groups_, kind, &QueryGroup::kind) == groups_.end()) continue;
+      for (const QueryGroup& group : groups_for_filters(kind)) judge(chosen, group, std::nullopt);
+      for (const bool two_decimals : {false, true}) {
+        for (const double scale : scales) {
+          judge(chosen,
+                end_contacts(kind, {.scale = scale,
+                                    .two_decimals = two_decimals,
+                                    .seed = options_.seed,
+                                    .count = std::min(options_.count, most_of_scale)}),
+                scale);
+        }
+      }
+    }
+  }
+
+  void judge(const std::vector<const fast::Method*>& chosen, const QueryGroup& group,
+             std::optional<double> scale) {
+    fast::MethodOptions asked;
+    asked.max_checks = filter_limit;
+    Truths truths(group, options_.threads);
+    std::vector<Measurement> side_by_side;
+    for (const fast::Method* const method : chosen) {
+      if (stopped()) return;
+      auto judged = judge_all(group, truths, *method, asked, Experiment::filter, options_.stop);
+      if (!judged) return;
+      judged->scale = scale;
+      side_by_side.push_back(std::move(*judged));
+    }
+    std::ranges::move(side_by_side, std::back_inserter(result_.all));
+  }
+
+  void map_stability() {
+    std::vector<std::unique_ptr<Respondent>> respondents;
+    std::vector<const Respondent*> asked;
+    for (const std::string& name : methods_) {
+      fast::MethodOptions method_options;
+      method_options.max_checks = stability_limit;
+      respondents.push_back(respond_in_process(find_method(name), method_options));
+      asked.push_back(respondents.back().get());
+    }
+    std::vector<const Hardness*> sorts;
+    for (const Hardness& hardness : hardnesses()) sorts.push_back(&hardness);
+    const StabilityResult map =
+        measure_stability(sorts, {.seed = options_.seed,
+                                  .count = options_.stability_count,
+                                  .threads = options_.threads,
+                                  .respondents = asked,
+                                  .on_progress =
+                                      [&](double fraction) {
+                                        constexpr double before = part_of_trials + part_of_filters;
+                                        tell(before + (1.0 - before) * fraction);
+                                      },
+                                  .stop = options_.stop});
+    for (const StabilityCell& cell : map.cells) {
+      for (std::size_t i = 0; i < cell.judged.methods.size(); ++i) {
+        result_.stability.push_back(mark_of(cell, i));
+      }
+    }
+  }
+
+  std::span<const QueryGroup> groups_;
+  const SurveyOptions& options_;
+  std::vector<std::string> methods_;
+  Measurements result_;
+};
+
+}  // namespace
+
+std::span<const double> separation_distances() { return distances; }
+
+std::span<const double> filter_scales() { return scales; }
+
+std::vector<Trial> trials_of(Names methods) {
+  std::vector<Trial> trials{field_trial(methods), tolerance_trial(methods), checks_trial(methods),
+                            separation_trial(methods)};
+  std::erase_if(trials, [](const Trial& trial) { return trial.settings.empty(); });
+  return trials;
+}
+
+Measurements survey(std::span<const QueryGroup> groups, const SurveyOptions& options) {
+  return Run(groups, options).result();
+}
+
+}  // namespace touchstone::verify

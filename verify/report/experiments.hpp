@@ -1,0 +1,81 @@
+#pragma once
+
+/// \file
+/// Which experiments a report holds, and their run over groups of queries.
+///
+/// - *field*: every method as it is meant to be used, without separation (the paper's table 1).
+/// - *separation*: what measures a distance, at d from 1e-100 to 1, each in its own norm and judged in
+///   it: Tight-Inclusion in L∞, FPRF, MSRF and ACCD in L2, the certified solver in both (tables 2, 3).
+/// - *tolerance*: what aims at a tolerance, at δ from 1e-8 to 1.
+/// - *checks*: Tight-Inclusion with m_I from 10 to 1,000,000.
+/// - *filter*: Tight-Inclusion with its three filters, the derived, the published and the released one,
+///   if more than one of them takes part: what each misses of the built-in families, and of contacts at
+///   t=1 (verify/generate/workload.hpp) at scales from 0.001 to 1000. It has queries of its own, of the kinds of
+///   the groups.
+/// - *stability*: every method on the hard queries of verify/stability/.
+///
+/// Of the methods named here those take part that the registry has.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fast/method.hpp"
+#include "verify/data/query_group.hpp"
+#include "verify/report/measurement.hpp"
+
+namespace touchstone::verify {
+
+/// A method under some options.
+struct Setting {
+  std::string method;
+  fast::MethodOptions options;
+};
+
+/// Settings that are measured side by side.
+struct Trial {
+  Experiment experiment = Experiment::field;
+  std::vector<Setting> settings = {};
+};
+
+/// The trials of a report on these methods, none of them empty.
+[[nodiscard]] std::vector<Trial> trials_of(std::span<const std::string> methods);
+
+/// The minimum separations of the experiment, ascending.
+[[nodiscard]] std::span<const double> separation_distances();
+
+/// The scales of the experiment on filters, ascending.
+[[nodiscard]] std::span<const double> filter_scales();
+
+struct SurveyOptions {
+  /// Names of methods; all there are if empty.
+  std::vector<std::string> methods = {};
+  /// Those to do; all if empty.
+  std::vector<Experiment> experiments = {};
+  /// Of a group so many queries are asked at most, an evenly spread sample; positive. A quarter of them
+  /// over the separation, where the oracle takes longest, fourteen times. In the experiment on filters it
+  /// bounds those of a family (at most 500) and of a scale (at most 10,000).
+  std::size_t count = 2000;
+  /// Of a method on a group in a trial: MeasureOptions::seconds.
+  double seconds = 0.2;
+  std::size_t repetitions = 5;
+  /// Queries a cell of the map of stability; 0: no map.
+  std::uint64_t stability_count = 20;
+  std::uint64_t seed = 2021;
+  /// Cores that the oracle may use; 0: all. Methods are timed in one thread.
+  unsigned threads = 0;
+  std::function<void(double)> on_progress = nullptr;
+  /// May be null. Once true the result is what was measured so far.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Makes all measurements of a report. `command` is left to the caller.
+/// \throws std::invalid_argument for an unknown method, options out of range, or an empty group.
+[[nodiscard]] Measurements survey(std::span<const QueryGroup> groups,
+                                  const SurveyOptions& options = {});
+
+}  // namespace touchstone::verify

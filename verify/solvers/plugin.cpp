@@ -1,0 +1,255 @@
+#include "verify/solvers/plugin.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "verify/data/dataset_error.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/plugin.h"
+
+namespace touchstone::verify {
+namespace {
+
+static_assert(static_cast<int>(Kind::vertex_face) == touchstone_vertex_face &&
+              static_cast<int>(Kind::edge_edge) == touchstone_edge_edge);
+static_assert(static_cast<int>(Norm::linf) == touchstone_linf &&
+              static_cast<int>(Norm::l2) == touchstone_l2);
+static_assert(static_cast<int>(fast::Verdict::no) == touchstone_no &&
+              static_cast<int>(fast::Verdict::yes) == touchstone_yes &&
+              static_cast<int>(fast::Verdict::undecided) == touchstone_undecided &&
+              static_cast<int>(fast::Verdict::error) == touchstone_error);
+
+struct CloseLibrary {
+  void operator()(void* handle) const { ::dlclose(handle); }
+};
+using Library = std::unique_ptr<void, CloseLibrary>;
+
+/// What the system says of the last failure, without the file's name that it puts in front.
+std::string loader_reason(const std::string& file) {
+  const char* const text = ::dlerror();
+  if (text == nullptr) return "unknown reason";
+  const std::string reason = text, prefix = file + ": ";
+  return reason.starts_with(prefix) ? reason.substr(prefix.size()) : reason;
+}
+
+/// \pre the path is absolute.
+Library open_library(const std::filesystem::path& path) {
+  const std::string& file = path.native();
+  Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
+  if (!library) throw DatasetError(path, {}, "cannot load: " + loader_reason(file));
+  return library;
+}
+
+template <class Function>
+Function* find_function(const Library& library, const std::filesystem::path& path,
+                        const char* name) {
+  void* const address = ::dlsym(library.get(), name);
+  if (address == nullptr) throw DatasetError(path, {}, std::string("defines no ") + name);
+  return reinterpret_cast<Function*>(address);
+}
+
+/// Version 2 only added an option behind the others, so a plugin of version 1 reads what it knows.
+constexpr std::int32_t oldest_version = 1;
+
+void check_version(const Library& library, const std::filesystem::path& path) {
+  const auto version = find_function<decltype(touchstone_plugin_version)>(
+      library, path, "touchstone_plugin_version")();
+  if (version >= oldest_version && version <= touchstone_interface_version) return;
+  throw DatasetError(path, {},
+                     "made for version " + std::to_string(version) +
+                         " of the plugin interface, this program has version " +
+                         std::to_string(touchstone_interface_version));
+}
+
+std::string read_name(const Library& library, const std::filesystem::path& path) {
+  const char* const name =
+      find_function<decltype(touchstone_plugin_name)>(library, path, "touchstone_plugin_name")();
+  if (name == nullptr) throw DatasetError(path, {}, "has no name");
+  const std::string_view text = name;
+  if (text.empty() || !is_printable(text)) {
+    throw DatasetError(path, {}, "name is not one line of text: " + quote(text));
+  }
+  return std::string(text);
+}
+
+/// The answer, with an error in place of a verdict that is none.
+fast::Answer checked(const touchstone_answer& answer) {
+  if (answer.verdict < touchstone_no || answer.verdict > touchstone_error) {
+    return {.verdict = fast::Verdict::error};
+  }
+  const auto verdict = static_cast<fast::Verdict>(answer.verdict);
+  // No comparison holds of a NaN: what is no tolerance becomes one.
+  const double tolerance = answer.tolerance >= 0.0 ? answer.tolerance : fast::Answer::none;
+  if (verdict != fast::Verdict::yes) return {.verdict = verdict, .tolerance = tolerance};
+  return {.verdict = verdict,
+          .toi_lower = answer.toi_lower,
+          .toi_upper = answer.toi_upper,
+          .tolerance = tolerance};
+}
+
+using Solve = decltype(touchstone_plugin_solve);
+
+Solve* find_solve(const Library& library, const std::filesystem::path& path) {
+  return find_function<Solve>(library, path, "touchstone_plugin_solve");
+}
+
+class PluginMethod final : public fast::Method {
+ public:
+  PluginMethod(std::filesystem::path path, std::string name, fast::Promise promise)
+      : path_(std::move(path)), name_(std::move(name)), promise_(promise) {}
+
+  [[nodiscard]] std::string_view name() const override { return name_; }
+  [[nodiscard]] fast::Promise promise() const override { return promise_; }
+
+  void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
+             const fast::MethodOptions& options) const override {
+    std::call_once(is_loaded_, [this] {
+      library_ = open_library(path_);
+      solve_ = find_solve(library_, path_);
+    });
+    const touchstone_options plugin_options{.tolerance = options.tolerance,
+                                            .max_checks = options.max_checks,
+                                            .min_separation = options.min_separation,
+                                            .t_max = options.t_max,
+                                            .norm = static_cast<std::int32_t>(options.norm)};
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      answers[i] = ask(kind, queries[i], plugin_options);
+    }
+  }
+
+ private:
+  [[nodiscard]] fast::Answer ask(Kind kind, const Query& query,
+                                 const touchstone_options& options) const {
+    touchstone_answer answer{.verdict = touchstone_error,
+                             .toi_lower = fast::Answer::none,
+                             .toi_upper = fast::Answer::none,
+                             .tolerance = fast::Answer::none};
+    solve_(static_cast<std::int32_t>(kind), query.coordinates.data(), &options, &answer);
+    return checked(answer);
+  }
+
+  std::filesystem::path path_;
+  std::string name_;
+  fast::Promise promise_;
+  mutable std::once_flag is_loaded_;
+  mutable Library library_;
+  mutable Solve* solve_ = nullptr;
+};
+
+// ---- In a child process -------------------------------------------------------------------------
+
+// The child's messages: a word, and a text behind it.
+constexpr std::string_view calls = "calls ";    // what runs from now on
+constexpr std::string_view named = "named ";    // the name: all is well
+constexpr std::string_view refused = "error ";  // why it is no plugin
+constexpr std::string_view threw = "threw ";
+
+void tell(const ChildChannel& channel, std::string_view word, std::string_view text) {
+  const std::string message = std::string(word) + std::string(text);
+  static_cast<void>(channel.send(message.substr(0, ChildChannel::most_bytes)));
+}
+
+void load_and_ask(const std::filesystem::path& path, const ChildChannel& channel) {
+  tell(channel, calls, "its constructors");
+  Library library = open_library(path);
+  tell(channel, calls, "touchstone_plugin_version()");
+  check_version(library, path);
+  tell(channel, calls, "touchstone_plugin_name()");
+  const std::string name = read_name(library, path);
+  static_cast<void>(find_solve(library, path));
+  // What its destructors do does not matter.
+  static_cast<void>(library.release());
+  tell(channel, named, name);
+}
+
+/// What the child does: every way that this can end by itself has a message.
+void describe(const std::filesystem::path& path, const ChildChannel& channel) {
+  try {
+    load_and_ask(path, channel);
+  } catch (const DatasetError& error) {
+    tell(channel, refused, error.reason());
+  } catch (const std::exception& error) {
+    tell(channel, threw, error.what());
+  } catch (...) {
+    tell(channel, threw, "not a std::exception");
+  }
+}
+
+/// Loads the library in a child process.
+class Loading {
+ public:
+  Loading(const std::filesystem::path& path, const std::filesystem::path& absolute,
+          const PluginOptions& options)
+      : path_(path),
+        options_(options),
+        child_([&absolute](const ChildChannel& channel) { describe(absolute, channel); },
+               options.limits, folder_.path()) {}
+
+  /// The library's name. \throws DatasetError as load_plugin does.
+  std::string name() {
+    using Event = ChildProcess::Event;
+    const Clock::time_point start = Clock::now();
+    constexpr ChildProcess::Seconds often(0.25);
+    std::string message;
+    CapturedOutput ignored;
+    for (;;) {
+      const Event event = child_.wait(often, message, ignored);
+      if (event == Event::ended) fail(child_.end(ignored).failure);
+      if (event == Event::message) {
+        if (auto name = read(message)) return std::move(*name);
+      }
+      if (options_.stop != nullptr && *options_.stop) throw Interrupted();
+      const ChildProcess::Seconds passed = Clock::now() - start;
+      if (passed.count() > options_.load_seconds) fail({.kind = FailureKind::hang});
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// The name, if the message tells it.
+  std::optional<std::string> read(const std::string& message) {
+    const auto is_about = [&](std::string_view word) { return message.starts_with(word); };
+    const std::string text = message.substr(std::min(message.size(), calls.size()));
+    if (is_about(named)) return text;
+    if (is_about(refused)) throw DatasetError(path_, {}, text);
+    if (is_about(threw)) fail({.kind = FailureKind::exception, .what = text});
+    if (is_about(calls)) at_ = text;
+    return std::nullopt;
+  }
+
+  [[noreturn]] void fail(const Failure& failure) const {
+    throw DatasetError(path_, {}, "cannot load: " + at_ + ": " + to_text(failure));
+  }
+
+  const std::filesystem::path& path_;
+  const PluginOptions& options_;
+  TemporaryFolder folder_;
+  ChildProcess child_;
+  std::string at_ = "before its constructors";
+};
+static_assert(calls.size() == named.size() && named.size() == refused.size() &&
+              refused.size() == threw.size());
+
+}  // namespace
+
+std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
+                                          const PluginOptions& options) {
+  // A child works in another folder.
+  std::filesystem::path absolute = std::filesystem::absolute(library);
+  std::string name = Loading(library, absolute, options).name();
+  return std::make_unique<PluginMethod>(std::move(absolute), std::move(name), options.promise);
+}
+
+}  // namespace touchstone::verify
