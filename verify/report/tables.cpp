@@ -264,16 +264,9 @@ std::string to_markdown(const Table& table) {
 }
 
 std::string to_csv(const Table& table) {
-  std::string text;
-  const auto add = [&](const Texts& texts) {
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-      text += i == 0 ? "" : ",";
-      text += csv_field(texts[i]);
-    }
-    text += "\r\n";
-  };
-  add(table.columns);
-  for (const Texts& row : table.rows) add(row);
+  static constexpr std::string_view line_end = "\r\n";
+  std::string text = csv_row(table.columns, line_end);
+  for (const Texts& row : table.rows) text += csv_row(row, line_end);
   return text;
 }
 
