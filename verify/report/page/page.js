@@ -461,7 +461,7 @@
       const heading = document.createElement("h3");
       heading.textContent = panel.title;
       element.appendChild(heading);
-      if (figure.y_label !== "" && figure.form !== "ridges") {
+      if (figure.y_label !== "" && ![drawRidges, drawGrid].includes(forms[figure.form])) {
         const axis = document.createElement("figcaption");
         axis.textContent = `↑ ${axisTitle(figure.y_label)}`;
         element.appendChild(axis);
