@@ -112,7 +112,7 @@ TextRow method_row(const std::string& name, std::string_view kind, const MethodR
   return row;
 }
 
-std::string wrong_answers_text(const CertifyResult& result, const MethodResult& method) {
+std::string wrong_answers_of(const CertifyResult& result, const MethodResult& method) {
   return wrong_answers_text({.method = method.name,
                              .promise = method.promise,
                              .judgement = method.judgement,
@@ -160,7 +160,7 @@ std::string methods_text(std::size_t width, const std::vector<CertifyResult>& re
       const MethodResult& method = result.methods[i];
       if (keeps(method.judgement, method.promise)) continue;
       table.add(method_row("  " + printable(result.name), kind_text(result), method, tolerances));
-      wrong_answers += wrong_answers_text(result, method);
+      wrong_answers += wrong_answers_of(result, method);
     }
   }
   std::string text = '\n' + table.text();

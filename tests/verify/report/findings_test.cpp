@@ -19,15 +19,16 @@ Findings findings(const Measurements& measurements) {
 TEST(Findings, SayWhatTheMeasurementsSay) {
   EXPECT_EQ(
       findings(tests::small_report()),
-      (Findings{"3 methods were asked up to 100 queries, 20 of which collide.",
-                "Without a missed collision or a time of impact after the exact one: certified, "
-                "tight_inclusion. With such answers: msrf (2 of 100).",
-                "Right on every query, with no false positive either: certified.",
-                "certified takes 10 ns a query. As a multiple of it, of those that miss nothing: "
-                "tight_inclusion 250.",
-                "On the Pareto front of time against error, among those that miss nothing: certified "
-                "in 3 of 3 panels.",
-                "Every method kept its promise."}));
+      (Findings{
+          "3 methods were asked up to 100 queries, 20 of which collide.",
+          "Without a missed collision or a time of impact after the exact one: certified, "
+          "tight_inclusion. With such answers: msrf (2 of 100).",
+          "Right on every query, with no false positive either: certified.",
+          "certified takes 10 ns a query. As a multiple of it, of those that miss nothing: "
+          "tight_inclusion 250.",
+          "On the Pareto front of time against error, among those that miss nothing: certified "
+          "in 3 of 3 panels.",
+          "Every method kept its promise."}));
 }
 
 TEST(Findings, SumOverGroups) {

@@ -43,14 +43,16 @@ std::string lines(fast::Promise promise) {
                              .judgement = judgement,
                              .group = "group",
                              .kind = "edge-edge"},
-                            [](std::size_t i) { return QueryPlace{"\x1b.csv", 100 + i}; });
+                            [](std::size_t i) {
+                              return QueryPlace{"\x1b.csv", 100 + i};
+                            });
 }
 
 TEST(JudgementReport, NamesTwentyAnswersOfAFaultAndCountsTheOthers) {
   const std::string text = lines(fast::Promise::conservative);
   const std::string place = "a\\x0ab: \\x1b.csv: edge-edge query ";
-  EXPECT_TRUE(text.starts_with("false negative: " + place +
-                               "100: answer no, truth collision at 0.5\n"))
+  EXPECT_TRUE(
+      text.starts_with("false negative: " + place + "100: answer no, truth collision at 0.5\n"))
       << text;
   EXPECT_NE(text.find(place + "119: "), std::string::npos);
   EXPECT_EQ(text.find(place + "120: "), std::string::npos);
@@ -77,24 +79,21 @@ TEST(JudgementReport, CountsFailuresByKind) {
 
 TEST(JudgementReport, SaysWhatWasNotReadAsItStands) {
   EXPECT_EQ(reading_text(0, 0), "");
-  EXPECT_EQ(reading_text(4, 9),
-            "4 queries in error skipped\n9 coordinates rounded to double\n");
+  EXPECT_EQ(reading_text(4, 9), "4 queries in error skipped\n9 coordinates rounded to double\n");
 }
 
 TEST(JudgementReport, IsJson) {
   const nlohmann::json json = to_json(wrong_in_each_way());
-  EXPECT_EQ(json, (nlohmann::json{{"false_negatives", 22},
-                                  {"false_positives", 1},
-                                  {"late_toi", 1},
-                                  {"early_toi_upper", 1},
-                                  {"undecided", 1},
-                                  {"errors", 1},
-                                  {"toi_error",
-                                   {{"count", 2},
-                                    {"p50", 0.25},
-                                    {"p90", 0.25},
-                                    {"p99", 0.25},
-                                    {"max", 0.25}}}}));
+  EXPECT_EQ(json,
+            (nlohmann::json{
+                {"false_negatives", 22},
+                {"false_positives", 1},
+                {"late_toi", 1},
+                {"early_toi_upper", 1},
+                {"undecided", 1},
+                {"errors", 1},
+                {"toi_error",
+                 {{"count", 2}, {"p50", 0.25}, {"p90", 0.25}, {"p99", 0.25}, {"max", 0.25}}}}));
   EXPECT_TRUE(to_json(Judgement()).at("toi_error").is_null());
   EXPECT_EQ(to_json(wrong_in_each_way().wrong_answers.front()),
             (nlohmann::json{{"index", 4},

@@ -148,14 +148,13 @@ StabilityResult map_of(const std::vector<double>& numbers) {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const std::vector<double> numbers_of_any_size{
-    0.0,   4.9e-324, 2.3e-308, 3e-100, 3.2e-13, 0.0123, 0.999,  1.5,   99.9,  999.6,  8.88e5,
-    9.996e5, 1e6,    1.2e8,    8.88e8, 9.996e8, 2.5e12, 8.88e99, 1e100, 1.7e308, infinity};
+    0.0,     4.9e-324, 2.3e-308, 3e-100, 3.2e-13, 0.0123, 0.999,   1.5,   99.9,    999.6,   8.88e5,
+    9.996e5, 1e6,      1.2e8,    8.88e8, 9.996e8, 2.5e12, 8.88e99, 1e100, 1.7e308, infinity};
 
 /// The page, with a line that says how many texts stand in cells and which are wider than these.
 /// \param planted put into every cell instead of its text, if not empty
 std::string page_that_measures(const StabilityResult& result, const std::string& planted = "") {
-  const std::string script =
-      "<p id=\"wide\"></p><script>const planted = \"" + planted + R"(";
+  const std::string script = "<p id=\"wide\"></p><script>const planted = \"" + planted + R"(";
 const texts = Array.from(document.querySelectorAll("text.cell"));
 if (planted) for (const text of texts) text.textContent = planted;
 const isWide = (text) =>

@@ -106,10 +106,13 @@ TEST(Page, SaysIfItWasInterrupted) {
 
 TEST(Page, OpensWithItsFindingsAndTimeAgainstError) {
   const std::string page = without_d3(report_page(tests::small_report()));
-  const std::vector<std::string> order{
-      "<h1>Touchstone report</h1>", "<li>3 methods were asked up to 100 queries",
-      "<li>Every method kept its promise.</li>", "<section class=\"figure\" id=\"speed_false_positives\">",
-      "<nav", "<section id=\"table_1\">", "<section class=\"figure\" id=\"speed_toi_median\">"};
+  const std::vector<std::string> order{"<h1>Touchstone report</h1>",
+                                       "<li>3 methods were asked up to 100 queries",
+                                       "<li>Every method kept its promise.</li>",
+                                       "<section class=\"figure\" id=\"speed_false_positives\">",
+                                       "<nav",
+                                       "<section id=\"table_1\">",
+                                       "<section class=\"figure\" id=\"speed_toi_median\">"};
   for (std::size_t i = 0; i + 1 < order.size(); ++i) {
     ASSERT_TRUE(contains(page, order[i])) << order[i];
     EXPECT_LT(page.find(order[i]), page.find(order[i + 1])) << order[i];

@@ -162,9 +162,9 @@ TEST(StabilityMarks, HoldWhatAReportShowsOfACell) {
 }
 
 TEST(StabilityOverview, HasTheWorstOfEachHardness) {
-  const Table table = overview_of(
-      result_of({cell("distance", -1, faults(0, 1)), cell("distance", -5, faults(1, 0)),
-                 cell("scale", 0, faults(0, 0)), cell("angle", 0, faults(0, 2))}));
+  const Table table =
+      overview_of(result_of({cell("distance", -1, faults(0, 1)), cell("distance", -5, faults(1, 0)),
+                             cell("scale", 0, faults(0, 0)), cell("angle", 0, faults(0, 2))}));
   using Row = std::vector<std::string>;
   EXPECT_EQ(table.columns, (Row{"method", "distance", "scale", "angle"}));
   ASSERT_EQ(table.rows.size(), 1U);
