@@ -199,8 +199,8 @@ nlohmann::json wrong_answers_of(const ContenderResult& contender) {
   nlohmann::json list = nlohmann::json::array();
   for (std::size_t i = 0; i < contender.judgement.wrong_answers.size(); ++i) {
     nlohmann::json& json = list.emplace_back(to_json(contender.judgement.wrong_answers[i]));
-    json.update({{"source", contender.wrong_places[i].source},
-                 {"index", contender.wrong_places[i].index}});
+    json.update(
+        {{"source", contender.wrong_places[i].source}, {"index", contender.wrong_places[i].index}});
   }
   return list;
 }

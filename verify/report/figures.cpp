@@ -492,7 +492,8 @@ class Builder {
         .id = "stability",
         .title = "Stability: what goes wrong as queries get harder",
         .description =
-            "A cell a level of hardness: the worst that happens at it, and how often. N: "
+            "A cell a level of hardness: the worst that happens at it, and how often, in percent. "
+            "N: "
             "false negatives, of the collisions. T: the time of impact excludes the true "
             "one, of the collisions. E: errors. B: a yes beyond its tolerance, of the misses. "
             "Shades: false positives, of the misses, the deeper the more. vf: vertex-face. ee: "
@@ -541,8 +542,9 @@ class Builder {
                         double (*value)(const StabilityMark&)) {
     Figure figure{.id = id,
                   .title = title,
-                  .description = "A cell a level of hardness, the deeper the greater the number. "
-                                 "Framed: not known. vf: vertex-face. ee: edge-edge.",
+                  .description =
+                      "A cell a level of hardness, the deeper the greater the number. "
+                      "Framed: not known. vf: vertex-face. ee: edge-edge.",
                   .form = FigureForm::shades,
                   .x_label = "level, a power of two",
                   .y_label = y_label,

@@ -33,7 +33,7 @@ struct FigurePoint {
   double x = 0.0;
   double y = 0.0;
   std::string label;
-  bool open = false;    ///< drawn hollow: the method misses collisions here
+  bool open = false;     ///< drawn hollow: the method misses collisions here
   std::string tip = {};  ///< more about it, shown where one points at it
 
   friend bool operator==(const FigurePoint&, const FigurePoint&) = default;

@@ -21,10 +21,10 @@ constexpr std::string_view certified = "certified";
 struct Sum {
   std::string method;
   std::uint64_t asked = 0;
-  std::uint64_t missed = 0;  ///< false negatives and late times of impact
-  std::uint64_t wrong = 0;   ///< these, and all else that is wrong
-  double shortest = INFINITY, longest = 0.0;                ///< nanoseconds a query
-  double least_ratio = INFINITY, greatest_ratio = 0.0;      ///< of the certified solver's
+  std::uint64_t missed = 0;                   ///< false negatives and late times of impact
+  std::uint64_t wrong = 0;                    ///< these, and all else that is wrong
+  double shortest = INFINITY, longest = 0.0;  ///< nanoseconds a query
+  double least_ratio = INFINITY, greatest_ratio = 0.0;  ///< of the certified solver's
 };
 
 void add(Sum& sum, const Measurement& m) {
@@ -85,16 +85,17 @@ std::string queries_sentence(const Measurements& measurements, std::size_t metho
 
 std::string misses_sentence(const std::vector<Sum>& sums) {
   const auto misses = [](const Sum& sum) { return sum.missed != 0; };
-  return fmt::format(
-      "Without a missed collision or a time of impact after the exact one: {}. With such answers: {}.",
-      list(sums, std::not_fn(misses), name_of), list(sums, misses, [](const Sum& sum) {
-        return fmt::format("{} ({} of {})", sum.method, sum.missed, sum.asked);
-      }));
+  return fmt::format("No missed collision and no time of impact after the exact one: {}. Some: {}.",
+                     list(sums, std::not_fn(misses), name_of),
+                     list(sums, misses, [](const Sum& sum) {
+                       return fmt::format("{} ({} of {})", sum.method, sum.missed, sum.asked);
+                     }));
 }
 
 std::string right_sentence(const std::vector<Sum>& sums) {
   return fmt::format("Right on every query, with no false positive either: {}.",
-                     list(sums, [](const Sum& sum) { return sum.wrong == 0; }, name_of));
+                     list(
+                         sums, [](const Sum& sum) { return sum.wrong == 0; }, name_of));
 }
 
 /// Nothing without times.
@@ -104,12 +105,11 @@ std::string time_sentence(const std::vector<Sum>& sums) {
   const auto is_other = [](const Sum& sum) {
     return sum.method != certified && sum.missed == 0 && sum.greatest_ratio != 0.0;
   };
-  return fmt::format("{} takes {} ns a query. As a multiple of it, of those that miss nothing: {}.",
-                     certified, range_text(ours->shortest, ours->longest),
-                     list(sums, is_other, [](const Sum& sum) {
-                       return fmt::format("{} {}", sum.method,
-                                          range_text(sum.least_ratio, sum.greatest_ratio));
-                     }));
+  return fmt::format(
+      "{} takes {} ns a query. As a multiple of that, the others that miss nothing: {}.", certified,
+      range_text(ours->shortest, ours->longest), list(sums, is_other, [](const Sum& sum) {
+        return fmt::format("{} {}", sum.method, range_text(sum.least_ratio, sum.greatest_ratio));
+      }));
 }
 
 /// Nothing without fronts.

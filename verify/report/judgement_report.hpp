@@ -50,8 +50,8 @@ struct NamedJudgement {
 /// answer no, truth collision at 0.5"; of a fault the first twenty, then how many more there are.
 /// \param place_of where the query of a wrong answer comes from, by the answer's position in
 /// Judgement::wrong_answers.
-[[nodiscard]] std::string wrong_answers_text(const NamedJudgement& named,
-                                             const std::function<QueryPlace(std::size_t)>& place_of);
+[[nodiscard]] std::string wrong_answers_text(
+    const NamedJudgement& named, const std::function<QueryPlace(std::size_t)>& place_of);
 
 using FailureCounts = std::array<std::uint64_t, failure_kinds>;
 

@@ -233,8 +233,9 @@ class Writer {
 std::string report_page(const Measurements& measured) {
   const Measurements measurements = with_printable_texts(measured);
   Contents contents{.title = "Touchstone report",
-                    .about = "Methods of continuous collision detection, their speed against their "
-                             "error. The truth is the exact oracle’s.",
+                    .about =
+                        "Methods of continuous collision detection, their speed against their "
+                        "error. The truth is the exact oracle’s.",
                     .findings = {},
                     .figures = figures_of(measurements),
                     .top_tables = {{"table_1", "Table 1: all methods", field_tables(measurements)}},
@@ -247,18 +248,19 @@ std::string report_page(const Measurements& measured) {
 }
 
 std::string stability_page(const StabilityResult& result, const std::string& command) {
-  const Measurements measurements =
-      with_printable_texts({.command = command, .machine = {}, .all = {}, .stability = marks_of(result)});
+  const Measurements measurements = with_printable_texts(
+      {.command = command, .machine = {}, .all = {}, .stability = marks_of(result)});
   Contents contents{
       .title = "Stability of solvers",
       .about = result.cells.empty()
                    ? "No cell was judged."
-                   : fmt::format("{} queries a cell, half of them collisions; seed {}{}. Errors of times "
-                                 "of impact are in units of the motion's duration.",
-                                 result.count, result.seed,
-                                 is_contact(result.separation)
-                                     ? ""
-                                     : "; minimum separation " + to_text(result.separation)),
+                   : fmt::format(
+                         "{} queries a cell, half of them collisions; seed {}{}. Errors of times "
+                         "of impact are in units of the motion's duration.",
+                         result.count, result.seed,
+                         is_contact(result.separation)
+                             ? ""
+                             : "; minimum separation " + to_text(result.separation)),
       .findings = {},
       .figures = figures_of(measurements),
       .top_tables = {{"overview", "Overview", {overview_of(result)}, false}},

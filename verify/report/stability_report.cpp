@@ -63,13 +63,14 @@ std::vector<Row> rows_of(const StabilityResult& result) {
 }
 
 std::vector<TextColumn> columns() {
-  return joined<TextColumn>({{word_column("hardness", 8),
-                              word_column("levels", 16),
-                              word_column("kind", 11),
-                              word_column("level by", 11),
-                              {"queries", 7}},
-                             fault_columns(),
-                             {{"ns/query", 10}, {"checks", 9}, {"error p50", 9}, {"error max", 9}}});
+  return joined<TextColumn>(
+      {{word_column("hardness", 8),
+        word_column("levels", 16),
+        word_column("kind", 11),
+        word_column("level by", 11),
+        {"queries", 7}},
+       fault_columns(),
+       {{"ns/query", 10}, {"checks", 9}, {"error p50", 9}, {"error max", 9}}});
 }
 
 TextRow text_row(const Row& row, std::size_t method) {
@@ -221,8 +222,9 @@ Table overview_of(const StabilityResult& result) {
     row.push_back(result.total.methods[i].name);
     for (const CertifyResult& sum : sums) {
       const Outcome outcome = outcome_of(sum, i);
-      row.push_back(outcome.worst ? fmt::format("{} {:.2g} %", name_of(outcome), 100.0 * outcome.rate)
-                                  : "nothing wrong");
+      row.push_back(outcome.worst
+                        ? fmt::format("{} {:.2g} %", name_of(outcome), 100.0 * outcome.rate)
+                        : "nothing wrong");
     }
   }
   return table;

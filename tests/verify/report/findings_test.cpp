@@ -21,10 +21,10 @@ TEST(Findings, SayWhatTheMeasurementsSay) {
       findings(tests::small_report()),
       (Findings{
           "3 methods were asked up to 100 queries, 20 of which collide.",
-          "Without a missed collision or a time of impact after the exact one: certified, "
-          "tight_inclusion. With such answers: msrf (2 of 100).",
+          "No missed collision and no time of impact after the exact one: certified, "
+          "tight_inclusion. Some: msrf (2 of 100).",
           "Right on every query, with no false positive either: certified.",
-          "certified takes 10 ns a query. As a multiple of it, of those that miss nothing: "
+          "certified takes 10 ns a query. As a multiple of that, the others that miss nothing: "
           "tight_inclusion 250.",
           "On the Pareto front of time against error, among those that miss nothing: certified "
           "in 3 of 3 panels.",
@@ -41,10 +41,11 @@ TEST(Findings, SumOverGroups) {
   const Findings said = findings(measurements);
   ASSERT_EQ(said.size(), 6U);
   EXPECT_EQ(said[0], "2 methods were asked up to 200 queries, 40 of which collide.");
-  EXPECT_TRUE(said[1].ends_with("With such answers: msrf (1 of 200).")) << said[1];
-  EXPECT_EQ(said[3],
-            "certified takes 10 to 20 ns a query. As a multiple of it, of those that miss nothing: "
-            "none.");
+  EXPECT_TRUE(said[1].ends_with("Some: msrf (1 of 200).")) << said[1];
+  EXPECT_EQ(
+      said[3],
+      "certified takes 10 to 20 ns a query. As a multiple of that, the others that miss nothing: "
+      "none.");
   EXPECT_EQ(said[5], "Broke its promise: msrf.");
 }
 

@@ -309,14 +309,18 @@
     return shortText(nanoseconds / size) + unit;
   }
 
+  const cellText = (figure, value) => (isTime(figure.y_label) ? shortTimeText(value) : shortText(value));
+
   /// How a cell looks: its fill, its texts from the longest to the shortest, and the colour of these.
   function markLook(point) {
     if (point.label === "") return { fill: "var(--calm)", texts: [] };
     if (point.label !== "P") {
-      return { fill: markColors[point.label], texts: [`${point.label} ${percentText(point.y)}`, point.label],
+      const long = `${point.label} ${percentText(point.y)}`;
+      return { fill: markColors[point.label], texts: [long, long.replace("%", ""), point.label],
         ink: "var(--paper)", weight: 700 };
     }
-    return { fill: shade("mild", 0.25 + 0.75 * point.y), texts: [percentText(point.y)],
+    const text = percentText(point.y);
+    return { fill: shade("mild", 0.25 + 0.75 * point.y), texts: [text, text.replace("%", "")],
       ink: point.y > 0.5 ? "var(--paper)" : "var(--ink)" };
   }
 
@@ -335,7 +339,7 @@
     if (point.y === null) return { fill: "none", frame: "var(--line)", texts: [] };
     const depth = depthOf(point.y, extent);
     return { fill: shade("number", depth), ink: depth > 0.5 ? "var(--paper)" : "var(--ink)",
-      texts: [isTime(figure.y_label) ? shortTimeText(point.y) : shortText(point.y)] };
+      texts: [cellText(figure, point.y)] };
   }
 
   const pen = document.createElement("canvas").getContext("2d");
@@ -430,7 +434,7 @@
     if (figure.form === "shades") {
       const extent = extentOf(figure);
       for (const value of extent.filter((one) => one !== undefined)) {
-        addSwatch(legend, shade("number", depthOf(value, extent)), valueText(figure.y_label, value));
+        addSwatch(legend, shade("number", depthOf(value, extent)), cellText(figure, value));
       }
       return;
     }
