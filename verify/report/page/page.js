@@ -315,8 +315,9 @@
   function markLook(point) {
     if (point.label === "") return { fill: "var(--calm)", texts: [] };
     if (point.label !== "P") {
-      const long = `${point.label} ${percentText(point.y)}`;
-      return { fill: markColors[point.label], texts: [long, long.replace("%", ""), point.label],
+      const percents = percentText(point.y).replace("%", "");
+      return { fill: markColors[point.label],
+        texts: [`${point.label} ${percents}`, point.label + percents, point.label],
         ink: "var(--paper)", weight: 700 };
     }
     const text = percentText(point.y);
