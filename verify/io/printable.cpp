@@ -170,27 +170,13 @@ std::string markdown_code_block(std::string_view text) {
 }
 
 std::string html_escaped(std::string_view text) {
+  static constexpr std::string_view marks = "&<>\"'";
+  static constexpr std::array<std::string_view, marks.size()> entities{"&amp;", "&lt;", "&gt;",
+                                                                       "&quot;", "&#39;"};
   std::string result;
   for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      case '\'':
-        result += "&#39;";
-        break;
-      default:
-        result += c;
-    }
+    const std::size_t mark = marks.find(c);
+    result += mark == std::string_view::npos ? std::string_view(&c, 1) : entities.at(mark);
   }
   return result;
 }

@@ -17,55 +17,59 @@ namespace {
 
 constexpr std::string_view certified = "certified";
 
+/// The least and the greatest of some numbers.
+struct Range {
+  double least = INFINITY;
+  double greatest = -INFINITY;
+
+  void add(double number) {
+    if (std::isnan(number)) return;
+    least = std::min(least, number);
+    greatest = std::max(greatest, number);
+  }
+  [[nodiscard]] bool is_empty() const { return least > greatest; }
+  /// "3 to 12", "3" where both ends are the same in short.
+  [[nodiscard]] std::string text() const {
+    const std::string from = short_number(least), to = short_number(greatest);
+    return from == to ? from : from + " to " + to;
+  }
+};
+
 /// A method's measurements of the field together.
 struct Sum {
   std::string method;
   std::uint64_t asked = 0;
-  std::uint64_t missed = 0;                   ///< false negatives and late times of impact
-  std::uint64_t wrong = 0;                    ///< these, and all else that is wrong
-  double shortest = INFINITY, longest = 0.0;  ///< nanoseconds a query
-  double least_ratio = INFINITY, greatest_ratio = 0.0;  ///< of the certified solver's
+  std::uint64_t missed = 0;  ///< false negatives and late times of impact
+  std::uint64_t wrong = 0;   ///< these, and all else that is wrong
+  Range nanoseconds;
+  Range ratio;  ///< of its time to the certified solver's
 };
-
-void add(Sum& sum, const Measurement& m) {
-  sum.asked += m.asked;
-  sum.missed += m.false_negatives + m.late_tois;
-  sum.wrong += m.false_negatives + m.late_tois + m.early_upper_tois + m.false_positives + m.errors;
-  if (std::isnan(m.nanoseconds)) return;
-  sum.shortest = std::min(sum.shortest, m.nanoseconds);
-  sum.longest = std::max(sum.longest, m.nanoseconds);
-  const double ratio = m.nanoseconds / m.certified_nanoseconds;
-  if (std::isnan(ratio)) return;
-  sum.least_ratio = std::min(sum.least_ratio, ratio);
-  sum.greatest_ratio = std::max(sum.greatest_ratio, ratio);
-}
 
 /// In the order of the measurements.
 std::vector<Sum> sums_of(const Measurements& measurements) {
   std::vector<Sum> sums;
   for (const Measurement* m : of_experiment(measurements, Experiment::field)) {
-    const auto found = std::ranges::find(sums, m->method, &Sum::method);
-    add(found == sums.end() ? sums.emplace_back(Sum{.method = m->method}) : *found, *m);
+    auto sum = std::ranges::find(sums, m->method, &Sum::method);
+    if (sum == sums.end()) sum = sums.insert(sum, {.method = m->method});
+    const std::uint64_t missed = m->false_negatives + m->late_tois;
+    sum->asked += m->asked;
+    sum->missed += missed;
+    sum->wrong += missed + m->early_upper_tois + m->false_positives + m->errors;
+    sum->nanoseconds.add(m->nanoseconds);
+    sum->ratio.add(m->nanoseconds / m->certified_nanoseconds);
   }
   return sums;
 }
 
-/// "a, b (3)": those that fit, each as it is said; "none" without any.
-std::string list(const std::vector<Sum>& sums, const std::function<bool(const Sum&)>& fits,
-                 const std::function<std::string(const Sum&)>& say) {
+/// What is said of each, by commas; nothing is said of those that do not belong to the list.
+template <class List, class Say>
+std::string list(const List& all, const Say& say) {
   std::string text;
-  for (const Sum& sum : sums) {
-    if (fits(sum)) text += (text.empty() ? "" : ", ") + say(sum);
+  for (const auto& one : all) {
+    const std::string said = say(one);
+    if (!said.empty()) text += (text.empty() ? "" : ", ") + said;
   }
   return text.empty() ? "none" : text;
-}
-
-std::string name_of(const Sum& sum) { return sum.method; }
-
-/// "3 to 12", "3" where both are the same in short.
-std::string range_text(double least, double greatest) {
-  const std::string from = short_number(least), to = short_number(greatest);
-  return from == to ? from : from + " to " + to;
 }
 
 std::string queries_sentence(const Measurements& measurements, std::size_t methods) {
@@ -84,57 +88,49 @@ std::string queries_sentence(const Measurements& measurements, std::size_t metho
 }
 
 std::string misses_sentence(const std::vector<Sum>& sums) {
-  const auto misses = [](const Sum& sum) { return sum.missed != 0; };
   return fmt::format("No missed collision and no time of impact after the exact one: {}. Some: {}.",
-                     list(sums, std::not_fn(misses), name_of),
-                     list(sums, misses, [](const Sum& sum) {
-                       return fmt::format("{} ({} of {})", sum.method, sum.missed, sum.asked);
+                     list(sums, [](const Sum& sum) { return sum.missed == 0 ? sum.method : ""; }),
+                     list(sums, [](const Sum& sum) {
+                       return sum.missed == 0
+                                  ? ""
+                                  : fmt::format("{} ({} of {})", sum.method, sum.missed, sum.asked);
                      }));
 }
 
 std::string right_sentence(const std::vector<Sum>& sums) {
   return fmt::format("Right on every query, with no false positive either: {}.",
-                     list(
-                         sums, [](const Sum& sum) { return sum.wrong == 0; }, name_of));
+                     list(sums, [](const Sum& sum) { return sum.wrong == 0 ? sum.method : ""; }));
 }
 
 /// Nothing without times.
 std::string time_sentence(const std::vector<Sum>& sums) {
   const auto ours = std::ranges::find(sums, certified, &Sum::method);
-  if (ours == sums.end() || ours->longest == 0.0) return {};
-  const auto is_other = [](const Sum& sum) {
-    return sum.method != certified && sum.missed == 0 && sum.greatest_ratio != 0.0;
-  };
+  if (ours == sums.end() || ours->nanoseconds.is_empty()) return {};
+  const std::string others = list(sums, [](const Sum& sum) -> std::string {
+    if (sum.method == certified || sum.missed != 0 || sum.ratio.is_empty()) return {};
+    return sum.method + " " + sum.ratio.text();
+  });
   return fmt::format(
       "{} takes {} ns a query. As a multiple of that, the others that miss nothing: {}.", certified,
-      range_text(ours->shortest, ours->longest), list(sums, is_other, [](const Sum& sum) {
-        return fmt::format("{} {}", sum.method, range_text(sum.least_ratio, sum.greatest_ratio));
-      }));
+      ours->nanoseconds.text(), others);
 }
 
 /// Nothing without fronts.
 std::string fronts_sentence(const std::vector<Figure>& figures) {
-  std::vector<std::pair<std::string, int>> on_front;
+  std::map<std::string, int> fronts;
   int panels = 0;
   for (const Figure& figure : figures) {
     if (figure.form != FigureForm::points) continue;
     for (const FigurePanel& panel : figure.panels) {
       ++panels;
-      for (const FigurePoint& point : panel.front) {
-        const auto found =
-            std::ranges::find(on_front, point.label, &std::pair<std::string, int>::first);
-        ++(found == on_front.end() ? on_front.emplace_back(point.label, 0) : *found).second;
-      }
+      for (const FigurePoint& point : panel.front) ++fronts[point.label];
     }
   }
-  if (on_front.empty()) return {};
-  std::string names;
-  for (const auto& [name, count] : on_front) {
-    names += fmt::format("{}{} in {}", names.empty() ? "" : ", ", name, count);
-  }
+  if (fronts.empty()) return {};
   return fmt::format(
       "On the Pareto front of time against error, among those that miss nothing: {} of {} panels.",
-      names, panels);
+      list(fronts, [](const auto& of) { return fmt::format("{} in {}", of.first, of.second); }),
+      panels);
 }
 
 std::string promises_sentence(const Measurements& measurements) {
