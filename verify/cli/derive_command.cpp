@@ -60,7 +60,8 @@ DeriveOptions to_options(const Arguments& arguments) {
 void add_bound(nlohmann::json& row, const std::string& name, const std::optional<double>& units,
                const filters::Format& format) {
   row[name + "_units"] = number_to_json(units);
-  row[name] = number_to_json(units ? std::optional(*units * format.unit_roundoff().get_d()) : units);
+  row[name] =
+      number_to_json(units ? std::optional(*units * format.unit_roundoff().get_d()) : units);
 }
 
 std::optional<double> to_double(const std::optional<mpq_class>& number) {

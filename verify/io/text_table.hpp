@@ -47,8 +47,7 @@ class TextTable {
 
 /// The elements of several lists as one.
 template <class Element>
-[[nodiscard]] std::vector<Element> joined(
-    std::initializer_list<std::vector<Element>> parts) {
+[[nodiscard]] std::vector<Element> joined(std::initializer_list<std::vector<Element>> parts) {
   std::vector<Element> all;
   for (const std::vector<Element>& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;

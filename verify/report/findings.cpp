@@ -41,8 +41,8 @@ struct Sum {
   std::uint64_t asked = 0;
   std::uint64_t missed = 0;  ///< false negatives and late times of impact
   std::uint64_t wrong = 0;   ///< these, and all else that is wrong
-  Range nanoseconds;
-  Range ratio;  ///< of its time to the certified solver's
+  Range nanoseconds = {};
+  Range ratio = {};  ///< of its time to the certified solver's
 };
 
 /// In the order of the measurements.

@@ -56,7 +56,7 @@ TEST(JudgementReport, NamesTwentyAnswersOfAFaultAndCountsTheOthers) {
       << text;
   EXPECT_NE(text.find(place + "119: "), std::string::npos);
   EXPECT_EQ(text.find(place + "120: "), std::string::npos);
-  EXPECT_NE(text.find("late toi: " + place + "124: answer toi_lower 0.75, truth"),
+  EXPECT_NE(text.find("late toi: " + place + "123: answer toi_lower 0.75, truth"),
             std::string::npos);
   EXPECT_TRUE(text.ends_with("\nfalse negative: a\\x0ab: group: and 2 more\n")) << text;
 }

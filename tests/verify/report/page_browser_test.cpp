@@ -175,7 +175,7 @@ std::string measured(const std::string& dom) {
 }
 
 TEST_F(Browser, DrawsTheMapOfStability) {
-  const std::string dom = load(stability_page(map_of({1e-13, 0.5}), "touchstone stability"));
+  const std::string dom = load(stability_page(map_of({1e-13, 1.5}), "touchstone stability"));
   EXPECT_EQ(complaints(), "");
   for (const std::string id : {"stability", "stability_toi_median", "stability_toi_max",
                                "stability_time", "stability_checks"}) {
@@ -188,7 +188,7 @@ TEST_F(Browser, DrawsTheMapOfStability) {
   EXPECT_EQ(count(section(dom, "stability"), ">N 100</text>"), 1U);
   EXPECT_EQ(count(section(dom, "stability"), "1 queries, 1 collisions, 1 false negatives"), 1U);
   EXPECT_EQ(count(section(dom, "stability_toi_max"), ">1e-13</text>"), 1U);
-  EXPECT_EQ(count(section(dom, "stability_toi_max"), ">0.5</text>"), 1U);
+  EXPECT_EQ(count(section(dom, "stability_toi_max"), ">1.5</text>"), 1U);
 }
 
 TEST_F(Browser, NumbersOfAnySizeFitIntoTheirCells) {
