@@ -24,7 +24,7 @@ constexpr std::string_view row_format =
 constexpr std::string_view step_row_format =
     "{:>7}  {:<9}  {:>11}  {:>10}  {:>10}  {:>13}  {:>15}\n";
 
-/// Of a group, contender and fault so many answers are printed.
+/// Of a group, solver and fault so many answers are printed.
 constexpr std::size_t most_printed = 20;
 
 /// A number, or a dash where it is unknown.
@@ -32,8 +32,8 @@ std::string number_text(double number, std::string_view format) {
   return std::isnan(number) ? "-" : fmt::format(fmt::runtime(format), number);
 }
 
-double passes(const ContenderResult& contender, const BenchResult& group) {
-  return contender.times.median() / group.memory_pass.median();
+double passes(const SolverResult& solver, const BenchResult& group) {
+  return solver.times.median() / group.memory_pass.median();
 }
 
 // ---- Text ---------------------------------------------------------------------------------------
@@ -45,16 +45,16 @@ void append_header(std::string& text, std::size_t width) {
                  "error max");
 }
 
-void append_row(std::string& text, std::size_t width, const ContenderResult& contender,
+void append_row(std::string& text, std::size_t width, const SolverResult& solver,
                 const BenchResult& group) {
-  const Judgement& judged = contender.judgement;
+  const Judgement& judged = solver.judgement;
   const auto single = [&](double SingleTimes::*time) {
-    return contender.singles ? fmt::format("{:.0f}", (*contender.singles).*time) : "-";
+    return solver.singles ? fmt::format("{:.0f}", (*solver.singles).*time) : "-";
   };
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), printable(contender.name),
-                 width, number_text(contender.times.median(), "{:.1f}"),
-                 number_text(passes(contender, group), "{:.2f}"), single(&SingleTimes::p50),
-                 single(&SingleTimes::p99), single(&SingleTimes::max), contender.queries,
+  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), printable(solver.name),
+                 width, number_text(solver.times.median(), "{:.1f}"),
+                 number_text(passes(solver, group), "{:.2f}"), single(&SingleTimes::p50),
+                 single(&SingleTimes::p99), single(&SingleTimes::max), solver.queries,
                  judged.queries, judged.count(Fault::false_negative),
                  judged.count(Fault::false_positive), judged.count(Fault::late_toi),
                  judged.count(Fault::early_toi_upper), judged.undecided, judged.count(Fault::error),
@@ -64,37 +64,37 @@ void append_row(std::string& text, std::size_t width, const ContenderResult& con
 }
 
 /// "  ended by: axis 78.12 %, …"
-void append_stages(std::string& text, const ContenderResult& contender) {
-  if (contender.stages.empty() || contender.queries == 0) return;
+void append_stages(std::string& text, const SolverResult& solver) {
+  if (solver.stages.empty() || solver.queries == 0) return;
   std::string_view separator = "  ended by: ";
-  for (const StageCount& count : contender.stages) {
+  for (const StageCount& count : solver.stages) {
     const double share =
-        100.0 * static_cast<double>(count.queries) / static_cast<double>(contender.queries);
+        100.0 * static_cast<double>(count.queries) / static_cast<double>(solver.queries);
     text += fmt::format("{}{} {:.4g} %", separator, count.stage, share);
     separator = ", ";
   }
   text += '\n';
 }
 
-void append_wrong_answers(std::string& text, const ContenderResult& contender,
+void append_wrong_answers(std::string& text, const SolverResult& solver,
                           const BenchResult& group) {
-  if (!broke_promise(contender)) return;
+  if (!broke_promise(solver)) return;
   std::array<std::uint64_t, fault_count> printed{};
-  for (std::size_t i = 0; i < contender.judgement.wrong_answers.size(); ++i) {
-    const WrongAnswer& wrong = contender.judgement.wrong_answers[i];
+  for (std::size_t i = 0; i < solver.judgement.wrong_answers.size(); ++i) {
+    const WrongAnswer& wrong = solver.judgement.wrong_answers[i];
     auto& count = printed[static_cast<std::size_t>(wrong.fault)];
-    if (!breaks(wrong.fault, contender.promise) || count == most_printed) continue;
+    if (!breaks(wrong.fault, solver.promise) || count == most_printed) continue;
     ++count;
-    const QueryPlace& place = contender.wrong_places[i];
+    const QueryPlace& place = solver.wrong_places[i];
     text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n", to_string(wrong.fault),
-                        printable(contender.name), printable(place.source), to_string(group.kind),
+                        printable(solver.name), printable(place.source), to_string(group.kind),
                         place.index, wrong.answer, wrong.truth);
   }
   for (std::size_t i = 0; i < fault_count; ++i) {
-    const std::uint64_t all = contender.judgement.faults[i];
+    const std::uint64_t all = solver.judgement.faults[i];
     if (printed[i] != most_printed || all == most_printed) continue;
     text += fmt::format("{}: {}: {}: and {} more\n", to_string(static_cast<Fault>(i)),
-                        printable(contender.name), printable(group.name), all - most_printed);
+                        printable(solver.name), printable(group.name), all - most_printed);
   }
 }
 
@@ -112,16 +112,16 @@ void append_group(std::string& text, const BenchResult& group) {
       judged_all ? "" : fmt::format(" among {} judged", group.judged),
       number_text(group.memory_pass.median(), "{:.2f}"), group.interrupted ? " (interrupted)" : "");
   std::size_t width = 6;
-  for (const ContenderResult& contender : group.contenders) {
-    width = std::max(width, printable(contender.name).size());
+  for (const SolverResult& solver : group.solvers) {
+    width = std::max(width, printable(solver.name).size());
   }
   append_header(text, width);
-  for (const ContenderResult& contender : group.contenders) {
-    append_row(text, width, contender, group);
-    append_stages(text, contender);
+  for (const SolverResult& solver : group.solvers) {
+    append_row(text, width, solver, group);
+    append_stages(text, solver);
   }
-  for (const ContenderResult& contender : group.contenders) {
-    append_wrong_answers(text, contender, group);
+  for (const SolverResult& solver : group.solvers) {
+    append_wrong_answers(text, solver, group);
   }
   text += '\n';
 }
@@ -176,8 +176,8 @@ std::string legend(const BenchReport& report) {
         "that of all threads together, which the other tables have.\n";
   }
   const auto is_sampled = [](const BenchResult& group) {
-    return std::ranges::any_of(group.contenders, [&](const ContenderResult& contender) {
-      return contender.queries < group.queries;
+    return std::ranges::any_of(group.solvers, [&](const SolverResult& solver) {
+      return solver.queries < group.queries;
     });
   };
   if (std::ranges::any_of(report.groups, is_sampled)) {
@@ -232,12 +232,12 @@ nlohmann::json json_of(const ToiErrors& errors) {
           {"max", errors.max()}};
 }
 
-nlohmann::json wrong_answers_of(const ContenderResult& contender) {
+nlohmann::json wrong_answers_of(const SolverResult& solver) {
   nlohmann::json json = nlohmann::json::array();
-  for (std::size_t i = 0; i < contender.judgement.wrong_answers.size(); ++i) {
-    const WrongAnswer& wrong = contender.judgement.wrong_answers[i];
-    json.push_back({{"source", contender.wrong_places[i].source},
-                    {"index", contender.wrong_places[i].index},
+  for (std::size_t i = 0; i < solver.judgement.wrong_answers.size(); ++i) {
+    const WrongAnswer& wrong = solver.judgement.wrong_answers[i];
+    json.push_back({{"source", solver.wrong_places[i].source},
+                    {"index", solver.wrong_places[i].index},
                     {"fault", to_string(wrong.fault)},
                     {"answer", wrong.answer},
                     {"truth", wrong.truth}});
@@ -245,15 +245,15 @@ nlohmann::json wrong_answers_of(const ContenderResult& contender) {
   return json;
 }
 
-nlohmann::json json_of(const ContenderResult& contender, const BenchResult& group) {
-  const Judgement& judged = contender.judgement;
-  return {{"name", contender.name},
-          {"promise", to_string(contender.promise)},
-          {"queries", contender.queries},
-          {"time", json_of(contender.times)},
-          {"passes", number_or_null(passes(contender, group))},
-          {"single", json_of(contender.singles)},
-          {"stages", json_of(contender.stages)},
+nlohmann::json json_of(const SolverResult& solver, const BenchResult& group) {
+  const Judgement& judged = solver.judgement;
+  return {{"name", solver.name},
+          {"promise", to_string(solver.promise)},
+          {"queries", solver.queries},
+          {"time", json_of(solver.times)},
+          {"passes", number_or_null(passes(solver, group))},
+          {"single", json_of(solver.singles)},
+          {"stages", json_of(solver.stages)},
           {"judged", judged.queries},
           {"false_negatives", judged.count(Fault::false_negative)},
           {"false_positives", judged.count(Fault::false_positive)},
@@ -262,14 +262,14 @@ nlohmann::json json_of(const ContenderResult& contender, const BenchResult& grou
           {"undecided", judged.undecided},
           {"errors", judged.count(Fault::error)},
           {"toi_error", json_of(judged.toi_errors)},
-          {"broke_promise", broke_promise(contender)},
-          {"wrong_answers", wrong_answers_of(contender)}};
+          {"broke_promise", broke_promise(solver)},
+          {"wrong_answers", wrong_answers_of(solver)}};
 }
 
 nlohmann::json json_of(const BenchResult& group) {
   nlohmann::json methods = nlohmann::json::array();
-  for (const ContenderResult& contender : group.contenders) {
-    methods.push_back(json_of(contender, group));
+  for (const SolverResult& solver : group.solvers) {
+    methods.push_back(json_of(solver, group));
   }
   nlohmann::json json{{"name", group.name},
                       {"kind", to_string(group.kind)},

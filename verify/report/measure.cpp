@@ -18,6 +18,7 @@
 #include "verify/run/bench.hpp"
 #include "verify/run/statistics.hpp"
 #include "verify/run/thread_clock.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -39,29 +40,32 @@ struct Reply {
   double nanoseconds = std::numeric_limits<double>::infinity();
 };
 
-/// A contender with the queries that it is asked.
+/// A solver with the queries that it is asked.
 struct Entry {
-  Contender* contender = nullptr;
+  std::shared_ptr<const Solver> solver;
   Separation separation = {};
   std::vector<std::size_t> positions;  ///< in the group, ascending
   std::vector<Query> queries;          ///< copies of those there
+  std::vector<fast::Answer> answers;
   std::vector<double> times;           ///< nanoseconds a query, one a repetition
   double spent = 0.0;                  ///< nanoseconds in all repetitions
 };
 
-/// Who was asked what. `Answerer` is a fast::Method or a Contender.
-template <class Answerer>
-Measurement of_question(const QueryGroup& group, Experiment experiment, const Answerer& answerer,
-                        const fast::MethodOptions& options, const Separation& separation) {
+Separation separation_of(const fast::MethodOptions& options) {
+  return {.distance = options.min_separation, .norm = options.norm};
+}
+
+/// What is asked of which method.
+Measurement of_question(const QueryGroup& group, Experiment experiment, const Setting& setting) {
   Measurement said;
   said.experiment = experiment;
   said.group = group.name();
   said.kind = group.kind();
-  said.method = answerer.name();
-  said.promise = answerer.promise();
-  said.tolerance = options.tolerance;
-  said.max_checks = options.max_checks;
-  said.separation = separation;
+  said.method = setting.method->name();
+  said.promise = setting.method->promise();
+  said.tolerance = setting.options.tolerance;
+  said.max_checks = setting.options.max_checks;
+  said.separation = separation_of(setting.options);
   said.group_queries = group.queries().size();
   return said;
 }
@@ -89,29 +93,29 @@ void set_counts(const Judgement& judgement, Measurement& said) {
 
 class Run {
  public:
-  Run(const QueryGroup& group, Truths& truths, std::span<const Subject> subjects,
-      const MakeReference& make_reference, const MeasureOptions& options)
+  Run(const QueryGroup& group, Truths& truths, std::span<const Setting> settings,
+      const fast::Method& reference, const MeasureOptions& options)
       : group_(group),
         truths_(truths),
-        subjects_(subjects),
-        make_reference_(make_reference),
+        settings_(settings),
+        reference_(solver_in_process(reference, {})),
         options_(options),
         clock_(clock_nanoseconds()) {}
 
   [[nodiscard]] std::vector<Measurement> measurements() {
-    for (const Subject& subject : subjects_) {
-      ask(subject);
-      tell(0.5 * static_cast<double>(entries_.size()) / static_cast<double>(subjects_.size()));
+    for (const Setting& setting : settings_) {
+      ask(setting);
+      tell(0.5 * static_cast<double>(entries_.size()) / static_cast<double>(settings_.size()));
     }
     if (options_.same_sample) share_samples();
-    for (std::size_t i = 0; i < subjects_.size(); ++i) decide(i);
+    for (std::size_t i = 0; i < settings_.size(); ++i) decide(i);
     add_references();
     for (std::size_t i = 0; i < options_.repetitions && !stopped(); ++i) {
       repeat(i);
       tell(0.5 + 0.4 * static_cast<double>(i + 1) / static_cast<double>(options_.repetitions));
     }
     std::vector<Measurement> result;
-    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+    for (std::size_t i = 0; i < settings_.size(); ++i) {
       if (is_complete(i)) result.push_back(report(i));
     }
     tell(1.0);
@@ -129,20 +133,19 @@ class Run {
 
   /// Asks larger and larger samples until the next one would take too long, or too long for the
   /// reference, which is timed on it too.
-  void ask(const Subject& subject) {
+  void ask(const Setting& setting) {
     Entry& entry = entries_.emplace_back();
     std::map<std::size_t, Reply>& replies = replies_.emplace_back();
-    entry.contender = subject.contender.get();
-    entry.separation = {.distance = subject.options.min_separation, .norm = subject.options.norm};
+    entry.solver = solver_in_process(*setting.method, setting.options);
+    entry.separation = separation_of(setting.options);
     const std::size_t most = std::min(options_.count, group_.queries().size());
-    const std::unique_ptr<Contender> reference = reference_at(entry.separation);
     double own = 0.0;  // seconds
     std::size_t count = std::min(first_sample, most);
     for (;;) {
       own += seconds_of([&] { sweep(entry, replies, sample(count)); });
       take(entry, count);
       const double of_reference =
-          seconds_of([&] { reference->solve(group_.kind(), entry.queries); });
+          seconds_of([&] { static_cast<void>(solve(*reference_, group_.kind(), entry)); });
       const std::size_t next = std::min(2 * count, most);
       const double pace = std::max(own, of_reference) / static_cast<double>(count);
       if (next == count || stopped() || pace * static_cast<double>(next) > options_.seconds) break;
@@ -161,11 +164,9 @@ class Run {
     return 1e-9 * (thread_nanoseconds() - start);
   }
 
-  [[nodiscard]] std::unique_ptr<Contender> reference_at(const Separation& separation) const {
-    fast::MethodOptions about;
-    about.min_separation = separation.distance;
-    about.norm = separation.norm;
-    return make_reference_(about);
+  static SolveReply solve(const Solver& solver, Kind kind, Entry& entry) {
+    return solver.solve({.kind = kind, .queries = entry.queries, .separation = entry.separation},
+                        entry.answers);
   }
 
   [[nodiscard]] std::vector<std::size_t> sample(std::size_t count) const {
@@ -178,6 +179,7 @@ class Run {
     for (const std::size_t position : entry.positions) {
       entry.queries.push_back(group_.queries()[position]);
     }
+    entry.answers.resize(count);
   }
 
   /// Gives all entries of one name the smallest of their samples.
@@ -185,10 +187,10 @@ class Run {
     std::map<std::string, std::size_t> smallest;
     for (const Entry& entry : entries_) {
       const auto [size, is_new] =
-          smallest.try_emplace(entry.contender->name(), entry.positions.size());
+          smallest.try_emplace(entry.solver->name(), entry.positions.size());
       size->second = std::min(size->second, entry.positions.size());
     }
-    for (Entry& entry : entries_) take(entry, smallest.at(entry.contender->name()));
+    for (Entry& entry : entries_) take(entry, smallest.at(entry.solver->name()));
   }
 
   void decide(std::size_t index) {
@@ -215,11 +217,12 @@ class Run {
 
   void ask_alone(const Entry& entry, std::size_t position, Reply& reply) const {
     const std::span<const Query> query(&group_.queries()[position], 1);
+    const SolveRequest request{
+        .kind = group_.kind(), .queries = query, .separation = entry.separation};
     const Clock::time_point before = Clock::now();
-    entry.contender->solve(group_.kind(), query);
+    static_cast<void>(entry.solver->solve(request, {&reply.answer, 1}));
     const double time = std::max(nanoseconds_since(before) - clock_, 0.0);
     reply.nanoseconds = std::min(reply.nanoseconds, time);
-    reply.answer = entry.contender->answer(0);
   }
 
   // ---- Timing -----------------------------------------------------------------------------------
@@ -233,12 +236,12 @@ class Run {
 
   /// The reference on each of the samples, at each of the separations.
   void add_references() {
-    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+    for (std::size_t i = 0; i < settings_.size(); ++i) {
       const ReferenceKey key = key_of(entries_[i]);
       if (reference_of_.contains(key)) continue;
       reference_of_[key] = entries_.size();
       Entry entry = entries_[i];
-      entry.contender = references_.emplace_back(reference_at(entry.separation)).get();
+      entry.solver = reference_;
       entries_.push_back(std::move(entry));
     }
   }
@@ -256,7 +259,7 @@ class Run {
     const double start = thread_nanoseconds();
     double passed = 0.0;
     do {
-      entry.contender->solve(group_.kind(), entry.queries);
+      static_cast<void>(solve(*entry.solver, group_.kind(), entry));
       ++rounds;
       passed = thread_nanoseconds() - start;
     } while (passed < least_nanoseconds);
@@ -278,13 +281,12 @@ class Run {
 
   [[nodiscard]] Measurement report(std::size_t index) const {
     const Entry& entry = entries_[index];
-    Measurement said = of_question(group_, options_.experiment, *entry.contender,
-                                   subjects_[index].options, entry.separation);
+    Measurement said = of_question(group_, options_.experiment, settings_[index]);
     said.asked = entry.positions.size();
     said.nanoseconds = median(entry.times);
     said.repetitions = entry.times.size();
     said.certified_nanoseconds = median(reference_for(entry).times);
-    for (const StageCount& stage : entry.contender->stages(group_.kind(), entry.queries)) {
+    for (const StageCount& stage : count_stages(entry.solver->info(), entry.answers)) {
       said.stages.push_back({std::string(stage.stage), stage.queries});
     }
     judge(replies_[index], known_[index], said);
@@ -310,17 +312,16 @@ class Run {
 
   const QueryGroup& group_;
   Truths& truths_;
-  std::span<const Subject> subjects_;
-  const MakeReference& make_reference_;
+  std::span<const Setting> settings_;
+  std::shared_ptr<const Solver> reference_;
   const MeasureOptions& options_;
   double clock_;
-  /// Of the subjects in their order, then the reference on each size of sample.
+  /// Of the settings in their order, then the reference on each size of sample.
   std::vector<Entry> entries_;
-  /// Of the subjects, by position.
+  /// Of the settings, by position.
   std::vector<std::map<std::size_t, Reply>> replies_;
-  /// Of the subjects; fewer than were asked if stopped.
+  /// Of the settings; fewer than were asked if stopped.
   std::vector<std::vector<Truth>> known_;
-  std::vector<std::unique_ptr<Contender>> references_;
   /// Where in entries_.
   std::map<ReferenceKey, std::size_t> reference_of_;
 };
@@ -328,28 +329,26 @@ class Run {
 }  // namespace
 
 std::vector<Measurement> measure(const QueryGroup& group, Truths& truths,
-                                 std::span<const Subject> subjects,
-                                 const MakeReference& make_reference,
+                                 std::span<const Setting> settings, const fast::Method& reference,
                                  const MeasureOptions& options) {
   if (group.queries().empty()) throw std::invalid_argument(group.name() + ": no queries");
   if (options.count == 0) throw std::invalid_argument("count must be at least 1");
   if (options.repetitions == 0) throw std::invalid_argument("repetitions must be at least 1");
   if (!(options.seconds > 0.0)) throw std::invalid_argument("seconds must be positive");
-  return Run(group, truths, subjects, make_reference, options).measurements();
+  return Run(group, truths, settings, reference, options).measurements();
 }
 
 std::optional<Measurement> judge_all(const QueryGroup& group, Truths& truths,
                                      const fast::Method& method, const fast::MethodOptions& options,
                                      Experiment experiment, const std::atomic<bool>* stop) {
-  const Separation separation{.distance = options.min_separation, .norm = options.norm};
   const std::vector<Query>& queries = group.queries();
   std::vector<std::size_t> positions(queries.size());
   std::iota(positions.begin(), positions.end(), std::size_t{0});
-  const std::vector<Truth> known = truths.of(separation, positions, stop);
+  const std::vector<Truth> known = truths.of(separation_of(options), positions, stop);
   if (known.size() < queries.size()) return std::nullopt;
   std::vector<fast::Answer> answers(queries.size());
   method.solve(group.kind(), queries, answers, options);
-  Measurement said = of_question(group, experiment, method, options, separation);
+  Measurement said = of_question(group, experiment, {.method = &method, .options = options});
   said.asked = queries.size();
   Judgement judgement;
   for (const Truth& truth : known) {

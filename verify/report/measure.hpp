@@ -22,7 +22,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,18 +30,14 @@
 #include "verify/data/query_group.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measurement.hpp"
-#include "verify/solvers/contender.hpp"
 
 namespace touchstone::verify {
 
-/// Who is measured, and under which options it answers: the truth is about their separation.
-struct Subject {
-  std::unique_ptr<Contender> contender;
+/// A method under some options. The truth is about their separation.
+struct Setting {
+  const fast::Method* method = nullptr;  ///< not null
   fast::MethodOptions options;
 };
-
-/// Makes the reference that answers under these options.
-using MakeReference = std::function<std::unique_ptr<Contender>(const fast::MethodOptions&)>;
 
 struct MeasureOptions {
   Experiment experiment = Experiment::field;
@@ -53,7 +48,7 @@ struct MeasureOptions {
   double seconds = 1.0;
   /// Times are medians of so many, of fewer where one takes longer than `seconds`; at least 1.
   std::size_t repetitions = 5;
-  /// Subjects of one name are asked the same queries.
+  /// Settings of one method are asked the same queries.
   bool same_sample = false;
   /// Called now and then with the fraction that is done.
   std::function<void(double)> on_progress = nullptr;
@@ -61,14 +56,13 @@ struct MeasureOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Measures the subjects on the group of `truths`, in their order. Once stopped, those are left out that
+/// Measures the settings on the group of `truths`, in their order. Once stopped, those are left out that
 /// have no time, no reference or no truth yet.
-/// \param make_reference whose time stands in Measurement::certified_nanoseconds
-/// \throws std::invalid_argument for options out of range or an empty group, and whatever a
-/// contender throws.
+/// \param reference the method whose time stands in Measurement::certified_nanoseconds
+/// \throws std::invalid_argument for options out of range or an empty group.
 [[nodiscard]] std::vector<Measurement> measure(const QueryGroup& group, Truths& truths,
-                                               std::span<const Subject> subjects,
-                                               const MakeReference& make_reference,
+                                               std::span<const Setting> settings,
+                                               const fast::Method& reference,
                                                const MeasureOptions& options);
 
 /// Judges the answers of a method to all queries of the group of `truths`; nothing is timed. No result

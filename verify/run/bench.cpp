@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Shorter work is done several times at once, so that the clock does not show.
 constexpr double least_nanoseconds = 2e6;
-/// The first guess at a contender's pace is made on so many queries, the next on at most so many
+/// The first guess at a solver's pace is made on so many queries, the next on at most so many
 /// times as many.
 constexpr std::size_t first_guess = 16;
 constexpr double most_growth = 64.0;
@@ -48,30 +48,23 @@ double time_of(std::size_t rounds, const Work& work) {
   return (thread_nanoseconds() - start) / static_cast<double>(rounds);
 }
 
-/// Processor time of a contender on these queries, as the mean of so many rounds.
-double time_of(std::size_t rounds, Contender& contender, Kind kind,
-               std::span<const Query> queries) {
-  double elsewhere = 0.0;
-  const double here = time_of(rounds, [&] {
-    contender.solve(kind, queries);
-    elsewhere += contender.nanoseconds_elsewhere().value_or(0.0);
-  });
-  const bool is_elsewhere = contender.nanoseconds_elsewhere().has_value();
-  return is_elsewhere ? elsewhere / static_cast<double>(rounds) : here;
-}
-
 std::size_t rounds_for(double nanoseconds) {
   return static_cast<std::size_t>(std::clamp(least_nanoseconds / nanoseconds, 1.0, 1e6));
 }
 
-/// A contender with the queries that it is timed on.
+/// A solver with the queries that it is timed on.
 struct Entry {
-  Contender* contender = nullptr;
+  const Solver* solver = nullptr;
   /// Positions in the group, ascending; empty for all of it.
   std::vector<std::size_t> positions;
   /// Copies of the queries there.
   std::vector<Query> sample;
   std::span<const Query> queries;
+  std::vector<fast::Answer> answers;
+  /// Of the latest call.
+  SolveReply reply;
+  /// Of all calls.
+  std::uint64_t unplaced_crashes = 0;
   std::size_t rounds = 1;
   Times times;
 
@@ -103,19 +96,19 @@ class Steps {
 /// One run, a method for each part of it.
 class Run {
  public:
-  Run(const QueryGroup& group, std::span<const std::unique_ptr<Contender>> contenders,
+  Run(const QueryGroup& group, std::span<const Solver* const> solvers,
       const BenchOptions& options)
       : group_(group),
         queries_(group.queries()),
         options_(options),
-        entries_(contenders.size()),
-        steps_((options.repetitions + 3) * contenders.size() + options.repetitions,
+        entries_(solvers.size()),
+        steps_((options.repetitions + 3) * solvers.size() + options.repetitions,
                options.on_progress) {
     result_.name = group.name();
     result_.kind = group.kind();
     result_.separation = options.separation;
     result_.queries = queries_.size();
-    for (std::size_t i = 0; i < contenders.size(); ++i) entries_[i].contender = contenders[i].get();
+    for (std::size_t i = 0; i < solvers.size(); ++i) entries_[i].solver = solvers[i];
   }
 
   [[nodiscard]] BenchResult result() {
@@ -138,16 +131,31 @@ class Run {
     entry.positions.clear();
     entry.sample.clear();
     entry.queries = queries_;
-    if (count >= queries_.size()) return;
-    entry.positions = spread_sample(queries_.size(), count);
-    for (const std::size_t position : entry.positions) entry.sample.push_back(queries_[position]);
-    entry.queries = entry.sample;
+    if (count < queries_.size()) {
+      entry.positions = spread_sample(queries_.size(), count);
+      for (const std::size_t position : entry.positions) entry.sample.push_back(queries_[position]);
+      entry.queries = entry.sample;
+    }
+    entry.answers.resize(entry.queries.size());
+  }
+
+  /// Processor time of a solver on its queries, as the mean of so many rounds.
+  double time_solver(Entry& entry, std::size_t rounds) const {
+    const SolveRequest request{
+        .kind = group_.kind(), .queries = entry.queries, .separation = options_.separation};
+    double own = 0.0;
+    const double here = time_of(rounds, [&] {
+      entry.reply = entry.solver->solve(request, entry.answers);
+      entry.unplaced_crashes += entry.reply.unplaced_crashes;
+      own += entry.reply.time.value_or(SolverTime{}).processor_nanoseconds;
+    });
+    return entry.reply.time ? own / static_cast<double>(rounds) : here;
   }
 
   /// Solves larger and larger samples until one takes about as long as it may, or all are in it.
   /// The pace varies from query to query, so a small sample says little.
   void choose_queries(Entry& entry) const {
-    std::size_t count = entry.contender->only_as_a_whole() ? queries_.size() : first_guess;
+    std::size_t count = entry.solver->only_as_a_whole() ? queries_.size() : first_guess;
     for (;;) {
       take(entry, count);
       double growth = possible_growth(entry);
@@ -162,9 +170,9 @@ class Run {
   /// How many times as many queries would take as long as they may, by the pace of these.
   [[nodiscard]] double possible_growth(Entry& entry) const {
     const Clock::time_point start = Clock::now();
-    double time = time_of(1, *entry.contender, group_.kind(), entry.queries);
+    double time = time_solver(entry, 1);
     // A child process may sleep.
-    if (entry.contender->nanoseconds_elsewhere()) time = std::max(time, nanoseconds_since(start));
+    if (entry.reply.time) time = std::max(time, nanoseconds_since(start));
     entry.rounds = rounds_for(time);
     return std::min(0.9 * 1e9 * options_.seconds / time, most_growth);
   }
@@ -194,29 +202,29 @@ class Run {
   }
 
   void time(Entry& entry) const {
-    const double time = time_of(entry.rounds, *entry.contender, group_.kind(), entry.queries);
+    const double time = time_solver(entry, entry.rounds);
     entry.times.repetitions.push_back(time / static_cast<double>(entry.queries.size()));
   }
 
   void report() {
     for (Entry& entry : entries_) {
-      ContenderResult& said = result_.contenders.emplace_back();
-      said.name = entry.contender->name();
-      said.promise = entry.contender->promise();
+      SolverResult& said = result_.solvers.emplace_back();
+      said.name = entry.solver->name();
+      said.promise = entry.solver->promise();
       said.queries = entry.queries.size();
       said.times = entry.times;
-      if (!stopped()) said.stages = entry.contender->stages(group_.kind(), entry.queries);
+      if (!stopped()) said.stages = count_stages(entry.solver->info(), entry.answers);
     }
   }
 
   // ---- Judging ----------------------------------------------------------------------------------
 
-  /// Those that some contender does not say no to, at most as many as are judged of a sample.
+  /// Queries that any solver does not answer no, at most as many as are judged of a sample.
   [[nodiscard]] std::vector<std::size_t> called_collisions() const {
     std::vector<bool> is_called(queries_.size());
     for (const Entry& entry : entries_) {
       for (std::size_t i = 0; i < entry.queries.size(); ++i) {
-        if (entry.contender->answer(i).verdict == fast::Verdict::no) continue;
+        if (entry.answers[i].verdict == fast::Verdict::no) continue;
         is_called[entry.position(i)] = true;
       }
     }
@@ -271,19 +279,22 @@ class Run {
     result_.judged = truths.size();
     result_.collisions = static_cast<std::size_t>(std::ranges::count_if(truths, &Truth::collides));
     for (std::size_t i = 0; i < entries_.size(); ++i) {
-      judge(entries_[i], truths, result_.contenders[i]);
+      judge(entries_[i], truths, result_.solvers[i]);
     }
   }
 
-  void judge(const Entry& entry, const std::vector<Truth>& truths, ContenderResult& said) const {
+  void judge(const Entry& entry, const std::vector<Truth>& truths, SolverResult& said) const {
+    auto failure = entry.reply.failures.begin();
     std::size_t i = 0;
     for (const Truth& truth : truths) {
       while (i < entry.queries.size() && entry.position(i) < truth.index) ++i;
       if (i == entry.queries.size()) break;
       if (entry.position(i) != truth.index) continue;
-      said.judgement.add(truth, entry.contender->answer(i), entry.contender->failure(i));
+      while (failure != entry.reply.failures.end() && failure->position < i) ++failure;
+      const bool has_failed = failure != entry.reply.failures.end() && failure->position == i;
+      said.judgement.add(truth, entry.answers[i], has_failed ? &failure->failure : nullptr);
     }
-    said.judgement.add_unplaced_crashes(entry.contender->unplaced_crashes());
+    said.judgement.add_unplaced_crashes(entry.unplaced_crashes);
     for (const WrongAnswer& wrong : said.judgement.wrong_answers) {
       said.wrong_places.push_back(group_.place_of(wrong.index));
     }
@@ -295,8 +306,8 @@ class Run {
     const double clock = clock_nanoseconds();
     for (std::size_t i = 0; i < entries_.size(); ++i) {
       if (stopped()) return;
-      if (!entries_[i].contender->only_as_a_whole()) {
-        result_.contenders[i].singles = singles_of(entries_[i], clock);
+      if (!entries_[i].solver->only_as_a_whole()) {
+        result_.solvers[i].singles = singles_of(entries_[i], clock);
       }
       steps_.next();
     }
@@ -307,13 +318,17 @@ class Run {
     if (chosen.empty()) return std::nullopt;
     std::vector<double> times(chosen.size(), std::numeric_limits<double>::infinity());
     const Clock::time_point start = Clock::now();
+    fast::Answer answer;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const auto query = entry.queries.subspan(chosen[i], 1);
+        const SolveRequest request{.kind = group_.kind(),
+                                   .queries = entry.queries.subspan(chosen[i], 1),
+                                   .separation = options_.separation};
         const Clock::time_point before = Clock::now();
-        entry.contender->solve(group_.kind(), query);
-        times[i] = std::min(
-            times[i], entry.contender->nanoseconds_elsewhere().value_or(nanoseconds_since(before)));
+        const SolveReply reply = entry.solver->solve(request, {&answer, 1});
+        const double here = nanoseconds_since(before);
+        times[i] =
+            std::min(times[i], reply.time ? reply.time.value().processor_nanoseconds : here);
         if (stopped()) return std::nullopt;
       }
       if (nanoseconds_since(start) > 1e9 * options_.seconds) break;
@@ -342,13 +357,13 @@ double Times::median() const { return verify::median(repetitions); }
 
 double Times::min() const { return quantile(repetitions, 0.0); }
 
-bool broke_promise(const ContenderResult& result) {
+bool broke_promise(const SolverResult& result) {
   return result.promise != fast::Promise::none && !keeps(result.judgement, result.promise);
 }
 
 bool any_broke_promise(std::span<const BenchResult> results) {
   return std::ranges::any_of(results, [](const BenchResult& result) {
-    return std::ranges::any_of(result.contenders, broke_promise);
+    return std::ranges::any_of(result.solvers, broke_promise);
   });
 }
 
@@ -364,12 +379,12 @@ double clock_nanoseconds() {
   return median(times);
 }
 
-BenchResult bench(const QueryGroup& group, std::span<const std::unique_ptr<Contender>> contenders,
+BenchResult bench(const QueryGroup& group, std::span<const Solver* const> solvers,
                   const BenchOptions& options) {
   if (group.queries().empty()) throw std::invalid_argument(group.name() + ": no queries");
   if (options.repetitions == 0) throw std::invalid_argument("repetitions must be at least 1");
   if (!(options.seconds > 0.0)) throw std::invalid_argument("seconds must be positive");
-  return Run(group, contenders, options).result();
+  return Run(group, solvers, options).result();
 }
 
 }  // namespace touchstone::verify
