@@ -99,8 +99,7 @@ SolverProcessOptions SolverArguments::process() const {
   return {.query_limit_seconds = query_limit, .stop = &interrupted(), .limits = limits()};
 }
 
-void settle_solver_options(const CLI::App& command, bool built_in_set,
-                           SolverArguments& arguments) {
+void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArguments& arguments) {
   const auto is_given = [&](const std::string& name) {
     const CLI::Option* option = command.get_option_no_throw(name);
     return option != nullptr && option->count() != 0;
@@ -160,8 +159,7 @@ Solvers::Solvers(const SolverArguments& arguments, MethodHost host) {
   }
 }
 
-const fast::Method& Solvers::method_named(std::string_view name,
-                                          const SolverArguments& arguments) {
+const fast::Method& Solvers::method_named(std::string_view name, const SolverArguments& arguments) {
   const fast::Method& method = find_method(name);
   if (arguments.kernel == nullptr || name != fast::certified_info().name) return method;
   methods_.push_back(fast::certified_method({.kernel = arguments.kernel}));

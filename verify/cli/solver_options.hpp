@@ -59,8 +59,7 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments);
 /// To be called on the arguments of a parsed command line: on the built-in set, which is made of the
 /// hardest queries, methods take fewer steps unless --max-checks says how many.
 /// \throws std::invalid_argument if an option of solvers is given and no solver is asked.
-void settle_solver_options(const CLI::App& command, bool built_in_set,
-                           SolverArguments& arguments);
+void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArguments& arguments);
 
 /// Prints on standard error what a solver printed if that is asked for, line by line behind its name,
 /// printable (verify/io/printable.hpp); else how to see it. Nothing if it printed nothing.

@@ -240,8 +240,8 @@ class Run {
     answers_.assign(block_.queries.size(), Answer{});
     const double asked = seconds();
     // A block of a slow method may take minutes.
-    const SolverRun run =
-        solver_.solve(block_.kind, block_.queries, answers_, method_options_, solver_deadline(end_));
+    const SolverRun run = solver_.solve(block_.kind, block_.queries, answers_, method_options_,
+                                        solver_deadline(end_));
     result_.method_seconds += seconds() - asked;
     result_.unplaced_crashes += run.unplaced_crashes;
     if (end_.is_over() || is_stopped()) result_.unanswered = block_.queries.size() - run.answered;

@@ -33,7 +33,7 @@ std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& 
 
 /// Of a yes to what does not collide; what collides is near enough for any claim.
 std::optional<Accusation> accuse_tolerance(Kind kind, const Query& query, const Answer& answer,
-                                       const Standard& standard) {
+                                           const Standard& standard) {
   const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
   if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
   return Accusation{FindingKind::beyond_tolerance,

@@ -55,8 +55,7 @@ Separation tight_inclusion_distance(Kind kind, const Query& query, const fast::A
   // the released one: so what a yes with the released filter claims follows from it.
   if (model == fast::ErrorModel::released) model = fast::ErrorModel::published;
   const double filter = std::ranges::max(fast::error_filter(kind, x_max, separation, model));
-  return {.distance = up(up(up(answer.tolerance) + separation) + 2.0 * filter),
-          .norm = Norm::linf};
+  return {.distance = up(up(up(answer.tolerance) + separation) + 2.0 * filter), .norm = Norm::linf};
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ void append_row(std::string& text, std::size_t width, const SolverResult& solver
   const auto single = [&](double SingleTimes::*time) {
     return solver.singles ? fmt::format("{:.0f}", (*solver.singles).*time) : "-";
   };
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), printable(solver.name),
-                 width, number_text(solver.times.median(), "{:.1f}"),
+  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), printable(solver.name), width,
+                 number_text(solver.times.median(), "{:.1f}"),
                  number_text(passes(solver, group), "{:.2f}"), single(&SingleTimes::p50),
                  single(&SingleTimes::p99), single(&SingleTimes::max), solver.queries,
                  judged.queries, judged.count(Fault::false_negative),
@@ -76,8 +76,7 @@ void append_stages(std::string& text, const SolverResult& solver) {
   text += '\n';
 }
 
-void append_wrong_answers(std::string& text, const SolverResult& solver,
-                          const BenchResult& group) {
+void append_wrong_answers(std::string& text, const SolverResult& solver, const BenchResult& group) {
   if (!broke_promise(solver)) return;
   std::array<std::uint64_t, fault_count> printed{};
   for (std::size_t i = 0; i < solver.judgement.wrong_answers.size(); ++i) {
@@ -176,9 +175,8 @@ std::string legend(const BenchReport& report) {
         "that of all threads together, which the other tables have.\n";
   }
   const auto is_sampled = [](const BenchResult& group) {
-    return std::ranges::any_of(group.solvers, [&](const SolverResult& solver) {
-      return solver.queries < group.queries;
-    });
+    return std::ranges::any_of(
+        group.solvers, [&](const SolverResult& solver) { return solver.queries < group.queries; });
   };
   if (std::ranges::any_of(report.groups, is_sampled)) {
     text += fmt::format(

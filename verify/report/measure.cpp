@@ -47,8 +47,8 @@ struct Entry {
   std::vector<std::size_t> positions;  ///< in the group, ascending
   std::vector<Query> queries;          ///< copies of those there
   std::vector<fast::Answer> answers;
-  std::vector<double> times;           ///< nanoseconds a query, one a repetition
-  double spent = 0.0;                  ///< nanoseconds in all repetitions
+  std::vector<double> times;  ///< nanoseconds a query, one a repetition
+  double spent = 0.0;         ///< nanoseconds in all repetitions
 };
 
 Separation separation_of(const fast::MethodOptions& options) {

@@ -96,8 +96,7 @@ class Steps {
 /// One run, a method for each part of it.
 class Run {
  public:
-  Run(const QueryGroup& group, std::span<const Solver* const> solvers,
-      const BenchOptions& options)
+  Run(const QueryGroup& group, std::span<const Solver* const> solvers, const BenchOptions& options)
       : group_(group),
         queries_(group.queries()),
         options_(options),
@@ -327,8 +326,7 @@ class Run {
         const Clock::time_point before = Clock::now();
         const SolveReply reply = entry.solver->solve(request, {&answer, 1});
         const double here = nanoseconds_since(before);
-        times[i] =
-            std::min(times[i], reply.time ? reply.time.value().processor_nanoseconds : here);
+        times[i] = std::min(times[i], reply.time ? reply.time.value().processor_nanoseconds : here);
         if (stopped()) return std::nullopt;
       }
       if (nanoseconds_since(start) > 1e9 * options_.seconds) break;

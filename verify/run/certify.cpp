@@ -233,8 +233,8 @@ class BlockJudgement {
       }
     }
     judgement.add_unplaced_crashes(part.reply.unplaced_crashes);
-    judgement.nanoseconds += part.reply.time.value().processor_nanoseconds * static_cast<double>(last - first) /
-                             static_cast<double>(part.count);
+    judgement.nanoseconds += part.reply.time.value().processor_nanoseconds *
+                             static_cast<double>(last - first) / static_cast<double>(part.count);
   }
 
   /// A yes to what never comes as near as that claims. What collides is near enough for any claim.
@@ -244,8 +244,8 @@ class BlockJudgement {
       return false;
     }
     const Query& query = block_.queries[i];
-    const Separation claimed = claimed_distance(solver.info().filter, block_.kind, query, answer,
-                                                options_.separation);
+    const Separation claimed =
+        claimed_distance(solver.info().filter, block_.kind, query, answer, options_.separation);
     return is_valid(claimed) && !exact::decide(block_.kind, query, claimed).collides();
   }
 

@@ -116,8 +116,8 @@ class InChildren final : public Solver {
 
  private:
   /// A query by its bits.
-  using QueryBits = std::pair<Kind, std::array<std::uint64_t, std::tuple_size_v<
-                                        decltype(Query::coordinates)>>>;
+  using QueryBits =
+      std::pair<Kind, std::array<std::uint64_t, std::tuple_size_v<decltype(Query::coordinates)>>>;
 
   static QueryBits bits_of(Kind kind, const Query& query) {
     return {kind, std::bit_cast<QueryBits::second_type>(query.coordinates)};
@@ -128,9 +128,9 @@ class InChildren final : public Solver {
            std::size_t first, std::size_t last, SolveReply& reply) const {
     if (reply.stopped) return;
     SolverTime& time = reply.time.value();
-    SolverRun run = process.solve(request.kind, request.queries.subspan(first, last - first),
-                                  answers.subspan(first, last - first),
-                                  with_separation(options_, request));
+    SolverRun run =
+        process.solve(request.kind, request.queries.subspan(first, last - first),
+                      answers.subspan(first, last - first), with_separation(options_, request));
     time.processor_nanoseconds += 1e9 * run.processor_seconds;
     time.wall_seconds += run.wall_seconds;
     reply.unplaced_crashes += run.unplaced_crashes;
@@ -289,9 +289,7 @@ class CertifiedPairs final : public Solver {
 
 }  // namespace
 
-Solver::Solver(const fast::MethodInfo& info) : name_(info.name), info_(info) {
-  info_.name = name_;
-}
+Solver::Solver(const fast::MethodInfo& info) : name_(info.name), info_(info) { info_.name = name_; }
 
 void Solver::rename(std::string name) {
   name_ = std::move(name);

@@ -23,8 +23,7 @@ double opaque(double x) {
 
 Answer solve(Answer (*function)(Kind, const Query&, const MethodOptions&), const Query& query,
              const MethodOptions& options = {}) {
-  const auto method =
-      baseline_method({.name = "some", .promise = Promise::none, .answer = function});
+  const auto method = baseline_method({.name = "some"}, function);
   Answer answer;
   method->solve(Kind::vertex_face, {&query, 1}, {&answer, 1}, options);
   return answer;
@@ -46,7 +45,7 @@ Answer yes_if_rounding_to_nearest(Kind, const Query&, const MethodOptions&) {
 
 TEST(BaselineMethod, AnswersWithItsFunction) {
   const auto method =
-      baseline_method({.name = "some", .promise = Promise::conservative, .answer = always_no});
+      baseline_method({.name = "some", .promise = Promise::conservative}, always_no);
   EXPECT_EQ(method->name(), "some");
   EXPECT_EQ(method->promise(), Promise::conservative);
   EXPECT_EQ(solve(always_no, Query{}).verdict, Verdict::no);
