@@ -41,7 +41,6 @@ namespace fs = std::filesystem;
 using Progress = std::function<void(double)>;
 
 constexpr std::string_view best_kernel = "best";
-constexpr unsigned most_threads = 1024;
 
 struct Arguments {
   SourceArguments sources;
@@ -144,12 +143,12 @@ class BenchRun {
     for (const Kind kind : chosen_kinds()) bench_candidates(mesh, kind);
     if (stopped()) return;
     ProgressBar bar("bench " + mesh.name);
-    report_.step = bench_step(
-        mesh, {.repetitions = report_.options.repetitions,
-               .threads = static_cast<int>(std::min(arguments_.sources.threads, most_threads)),
-               .certified = certified_,
-               .on_progress = [&bar](double fraction) { bar.update(fraction); },
-               .stop = &interrupted()});
+    report_.step =
+        bench_step(mesh, {.repetitions = report_.options.repetitions,
+                          .threads = arguments_.sources.threads,
+                          .certified = certified_,
+                          .on_progress = [&bar](double fraction) { bar.update(fraction); },
+                          .stop = &interrupted()});
   }
 
   /// The queries below a path, of one kind at a time: both may not fit into memory.

@@ -3,15 +3,10 @@
 /// \file
 /// Measures methods on one group of queries, side by side.
 ///
-/// **Sample.** Every method is asked an evenly spread sample of the group, which grows until the next
-/// one would take more than MeasureOptions::seconds, or take the reference so long, or all that may be
-/// asked are in it. Smaller samples are part of larger ones. Nothing is said of queries that were not
-/// asked.
-///
-/// **Time.** Each query alone, by the wall clock, for the histograms (the shortest of up to three
-/// calls). Then the whole sample in one call, by the thread's processor time; the repetitions of all
-/// methods are interleaved, each beginning with another one. A reference runs on each of the samples
-/// too, so that ratios compare the same queries.
+/// **Sample and time.** As in verify/run/timing.hpp. A sample grows until it would take the method, or
+/// the reference, more than MeasureOptions::seconds. Nothing is said of queries that were not asked.
+/// Each query is also timed alone, for the histograms. The reference runs on each of the samples too, so
+/// that ratios compare the same queries.
 ///
 /// Where settings of a method are compared (MeasureOptions::same_sample), all of them are asked the
 /// smallest of their samples.

@@ -3,12 +3,10 @@
 /// \file
 /// Speed and error of solvers on one group of queries, in one run.
 ///
-/// **Speed.** Each repetition times every solver once and, among them, a pass that only reads the
-/// queries: the physical limit. The repetitions begin with another one each time, so that no solver
-/// always runs behind the same other one, and what counts is the median of the repetitions. All run
-/// in the calling thread, or in a child process that it waits for, and time is processor time there.
-/// A solver that would take longer than BenchOptions::seconds for all queries is timed on an evenly
-/// spread sample. Afterwards single queries are timed, one call each.
+/// **Speed.** As in timing.hpp. Each repetition times every solver once and, among them, a pass that
+/// only reads the queries: the physical limit. What counts is the median of the repetitions. A solver
+/// that would take longer than BenchOptions::seconds for all queries is timed on a sample. Afterwards
+/// single queries are timed.
 ///
 /// **Error.** Queries are decided by the oracle and the answers to them judged. Of large groups not
 /// all queries are: an evenly spread sample, and those that any solver calls a collision (or is
@@ -28,6 +26,7 @@
 #include "fast/method.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/judge/judge.hpp"
+#include "verify/run/timing.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify {
@@ -50,15 +49,6 @@ struct BenchOptions {
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further work is begun and the result is what is known by then.
   const std::atomic<bool>* stop = nullptr;
-};
-
-/// Nanoseconds a query, one number for each repetition.
-struct Times {
-  std::vector<double> repetitions;
-
-  /// NaN if there was no repetition; the same below.
-  [[nodiscard]] double median() const;
-  [[nodiscard]] double min() const;
 };
 
 /// Nanoseconds that single queries take, one call each, without what the clock itself takes. Each is
@@ -108,15 +98,6 @@ struct BenchResult {
 
 /// Does any? See broke_promise.
 [[nodiscard]] bool any_broke_promise(std::span<const BenchResult> results);
-
-/// What a repetition times, in this order: 0 is the memory pass, i the solver i−1. A rotation of
-/// 0, …, `items`−1.
-[[nodiscard]] std::vector<std::size_t> order_of_repetition(std::size_t items,
-                                                           std::size_t repetition);
-
-/// Nanoseconds between two readings of the clock that single queries are timed with, the median of
-/// many: what is subtracted from their times.
-[[nodiscard]] double clock_nanoseconds();
 
 /// Times and judges the solvers on the group.
 /// \throws std::invalid_argument for options out of range or an empty group, and whatever a solver

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -72,12 +73,25 @@ std::vector<std::string> default_methods() {
   return names;
 }
 
+namespace {
+
+Methods::const_iterator find(std::string_view name) {
+  return std::ranges::find_if(methods(),
+                              [&](const auto& method) { return method->name() == name; });
+}
+
+}  // namespace
+
 const fast::Method& find_method(std::string_view name) {
-  for (const auto& method : methods()) {
-    if (method->name() == name) return *method;
-  }
+  const auto found = find(name);
+  if (found != methods().end()) return **found;
   throw std::invalid_argument(
       fmt::format("no method is called {} (there are: {})", name, method_names()));
+}
+
+const fast::MethodInfo* find_info(std::string_view name) {
+  const auto found = find(name);
+  return found == methods().end() ? nullptr : &(*found)->info();
 }
 
 std::string_view to_string(fast::Promise promise) {

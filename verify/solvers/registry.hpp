@@ -28,6 +28,9 @@ namespace touchstone::verify {
 /// \throws std::invalid_argument, with the names there are, if there is none.
 [[nodiscard]] const fast::Method& find_method(std::string_view name);
 
+/// The description of the method of that name; null if there is none.
+[[nodiscard]] const fast::MethodInfo* find_info(std::string_view name);
+
 /// "none", "conservative" or "exact".
 [[nodiscard]] std::string_view to_string(fast::Promise promise);
 

@@ -258,14 +258,6 @@ class Burner final : public Solver {
   Log& log_;
 };
 
-TEST(Bench, RotatesTheOrderOfTheRepetitions) {
-  using Order = std::vector<std::size_t>;
-  EXPECT_EQ(order_of_repetition(3, 0), (Order{0, 1, 2}));
-  EXPECT_EQ(order_of_repetition(3, 1), (Order{1, 2, 0}));
-  EXPECT_EQ(order_of_repetition(3, 2), (Order{2, 0, 1}));
-  EXPECT_EQ(order_of_repetition(3, 3), (Order{0, 1, 2}));
-}
-
 TEST(Bench, InterleavesTheSolvers) {
   Burner::Log log;
   Field field;
@@ -303,13 +295,6 @@ TEST(Bench, TimesAreThoseOfTheSolver) {
   EXPECT_LE(burner.singles->p99, burner.singles->max);
   EXPECT_GT(result.memory_pass.median(), 0.0);
   EXPECT_LT(result.memory_pass.median(), 20'000.0);
-}
-
-TEST(Bench, MedianAndMinimumAreThoseOfTheRepetitions) {
-  const Times times{.repetitions = {3.0, 1.0, 8.0}};
-  EXPECT_EQ(times.median(), 3.0);
-  EXPECT_EQ(times.min(), 1.0);
-  EXPECT_TRUE(std::isnan(Times{}.median()));
 }
 
 TEST(Bench, SlowSolversAreTimedOnASpreadSample) {
@@ -352,11 +337,6 @@ TEST(Bench, WhatCanOnlyBeAskedAsAWholeIs) {
   EXPECT_EQ(log, (Burner::Log{{"whole", 1000}, {"whole", 1000}, {"whole", 1000}}));
   EXPECT_EQ(result.solvers[0].queries, 1000U);
   EXPECT_FALSE(result.solvers[0].singles);
-}
-
-TEST(Bench, TheClockTakesItsTime) {
-  EXPECT_GE(clock_nanoseconds(), 0.0);
-  EXPECT_LT(clock_nanoseconds(), 1e5);
 }
 
 // ---- The run ------------------------------------------------------------------------------------

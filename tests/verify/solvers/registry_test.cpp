@@ -26,11 +26,13 @@ TEST(Registry, NamesAreUniqueAndFound) {
         << method->name();
     EXPECT_NE(method->name(), "none") << "what the command line calls no method";
     EXPECT_EQ(&find_method(method->name()), method.get());
+    EXPECT_EQ(find_info(method->name()), &method->info());
   }
   EXPECT_TRUE(names.contains("tight_inclusion"));
 }
 
 TEST(Registry, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
+  EXPECT_EQ(find_info("nonsense"), nullptr);
   try {
     static_cast<void>(find_method("nonsense"));
     FAIL();
