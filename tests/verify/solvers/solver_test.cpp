@@ -247,9 +247,9 @@ TEST(Solver, GivesItsOptionsToTheMethodButTheSeparationOfTheRequest) {
     }
     void solve(Kind, std::span<const Query>, std::span<Answer> answers,
                const fast::MethodOptions& options) const override {
-      answers[0] = {.toi_lower = options.min_separation,
-                    .toi_upper = static_cast<double>(options.norm),
-                    .tolerance = options.tolerance};
+      std::ranges::fill(answers, Answer{.toi_lower = options.min_separation,
+                                        .toi_upper = static_cast<double>(options.norm),
+                                        .tolerance = options.tolerance});
     }
   };
   const OptionsMethod method;
