@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -216,75 +217,50 @@ class Recorded final : public Solver {
 
 // ---- The certified solver by its own interfaces -------------------------------------------------
 
-/// Times the finding of collisions alone; writing the answers is not part of the interface. One answer
-/// is written faster than the thread's clock is read.
-template <class Find>
-SolveReply answer_collisions(const Find& find, std::span<fast::Answer> answers) {
-  std::vector<fast::Collision> collisions;
-  SolveReply reply;
-  if (answers.size() == 1) {
-    collisions = find();
-  } else {
-    reply.time = time_of([&] { collisions = find(); });
-  }
-  std::ranges::fill(answers, fast::Answer{.verdict = fast::Verdict::no});
-  for (const auto& [candidate, result] : collisions) {
-    answers[candidate] = {.verdict = result.verdict,
-                          .toi_lower = result.toi_lower,
-                          .toi_upper = result.toi_upper,
-                          .tolerance = fast::Answer::none};
-  }
-  return reply;
-}
-
-fast::CertifiedOptions in_one_thread(fast::CertifiedOptions options, const SolveRequest& request) {
-  options.max_threads = 1;
-  options.separation = request.separation;
-  return options;
-}
-
-class CertifiedQueries final : public Solver {
+class Collisions final : public Solver {
  public:
-  explicit CertifiedQueries(const fast::CertifiedOptions& options)
-      : Solver(fast::MethodInfo{.name = "certified_queries", .promise = fast::Promise::exact}),
-        options_(options) {}
+  using Find = std::function<std::vector<fast::Collision>(const SolveRequest&,
+                                                          const fast::CertifiedOptions&)>;
 
+  Collisions(std::string_view name, bool only_as_a_whole, const fast::CertifiedOptions& options,
+             Find find)
+      : Solver(fast::MethodInfo{.name = name, .promise = fast::Promise::exact}),
+        only_as_a_whole_(only_as_a_whole),
+        options_(options),
+        find_(std::move(find)) {
+    options_.max_threads = 1;
+  }
+
+  [[nodiscard]] bool only_as_a_whole() const override { return only_as_a_whole_; }
+
+  /// Times the finding of collisions alone; writing the answers is not part of the interface. One
+  /// answer is written faster than the thread's clock is read.
   [[nodiscard]] SolveReply solve(const SolveRequest& request,
                                  std::span<fast::Answer> answers) const override {
-    const fast::CertifiedOptions options = in_one_thread(options_, request);
-    return answer_collisions(
-        [&] { return fast::collisions(request.kind, request.queries, options); }, answers);
-  }
-
- private:
-  fast::CertifiedOptions options_;
-};
-
-class CertifiedPairs final : public Solver {
- public:
-  CertifiedPairs(const fast::MovingVertices& vertices, const fast::Candidates& candidates,
-                 const fast::CertifiedOptions& options)
-      : Solver(fast::MethodInfo{.name = "certified_pairs", .promise = fast::Promise::exact}),
-        vertices_(vertices),
-        candidates_(candidates),
-        options_(options) {}
-
-  [[nodiscard]] bool only_as_a_whole() const override { return true; }
-
-  [[nodiscard]] SolveReply solve(const SolveRequest& request,
-                                 std::span<fast::Answer> answers) const override {
-    if (request.kind != candidates_.kind || answers.size() != candidates_.pairs.size()) {
-      throw std::invalid_argument("certified_pairs: these are not the queries of its candidates");
+    fast::CertifiedOptions options = options_;
+    options.separation = request.separation;
+    std::vector<fast::Collision> collisions;
+    const auto find = [&] { collisions = find_(request, options); };
+    SolveReply reply;
+    if (answers.size() == 1) {
+      find();
+    } else {
+      reply.time = time_of(find);
     }
-    const fast::CertifiedOptions options = in_one_thread(options_, request);
-    return answer_collisions([&] { return fast::collisions(vertices_, candidates_, options); },
-                             answers);
+    std::ranges::fill(answers, fast::Answer{.verdict = fast::Verdict::no});
+    for (const auto& [candidate, result] : collisions) {
+      answers[candidate] = {.verdict = result.verdict,
+                            .toi_lower = result.toi_lower,
+                            .toi_upper = result.toi_upper,
+                            .tolerance = fast::Answer::none};
+    }
+    return reply;
   }
 
  private:
-  const fast::MovingVertices& vertices_;
-  fast::Candidates candidates_;
+  bool only_as_a_whole_;
   fast::CertifiedOptions options_;
+  Find find_;
 };
 
 }  // namespace
@@ -328,13 +304,24 @@ std::unique_ptr<Solver> recorded_solver(std::string_view name, const RecordedAns
 }
 
 std::unique_ptr<Solver> certified_queries(const fast::CertifiedOptions& certified) {
-  return std::make_unique<CertifiedQueries>(certified);
+  return std::make_unique<Collisions>(
+      "certified_queries", false, certified,
+      [](const SolveRequest& request, const fast::CertifiedOptions& options) {
+        return fast::collisions(request.kind, request.queries, options);
+      });
 }
 
 std::unique_ptr<Solver> certified_pairs(const fast::MovingVertices& vertices,
                                         const fast::Candidates& candidates,
                                         const fast::CertifiedOptions& certified) {
-  return std::make_unique<CertifiedPairs>(vertices, candidates, certified);
+  const auto find = [&vertices, candidates](const SolveRequest& request,
+                                            const fast::CertifiedOptions& options) {
+    if (request.kind != candidates.kind || request.queries.size() != candidates.pairs.size()) {
+      throw std::invalid_argument("certified_pairs: these are not the queries of its candidates");
+    }
+    return fast::collisions(vertices, candidates, options);
+  };
+  return std::make_unique<Collisions>("certified_pairs", true, certified, find);
 }
 
 std::vector<StageCount> count_stages(const fast::MethodInfo& info,
