@@ -77,6 +77,7 @@ constexpr auto permissions = std::to_array<Permission>({
 
     // The published methods use packages that simulators need not have.
     {"verify/baselines/", "verify/baselines/"},
+    {"verify/baselines/", "verify/generate/random.hpp"},
     {"verify/baselines/", "fast/"},
     {"verify/baselines/", "filters/"},
     {"verify/baselines/", "gmpxx.h"},

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,7 +15,7 @@
 #include <vector>
 
 #include "exact/oracle.hpp"
-#include "tests/support/built_files.hpp"
+#include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "verify/data/dataset.hpp"
@@ -95,13 +94,8 @@ void register_file(const std::filesystem::path& folder, const std::filesystem::p
 }
 
 void register_datasets() {
-  const char* given = std::getenv("TOUCHSTONE_DATA");
-  const std::filesystem::path folder =
-      given != nullptr ? given : tests::source_folder() + "/../shared/datasets";
-  if (!std::filesystem::exists(folder)) {
-    std::cerr << "no datasets at " << folder << '\n';
-    return;
-  }
+  const std::filesystem::path folder = tests::public_data_folder();
+  if (folder.empty()) return;
   for (const auto& file : verify::find_datasets({&folder, 1})) register_file(folder, file);
 }
 

@@ -13,14 +13,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "tests/support/built_files.hpp"
+#include "tests/support/public_data.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -48,13 +47,9 @@ std::string variable(const char* name, const std::string& otherwise) {
 
 QuerySets read_sets() {
   QuerySets sets;
-  const std::filesystem::path data =
-      variable("TOUCHSTONE_DATA", tests::source_folder() + "/../shared/datasets");
-  if (!std::filesystem::exists(data)) std::cerr << "MISSING public data: " << data << '\n';
-  for (const std::string name : {"handcrafted", "simulation"}) {
-    const std::filesystem::path folder = data / name;
-    if (!std::filesystem::exists(folder)) continue;
-    for (const auto& file : find_datasets({&folder, 1})) add(sets, name, file);
+  const std::filesystem::path folder = tests::public_data_folder();
+  for (const auto& file : tests::public_datasets()) {
+    add(sets, file.lexically_relative(folder).begin()->string(), file);
   }
   std::istringstream files(variable("TOUCHSTONE_BENCH", ""));
   for (std::string file; std::getline(files, file, ':');) {

@@ -354,7 +354,7 @@ bool has_odd_crossings(const Query& query, const Boundary& boundary,
   constexpr int most_tries = 10;
   const double reach = reach_of(corners), length = reach * std::numbers::sqrt2;
   if (!std::isfinite(length)) throw std::overflow_error("rp: the segment's end is out of range");
-  QueryRandom random(query);
+  Random random = random_of(query);
   SegmentEnd end{reach, reach};
   for (int i = 0; i < most_tries; ++i) {
     switch (Try(query, boundary, corners, end).run()) {

@@ -113,7 +113,7 @@ Rational side_of_patch(const Patch& q, const Point& x) {
 
 constexpr int most_tries = 8;
 
-Point random_direction(QueryRandom& random) {
+Point random_direction(Random& random) {
   Point direction;
   for (Rational& x : direction) x = random.uniform(-1.0, 1.0);
   return direction;
@@ -133,7 +133,7 @@ Hit parity(const Surfaces& surfaces, const HitOf& hit_of) {
 
 /// Calls `hit_along` with the first direction, and with random ones as long as that is bad luck.
 template <class HitAlong>
-Hit with_luck(Point direction, QueryRandom& random, const HitAlong& hit_along) {
+Hit with_luck(Point direction, Random& random, const HitAlong& hit_along) {
   for (int i = 0; i <= most_tries; ++i) {
     const Hit hit = hit_along(direction);
     if (hit != Hit::bad_luck) return hit;
@@ -145,7 +145,7 @@ Hit with_luck(Point direction, QueryRandom& random, const HitAlong& hit_along) {
 /// A query's rays and what they meet.
 class RayParity {
  public:
-  explicit RayParity(const Query& query) : random_(query) {}
+  explicit RayParity(const Query& query) : random_(random_of(query)) {}
 
   [[nodiscard]] Hit run(std::span<const Triangle> caps, std::span<const Patch> patches) {
     return with_luck({1, 0, 0}, random_, [&](const Point& direction) {
@@ -191,7 +191,7 @@ class RayParity {
     return result;
   }
 
-  QueryRandom random_;
+  Random random_;
 };
 
 /// Do all points move by the same vector, as differences in doubles? At rest they do.

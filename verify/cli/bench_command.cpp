@@ -25,6 +25,7 @@
 #include "verify/cli/sources.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/generate/workload.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/mesh/moving_mesh.hpp"
@@ -95,9 +96,7 @@ class BenchRun {
     } else {
       for (const fs::path& path : arguments_.sources.paths) bench_path(path);
     }
-    if (json_) {
-      json_.write(json_document(to_json(report_)));
-    }
+    if (json_) json_.write(json_document(to_json(report_)));
     json_.close();
     print(json_.is_standard_output() ? stderr : stdout, to_text(report_));
     return status();

@@ -23,7 +23,9 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/npy.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/io/text_table.hpp"
 #include "verify/mesh/index_file.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
@@ -145,16 +147,17 @@ nlohmann::json summary(const MovingMesh& mesh, const std::vector<Found>& all) {
   return result;
 }
 
-void print_table(std::FILE* stream, const MovingMesh& mesh, const std::vector<Found>& all) {
-  print(stream, fmt::format("{:<12}  {:>10}\n", "mesh", "count"));
-  print(stream, fmt::format("{:<12}  {:>10}\n", "vertices", mesh.vertices.size()));
-  print(stream, fmt::format("{:<12}  {:>10}\n", "edges", mesh.edges.size()));
-  print(stream, fmt::format("{:<12}  {:>10}\n\n", "faces", mesh.faces.size()));
-  print(stream, fmt::format("{:<12}  {:>10}  {:>8}\n", "candidates", "count", "seconds"));
+std::string table_of(const MovingMesh& mesh, const std::vector<Found>& all) {
+  TextTable sizes({word_column("mesh", 12), {"count", 10}});
+  sizes.add({"vertices", std::to_string(mesh.vertices.size())});
+  sizes.add({"edges", std::to_string(mesh.edges.size())});
+  sizes.add({"faces", std::to_string(mesh.faces.size())});
+  TextTable candidates({word_column("candidates", 12), {"count", 10}, {"seconds", 8}});
   for (const Found& found : all) {
-    print(stream, fmt::format("{:<12}  {:>10}  {:>8.3f}\n", to_string(found.kind),
-                              found.pairs.size(), found.seconds));
+    candidates.add({std::string(to_string(found.kind)), std::to_string(found.pairs.size()),
+                    number_text(found.seconds, "{:.3f}")});
   }
+  return sizes.text() + '\n' + candidates.text();
 }
 
 Status candidates(const Arguments& arguments) {
@@ -174,7 +177,7 @@ Status candidates(const Arguments& arguments) {
   write_queries(files.edge_edge, mesh, all[1]);
   if (json) json.write(json_document(summary(mesh, all)));
   json.close();
-  print_table(json.is_standard_output() ? stderr : stdout, mesh, all);
+  print(json.is_standard_output() ? stderr : stdout, table_of(mesh, all));
   return interrupted() ? Status::interrupted : Status::all_well;
 }
 

@@ -19,6 +19,7 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/report/certify_report.hpp"
 #include "verify/run/certify.hpp"
@@ -79,9 +80,7 @@ class CertifyRun {
     // Files first: a closed standard output must not cost them.
     truth_.close();
     proof_.close(sum_.proofs.certificates());
-    if (json_) {
-      json_.write(json_document(to_json(results_)));
-    }
+    if (json_) json_.write(json_document(to_json(results_)));
     json_.close();
     print_summary();
     return status();

@@ -15,6 +15,7 @@
 #include "filters/derivation/derivation.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::cli {
@@ -58,8 +59,9 @@ DeriveOptions to_options(const Arguments& arguments) {
 /// A bound as a multiple of u and as the constant itself.
 void add_bound(nlohmann::json& row, const std::string& name, const std::optional<double>& units,
                const filters::Format& format) {
-  row[name + "_units"] = units ? nlohmann::json(*units) : nlohmann::json();
-  row[name] = units ? nlohmann::json(*units * format.unit_roundoff().get_d()) : nlohmann::json();
+  row[name + "_units"] = number_to_json(units);
+  row[name] =
+      number_to_json(units ? std::optional(*units * format.unit_roundoff().get_d()) : units);
 }
 
 std::optional<double> to_double(const std::optional<mpq_class>& number) {
@@ -69,8 +71,7 @@ std::optional<double> to_double(const std::optional<mpq_class>& number) {
 
 nlohmann::json to_json(const DeriveRow& row) {
   nlohmann::json json{{"expression", row.expression}, {"precision", row.format.name}};
-  json["published_constant"] =
-      row.published_constant.empty() ? nlohmann::json() : nlohmann::json(row.published_constant);
+  json["published_constant"] = text_or_null(row.published_constant);
   add_bound(json, "published", to_double(row.published), row.format);
   add_bound(json, "rigorous", to_double(row.rigorous), row.format);
   add_bound(json, "gappa", to_double(row.gappa), row.format);
@@ -80,8 +81,7 @@ nlohmann::json to_json(const DeriveRow& row) {
     json["worst_input"] = {{"coordinates", row.observed->inputs.coordinates},
                            {"weights", row.observed->inputs.weights}};
   }
-  const std::optional<double> tightness = row.tightness();
-  json["tightness"] = tightness ? nlohmann::json(*tightness) : nlohmann::json();
+  json["tightness"] = number_to_json(row.tightness());
   return json;
 }
 

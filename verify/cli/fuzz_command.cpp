@@ -24,6 +24,7 @@
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
 #include "verify/fuzz/reproduce.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
@@ -221,9 +222,7 @@ class FuzzRun {
     report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
     report_output(asked_.method, report.result.output, arguments_.solver.show_output);
     const std::vector<fs::path> written = found_.close();
-    if (json_) {
-      json_.write(json_document(to_json(report)));
-    }
+    if (json_) json_.write(json_document(to_json(report)));
     json_.close();
     print(out(), to_text(report));
     for (const fs::path& file : written)

@@ -17,6 +17,7 @@
 #include "verify/data/separation_file.hpp"
 #include "verify/data/toi_writer.hpp"
 #include "verify/generate/families.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"

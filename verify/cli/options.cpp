@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 
@@ -128,10 +128,13 @@ void report_warning(std::string_view message) {
   print(stderr, fmt::format("touchstone: warning: {}\n", printable(message)));
 }
 
-std::string json_document(const nlohmann::json& json) {
-  static constexpr auto replace = nlohmann::json::error_handler_t::replace;
-  static constexpr bool only_ascii = true;
-  return json.dump(2, ' ', only_ascii, replace) + "\n";
+std::string command_line() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string command;
+  for (std::string word; std::getline(file, word, '\0');) {
+    command += command.empty() ? "touchstone" : " " + shell_word(word);
+  }
+  return command;
 }
 
 OptionalOutput::OptionalOutput(const std::string& name) : name_(name) {

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -58,9 +57,8 @@ void report_error(std::string_view message);
 /// Prints "touchstone: warning: …" on standard error, printable.
 void report_warning(std::string_view message);
 
-/// JSON as it is written to a file: in ASCII, so that no name in it acts on a terminal. What is no UTF-8
-/// becomes U+FFFD.
-[[nodiscard]] std::string json_document(const nlohmann::json& json);
+/// The command line of this process, as one types it, the program's name without a path.
+[[nodiscard]] std::string command_line();
 
 /// A file to write to if the user named one. It is opened before the work begins, so that a bad name
 /// costs nothing, and takes its name when it is complete, so that nothing older is lost before.

@@ -17,8 +17,10 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/sources.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/report/judgement_report.hpp"
 #include "verify/run/prove.hpp"
 
 namespace touchstone::verify::cli {
@@ -137,10 +139,7 @@ class ProveRun {
     print(stream, to_text(sum_.counts));
     print(stream, fmt::format("oracle {:.2f} µs/query, file {} bytes\n", oracle_microseconds(),
                               out_.bytes()));
-    if (sum_.skipped != 0)
-      print(stream, fmt::format("{} queries in error skipped\n", sum_.skipped));
-    if (sum_.rounded != 0)
-      print(stream, fmt::format("{} coordinates rounded to double\n", sum_.rounded));
+    print(stream, reading_text(sum_.skipped, sum_.rounded));
   }
 
   [[nodiscard]] Status status() const {

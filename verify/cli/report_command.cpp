@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <memory>
@@ -26,6 +25,7 @@
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
 #include "verify/io/input_file.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/mesh/moving_mesh.hpp"
@@ -48,16 +48,6 @@ struct Arguments {
   std::string json_file;
   std::string results_file;
 };
-
-/// The command line of this process.
-std::string command_line() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::string command;
-  for (std::string word; std::getline(file, word, '\0');) {
-    command += command.empty() ? "touchstone" : " " + shell_word(word);
-  }
-  return command;
-}
 
 /// The last part of a path that says something.
 std::string short_name(const fs::path& path) {

@@ -17,8 +17,10 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/report/judgement_report.hpp"
 #include "verify/run/solve.hpp"
 #include "verify/solvers/answers.hpp"
 
@@ -73,9 +75,7 @@ class SolveRun {
          .stopped = [this] { return stopped(); },
          .is_output = [this](const fs::path& path) { return is_output(path); }});
     out_.close();
-    if (json_) {
-      json_.write(json_document(summary()));
-    }
+    if (json_) json_.write(json_document(summary()));
     json_.close();
     report_unplaced_crashes(solver_.name(), sum_.unplaced_crashes);
     solvers_.report_output(arguments_.solver.show_output);
@@ -98,16 +98,9 @@ class SolveRun {
           fmt::format("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
                       solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
                       sum_.nanoseconds_per_query()));
-    for (const FailureKind kind : all_failure_kinds) {
-      const std::uint64_t count = sum_.failures[static_cast<std::size_t>(kind)];
-      if (count != 0) print(stream, fmt::format("no answer: {} {}\n", count, to_string(kind)));
-    }
-    if (sum_.skipped != 0) {
-      print(stream, fmt::format("{} queries in error skipped\n", sum_.skipped));
-    }
-    if (sum_.rounded != 0) {
-      print(stream, fmt::format("{} coordinates rounded to double\n", sum_.rounded));
-    }
+    const std::string failures = to_text(sum_.failures);
+    if (!failures.empty()) print(stream, fmt::format("no answer: {}\n", failures));
+    print(stream, reading_text(sum_.skipped, sum_.rounded));
   }
 
   void solve_source(QuerySource& source, const Progress& progress) {
@@ -151,9 +144,7 @@ class SolveRun {
                         {"rounded", sum_.rounded},
                         {"reading_errors", reading_errors_},
                         {"interrupted", sum_.interrupted}};
-    for (const FailureKind kind : all_failure_kinds) {
-      json["failures"][to_string(kind)] = sum_.failures[static_cast<std::size_t>(kind)];
-    }
+    json["failures"] = to_json(sum_.failures);
     if (const auto separation = the_separation()) json["separation"] = to_json(*separation);
     return json;
   }

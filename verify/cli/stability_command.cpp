@@ -15,11 +15,12 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/report/page.hpp"
 #include "verify/report/stability_report.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/stability/hardness.hpp"
-#include "verify/stability/heat_map.hpp"
 #include "verify/stability/stability.hpp"
 
 namespace touchstone::verify::cli {
@@ -95,7 +96,7 @@ Status run(const Arguments& arguments) {
   // Files first: a closed standard output must not cost them.
   if (json) json.write(json_document(to_json(result)));
   json.close();
-  if (picture) picture.write(heat_map(result));
+  if (picture) picture.write(stability_page(result, command_line()));
   picture.close();
   const bool is_standard_output = json.is_standard_output() || picture.is_standard_output();
   print(is_standard_output ? stderr : stdout, to_text(result));
@@ -127,8 +128,8 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--json", arguments.json_file, "Write the result as JSON")->type_name("FILE");
   command
       .add_option("--picture", arguments.picture_file,
-                  "Draw the result as a heat map, in SVG, which any browser shows")
-      ->type_name("FILE.svg");
+                  "Draw the result as a heat map: a page (HTML) that any browser shows")
+      ->type_name("FILE.html");
 }
 
 }  // namespace
@@ -150,7 +151,7 @@ void add_stability_command(CLI::App& app, Status& status) {
       "Without --method or --plugin all our methods are judged but the baselines.\n"
       "Exit status: 0 all solvers keep their promise, 1 some do not, 2 bad usage, 130 interrupted\n"
       "(what is done by then is reported and written).\n"
-      "Example: touchstone stability --method tight_inclusion --picture stability.svg");
+      "Example: touchstone stability --method tight_inclusion --picture stability.html");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->judged);
     status = run(*arguments);

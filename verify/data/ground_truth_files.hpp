@@ -24,7 +24,8 @@
 namespace touchstone::verify {
 
 /// Labels from a flat JSON array of true, false, 1 and 0, one a query. Columns of errors count the
-/// bytes of a line.
+/// bytes of a line. The JSON library's parser ends at the first word that is no JSON, and does not read
+/// in step with the queries; here a wrong word costs the label of one query.
 class LabelReader {
  public:
   /// \throws DatasetError if the file cannot be read or does not begin with '['.

@@ -11,7 +11,6 @@ namespace touchstone::verify {
 namespace {
 
 using builtin::Random;
-using draws::real;
 
 /// Coordinates of the axis are in [1,2), as whole numbers of their unit in the last place; the time
 /// is n/64, and what is exact then is a whole number of 64ths of that unit.
@@ -74,7 +73,7 @@ std::optional<Plan> draw_plan(Random& random) {
             .n = random.coin() ? 33 : 31,
             .speed = draws::power_of_two(-static_cast<int>(random.between(7, 10)))};
   const auto units = [](double x) { return static_cast<std::int64_t>(x * 0x1p52); };
-  const double middle = real(random, 1.05, 1.06), c = static_cast<double>(plan.n) / parts;
+  const double middle = random.uniform(1.05, 1.06), c = static_cast<double>(plan.n) / parts;
   const Track moving{units(middle - c * plan.speed), units(middle + (1.0 - c) * plan.speed)};
   const Track resting{units(middle), units(middle)};
   for (std::size_t i = 0; i < moving_points; ++i) {
@@ -85,7 +84,7 @@ std::optional<Plan> draw_plan(Random& random) {
     plan.tracks.at(i) = *track;
   }
   for (int i = 0; i < 16; ++i) {
-    plan.v = real(random, 0.05, 0.95);
+    plan.v = random.uniform(0.05, 0.95);
     plan.u = crossing(plan);
     if (plan.u > 0.05 && plan.u < 0.95) return plan;
   }
@@ -118,7 +117,7 @@ void put_crossing(Query& query, std::size_t axis, const Plan& plan, Random& rand
   double sum = 0.0;
   for (std::size_t point = 0; point < moving_points; ++point) {
     for (std::size_t end = 0; end < 2; ++end) {
-      const double x = real(random, -scale, scale);
+      const double x = random.uniform(-scale, scale);
       query.at(end, point, axis) = x;
       sum += weights.at(point) * (end == 0 ? 1.0 - t : t) * x;
     }

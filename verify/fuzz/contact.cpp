@@ -15,7 +15,6 @@ namespace {
 using builtin::Random;
 using draws::below;
 using draws::one_in;
-using draws::real;
 
 using Vector = std::array<double, 3>;
 
@@ -113,23 +112,26 @@ void put_plane(Query& query, std::size_t end, std::size_t point, const std::arra
 
 /// The vertex above the triangle: within x + y < 1 and right of and above its legs.
 void put_vertex_over_face(Query& query, std::size_t end, Spot spot, Random& random) {
-  const double left = real(random, -4.0, -2.0);
+  const double left = random.uniform(-4.0, -2.0);
   const bool level_side = spot != Spot::inside;
-  put_plane(query, end, 1, {left, real(random, -4.0, -2.0)});
-  put_plane(query, end, 2, {real(random, 5.0, 8.0), real(random, -4.0, -2.0)});
-  put_plane(query, end, 3, {level_side ? left : real(random, -4.0, -2.0), real(random, 5.0, 8.0)});
-  put_plane(query, end, 0, {level_side ? left : real(random, -0.4, 0.4), real(random, -0.4, 0.4)});
+  put_plane(query, end, 1, {left, random.uniform(-4.0, -2.0)});
+  put_plane(query, end, 2, {random.uniform(5.0, 8.0), random.uniform(-4.0, -2.0)});
+  put_plane(query, end, 3,
+            {level_side ? left : random.uniform(-4.0, -2.0), random.uniform(5.0, 8.0)});
+  put_plane(query, end, 0,
+            {level_side ? left : random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)});
   if (spot == Spot::corner) put_plane(query, end, 0, {left, query.at(end, 1, 1)});
 }
 
 /// Edge a along x across edge b along y.
 void put_edge_over_edge(Query& query, std::size_t end, Spot spot, Random& random) {
-  const double x = real(random, -0.4, 0.4);
+  const double x = random.uniform(-0.4, 0.4);
   const bool level_side = spot != Spot::inside;
-  put_plane(query, end, 0, {level_side ? x : real(random, -4.0, -1.0), real(random, -0.4, 0.4)});
-  put_plane(query, end, 1, {real(random, 1.0, 4.0), real(random, -0.4, 0.4)});
-  put_plane(query, end, 2, {x, real(random, -4.0, -1.0)});
-  put_plane(query, end, 3, {level_side ? x : real(random, -0.4, 0.4), real(random, 1.0, 4.0)});
+  put_plane(query, end, 0,
+            {level_side ? x : random.uniform(-4.0, -1.0), random.uniform(-0.4, 0.4)});
+  put_plane(query, end, 1, {random.uniform(1.0, 4.0), random.uniform(-0.4, 0.4)});
+  put_plane(query, end, 2, {x, random.uniform(-4.0, -1.0)});
+  put_plane(query, end, 3, {level_side ? x : random.uniform(-0.4, 0.4), random.uniform(1.0, 4.0)});
   if (spot == Spot::corner) put_plane(query, end, 0, {x, query.at(end, 2, 1)});
 }
 
@@ -154,14 +156,14 @@ struct Heights {
 };
 
 Heights draw_heights(Random& random) {
-  const double middle = one_in(random, 2) ? 0.0 : real(random, -4.0, 4.0);
+  const double middle = one_in(random, 2) ? 0.0 : random.uniform(-4.0, 4.0);
   const auto off = [&] {
     const double step = draws::power_of_two(-static_cast<int>(below(random, 40)));
-    return one_in(random, 5) ? 0.0 : real(random, 0.0, 1.0) * step;
+    return one_in(random, 5) ? 0.0 : random.uniform(0.0, 1.0) * step;
   };
   const bool downward = random.coin();
   const double sign = downward ? 1.0 : -1.0;
-  const double start = real(random, -1.0, 1.0), end = real(random, -1.0, 1.0);
+  const double start = random.uniform(-1.0, 1.0), end = random.uniform(-1.0, 1.0);
   return {.first = {middle + start + sign * off(), middle + end - sign * off()},
           .second = {middle + start, middle + end}};
 }
@@ -196,7 +198,7 @@ Vector draw_offset(const Separation& separation, Random& random) {
   const double d = separation.distance;
   if (random.coin()) return {0.0, 0.0, random.coin() ? d : -d};
   if (separation.norm == Norm::linf) {
-    return {real(random, -1.0, 1.0) * d, random.coin() ? d : real(random, -1.0, 1.0) * d, d};
+    return {random.uniform(-1.0, 1.0) * d, random.coin() ? d : random.uniform(-1.0, 1.0) * d, d};
   }
   const std::size_t choice = below(random, of_l2.size());
   return (d / lengths.at(choice)) * of_l2.at(choice);
@@ -207,7 +209,7 @@ std::array<Vector, 3> draw_rotation(Random& random) {
   std::array<double, 4> q{};
   double length = 0.0;
   for (double& x : q) {
-    x = real(random, -1.0, 1.0);
+    x = random.uniform(-1.0, 1.0);
     length += x * x;
   }
   const double f = 2.0 / length;
@@ -233,7 +235,7 @@ void rotate(Query& query, Random& random) {
 double draw_gap(Random& random) {
   const double gap = draws::power_of_two(-static_cast<int>(random.between(10, 50)));
   const double sign = one_in(random, 4) ? -1.0 : 1.0;
-  return sign * gap * real(random, 1.0, 2.0);
+  return sign * gap * random.uniform(1.0, 2.0);
 }
 
 /// The vertex passes along the triangle, in the plane z = 0 but for the gap.
@@ -242,10 +244,10 @@ void put_sliding_vertex(Query& query, Random& random) {
   for (std::size_t end = 0; end < 2; ++end) {
     const double far = end == 0 ? -1.0 : 1.0;
     put(query, end, 0,
-        {far * real(random, 0.0, 6.0), real(random, -1.0, 1.0), end == 0 ? gap : end_gap});
-    put(query, end, 1, {real(random, -3.0, -1.0), real(random, -3.0, -1.0), 0.0});
-    put(query, end, 2, {real(random, 1.0, 3.0), real(random, -3.0, -1.0), 0.0});
-    put(query, end, 3, {real(random, -1.0, 1.0), real(random, 1.0, 3.0), 0.0});
+        {far * random.uniform(0.0, 6.0), random.uniform(-1.0, 1.0), end == 0 ? gap : end_gap});
+    put(query, end, 1, {random.uniform(-3.0, -1.0), random.uniform(-3.0, -1.0), 0.0});
+    put(query, end, 2, {random.uniform(1.0, 3.0), random.uniform(-3.0, -1.0), 0.0});
+    put(query, end, 3, {random.uniform(-1.0, 1.0), random.uniform(1.0, 3.0), 0.0});
   }
 }
 
@@ -254,11 +256,11 @@ void put_sliding_edges(Query& query, Random& random) {
   const double slope = draw_gap(random);
   for (std::size_t end = 0; end < 2; ++end) {
     const double far = end == 0 ? -1.0 : 1.0;
-    const double gap = draw_gap(random), travel = far * real(random, 0.0, 4.0);
+    const double gap = draw_gap(random), travel = far * random.uniform(0.0, 4.0);
     put(query, end, 0, {travel - 2.0, 0.0, gap});
     put(query, end, 1, {travel + 2.0, slope, gap});
-    put(query, end, 2, {real(random, -3.0, -1.0), one_in(random, 2) ? 0.0 : slope, 0.0});
-    put(query, end, 3, {real(random, 1.0, 3.0), 0.0, 0.0});
+    put(query, end, 2, {random.uniform(-3.0, -1.0), one_in(random, 2) ? 0.0 : slope, 0.0});
+    put(query, end, 3, {random.uniform(1.0, 3.0), 0.0, 0.0});
   }
 }
 
@@ -273,10 +275,10 @@ Query hovering(Kind kind, const Separation& separation, Random& random) {
   const double size = std::min(d, 0x1p1000) * static_cast<double>(1U << below(random, 12));
   draws::multiply(query, {size, size, size});
   // A third, so that the sum has to be rounded for a power of two too.
-  const double height = one_in(random, 2) ? 0.0 : real(random, -1.0, 4.0) / 3.0 * d;
+  const double height = one_in(random, 2) ? 0.0 : random.uniform(-1.0, 4.0) / 3.0 * d;
   std::array<double, 2> above{height + d, height + d};
   const std::size_t end = below(random, 2);
-  if (!one_in(random, 4)) above.at(end) = height + d * real(random, 1.0, 2.0);
+  if (!one_in(random, 4)) above.at(end) = height + d * random.uniform(1.0, 2.0);
   put_heights(kind, {.first = above, .second = {height, height}}, query);
   return draws::is_finite(query) ? turned(kind, query, random) : level_contact(kind, random);
 }
@@ -346,10 +348,11 @@ Query level_contact(Kind kind, Random& random) {
 
 Query rounded_contact(Kind kind, Random& random) {
   Query query{};
-  for (double& x : query.coordinates) x = real(random, -1.0, 1.0);
-  const double t = one_in(random, 4) ? 1.0 : real(random, 0.125, 1.0);
-  double u = one_in(random, 4) ? 0.0 : real(random, 0.0, 0.75);
-  double v = one_in(random, 4) ? 0.0 : real(random, 0.0, kind == Kind::vertex_face ? 1.0 - u : 1.0);
+  for (double& x : query.coordinates) x = random.uniform(-1.0, 1.0);
+  const double t = one_in(random, 4) ? 1.0 : random.uniform(0.125, 1.0);
+  double u = one_in(random, 4) ? 0.0 : random.uniform(0.0, 0.75);
+  double v =
+      one_in(random, 4) ? 0.0 : random.uniform(0.0, kind == Kind::vertex_face ? 1.0 - u : 1.0);
   if (one_in(random, 8)) v = kind == Kind::vertex_face ? 1.0 - u : 1.0;
   std::array<Vector, moving_points> at_t{};
   for (std::size_t point = 1; point < moving_points; ++point) {
@@ -392,9 +395,10 @@ Query tilting(Kind kind, const Separation& separation, Random& random) {
   const int ratio = static_cast<int>(random.between(2, 40));
   const double distance = draws::power_of_two(-ratio);
   const Vector3d p(1, 1, 1), q(1, -1, 0), normal = p.cross(q).normalized();
-  const double ends = real(random, 5.0, 13.0) * distance, middle = real(random, 0.2, 1.0) * ends;
+  const double ends = random.uniform(5.0, 13.0) * distance,
+               middle = random.uniform(0.2, 1.0) * ends;
   // det = r·(p × q), and p × q = (1, 1, −2) is 4 times as long as a shift along (1, 1, −1) uses of it.
-  const Vector3d r = real(random, 0.1, 0.45) * (p + q) + middle / 4.0 * Vector3d(1, 1, -1);
+  const Vector3d r = random.uniform(0.1, 0.45) * (p + q) + middle / 4.0 * Vector3d(1, 1, -1);
   // det grows by r·(a × b) from the middle to the ends, and not with the time itself.
   const Vector3d along = 0.5 * r.cross(normal);
   const double sign = r.dot((normal + along).cross(along - normal)) > 0.0 ? 1.0 : -1.0;

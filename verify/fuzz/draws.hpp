@@ -26,11 +26,6 @@ using builtin::Random;
   return below(random, count) == 0;
 }
 
-/// In [low, high), with a full significand.
-[[nodiscard]] inline double real(Random& random, double low, double high) {
-  return low + (high - low) * random.unit();
-}
-
 /// 2^k, −1074 ≤ k ≤ 1023.
 [[nodiscard]] inline double power_of_two(int exponent) { return std::ldexp(1.0, exponent); }
 
@@ -46,7 +41,7 @@ using builtin::Random;
       return decimal.at(below(random, decimal.size()));
     default: {
       const double power = power_of_two(static_cast<int>(random.between(-12, 12)));
-      return real(random, 1.0, 2.0) * power;
+      return random.uniform(1.0, 2.0) * power;
     }
   }
 }

@@ -2,22 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string_view>
 
 #include "verify/fuzz/triage.hpp"
+#include "verify/io/json.hpp"
+#include "verify/io/text_table.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {
-
-constexpr std::string_view row_format = "{:<17}  {:>10}  {:>10}  {:>10}  {:>8}\n";
-
-nlohmann::json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
-}
 
 nlohmann::json coordinates_of(const Query& query) {
   nlohmann::json list = nlohmann::json::array();
@@ -26,13 +21,17 @@ nlohmann::json coordinates_of(const Query& query) {
 }
 
 std::string generator_table(const FuzzResult& result) {
-  std::string text = fmt::format(fmt::runtime(row_format), "generator", "queries", "collisions",
-                                 "signatures", "findings");
+  TextTable table({word_column("generator", 17),
+                   {"queries", 10},
+                   {"collisions", 10},
+                   {"signatures", 10},
+                   {"findings", 8}});
   for (const GeneratorStatistics& generator : result.generators) {
-    text += fmt::format(fmt::runtime(row_format), generator.name, generator.queries,
-                        generator.collisions, generator.signatures, generator.findings);
+    table.add({std::string(generator.name), std::to_string(generator.queries),
+               std::to_string(generator.collisions), std::to_string(generator.signatures),
+               std::to_string(generator.findings)});
   }
-  return text;
+  return table.text();
 }
 
 /// Whether the simplest query is the simplest there is, where that needs to be said.
@@ -73,9 +72,9 @@ std::string end_text(const FuzzReport& report) {
 
 nlohmann::json answer_json(const fast::Answer& answer) {
   return {{"verdict", to_string(answer.verdict)},
-          {"toi_lower", number_or_null(answer.toi_lower)},
-          {"toi_upper", number_or_null(answer.toi_upper)},
-          {"tolerance", number_or_null(answer.tolerance)}};
+          {"toi_lower", number_to_json(answer.toi_lower)},
+          {"toi_upper", number_to_json(answer.toi_upper)},
+          {"tolerance", number_to_json(answer.tolerance)}};
 }
 
 nlohmann::json case_json(const FailingCase& failing) {
@@ -84,14 +83,13 @@ nlohmann::json case_json(const FailingCase& failing) {
           {"collides", failing.collides},
           {"truth", failing.truth},
           {"detail", failing.detail},
-          {"certificate",
-           failing.certificate.empty() ? nlohmann::json() : nlohmann::json(failing.certificate)}};
+          {"certificate", text_or_null(failing.certificate)}};
 }
 
 nlohmann::json solver_json(const SolverCall& solver) {
   return {
       {"method", solver.method},
-      {"plugin", solver.plugin.empty() ? nlohmann::json() : nlohmann::json(solver.plugin.string())},
+      {"plugin", text_or_null(solver.plugin.string())},
       {"promise", to_string(solver.promise)},
       {"tolerance", solver.options.tolerance},
       {"max_checks", solver.options.max_checks},

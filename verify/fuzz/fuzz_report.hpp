@@ -37,8 +37,8 @@ struct FuzzReport {
 
 /// An object of `what`, `kind`, `separation` (`min_separation`, `norm`), `method`, `generator`,
 /// `seconds`, `queries`, `shrinking` ("not tried", "complete", "cut short" or "not reproduced"); of the
-/// simplest query `coordinates` (24 numbers in hexadecimal, as text), `answer` (`verdict` and of
-/// `toi_lower`, `toi_upper`, `tolerance` what is finite, else null), `collides`, `truth`, `detail` and
+/// simplest query `coordinates` (24 numbers in hexadecimal, as text), `answer` (`verdict`,
+/// `toi_lower`, `toi_upper` and `tolerance`, as number_to_json of io/json.hpp writes them), `collides`, `truth`, `detail` and
 /// `certificate` (a stream that touchstone-check takes; null if there is none), and the same in
 /// `original`, an object, of the query as it was found; `solver` (see below) and `command`, which asks
 /// again.

@@ -18,7 +18,6 @@ namespace {
 using builtin::Random;
 using draws::below;
 using draws::one_in;
-using draws::real;
 
 // ---- Structured coordinates ---------------------------------------------------------------------
 
@@ -38,7 +37,7 @@ Query grid(Kind /*kind*/, const GeneratorContext& /*context*/, Random& random) {
   std::array<std::array<double, 4>, 3> palettes{};
   const std::array<double, 3> scales = draws::scales(random);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (double& x : palettes.at(axis)) x = scales.at(axis) * real(random, -1.0, 1.0);
+    for (double& x : palettes.at(axis)) x = scales.at(axis) * random.uniform(-1.0, 1.0);
     if (one_in(random, 3)) palettes.at(axis).front() = 0.0;
   }
   const std::array<std::size_t, 3> sizes{1 + below(random, 4), 2 + below(random, 3),
@@ -82,7 +81,7 @@ Query shared_vertices(Kind kind, const GeneratorContext& context, Random& random
   if (random.coin()) {
     query = few_bits(kind, context, random);
   } else {
-    for (double& x : query.coordinates) x = real(random, -1.0, 1.0);
+    for (double& x : query.coordinates) x = random.uniform(-1.0, 1.0);
     draws::multiply(query, draws::scales(random));
   }
   const std::size_t count = 1 + below(random, 4);

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// Random numbers that are the same on every machine, which those of std:: distributions are not.
+/// Random numbers that are the same on every machine, which those of std:: distributions are not: for
+/// generated queries, methods that try random directions, and tests.
 
 #include <cstdint>
 #include <string_view>
@@ -27,12 +28,14 @@ namespace touchstone::verify::builtin {
 /// splitmix64: number n of the stream is mix(seed + (n+1)·golden ratio).
 class Random {
  public:
+  static constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15ULL;
+
   /// The stream of this seed. Streams of different seeds are unrelated once the seed is mixed.
   explicit constexpr Random(std::uint64_t seed) : state_(seed) {}
 
   /// 64 uniform bits.
   constexpr std::uint64_t bits() {
-    state_ += 0x9e3779b97f4a7c15ULL;
+    state_ += golden_ratio;
     return mix(state_);
   }
 
@@ -50,6 +53,11 @@ class Random {
 
   /// A uniform multiple of 2^-53 in [0, 1).
   constexpr double unit() { return static_cast<double>(bits() >> 11U) * 0x1p-53; }
+
+  /// A uniform multiple of 2^-53 times the width, in [low, high).
+  constexpr double uniform(double low = 0.0, double high = 1.0) {
+    return low + (high - low) * unit();
+  }
 
   /// True half of the time.
   constexpr bool coin() { return (bits() >> 63U) != 0; }

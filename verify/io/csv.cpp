@@ -1,7 +1,10 @@
 #include "verify/io/csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <system_error>
 
 #include "verify/io/printable.hpp"
@@ -63,6 +66,19 @@ std::string csv_field(std::string_view text) {
     quoted += c;
   }
   return quoted + '"';
+}
+
+std::string csv_row(const std::vector<std::string>& texts, std::string_view line_end) {
+  std::string row;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (i != 0) row += ',';
+    row += csv_field(texts[i]);
+  }
+  return row.append(line_end);
+}
+
+std::string csv_number(double number) {
+  return std::isnan(number) ? std::string() : fmt::format("{}", number);
 }
 
 std::string text_of_field(std::string_view field) {

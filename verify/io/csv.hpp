@@ -13,11 +13,19 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace touchstone::verify {
 
 /// The text as one field: printable, no formula, in quotes where it needs them.
 [[nodiscard]] std::string csv_field(std::string_view text);
+
+/// The texts as a record, with its line end.
+[[nodiscard]] std::string csv_row(const std::vector<std::string>& texts,
+                                  std::string_view line_end = "\n");
+
+/// A number with as many digits as give the same double again; nothing where it is NaN.
+[[nodiscard]] std::string csv_number(double number);
 
 /// The printable text that a field, given without its quotes, stands for: without the apostrophe that
 /// csv_field() put in front of a formula. Of what others wrote, the text made printable.

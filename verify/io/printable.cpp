@@ -169,6 +169,18 @@ std::string markdown_code_block(std::string_view text) {
   return fmt::format("{0}\n{1}\n{0}\n", fence, line);
 }
 
+std::string html_escaped(std::string_view text) {
+  static constexpr std::string_view marks = "&<>\"'";
+  static constexpr std::array<std::string_view, marks.size()> entities{"&amp;", "&lt;", "&gt;",
+                                                                       "&quot;", "&#39;"};
+  std::string result;
+  for (const char c : printable(text)) {
+    const std::size_t mark = marks.find(c);
+    result += mark == std::string_view::npos ? std::string_view(&c, 1) : entities.at(mark);
+  }
+  return result;
+}
+
 std::string shell_word(std::string_view text) {
   static constexpr std::string_view harmless =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,";

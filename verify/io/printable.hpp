@@ -13,8 +13,8 @@
 ///   - no other invisible characters (U+200B, U+2060–U+2065, U+206A–U+206F, U+FEFF, U+FFF9–U+FFFB, the
 ///     tags U+E0000–U+E007F), but for the joiners that scripts need (U+200C, U+200D),
 ///   - no code points that are no characters (U+FDD0–U+FDEF, the last two of each plane).
-/// Markdown, shells and C++ have their escapes here; CSV, XML and JSON theirs on top: csv.hpp,
-/// stability/svg.hpp, and the JSON library.
+/// Markdown, HTML, shells and C++ have their escapes here; CSV and JSON theirs on top: csv.hpp, and the
+/// JSON library.
 
 #include <cstddef>
 #include <string>
@@ -50,6 +50,9 @@ struct Character {
 
 /// Printable text as a code block of Markdown, of one line.
 [[nodiscard]] std::string markdown_code_block(std::string_view text);
+
+/// Printable text as it stands in HTML, in an attribute too.
+[[nodiscard]] std::string html_escaped(std::string_view text);
 
 /// The bytes as a word of a shell; printable. What is not printable stands in $'…', as bash and zsh have it.
 [[nodiscard]] std::string shell_word(std::string_view text);

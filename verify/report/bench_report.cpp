@@ -3,34 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
+#include "verify/io/text_table.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/report/judgement_report.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {
-
-constexpr std::string_view row_format =
-    "{:<{}}  {:>10}  {:>8}  {:>9}  {:>9}  {:>11}  {:>8}  {:>8}  {:>9}  {:>9}  {:>8}  {:>11}  "
-    "{:>9}  {:>6}  {:>9}  {:>9}  {:>9}\n";
-
-constexpr std::string_view step_row_format =
-    "{:>7}  {:<9}  {:>11}  {:>10}  {:>10}  {:>13}  {:>15}\n";
-
-/// Of a group, solver and fault so many answers are printed.
-constexpr std::size_t most_printed = 20;
-
-/// A number, or a dash where it is unknown.
-std::string number_text(double number, std::string_view format) {
-  return std::isnan(number) ? "-" : fmt::format(fmt::runtime(format), number);
-}
 
 double passes(const SolverResult& solver, const BenchResult& group) {
   return solver.times.median() / group.memory_pass.median();
@@ -38,63 +23,43 @@ double passes(const SolverResult& solver, const BenchResult& group) {
 
 // ---- Text ---------------------------------------------------------------------------------------
 
-void append_header(std::string& text, std::size_t width) {
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), "method", width, "ns/query",
-                 "passes", "p50", "p99", "max", "timed", "judged", "false neg", "false pos",
-                 "late toi", "early upper", "undecided", "errors", "error p50", "error p99",
-                 "error max");
+std::vector<TextColumn> columns_of_group() {
+  return joined<TextColumn>({{word_column("method", 6),
+                              {"ns/query", 10},
+                              {"passes", 8},
+                              {"p50", 9},
+                              {"p99", 9},
+                              {"max", 11},
+                              {"timed", 8},
+                              {"judged", 8}},
+                             fault_columns(),
+                             toi_error_columns()});
 }
 
-void append_row(std::string& text, std::size_t width, const SolverResult& solver,
-                const BenchResult& group) {
+TextRow row_of(const SolverResult& solver, const BenchResult& group) {
   const Judgement& judged = solver.judgement;
   const auto single = [&](double SingleTimes::*time) {
-    return solver.singles ? fmt::format("{:.0f}", (*solver.singles).*time) : "-";
+    return solver.singles ? number_text((*solver.singles).*time, "{:.0f}") : "-";
   };
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), printable(solver.name), width,
-                 number_text(solver.times.median(), "{:.1f}"),
-                 number_text(passes(solver, group), "{:.2f}"), single(&SingleTimes::p50),
-                 single(&SingleTimes::p99), single(&SingleTimes::max), solver.queries,
-                 judged.queries, judged.count(Fault::false_negative),
-                 judged.count(Fault::false_positive), judged.count(Fault::late_toi),
-                 judged.count(Fault::early_toi_upper), judged.undecided, judged.count(Fault::error),
-                 number_text(judged.toi_errors.quantile(0.5), "{:.2e}"),
-                 number_text(judged.toi_errors.quantile(0.99), "{:.2e}"),
-                 number_text(judged.toi_errors.max(), "{:.2e}"));
+  return joined<std::string>(
+      {{printable(solver.name), number_text(solver.times.median(), "{:.1f}"),
+        number_text(passes(solver, group), "{:.2f}"), single(&SingleTimes::p50),
+        single(&SingleTimes::p99), single(&SingleTimes::max), std::to_string(solver.queries),
+        std::to_string(judged.queries)},
+       fault_cells(judged),
+       toi_error_cells(judged.toi_errors)});
 }
 
-/// "  ended by: axis 78.12 %, …"
-void append_stages(std::string& text, const SolverResult& solver) {
-  if (solver.stages.empty() || solver.queries == 0) return;
-  std::string_view separator = "  ended by: ";
+/// "  ended by: axis 78.12 %, …"; empty for those without stages.
+std::string stages_text(const SolverResult& solver) {
+  if (solver.queries == 0) return {};
+  std::string text;
   for (const StageCount& count : solver.stages) {
     const double share =
         100.0 * static_cast<double>(count.queries) / static_cast<double>(solver.queries);
-    text += fmt::format("{}{} {:.4g} %", separator, count.stage, share);
-    separator = ", ";
+    text += fmt::format("{} {} {:.4g} %", text.empty() ? "  ended by:" : ",", count.stage, share);
   }
-  text += '\n';
-}
-
-void append_wrong_answers(std::string& text, const SolverResult& solver, const BenchResult& group) {
-  if (!broke_promise(solver)) return;
-  std::array<std::uint64_t, fault_count> printed{};
-  for (std::size_t i = 0; i < solver.judgement.wrong_answers.size(); ++i) {
-    const WrongAnswer& wrong = solver.judgement.wrong_answers[i];
-    auto& count = printed[static_cast<std::size_t>(wrong.fault)];
-    if (!breaks(wrong.fault, solver.promise) || count == most_printed) continue;
-    ++count;
-    const QueryPlace& place = solver.wrong_places[i];
-    text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n", to_string(wrong.fault),
-                        printable(solver.name), printable(place.source), to_string(group.kind),
-                        place.index, wrong.answer, wrong.truth);
-  }
-  for (std::size_t i = 0; i < fault_count; ++i) {
-    const std::uint64_t all = solver.judgement.faults[i];
-    if (printed[i] != most_printed || all == most_printed) continue;
-    text += fmt::format("{}: {}: {}: and {} more\n", to_string(static_cast<Fault>(i)),
-                        printable(solver.name), printable(group.name), all - most_printed);
-  }
+  return text;
 }
 
 /// ", minimum separation 1e-08 (l2)"; nothing at distance 0.
@@ -110,31 +75,37 @@ void append_group(std::string& text, const BenchResult& group) {
       to_string(group.kind), separation_text(group.separation), group.queries, group.collisions,
       judged_all ? "" : fmt::format(" among {} judged", group.judged),
       number_text(group.memory_pass.median(), "{:.2f}"), group.interrupted ? " (interrupted)" : "");
-  std::size_t width = 6;
+  TextTable table(columns_of_group());
   for (const SolverResult& solver : group.solvers) {
-    width = std::max(width, printable(solver.name).size());
+    table.add(row_of(solver, group));
+    const std::string stages = stages_text(solver);
+    if (!stages.empty()) table.add_line(stages);
   }
-  append_header(text, width);
+  text += table.text();
   for (const SolverResult& solver : group.solvers) {
-    append_row(text, width, solver, group);
-    append_stages(text, solver);
-  }
-  for (const SolverResult& solver : group.solvers) {
-    append_wrong_answers(text, solver, group);
+    if (!broke_promise(solver)) continue;
+    text += wrong_answers_text({.method = solver.name,
+                                .promise = solver.promise,
+                                .judgement = solver.judgement,
+                                .group = group.name,
+                                .kind = to_string(group.kind)},
+                               [&](std::size_t i) { return solver.wrong_places[i]; });
   }
   text += '\n';
 }
 
 /// One clock's times of a step.
-void append_step_row(std::string& text, const StepTimes& times, std::string_view clock,
-                     double StepTime::*time) {
+TextRow step_row(const StepTimes& times, std::string_view clock, double StepTime::*time) {
   const auto milliseconds = [time](auto... parts) {
-    return fmt::format("{:.1f} ms", 1e3 * (... + (parts.*time)));
+    return number_text(1e3 * (... + (parts.*time)), "{:.1f} ms");
   };
-  fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), times.threads, clock,
-                 milliseconds(times.broad_phase), milliseconds(times.collisions),
-                 milliseconds(times.earliest), milliseconds(times.broad_phase, times.collisions),
-                 milliseconds(times.broad_phase, times.earliest));
+  return {std::to_string(times.threads),
+          std::string(clock),
+          milliseconds(times.broad_phase),
+          milliseconds(times.collisions),
+          milliseconds(times.earliest),
+          milliseconds(times.broad_phase, times.collisions),
+          milliseconds(times.broad_phase, times.earliest)};
 }
 
 void append_step(std::string& text, const StepResult& step) {
@@ -150,13 +121,18 @@ void append_step(std::string& text, const StepResult& step) {
                         step.earliest->toi_upper,
                         step.earliest_agrees ? "" : ": NOT that of the collisions");
   }
-  fmt::format_to(std::back_inserter(text), fmt::runtime(step_row_format), "threads", "time",
-                 "broad phase", "collisions", "earliest", "step, all", "step, earliest");
+  TextTable table({{"threads", 7},
+                   word_column("time", 9),
+                   {"broad phase", 11},
+                   {"collisions", 10},
+                   {"earliest", 10},
+                   {"step, all", 13},
+                   {"step, earliest", 15}});
   for (const StepTimes& times : step.times) {
-    append_step_row(text, times, "wall", &StepTime::wall);
-    append_step_row(text, times, "processor", &StepTime::processor);
+    table.add(step_row(times, "wall", &StepTime::wall));
+    table.add(step_row(times, "processor", &StepTime::processor));
   }
-  text += '\n';
+  text += table.text() + '\n';
 }
 
 std::string legend(const BenchReport& report) {
@@ -198,13 +174,9 @@ std::string legend(const BenchReport& report) {
 
 // ---- JSON ---------------------------------------------------------------------------------------
 
-nlohmann::json number_or_null(double number) {
-  return std::isnan(number) ? nlohmann::json() : nlohmann::json(number);
-}
-
 nlohmann::json json_of(const Times& times) {
-  return {{"ns_per_query", number_or_null(times.median())},
-          {"min_ns_per_query", number_or_null(times.min())},
+  return {{"ns_per_query", number_to_json(times.median())},
+          {"min_ns_per_query", number_to_json(times.min())},
           {"repetitions", times.repetitions}};
 }
 
@@ -222,46 +194,30 @@ nlohmann::json json_of(const std::vector<StageCount>& stages) {
   return json;
 }
 
-nlohmann::json json_of(const ToiErrors& errors) {
-  if (errors.count() == 0) return {};
-  return {{"count", errors.count()},
-          {"p50", errors.quantile(0.5)},
-          {"p99", errors.quantile(0.99)},
-          {"max", errors.max()}};
-}
-
 nlohmann::json wrong_answers_of(const SolverResult& solver) {
-  nlohmann::json json = nlohmann::json::array();
+  nlohmann::json list = nlohmann::json::array();
   for (std::size_t i = 0; i < solver.judgement.wrong_answers.size(); ++i) {
-    const WrongAnswer& wrong = solver.judgement.wrong_answers[i];
-    json.push_back({{"source", solver.wrong_places[i].source},
-                    {"index", solver.wrong_places[i].index},
-                    {"fault", to_string(wrong.fault)},
-                    {"answer", wrong.answer},
-                    {"truth", wrong.truth}});
+    nlohmann::json& json = list.emplace_back(to_json(solver.judgement.wrong_answers[i]));
+    json.update(
+        {{"source", solver.wrong_places[i].source}, {"index", solver.wrong_places[i].index}});
   }
-  return json;
+  return list;
 }
 
 nlohmann::json json_of(const SolverResult& solver, const BenchResult& group) {
   const Judgement& judged = solver.judgement;
-  return {{"name", solver.name},
-          {"promise", to_string(solver.promise)},
-          {"queries", solver.queries},
-          {"time", json_of(solver.times)},
-          {"passes", number_or_null(passes(solver, group))},
-          {"single", json_of(solver.singles)},
-          {"stages", json_of(solver.stages)},
-          {"judged", judged.queries},
-          {"false_negatives", judged.count(Fault::false_negative)},
-          {"false_positives", judged.count(Fault::false_positive)},
-          {"late_toi", judged.count(Fault::late_toi)},
-          {"early_toi_upper", judged.count(Fault::early_toi_upper)},
-          {"undecided", judged.undecided},
-          {"errors", judged.count(Fault::error)},
-          {"toi_error", json_of(judged.toi_errors)},
-          {"broke_promise", broke_promise(solver)},
-          {"wrong_answers", wrong_answers_of(solver)}};
+  nlohmann::json json = to_json(judged);
+  json.update({{"name", solver.name},
+               {"promise", to_string(solver.promise)},
+               {"queries", solver.queries},
+               {"time", json_of(solver.times)},
+               {"passes", number_to_json(passes(solver, group))},
+               {"single", json_of(solver.singles)},
+               {"stages", json_of(solver.stages)},
+               {"judged", judged.queries},
+               {"broke_promise", broke_promise(solver)},
+               {"wrong_answers", wrong_answers_of(solver)}});
+  return json;
 }
 
 nlohmann::json json_of(const BenchResult& group) {

@@ -41,9 +41,8 @@ struct BenchReport {
 /// two null if there was no repetition. Each of `methods` has `name`, `promise`, `queries` (timed),
 /// `time`, `passes` (median time by that of the memory pass, or null), `single` (null, or `queries`,
 /// `p50_ns`, `p99_ns`, `max_ns`), `stages` (null, or the number of queries by the stage's name),
-/// `judged`, `false_negatives`, `false_positives`, `late_toi`, `early_toi_upper`, `undecided`,
-/// `errors`, `toi_error` (null, or `count`, `p50`, `p99`, `max`), `broke_promise`, and
-/// `wrong_answers`, a list of `source`, `index`, `fault`, `answer` and `truth`.
+/// `judged`, the fields of a judgement (judgement_report.hpp), `broke_promise`, and `wrong_answers`, a
+/// list of `source`, `index`, `fault`, `answer` and `truth`.
 ///
 /// With a separation, groups and step have it as `separation`, an object of `min_separation` and
 /// `norm`.

@@ -31,14 +31,11 @@ namespace touchstone::verify {
 /// (recorded about another separation, so only these are compared) or "nothing".
 ///
 /// `methods`, in the total and in each file, is a list of `name`, `promise` (what it was held to:
-/// "none", "conservative", "exact"), `queries`, `false_negatives`, `false_positives` (undecided
-/// answers among them), `late_toi`, `early_toi_upper`, `undecided`, `errors`, `missing`,
-/// `failures` (an object of the number of queries without an answer by FailureKind), `unplaced_crashes`
-/// (errors at no particular query), `beyond_tolerance`, `ns_per_query` (null where no time was taken), and `toi_error`: null where no time of impact
-/// was given, else `count`, `p50`, `p90`, `p99` and `max` of the distance from toi_lower to the
-/// exact time of impact, quantiles to 1.6%. In the total each has `wrong_answers`, a list of `file`,
-/// `index`, `kind`, `fault` ("false negative", "false positive", "late toi", "early toi_upper",
-/// "error", "beyond tolerance"), `answer` and `truth`, of each source and fault the first Judgement::most_kept.
+/// "none", "conservative", "exact"), `queries`, the fields of a judgement (judgement_report.hpp),
+/// `missing`, `failures` (an object of the number of queries without an answer by FailureKind),
+/// `unplaced_crashes` (errors at no particular query), `beyond_tolerance` and `ns_per_query` (null where
+/// no time was taken). In the total each has `wrong_answers`, a list of `file`, `index`, `kind`, `fault`,
+/// `answer` and `truth`, of each source and fault the first Judgement::most_kept.
 [[nodiscard]] nlohmann::json to_json(const std::vector<CertifyResult>& results);
 
 /// The header of the truth as CSV: `file,index,kind,collides,toi_lower,toi_upper`.

@@ -13,6 +13,7 @@
 #include "verify/generate/workload.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measure.hpp"
+#include "verify/report/stability_report.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/stability/stability.hpp"
@@ -121,25 +122,6 @@ std::string processor() {
     if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
   }
   return "unknown processor";
-}
-
-StabilityMark mark_of(const StabilityCell& cell, std::size_t method) {
-  const MethodResult& result = cell.judged.methods.at(method);
-  const Outcome outcome = outcome_of(cell.judged, method);
-  StabilityMark mark{.method = result.name,
-                     .hardness = std::string(cell.hardness->name),
-                     .measure = std::string(cell.hardness->measure),
-                     .exponent = cell.exponent,
-                     .kind = cell.kind,
-                     .queries = cell.judged.queries,
-                     .collisions = cell.judged.collisions,
-                     .false_positives = result.judgement.count(Fault::false_positive),
-                     .false_negatives = result.judgement.count(Fault::false_negative),
-                     .worst = {},
-                     .worst_rate = outcome.rate};
-  if (outcome.worst) mark.worst = to_string(*outcome.worst);
-  mark.nanoseconds = nanoseconds_per_query(result).value_or(Measurement::unknown);
-  return mark;
 }
 
 class Run {
@@ -277,11 +259,7 @@ class Run {
                                         tell(before + (1.0 - before) * fraction);
                                       },
                                   .stop = options_.stop});
-    for (const StabilityCell& cell : map.cells) {
-      for (std::size_t i = 0; i < cell.judged.methods.size(); ++i) {
-        result_.stability.push_back(mark_of(cell, i));
-      }
-    }
+    result_.stability = marks_of(map);
   }
 
   std::span<const QueryGroup> groups_;

@@ -11,11 +11,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include "fast/certified.hpp"
-#include "verify/report/measurement_json.hpp"
+#include "verify/io/csv.hpp"
+#include "verify/io/json.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
@@ -420,7 +422,10 @@ class Builder {
                   .y_log = false,
                   .panels = {},
                   .data = {{}, {"group", "kind", "stage", "queries", "asked"}, {}}};
-    FigurePanel panel{.title = std::string(fast::certified_info().name), .caption = {}, .series = {}, .front = {}};
+    FigurePanel panel{.title = std::string(fast::certified_info().name),
+                      .caption = {},
+                      .series = {},
+                      .front = {}};
     for (const Measurement* m : of_experiment(measurements_, Experiment::field)) {
       for (std::size_t i = 0; i < m->stages.size(); ++i) {
         const auto& [stage, queries] = m->stages[i];
@@ -448,14 +453,61 @@ class Builder {
     return mark.worst == "beyond tolerance" ? "B" : "T";
   }
 
+  static std::string row_of(const StabilityMark& mark) {
+    return mark.kind == Kind::vertex_face ? "vf" : "ee";
+  }
+
+  /// Appends ", 3 false negatives" if there are some.
+  static void append_count(std::string& text, std::uint64_t count, std::string_view what) {
+    if (count != 0) text += fmt::format(", {} {}", count, what);
+  }
+
+  /// All there is to say of a cell.
+  static std::string tip_of(const StabilityMark& mark) {
+    std::string text = fmt::format("{} queries, {} collisions", mark.queries, mark.collisions);
+    append_count(text, mark.false_negatives, "false negatives");
+    append_count(text, mark.false_positives, "false positives");
+    append_count(text, mark.late_tois, "late times of impact");
+    append_count(text, mark.early_upper_tois, "early upper times of impact");
+    append_count(text, mark.beyond_tolerance, "beyond the tolerance");
+    append_count(text, mark.errors, "errors");
+    append_count(text, mark.undecided, "undecided");
+    if (mark.toi_error) {
+      text += fmt::format("\nerror of the time of impact: median {}, greatest {}",
+                          short_number(mark.toi_error->median), short_number(mark.toi_error->max));
+    }
+    if (!std::isnan(mark.nanoseconds)) text += fmt::format("\n{:.0f} ns a query", mark.nanoseconds);
+    if (!std::isnan(mark.checks)) text += fmt::format("\n{:.1f} checks a query", mark.checks);
+    return text;
+  }
+
+  /// The panel of a mark's hardness, made where there is none.
+  static FigurePanel& panel_of(Figure& figure, const StabilityMark& mark) {
+    const auto found = std::ranges::find(figure.panels, mark.hardness, &FigurePanel::title);
+    if (found != figure.panels.end()) return *found;
+    return figure.panels.emplace_back(
+        FigurePanel{.title = mark.hardness, .caption = mark.measure, .series = {}, .front = {}});
+  }
+
+  /// With the rows of a method side by side.
+  void add_grid(Figure figure) {
+    for (FigurePanel& panel : figure.panels) {
+      std::ranges::stable_sort(panel.series, {}, &FigureSeries::slot);
+    }
+    add(std::move(figure));
+  }
+
   void add_stability() {
     Figure figure{
         .id = "stability",
         .title = "Stability: what goes wrong as queries get harder",
         .description =
-            "A cell a level of hardness: the worst that happens at it, and how often. N: "
+            "A cell a level of hardness: the worst that happens at it, and how often, in percent. "
+            "N: "
             "false negatives, of the collisions. T: the time of impact excludes the true "
-            "one. E: errors. P: false positives, of the misses, the deeper the more.",
+            "one, of the collisions. E: errors. B: a yes beyond its tolerance, of the misses. "
+            "Shades: false positives, of the misses, the deeper the more. vf: vertex-face. ee: "
+            "edge-edge.",
         .form = FigureForm::marks,
         .x_label = "level, a power of two",
         .y_label = {},
@@ -464,30 +516,65 @@ class Builder {
         .panels = {},
         .data = {{},
                  {"hardness", "measure", "exponent", "kind", "method", "queries", "collisions",
-                  "false_positives", "false_negatives", "worst", "worst_rate", "ns_per_query"},
+                  "false_positives", "false_negatives", "late_tois", "early_upper_tois",
+                  "beyond_tolerance", "errors", "undecided", "worst", "worst_rate", "ns_per_query"},
                  {}}};
     for (const StabilityMark& mark : measurements_.stability) {
-      auto panel = std::ranges::find(figure.panels, mark.hardness, &FigurePanel::title);
-      if (panel == figure.panels.end()) {
-        panel = figure.panels.insert(
-            panel, {.title = mark.hardness, .caption = mark.measure, .series = {}, .front = {}});
-      }
-      const std::string kind(mark.kind == Kind::vertex_face ? "vf" : "ee");
-      series_of(*panel, mark.method, kind)
+      series_of(panel_of(figure, mark), mark.method, row_of(mark))
           .points.push_back({static_cast<double>(mark.exponent), mark.worst_rate, mark_text(mark),
-                             mark.worst == "false negative"});
+                             mark.worst == "false negative", tip_of(mark)});
       figure.data.rows.push_back(
           {mark.hardness, mark.measure, fmt::format("{}", mark.exponent),
            std::string(to_string(mark.kind)), mark.method, fmt::format("{}", mark.queries),
            fmt::format("{}", mark.collisions), fmt::format("{}", mark.false_positives),
-           fmt::format("{}", mark.false_negatives), mark.worst, fmt::format("{}", mark.worst_rate),
-           fmt::format("{}", mark.nanoseconds)});
+           fmt::format("{}", mark.false_negatives), fmt::format("{}", mark.late_tois),
+           fmt::format("{}", mark.early_upper_tois), fmt::format("{}", mark.beyond_tolerance),
+           fmt::format("{}", mark.errors), fmt::format("{}", mark.undecided), mark.worst,
+           fmt::format("{}", mark.worst_rate), csv_number(mark.nanoseconds)});
     }
-    // The rows of a method side by side.
-    for (FigurePanel& panel : figure.panels) {
-      std::ranges::stable_sort(panel.series, {}, &FigureSeries::slot);
+    add_grid(std::move(figure));
+    add_stability_of("stability_toi_median", "Stability: the median error of the time of impact",
+                     "error of the time of impact, median", [](const StabilityMark& mark) {
+                       return mark.toi_error ? mark.toi_error->median : nan;
+                     });
+    add_stability_of("stability_toi_max", "Stability: the greatest error of the time of impact",
+                     "error of the time of impact, greatest", [](const StabilityMark& mark) {
+                       return mark.toi_error ? mark.toi_error->max : nan;
+                     });
+    add_stability_of("stability_time", "Stability: the time a query", "time a query, ns",
+                     [](const StabilityMark& mark) { return mark.nanoseconds; });
+    add_stability_of("stability_checks", "Stability: the checks a query", "checks a query",
+                     [](const StabilityMark& mark) { return mark.checks; });
+  }
+
+  /// A number of each cell, of the methods that give it.
+  void add_stability_of(const std::string& id, const std::string& title, const std::string& y_label,
+                        double (*value)(const StabilityMark&)) {
+    Figure figure{.id = id,
+                  .title = title,
+                  .description =
+                      "A cell a level of hardness, the deeper the greater the number. "
+                      "Framed: not known. vf: vertex-face. ee: edge-edge.",
+                  .form = FigureForm::shades,
+                  .x_label = "level, a power of two",
+                  .y_label = y_label,
+                  .x_log = false,
+                  .panels = {},
+                  .data = {{}, {"hardness", "measure", "exponent", "kind", "method", id}, {}}};
+    std::set<std::string> giving;
+    for (const StabilityMark& mark : measurements_.stability) {
+      if (!std::isnan(value(mark))) giving.insert(mark.method);
     }
-    add(std::move(figure));
+    for (const StabilityMark& mark : measurements_.stability) {
+      if (!giving.contains(mark.method)) continue;
+      const double number = value(mark);
+      series_of(panel_of(figure, mark), mark.method, row_of(mark))
+          .points.push_back({static_cast<double>(mark.exponent), number, {}, false});
+      figure.data.rows.push_back({mark.hardness, mark.measure, fmt::format("{}", mark.exponent),
+                                  std::string(to_string(mark.kind)), mark.method,
+                                  csv_number(number)});
+    }
+    add_grid(std::move(figure));
   }
 
   const Measurements& measurements_;
@@ -498,10 +585,11 @@ class Builder {
 nlohmann::json json_of(const std::vector<FigurePoint>& points) {
   nlohmann::json list = nlohmann::json::array();
   for (const FigurePoint& point : points) {
-    list.push_back({{"x", number_to_json(point.x)},
-                    {"y", number_to_json(point.y)},
-                    {"label", point.label},
-                    {"open", point.open}});
+    nlohmann::json& json = list.emplace_back(nlohmann::json{{"x", number_to_json(point.x)},
+                                                            {"y", number_to_json(point.y)},
+                                                            {"label", point.label},
+                                                            {"open", point.open}});
+    if (!point.tip.empty()) json["tip"] = point.tip;
   }
   return list;
 }
@@ -523,8 +611,8 @@ nlohmann::json json_of(const FigurePanel& panel) {
 }  // namespace
 
 std::string_view to_string(FigureForm form) {
-  static constexpr std::array<std::string_view, 5> names{"points", "lines", "ridges", "bars",
-                                                         "marks"};
+  static constexpr std::array<std::string_view, 6> names{"points", "lines", "ridges",
+                                                         "bars",   "marks", "shades"};
   return names.at(static_cast<std::size_t>(form));
 }
 

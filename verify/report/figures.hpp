@@ -22,17 +22,19 @@ enum class FigureForm : std::uint8_t {
   lines,   ///< curves
   ridges,  ///< a row a method: misses above its line, hits below it
   bars,    ///< stacked shares, a row a label
-  marks,   ///< a grid of coloured cells, a row a series
+  marks,   ///< a grid of cells coloured by what is wrong, a row a series
+  shades,  ///< a grid of cells shaded by their number, a row a series
 };
 
-/// "points", "lines", "ridges", "bars" or "marks".
+/// "points", "lines", "ridges", "bars", "marks" or "shades".
 [[nodiscard]] std::string_view to_string(FigureForm form);
 
 struct FigurePoint {
   double x = 0.0;
   double y = 0.0;
   std::string label;
-  bool open = false;  ///< drawn hollow: the method misses collisions here
+  bool open = false;     ///< drawn hollow: the method misses collisions here
+  std::string tip = {};  ///< more about it, shown where one points at it
 
   friend bool operator==(const FigurePoint&, const FigurePoint&) = default;
 };
@@ -76,7 +78,8 @@ struct Figure {
 /// Whose filter misses contacts, and which ones: below the figure and in docs/results.md.
 [[nodiscard]] std::string_view released_filter_sentence();
 
-/// The figures as page.js reads them, without their tables; numbers are as number_to_json writes them.
+/// The figures as page.js reads them, without their tables; numbers are as number_to_json (io/json.hpp) writes
+/// them.
 [[nodiscard]] nlohmann::json to_json(const std::vector<Figure>& figures);
 
 }  // namespace touchstone::verify

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "verify/judge/judge.hpp"
+#include "verify/report/judgement_report.hpp"
 #include "verify/run/statistics.hpp"
 #include "verify/run/timing.hpp"
 
@@ -39,11 +40,6 @@ Measurement of_question(const QueryGroup& group, Experiment experiment, const Se
 bool is_at_limit(const fast::Answer& answer, std::int64_t max_checks) {
   if (answer.verdict == fast::Verdict::undecided) return true;
   return max_checks > 0 && std::int64_t{answer.checks} >= max_checks;
-}
-
-std::optional<Spread> spread_of(const ToiErrors& numbers) {
-  if (numbers.count() == 0) return std::nullopt;
-  return Spread{.count = numbers.count(), .median = numbers.quantile(0.5), .max = numbers.max()};
 }
 
 void set_counts(const Judgement& judgement, Measurement& said) {

@@ -125,9 +125,16 @@ struct StabilityMark {
   std::uint64_t collisions = 0;
   std::uint64_t false_positives = 0;
   std::uint64_t false_negatives = 0;
-  std::string worst;        ///< name of the worst fault; empty if there is none
-  double worst_rate = 0.0;  ///< how often, of those that it can happen to
-  double nanoseconds = Measurement::unknown;
+  std::uint64_t late_tois = 0;
+  std::uint64_t early_upper_tois = 0;
+  std::uint64_t beyond_tolerance = 0;
+  std::uint64_t errors = 0;
+  std::uint64_t undecided = 0;
+  std::string worst = {};                     ///< name of the worst fault; empty if there is none
+  double worst_rate = 0.0;                    ///< how often, of those that it can happen to
+  std::optional<Spread> toi_error = {};       ///< as Measurement::toi_error
+  double nanoseconds = Measurement::unknown;  ///< processor time a query
+  double checks = Measurement::unknown;       ///< a query, where the method counts them
 
   friend bool operator==(const StabilityMark&, const StabilityMark&) = default;
 };

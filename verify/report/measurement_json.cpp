@@ -1,12 +1,11 @@
 #include "verify/report/measurement_json.hpp"
 
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "verify/io/json.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -16,16 +15,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* format_name = "touchstone measurements 1";
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr const char* infinity_name = "Infinity";
-constexpr const char* negative_infinity_name = "-Infinity";
-
-double number_from(const Json& json) {
-  if (json == infinity_name) return infinity;
-  if (json == negative_infinity_name) return -infinity;
-  return json.is_null() ? Measurement::unknown : json.get<double>();
-}
 
 Json json_of(const std::optional<Spread>& spread) {
   if (!spread) return {};
@@ -37,8 +26,8 @@ Json json_of(const std::optional<Spread>& spread) {
 std::optional<Spread> spread_from(const Json& json) {
   if (json.is_null()) return std::nullopt;
   return Spread{.count = json.at("count").get<std::uint64_t>(),
-                .median = number_from(json.at("median")),
-                .max = number_from(json.at("max"))};
+                .median = number_from_json(json.at("median")),
+                .max = number_from_json(json.at("max"))};
 }
 
 Json json_of(const TimeHistogram& times) {
@@ -77,7 +66,7 @@ Json json_of(const Measurement& measurement) {
           {"tolerance", number_to_json(m.tolerance)},
           {"max_checks", m.max_checks},
           {"separation", to_json(m.separation)},
-          {"scale", m.scale ? number_to_json(*m.scale) : Json()},
+          {"scale", number_to_json(m.scale)},
           {"group_queries", m.group_queries},
           {"asked", m.asked},
           {"collisions", m.collisions},
@@ -111,12 +100,12 @@ void read_question(const Json& json, Measurement& m) {
   m.kind = kind_from_string(json.at("kind").get<std::string>());
   json.at("method").get_to(m.method);
   m.promise = promise_from(json.at("promise").get<std::string>());
-  m.tolerance = number_from(json.at("tolerance"));
+  m.tolerance = number_from_json(json.at("tolerance"));
   json.at("max_checks").get_to(m.max_checks);
   m.separation = separation_from(json.at("separation"));
   // (Files from before there was a scale have none.)
   const Json scale = json.value("scale", Json());
-  if (!scale.is_null()) m.scale = number_from(scale);
+  if (!scale.is_null()) m.scale = number_from_json(scale);
   json.at("group_queries").get_to(m.group_queries);
   json.at("asked").get_to(m.asked);
 }
@@ -137,9 +126,9 @@ Measurement measurement_from(const Json& json) {
   Measurement m;
   read_question(json, m);
   read_faults(json, m);
-  m.nanoseconds = number_from(json.at("ns_per_query"));
+  m.nanoseconds = number_from_json(json.at("ns_per_query"));
   json.at("repetitions").get_to(m.repetitions);
-  m.certified_nanoseconds = number_from(json.at("certified_ns_per_query"));
+  m.certified_nanoseconds = number_from_json(json.at("certified_ns_per_query"));
   m.toi_error = spread_from(json.at("toi_error"));
   m.achieved_tolerance = spread_from(json.at("achieved_tolerance"));
   for (const Json& stage : json.at("stages")) {
@@ -160,9 +149,16 @@ Json json_of(const StabilityMark& mark) {
           {"collisions", mark.collisions},
           {"false_positives", mark.false_positives},
           {"false_negatives", mark.false_negatives},
+          {"late_tois", mark.late_tois},
+          {"early_upper_tois", mark.early_upper_tois},
+          {"beyond_tolerance", mark.beyond_tolerance},
+          {"errors", mark.errors},
+          {"undecided", mark.undecided},
           {"worst", mark.worst},
           {"worst_rate", mark.worst_rate},
-          {"ns_per_query", number_to_json(mark.nanoseconds)}};
+          {"toi_error", json_of(mark.toi_error)},
+          {"ns_per_query", number_to_json(mark.nanoseconds)},
+          {"checks_per_query", number_to_json(mark.checks)}};
 }
 
 StabilityMark mark_from(const Json& json) {
@@ -178,7 +174,15 @@ StabilityMark mark_from(const Json& json) {
   json.at("false_negatives").get_to(mark.false_negatives);
   json.at("worst").get_to(mark.worst);
   json.at("worst_rate").get_to(mark.worst_rate);
-  mark.nanoseconds = number_from(json.at("ns_per_query"));
+  mark.nanoseconds = number_from_json(json.at("ns_per_query"));
+  // (Earlier files have no more than that.)
+  mark.late_tois = json.value("late_tois", mark.late_tois);
+  mark.early_upper_tois = json.value("early_upper_tois", mark.early_upper_tois);
+  mark.beyond_tolerance = json.value("beyond_tolerance", mark.beyond_tolerance);
+  mark.errors = json.value("errors", mark.errors);
+  mark.undecided = json.value("undecided", mark.undecided);
+  mark.toi_error = spread_from(json.value("toi_error", Json()));
+  mark.checks = number_from_json(json.value("checks_per_query", Json()));
   return mark;
 }
 
@@ -196,12 +200,6 @@ Measurements read(const Json& json) {
 }
 
 }  // namespace
-
-Json number_to_json(double value) {
-  if (std::isnan(value)) return {};
-  if (std::isinf(value)) return value > 0.0 ? infinity_name : negative_infinity_name;
-  return value;
-}
 
 Json to_json(const Measurements& measurements) {
   Json all = Json::array();

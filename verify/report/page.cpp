@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
+#include "verify/io/printable.hpp"
+#include "verify/judge/separation_inference.hpp"
 #include "verify/report/figures.hpp"
+#include "verify/report/findings.hpp"
 #include "verify/report/page_texts.hpp"
+#include "verify/report/stability_report.hpp"
 #include "verify/report/tables.hpp"
-#include "verify/stability/svg.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -49,113 +53,137 @@ std::string script_json(const nlohmann::json& json) {
   return result;
 }
 
+/// Tables under one heading.
+struct Section {
+  std::string_view id;
+  std::string_view title;
+  std::vector<Table> tables;
+  bool meanings = true;  ///< with column_meanings() below
+};
+
+/// All that a page shows, in its order.
+struct Contents {
+  std::string_view title;
+  std::string about;
+  std::vector<std::string> findings;
+  /// The first of them stands at the top, the others behind the tables at the top.
+  std::vector<Figure> figures;
+  std::vector<Section> top_tables;
+  std::vector<Section> further_tables;
+  /// Where the numbers are from; texts are printable.
+  std::string command;
+  std::string machine;
+  bool interrupted = false;
+};
+
+/// The tables over d: of the baselines that were measured, or of ours.
+std::vector<Section> separation_sections(const Measurements& measurements) {
+  std::vector<Section> sections{{"table_2", "Table 2: MSRF over the minimum separation d",
+                                 separation_tables(measurements, "msrf")},
+                                {"table_3", "Table 3: FPRF over the minimum separation d",
+                                 separation_tables(measurements, "fprf")}};
+  const auto is_empty = [](const Section& section) { return section.tables.empty(); };
+  if (std::ranges::all_of(sections, is_empty)) {
+    sections.push_back({"table_2", "Table 2: over the minimum separation d",
+                        separation_tables(measurements, "tight_inclusion")});
+  }
+  sections.push_back({"filters", filter_title, filter_tables(measurements)});
+  std::erase_if(sections, is_empty);
+  return sections;
+}
+
 class Writer {
  public:
-  explicit Writer(const Measurements& measurements)
-      : measurements_(with_printable_texts(measurements)) {}
+  explicit Writer(const Contents& contents) : contents_(contents) {}
 
   [[nodiscard]] std::string page() {
-    const std::vector<Figure> figures = figures_of(measurements_);
     write_head();
-    write_introduction(figures);
-    write_tables("table_1", "Table 1: all methods", field_tables(measurements_));
-    for (const Figure& figure : figures) write_figure(figure);
-    for (const Section& section : separation_sections()) {
-      write_tables(section.id, section.title, section.tables);
-    }
-    write_tables("filters", filter_title, filter_tables(measurements_));
-    write_scripts(figures);
+    write_opening();
+    write_navigation();
+    for (const Section& section : contents_.top_tables) write_section(section);
+    for (std::size_t i = 1; i < contents_.figures.size(); ++i) write_figure(contents_.figures[i]);
+    for (const Section& section : contents_.further_tables) write_section(section);
+    write_scripts();
     return std::move(text_);
   }
 
  private:
-  struct Section {
-    std::string_view id;
-    std::string_view title;
-    std::vector<Table> tables;
-  };
-
-  /// The tables over d: of the baselines that were measured, or of ours.
-  [[nodiscard]] std::vector<Section> separation_sections() const {
-    std::vector<Section> sections{{"table_2", "Table 2: MSRF over the minimum separation d",
-                                   separation_tables(measurements_, "msrf")},
-                                  {"table_3", "Table 3: FPRF over the minimum separation d",
-                                   separation_tables(measurements_, "fprf")}};
-    const auto is_empty = [](const Section& section) { return section.tables.empty(); };
-    std::erase_if(sections, is_empty);
-    if (sections.empty()) {
-      sections.push_back({"table_2", "Table 2: over the minimum separation d",
-                          separation_tables(measurements_, "tight_inclusion")});
-      std::erase_if(sections, is_empty);
-    }
-    return sections;
-  }
-
   void write_head() {
     text_ += fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta name=\"color-scheme\" content=\"light dark\">\n"
-        "<title>Touchstone report</title>\n<style>\n{}</style>\n</head>\n<body>\n",
-        policy, page_style());
+        "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n",
+        policy, contents_.title, page_style());
   }
 
-  void write_introduction(const std::vector<Figure>& figures) {
-    text_ +=
-        "<header>\n<h1>Touchstone report</h1>\n<p>Methods of continuous collision detection, their "
-        "speed against their error. The truth is the exact oracle’s.</p>\n";
-    text_ += fmt::format("<p>Made on {} by</p>\n<pre class=\"command\">{}</pre>\n",
-                         xml_escaped(measurements_.machine), xml_escaped(measurements_.command));
-    if (measurements_.interrupted) {
+  /// What one reads first.
+  void write_opening() {
+    text_ += fmt::format("<header>\n<h1>{}</h1>\n<p>{}</p>\n", contents_.title,
+                         html_escaped(contents_.about));
+    if (contents_.interrupted) {
       text_ += "<p class=\"warning\">Interrupted: not all that was asked for is here.</p>\n";
     }
-    text_ += "</header>\n<nav aria-label=\"Contents\"><ul>\n";
-    text_ += "<li><a href=\"#table_1\">Table 1</a></li>\n";
-    for (const Figure& figure : figures) {
-      text_ +=
-          fmt::format("<li><a href=\"#{}\">{}</a></li>\n", figure.id, xml_escaped(figure.title));
+    text_ += "<ul class=\"findings\">\n";
+    for (const std::string& finding : contents_.findings) {
+      text_ += fmt::format("<li>{}</li>\n", html_escaped(finding));
     }
-    for (const Section& section : separation_sections()) {
-      text_ += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, section.title);
-    }
-    if (!filter_tables(measurements_).empty()) {
-      text_ += fmt::format("<li><a href=\"#filters\">{}</a></li>\n", filter_title);
-    }
-    text_ += "</ul></nav>\n<main>\n";
+    text_ += "</ul>\n</header>\n<main>\n";
+    if (!contents_.figures.empty()) write_figure(contents_.figures.front());
+  }
+
+  void write_navigation() {
+    text_ += fmt::format("<p>Made{} by</p>\n<pre class=\"command\">{}</pre>\n",
+                         contents_.machine.empty() ? "" : " on " + html_escaped(contents_.machine),
+                         html_escaped(contents_.command));
+    text_ += "<nav aria-label=\"Contents\"><ul>\n";
+    for (const Section& section : contents_.top_tables) write_link(section.id, section.title);
+    for (const Figure& figure : contents_.figures) write_link(figure.id, figure.title);
+    for (const Section& section : contents_.further_tables) write_link(section.id, section.title);
+    text_ += "</ul></nav>\n";
+  }
+
+  void write_link(std::string_view id, std::string_view title) {
+    text_ += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, html_escaped(title));
   }
 
   // ---- Tables -----------------------------------------------------------------------------------
 
-  void write_tables(std::string_view id, std::string_view title, const std::vector<Table>& tables) {
-    if (tables.empty()) return;
-    text_ += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", id, title);
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-      write_table(tables[i]);
-      write_origin(fmt::format("{}_{}", id, i + 1), tables[i]);
+  void write_section(const Section& section) {
+    if (section.tables.empty()) return;
+    text_ += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, section.title);
+    for (std::size_t i = 0; i < section.tables.size(); ++i) {
+      write_table(section.tables[i]);
+      write_origin(fmt::format("{}_{}", section.id, i + 1), section.tables[i]);
     }
+    if (section.meanings) write_meanings();
+    text_ += "</section>\n";
+  }
+
+  void write_meanings() {
     text_ += "<details><summary>What the columns mean</summary>\n<ul>\n";
     for (const std::string& meaning : column_meanings()) {
-      text_ += fmt::format("<li>{}</li>\n", xml_escaped(meaning));
+      text_ += fmt::format("<li>{}</li>\n", html_escaped(meaning));
     }
-    text_ += "</ul>\n</details>\n</section>\n";
+    text_ += "</ul>\n</details>\n";
   }
 
   void write_table(const Table& table) {
     text_ += fmt::format(
         "<div class=\"scroll\" tabindex=\"0\"><table>\n<caption>{}</caption>\n<thead><tr>",
-        xml_escaped(table.title));
+        html_escaped(table.title));
     for (const std::string& column : table.columns) {
-      text_ += fmt::format("<th scope=\"col\">{}</th>", xml_escaped(column));
+      text_ += fmt::format("<th scope=\"col\">{}</th>", html_escaped(column));
     }
     text_ += "</tr></thead>\n<tbody>\n";
     for (const auto& row : table.rows) {
       text_ += "<tr>";
       for (std::size_t i = 0; i < row.size(); ++i) {
-        text_ += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", xml_escaped(row[i]))
+        text_ += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", html_escaped(row[i]))
                         : fmt::format("<td{}>{}</td>",
                                       is_word(table.columns[i]) ? " class=\"word\"" : "",
-                                      xml_escaped(row[i]));
+                                      html_escaped(row[i]));
       }
       text_ += "</tr>\n";
     }
@@ -172,7 +200,7 @@ class Writer {
     text_ += fmt::format(
         "<p class=\"origin\"><a class=\"csv\" download=\"{0}.csv\" "
         "href=\"data:text/csv;charset=utf-8,{1}\">CSV</a> <code>{2}</code></p>\n",
-        id, percent_encoded(to_csv(data)), xml_escaped(measurements_.command));
+        id, percent_encoded(to_csv(data)), html_escaped(contents_.command));
   }
 
   // ---- Figures ----------------------------------------------------------------------------------
@@ -181,27 +209,69 @@ class Writer {
     text_ += fmt::format(
         "<section class=\"figure\" id=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n"
         "<div class=\"legend\"></div>\n<div class=\"panels\"></div>\n",
-        figure.id, xml_escaped(figure.title), xml_escaped(figure.description));
+        figure.id, html_escaped(figure.title), html_escaped(figure.description));
     write_origin(figure.id, figure.data);
     text_ += "</section>\n";
   }
 
-  void write_scripts(const std::vector<Figure>& figures) {
+  void write_scripts() {
     text_ +=
         "</main>\n<noscript><p class=\"warning\">The figures are drawn by a "
         "script.</p></noscript>\n";
     text_ += fmt::format("<script type=\"application/json\" id=\"figures\">{}</script>\n",
-                         script_json(to_json(figures)));
+                         script_json(to_json(contents_.figures)));
     text_ += fmt::format("<script>\n{}</script>\n<script>\n{}</script>\n</body>\n</html>\n",
                          d3_script(), page_script());
   }
 
-  Measurements measurements_;
+  const Contents& contents_;
   std::string text_;
 };
 
 }  // namespace
 
-std::string report_page(const Measurements& measurements) { return Writer(measurements).page(); }
+std::string report_page(const Measurements& measured) {
+  const Measurements measurements = with_printable_texts(measured);
+  Contents contents{.title = "Touchstone report",
+                    .about =
+                        "Methods of continuous collision detection, their speed against their "
+                        "error. The truth is the exact oracle’s.",
+                    .findings = {},
+                    .figures = figures_of(measurements),
+                    .top_tables = {{"table_1", "Table 1: all methods", field_tables(measurements)}},
+                    .further_tables = separation_sections(measurements),
+                    .command = measurements.command,
+                    .machine = measurements.machine,
+                    .interrupted = measurements.interrupted};
+  contents.findings = findings_of(measurements, contents.figures);
+  return Writer(contents).page();
+}
+
+std::string stability_page(const StabilityResult& result, const std::string& command) {
+  const Measurements measurements = with_printable_texts(
+      {.command = command, .machine = {}, .all = {}, .stability = marks_of(result)});
+  Contents contents{
+      .title = "Stability of solvers",
+      .about = result.cells.empty()
+                   ? "No cell was judged."
+                   : fmt::format(
+                         "{} queries a cell, half of them collisions; seed {}{}. Errors of times "
+                         "of impact are in units of the motion's duration.",
+                         result.count, result.seed,
+                         is_contact(result.separation)
+                             ? ""
+                             : "; minimum separation " + to_text(result.separation)),
+      .findings = {},
+      .figures = figures_of(measurements),
+      .top_tables = {{"overview", "Overview", {overview_of(result)}, false}},
+      .further_tables = {},
+      .command = measurements.command,
+      .machine = {},
+      .interrupted = result.total.interrupted};
+  for (const MethodResult& method : result.total.methods) {
+    contents.findings.push_back(promise_text(method) + ".");
+  }
+  return Writer(contents).page();
+}
 
 }  // namespace touchstone::verify

@@ -1,10 +1,11 @@
 #pragma once
 
 /// \file
-/// A report as one HTML page that needs nothing else: no network, no other file. Its policy
-/// (Content-Security-Policy) forbids to load anything.
+/// A report, or a map of stability, as one HTML page that needs nothing else: no network, no other file.
+/// Its policy (Content-Security-Policy) forbids to load anything.
 ///
-/// The tables are in the page as they are; the figures are drawn by d3 in the browser from the data that
+/// A report opens with its findings (findings.hpp) and the first figure of time against error; tables and
+/// further figures follow. The tables are in the page as they are; the figures are drawn by d3 in the browser from the data that
 /// stand in the page. Every table and figure has a link to its numbers as CSV, inside the page too, and
 /// the command that made them. It fits screens from a telephone's on, and paper, and follows the reader's
 /// light or dark scheme.
@@ -12,10 +13,16 @@
 #include <string>
 
 #include "verify/report/measurement.hpp"
+#include "verify/stability/stability.hpp"
 
 namespace touchstone::verify {
 
 /// The page as HTML.
 [[nodiscard]] std::string report_page(const Measurements& measurements);
+
+/// The map of stability as HTML: who keeps their promise, the worst of each hardness as a table, and as
+/// figures the worst outcome, the errors of the time of impact, time and checks of every cell.
+/// \param command the command line that made it
+[[nodiscard]] std::string stability_page(const StabilityResult& result, const std::string& command);
 
 }  // namespace touchstone::verify

@@ -3,24 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "verify/io/json.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/text_table.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/report/judgement_report.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {
-
-constexpr std::string_view row_format =
-    "{:<8}  {:<16}  {:<11}  {:<11}  {:>7}  {:>9}  {:>9}  {:>8}  {:>11}  {:>9}  {:>6}  {:>10}  "
-    "{:>9}  {:>9}  {:>9}\n";
 
 constexpr std::string_view legend =
     "levels, a character each: . no wrong answer; 0 to 9 false positives, up to so many tenths of "
@@ -28,8 +26,12 @@ constexpr std::string_view legend =
     "one, "
     "E errors, B a yes beyond its tolerance\n";
 
+std::string_view name_of(const Outcome& outcome) {
+  return outcome.worst ? to_string(*outcome.worst) : std::string_view();
+}
+
 /// What a level's cell looks like in one character.
-char mark_of(const Outcome& outcome) {
+char character_of(const Outcome& outcome) {
   if (!outcome.worst) return '.';
   switch (*outcome.worst) {
     case Fault::false_negative:
@@ -46,14 +48,6 @@ char mark_of(const Outcome& outcome) {
   }
 }
 
-std::string error_text(double error) {
-  return std::isnan(error) ? "-" : fmt::format("{:.2e}", error);
-}
-
-std::string number_text(const std::optional<double>& number) {
-  return number ? fmt::format("{:.1f}", *number) : "-";
-}
-
 /// The cells of one hardness and kind.
 using Row = std::vector<const StabilityCell*>;
 
@@ -68,80 +62,102 @@ std::vector<Row> rows_of(const StabilityResult& result) {
   return rows;
 }
 
-void append_row(std::string& text, const Row& row, std::size_t method) {
+std::vector<TextColumn> columns() {
+  return joined<TextColumn>(
+      {{word_column("hardness", 8),
+        word_column("levels", 16),
+        word_column("kind", 11),
+        word_column("level by", 11),
+        {"queries", 7}},
+       fault_columns(),
+       {{"ns/query", 10}, {"checks", 9}, {"error p50", 9}, {"error max", 9}}});
+}
+
+TextRow text_row(const Row& row, std::size_t method) {
   CertifyResult sum;
   std::string marks;
   for (const StabilityCell* cell : row) {
     sum += cell->judged;
-    marks += mark_of(outcome_of(cell->judged, method));
+    marks += character_of(outcome_of(cell->judged, method));
   }
   const MethodResult& all = sum.methods.at(method);
   const Judgement& judged = all.judgement;
   const Hardness& hardness = *row.front()->hardness;
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), hardness.name,
-                 fmt::format("2^{} … 2^{}", hardness.exponents.front(), hardness.exponents.back()),
-                 to_string(row.front()->kind), marks, judged.queries,
-                 judged.count(Fault::false_negative), judged.count(Fault::false_positive),
-                 judged.count(Fault::late_toi), judged.count(Fault::early_toi_upper),
-                 judged.undecided, judged.count(Fault::error),
-                 number_text(nanoseconds_per_query(all)), number_text(checks_per_query(all)),
-                 error_text(judged.toi_errors.quantile(0.5)), error_text(judged.toi_errors.max()));
+  return joined<std::string>(
+      {{std::string(hardness.name),
+        fmt::format("2^{} … 2^{}", hardness.exponents.front(), hardness.exponents.back()),
+        std::string(to_string(row.front()->kind)), marks, std::to_string(judged.queries)},
+       fault_cells(judged),
+       {number_text(nanoseconds_per_query(all), "{:.1f}"),
+        number_text(checks_per_query(all), "{:.1f}"), error_text(judged.toi_errors.quantile(0.5)),
+        error_text(judged.toi_errors.max())}});
 }
 
-void append_method(std::string& text, const StabilityResult& result, std::size_t method) {
-  const MethodResult& total = result.total.methods.at(method);
-  text += fmt::format("{} ({}): {} its promise\n", total.name, to_string(total.promise),
-                      keeps(total.judgement, total.promise) ? "keeps" : "breaks");
-  fmt::format_to(std::back_inserter(text), fmt::runtime(row_format), "hardness", "levels", "kind",
-                 "level by", "queries", "false neg", "false pos", "late toi", "early upper",
-                 "undecided", "errors", "ns/query", "checks", "error p50", "error max");
-  for (const Row& row : rows_of(result)) append_row(text, row, method);
-  text += '\n';
+std::string method_text(const StabilityResult& result, std::size_t method) {
+  TextTable table(columns());
+  for (const Row& row : rows_of(result)) table.add(text_row(row, method));
+  return fmt::format("{}\n{}\n", promise_text(result.total.methods.at(method)), table.text());
 }
 
-nlohmann::json or_null(const std::optional<double>& number) {
-  return number ? nlohmann::json(*number) : nlohmann::json();
-}
-
-nlohmann::json to_json(const ToiErrors& errors) {
-  if (errors.count() == 0) return {};
-  return {{"count", errors.count()}, {"p50", errors.quantile(0.5)}, {"max", errors.max()}};
-}
-
-nlohmann::json to_json(const StabilityCell& cell, std::size_t method) {
+nlohmann::json json_of(const StabilityCell& cell, std::size_t method) {
   const MethodResult& of_method = cell.judged.methods.at(method);
   const Judgement& judged = of_method.judgement;
   const Outcome outcome = outcome_of(cell.judged, method);
-  return {{"hardness", cell.hardness->name},
-          {"exponent", cell.exponent},
-          {"level", std::ldexp(1.0, cell.exponent)},
-          {"kind", to_string(cell.kind)},
-          {"queries", judged.queries},
-          {"collisions", cell.judged.collisions},
-          {"false_negatives", judged.count(Fault::false_negative)},
-          {"false_positives", judged.count(Fault::false_positive)},
-          {"late_toi", judged.count(Fault::late_toi)},
-          {"early_toi_upper", judged.count(Fault::early_toi_upper)},
-          {"beyond_tolerance", judged.count(Fault::beyond_tolerance)},
-          {"errors", judged.count(Fault::error)},
-          {"undecided", judged.undecided},
-          {"false_negative_rate", rate_of(Fault::false_negative, cell.judged, method)},
-          {"false_positive_rate", rate_of(Fault::false_positive, cell.judged, method)},
-          {"worst", outcome.worst ? nlohmann::json(to_string(*outcome.worst)) : nlohmann::json()},
-          {"worst_rate", outcome.rate},
-          {"toi_error", to_json(judged.toi_errors)},
-          {"ns_per_query", or_null(nanoseconds_per_query(of_method))},
-          {"checks_per_query", or_null(checks_per_query(of_method))}};
+  nlohmann::json json = to_json(judged);
+  json.update({{"hardness", cell.hardness->name},
+               {"exponent", cell.exponent},
+               {"level", std::ldexp(1.0, cell.exponent)},
+               {"kind", to_string(cell.kind)},
+               {"queries", judged.queries},
+               {"collisions", cell.judged.collisions},
+               {"beyond_tolerance", judged.count(Fault::beyond_tolerance)},
+               {"false_negative_rate", rate_of(Fault::false_negative, cell.judged, method)},
+               {"false_positive_rate", rate_of(Fault::false_positive, cell.judged, method)},
+               {"worst", text_or_null(name_of(outcome))},
+               {"worst_rate", outcome.rate},
+               {"ns_per_query", number_to_json(nanoseconds_per_query(of_method))},
+               {"checks_per_query", number_to_json(checks_per_query(of_method))}});
+  return json;
+}
+
+StabilityMark mark_of(const StabilityCell& cell, std::size_t method) {
+  const MethodResult& result = cell.judged.methods.at(method);
+  const Judgement& judged = result.judgement;
+  const Outcome outcome = outcome_of(cell.judged, method);
+  return {.method = result.name,
+          .hardness = std::string(cell.hardness->name),
+          .measure = std::string(cell.hardness->measure),
+          .exponent = cell.exponent,
+          .kind = cell.kind,
+          .queries = cell.judged.queries,
+          .collisions = cell.judged.collisions,
+          .false_positives = judged.count(Fault::false_positive),
+          .false_negatives = judged.count(Fault::false_negative),
+          .late_tois = judged.count(Fault::late_toi),
+          .early_upper_tois = judged.count(Fault::early_toi_upper),
+          .beyond_tolerance = judged.count(Fault::beyond_tolerance),
+          .errors = judged.count(Fault::error),
+          .undecided = judged.undecided,
+          .worst = std::string(name_of(outcome)),
+          .worst_rate = outcome.rate,
+          .toi_error = spread_of(judged.toi_errors),
+          .nanoseconds = nanoseconds_per_query(result).value_or(Measurement::unknown),
+          .checks = checks_per_query(result).value_or(Measurement::unknown)};
 }
 
 }  // namespace
+
+std::string promise_text(const MethodResult& method) {
+  return fmt::format("{} ({}): {} its promise", printable(method.name), to_string(method.promise),
+                     keeps(method.judgement, method.promise) ? "keeps" : "breaks");
+}
 
 std::string to_text(const StabilityResult& result) {
   std::string text;
   if (!is_contact(result.separation)) {
     text += fmt::format("minimum separation {}\n", to_text(result.separation));
   }
-  for (std::size_t i = 0; i < result.total.methods.size(); ++i) append_method(text, result, i);
+  for (std::size_t i = 0; i < result.total.methods.size(); ++i) text += method_text(result, i);
   text += legend;
   for (const StabilityCell& cell : result.cells) {
     for (const Mismatch& mismatch : cell.judged.mismatches) {
@@ -174,13 +190,44 @@ nlohmann::json to_json(const StabilityResult& result) {
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) {
     const MethodResult& total = result.total.methods[i];
     nlohmann::json cells = nlohmann::json::array();
-    for (const StabilityCell& cell : result.cells) cells.push_back(to_json(cell, i));
+    for (const StabilityCell& cell : result.cells) cells.push_back(json_of(cell, i));
     json["methods"].push_back({{"name", total.name},
                                {"promise", to_string(total.promise)},
                                {"keeps_promise", keeps(total.judgement, total.promise)},
                                {"cells", std::move(cells)}});
   }
   return json;
+}
+
+std::vector<StabilityMark> marks_of(const StabilityResult& result) {
+  std::vector<StabilityMark> marks;
+  for (const StabilityCell& cell : result.cells) {
+    for (std::size_t i = 0; i < cell.judged.methods.size(); ++i) marks.push_back(mark_of(cell, i));
+  }
+  return marks;
+}
+
+Table overview_of(const StabilityResult& result) {
+  Table table{.title = "The worst at any level", .columns = {"method"}, .rows = {}};
+  std::vector<CertifyResult> sums;
+  for (const StabilityCell& cell : result.cells) {
+    if (table.columns.back() != cell.hardness->name) {
+      table.columns.emplace_back(cell.hardness->name);
+      sums.emplace_back();
+    }
+    sums.back() += cell.judged;
+  }
+  for (std::size_t i = 0; i < result.total.methods.size(); ++i) {
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row.push_back(result.total.methods[i].name);
+    for (const CertifyResult& sum : sums) {
+      const Outcome outcome = outcome_of(sum, i);
+      row.push_back(outcome.worst
+                        ? fmt::format("{} {:.2g} %", name_of(outcome), 100.0 * outcome.rate)
+                        : "nothing wrong");
+    }
+  }
+  return table;
 }
 
 }  // namespace touchstone::verify

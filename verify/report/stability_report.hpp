@@ -1,11 +1,14 @@
 #pragma once
 
 /// \file
-/// A map of stability for people (tables) and for machines (JSON). The picture is heat_map.hpp.
+/// A map of stability for people (tables), for machines (JSON) and for the page (page.hpp).
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
+#include "verify/report/measurement.hpp"
+#include "verify/report/tables.hpp"
 #include "verify/stability/stability.hpp"
 
 namespace touchstone::verify {
@@ -23,11 +26,18 @@ namespace touchstone::verify {
 /// `keeps_promise` and `cells`.
 ///
 /// A cell has `hardness`, `exponent`, `level` (the power of two), `kind`, `queries`, `collisions`, the
-/// counts `false_negatives`, `false_positives`, `late_toi`, `early_toi_upper`, `beyond_tolerance`,
-/// `errors` and `undecided`, the rates `false_negative_rate` (of the collisions) and
-/// `false_positive_rate` (of the others), `worst` (null, or the name of the worst fault) with its
-/// `worst_rate`, `toi_error` (null, or `count`, `p50` and `max`, in units of the motion's duration),
-/// `ns_per_query` and `checks_per_query` (null where unknown).
+/// fields of a judgement (judgement_report.hpp), `beyond_tolerance`, the rates `false_negative_rate` (of
+/// the collisions) and `false_positive_rate` (of the others), `worst` (null, or the name of the worst
+/// fault) with its `worst_rate`, `ns_per_query` and `checks_per_query` (null where unknown).
 [[nodiscard]] nlohmann::json to_json(const StabilityResult& result);
+
+/// "certified (exact): keeps its promise".
+[[nodiscard]] std::string promise_text(const MethodResult& method);
+
+/// The cells as a report holds them, method by method within a cell.
+[[nodiscard]] std::vector<StabilityMark> marks_of(const StabilityResult& result);
+
+/// A row a method, a column a hardness: the worst that happened at any level, and how often.
+[[nodiscard]] Table overview_of(const StabilityResult& result);
 
 }  // namespace touchstone::verify

@@ -1,4 +1,5 @@
 #include "verify/report/tables.hpp"
+#include "fast/certified.hpp"
 
 #include <fmt/format.h>
 
@@ -124,7 +125,7 @@ Chosen at_distance(const Chosen& measurements, const Place& place, std::string_v
   static constexpr std::string_view inclusion = "tight_inclusion";
   std::vector<std::string_view> rows{method};
   if (method != inclusion) rows.push_back(inclusion);
-  rows.emplace_back("certified");
+  rows.push_back(fast::certified_info().name);
   Chosen chosen;
   for (const std::string_view wanted : rows) {
     for (const Measurement* m : measurements) {
@@ -264,16 +265,9 @@ std::string to_markdown(const Table& table) {
 }
 
 std::string to_csv(const Table& table) {
-  std::string text;
-  const auto add = [&](const Texts& texts) {
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-      text += i == 0 ? "" : ",";
-      text += csv_field(texts[i]);
-    }
-    text += "\r\n";
-  };
-  add(table.columns);
-  for (const Texts& row : table.rows) add(row);
+  static constexpr std::string_view line_end = "\r\n";
+  std::string text = csv_row(table.columns, line_end);
+  for (const Texts& row : table.rows) text += csv_row(row, line_end);
   return text;
 }
 

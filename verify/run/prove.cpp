@@ -6,6 +6,7 @@
 
 #include "exact/certificate/certificate_text.hpp"
 #include "verify/io/printable.hpp"
+#include "verify/io/text_table.hpp"
 #include "verify/run/stream.hpp"
 #include "verify/run/thread_clock.hpp"
 
@@ -125,15 +126,16 @@ void append_certificate(Kind kind, const Query& query, const Decision& decision,
 }
 
 std::string to_text(const ProofCounts& counts) {
-  std::string text = fmt::format("{:<16} {:>12}\n", "claim", "certificates");
-  text += fmt::format("{:<16} {:>12}\n", "no collision", counts.no_collision);
-  text += fmt::format("{:<16} {:>12}\n", "collision", counts.collision);
-  text += fmt::format("{:<16} {:>12}\n", "time of impact", counts.time_of_impact);
-  text += fmt::format("{:<16} {:>12}\n", "total", counts.certificates());
-  text += fmt::format("\n{:<16} {:>12}\n", "pieces", "certificates");
+  TextTable claims({word_column("claim", 15), {"certificates"}});
+  claims.add({"no collision", std::to_string(counts.no_collision)});
+  claims.add({"collision", std::to_string(counts.collision)});
+  claims.add({"time of impact", std::to_string(counts.time_of_impact)});
+  claims.add({"total", std::to_string(counts.certificates())});
+  TextTable pieces({word_column("pieces", 15), {"certificates"}});
   for (const auto& [size, certificates] : counts.pieces) {
-    text += fmt::format("{:<16} {:>12}\n", size, certificates);
+    pieces.add({std::to_string(size), std::to_string(certificates)});
   }
+  std::string text = claims.text() + '\n' + pieces.text();
   text += fmt::format("\n{} bytes, {:.1f} bytes/certificate, {:.2f} µs/certificate\n", counts.bytes,
                       per_certificate(static_cast<double>(counts.bytes), counts),
                       per_certificate(1e-3 * counts.nanoseconds, counts));

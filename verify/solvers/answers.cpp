@@ -43,10 +43,6 @@ constexpr std::size_t longest_record = std::size_t{1} << 16U;
 
 using Fields = std::array<std::string, most_columns>;
 
-std::string number_text(double value) {
-  return std::isnan(value) ? std::string() : fmt::format("{}", value);
-}
-
 }  // namespace
 
 std::string_view to_string(fast::Verdict verdict) {
@@ -72,10 +68,10 @@ std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
   fast::Answer said = answer;
   if (why && why->kind == FailureKind::not_finite) said = {.verdict = verdict_of(why->kind)};
   const bool says_all = !why || why->kind == FailureKind::undecided;
-  return fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(file), index, to_string(kind),
-                     to_string(said.verdict), number_text(said.toi_lower),
-                     number_text(said.toi_upper), number_text(said.tolerance),
-                     says_all ? std::string() : csv_field(to_text(*why)));
+  return csv_row({std::string(file), std::to_string(index), std::string(to_string(kind)),
+                  std::string(to_string(said.verdict)), csv_number(said.toi_lower),
+                  csv_number(said.toi_upper), csv_number(said.tolerance),
+                  says_all ? std::string() : to_text(*why)});
 }
 
 /// Reads the file front to back, then puts the rows in order.

@@ -9,21 +9,21 @@
 namespace touchstone::baselines {
 namespace {
 
-TEST(QueryRandom, RepeatsForAQueryAndDiffersBetweenQueries) {
+TEST(RandomOf, RepeatsForAQueryAndDiffersBetweenQueries) {
   const Query query = tests::over_triangle(1, 1, 1, -1).query;
-  QueryRandom first(query), again(query);
+  Random first = random_of(query), again = random_of(query);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(first.uniform(0, 1), again.uniform(0, 1));
   std::set<double> values;
   for (std::size_t i = 0; i < 24; ++i) {
     Query other = query;
     other.coordinates[i] += 1.0;
-    values.insert(QueryRandom(other).uniform(0, 1));
+    values.insert(random_of(other).uniform(0, 1));
   }
   EXPECT_EQ(values.size(), 24U);
 }
 
-TEST(QueryRandom, IsUniformInItsRange) {
-  QueryRandom random(Query{});
+TEST(RandomOf, IsUniformInItsRange) {
+  Random random = random_of(Query{});
   std::array<int, 10> counts{};
   for (int i = 0; i < 10000; ++i) {
     const double x = random.uniform(-1, 1);

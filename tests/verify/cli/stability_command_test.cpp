@@ -41,7 +41,7 @@ TEST_F(Stability, HelpHasAnExampleAndTheLevels) {
 
 TEST_F(Stability, WritesTableJsonAndPicture) {
   ASSERT_EQ(run(quick + "--method certified --seed 9 --json " + quoted("json") + " --picture " +
-                quoted("map.svg")),
+                quoted("map.html")),
             0)
       << read("err");
   EXPECT_EQ(read("err"), "");
@@ -56,8 +56,10 @@ TEST_F(Stability, WritesTableJsonAndPicture) {
   EXPECT_EQ(cells[0].at("hardness"), "angle");
   EXPECT_EQ(cells[0].at("collisions"), 1);
   EXPECT_GE(cells[0].at("checks_per_query"), 1.0) << "stages";
-  EXPECT_TRUE(read("map.svg").starts_with("<?xml"));
-  EXPECT_TRUE(contains(read("map.svg"), "certified — promises: exact; kept"));
+  const std::string page = read("map.html");
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(contains(page, "<li>certified (exact): keeps its promise.</li>"));
+  EXPECT_TRUE(contains(page, "<pre class=\"command\">touchstone stability --count 2 "));
 }
 
 TEST_F(Stability, WithoutAMethodAllOfOursAreJudged) {
@@ -103,7 +105,7 @@ TEST_F(Stability, TakesASeparation) {
 TEST_F(Stability, BadUsageExitsWithTwo) {
   for (const std::string arguments :
        {"--hardness easy", "--method nonsense", "--count 0", "--min-separation 1e9", "--norm l3",
-        "--picture '/nonexistent/map.svg'", "paths"}) {
+        "--picture '/nonexistent/map.html'", "paths"}) {
     EXPECT_EQ(run(arguments), 2) << arguments;
     EXPECT_FALSE(read("err").empty());
   }

@@ -1,16 +1,14 @@
 #include "verify/data/dataset.hpp"
-#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <string>
 #include <vector>
 
+#include "tests/support/public_data.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy.hpp"
@@ -217,13 +215,8 @@ TEST(OpenDataset, opening_errors_throw_even_if_it_keeps_going) {
 class PublicData : public ::testing::Test {
  protected:
   void SetUp() override {
-    const char* const from_environment = std::getenv("TOUCHSTONE_DATA");
-    folder_ = from_environment != nullptr ? fs::path(from_environment)
-                                          : fs::path(tests::source_folder()) / "../shared/datasets";
-    if (fs::is_directory(folder_)) return;
-    std::cerr << "\n*** WARNING: no public data at " << folder_
-              << "; nothing is tested against it. Set TOUCHSTONE_DATA. ***\n\n";
-    GTEST_SKIP() << "no public data";
+    folder_ = tests::public_data_folder();
+    if (folder_.empty()) GTEST_SKIP() << "no public data";
   }
 
   struct Counts {

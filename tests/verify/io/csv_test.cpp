@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,17 @@ TEST(CsvField, IsNoFormula) {
   for (const std::string number : {"-1", "+1.5", "-1e-300", "-inf", "-"}) {
     EXPECT_EQ(csv_field(number), number);
   }
+}
+
+TEST(CsvRow, JoinsFields) {
+  EXPECT_EQ(csv_row({"a", "b,c", "", "=1"}), "a,\"b,c\",,'=1\n");
+  EXPECT_EQ(csv_row({"a"}, "\r\n"), "a\r\n");
+}
+
+TEST(CsvNumber, GivesTheSameDoubleAgain) {
+  EXPECT_EQ(csv_number(0.1), "0.1");
+  EXPECT_EQ(csv_number(0.10000000000000002), "0.10000000000000002");
+  EXPECT_EQ(csv_number(std::numeric_limits<double>::quiet_NaN()), "");
 }
 
 TEST(TextOfField, IsWhatTheFieldWasMadeOf) {

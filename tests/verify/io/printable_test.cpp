@@ -94,6 +94,13 @@ TEST(MarkdownCode, CannotBeLeft) {
   EXPECT_EQ(markdown_code_block("```\n````"), "`````\n```\\x0a````\n`````\n");
 }
 
+TEST(HtmlEscaped, LeavesNoMarkup) {
+  EXPECT_EQ(html_escaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
+  EXPECT_EQ(html_escaped(""), "");
+  EXPECT_EQ(html_escaped("a\x1b\n<\u202e"), "a\\x1b\\x0a&lt;\\u202e");
+  EXPECT_EQ(html_escaped("2⁻⁵⁰ µs — é 字"), "2⁻⁵⁰ µs — é 字");
+}
+
 TEST(ShellWord, IsOneWordWithTheSameBytes) {
   EXPECT_EQ(shell_word("a/b-c.so"), "a/b-c.so");
   EXPECT_EQ(shell_word(""), "''");

@@ -209,8 +209,9 @@ TEST(BenchReport, JsonHasGroupsAndMethods) {
       (nlohmann::json{{"queries", 300}, {"p50_ns", 40.2}, {"p99_ns", 900.0}, {"max_ns", 12345.0}}));
   EXPECT_EQ(first.at("stages"), (nlohmann::json{{"axis", 300}, {"exact", 100}}));
   EXPECT_EQ(first.at("judged"), 2);
-  EXPECT_EQ(first.at("toi_error"),
-            (nlohmann::json{{"count", 1}, {"p50", 0.25}, {"p99", 0.25}, {"max", 0.25}}));
+  EXPECT_EQ(
+      first.at("toi_error"),
+      (nlohmann::json{{"count", 1}, {"p50", 0.25}, {"p90", 0.25}, {"p99", 0.25}, {"max", 0.25}}));
   EXPECT_EQ(first.at("broke_promise"), false);
   EXPECT_TRUE(first.at("wrong_answers").empty());
 }
@@ -223,11 +224,6 @@ TEST(BenchReport, JsonHasWhatIsWrongAndNullForWhatIsUnknown) {
   EXPECT_TRUE(second.at("single").is_null());
   EXPECT_TRUE(second.at("stages").is_null());
   EXPECT_EQ(second.at("false_negatives"), 23);
-  EXPECT_EQ(second.at("false_positives"), 1);
-  EXPECT_EQ(second.at("late_toi"), 1);
-  EXPECT_EQ(second.at("early_toi_upper"), 1);
-  EXPECT_EQ(second.at("undecided"), 1);
-  EXPECT_EQ(second.at("errors"), 1);
   EXPECT_EQ(second.at("broke_promise"), true);
   ASSERT_EQ(second.at("wrong_answers").size(), 27U) << "false positives too";
   EXPECT_EQ(second.at("wrong_answers")[0], (nlohmann::json{{"source", "b/edge-edge.csv"},

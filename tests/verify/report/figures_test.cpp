@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -69,7 +70,8 @@ TEST(Figures, AreAllThereAndHaveTheirDataAsATable) {
       "speed_false_positives", "speed_toi_median", "speed_toi_max",
       "running_times",         "tolerance_time",   "tolerance_false_positives",
       "separation_time",       "checks_early",     "checks_tolerance",
-      "filter_misses",         "stages",           "stability"};
+      "filter_misses",         "stages",           "stability",
+      "stability_time"};
   EXPECT_EQ(ids, expected);
   EXPECT_EQ(figures.size(), expected.size());
 }
@@ -171,7 +173,48 @@ TEST(Figures, StagesAndStabilityAreCellsAndShares) {
   EXPECT_EQ(series(stages, "exact", "stage").points.at(0).label, "handcrafted, vertex-face");
   const FigurePanel& angle = figure(figures, "stability").panels.at(0);
   EXPECT_EQ(angle.title, "angle");
-  EXPECT_EQ(series(angle, "msrf", "ee").points.at(0), (FigurePoint{-5.0, 0.4, "N", true}));
+  EXPECT_EQ(series(angle, "msrf", "ee").points.at(0),
+            (FigurePoint{-5.0, 0.4, "N", true,
+                         "20 queries, 10 collisions, 4 false negatives\n7 ns a query"}));
+}
+
+TEST(Figures, EveryFaultHasALetter) {
+  Measurements measurements;
+  for (const char* const worst : {"", "false positive", "false negative", "late toi",
+                                  "early toi_upper", "error", "beyond tolerance"}) {
+    measurements.stability.push_back(
+        {.method = "m", .hardness = "angle", .measure = {}, .worst = worst});
+  }
+  std::string letters;
+  const std::vector<Figure> figures = figures_of(measurements);
+  for (const FigurePoint& point : figures.at(0).panels.at(0).series.at(0).points) {
+    letters += point.label.empty() ? "." : point.label;
+  }
+  EXPECT_EQ(letters, ".PNTTEB");
+}
+
+TEST(Figures, StabilityShowsTheNumbersOfThoseThatGiveThem) {
+  Measurements measurements = tests::small_report();
+  StabilityMark counting = measurements.stability.at(0);
+  counting.method = "certified";
+  counting.checks = 2.5;
+  counting.toi_error = Spread{.count = 3, .median = 0.0, .max = 1e-13};
+  measurements.stability.push_back(counting);
+  counting.exponent = -10;
+  counting.toi_error.reset();
+  measurements.stability.push_back(counting);
+  const std::vector<Figure> figures = figures_of(measurements);
+  const Figure& checks = figure(figures, "stability_checks");
+  EXPECT_EQ(checks.form, FigureForm::shades);
+  ASSERT_EQ(checks.panels.at(0).series.size(), 1U) << "msrf does not count";
+  EXPECT_EQ(checks.panels[0].series[0].points.at(0), (FigurePoint{-5.0, 2.5, "", false}));
+  EXPECT_EQ(figure(figures, "stability_time").panels.at(0).series.size(), 2U);
+  const FigureSeries& median = figure(figures, "stability_toi_median").panels.at(0).series.at(0);
+  EXPECT_EQ(median.points.at(0).y, 0.0);
+  EXPECT_TRUE(std::isnan(median.points.at(1).y)) << "not known at this level";
+  EXPECT_EQ(figure(figures, "stability_toi_max").data.rows.at(0),
+            (std::vector<std::string>{"angle", "angle to parallel", "-5", "edge-edge", "certified",
+                                      "1e-13"}));
 }
 
 TEST(Figures, StabilityHasTheRowsOfAMethodSideBySide) {
@@ -198,7 +241,7 @@ TEST(Figures, WithoutMeasurementsThereAreNone) { EXPECT_TRUE(figures_of({}).empt
 
 TEST(Figures, AreJsonForTheScript) {
   const nlohmann::json json = to_json(figures_of(tests::small_report()));
-  ASSERT_EQ(json.size(), 12U);
+  ASSERT_EQ(json.size(), 13U);
   EXPECT_EQ(json[0].at("id"), "speed_false_positives");
   EXPECT_EQ(json[0].at("form"), "points");
   EXPECT_EQ(json[0].at("x_log"), true);

@@ -57,9 +57,16 @@ Measurements example() {
                                     .collisions = 10,
                                     .false_positives = 1,
                                     .false_negatives = 2,
+                                    .late_tois = 3,
+                                    .early_upper_tois = 4,
+                                    .beyond_tolerance = 5,
+                                    .errors = 6,
+                                    .undecided = 7,
                                     .worst = "false negative",
                                     .worst_rate = 0.2,
-                                    .nanoseconds = 1e3});
+                                    .toi_error = Spread{.count = 8, .median = 0.0, .max = 1e-9},
+                                    .nanoseconds = 1e3,
+                                    .checks = 2.5});
   return measurements;
 }
 
@@ -103,14 +110,25 @@ TEST(MeasurementJson, KeepsWhatIsInfinite) {
   EXPECT_EQ(written.at("measurements")[0].at("achieved_tolerance").at("max"), "Infinity");
   const Measurements read = measurements_from_json(nlohmann::json::parse(written.dump()));
   EXPECT_EQ(read.all[0].achieved_tolerance, measurements.all[0].achieved_tolerance);
-  EXPECT_EQ(number_to_json(-infinity), "-Infinity");
-  EXPECT_TRUE(number_to_json(std::numeric_limits<double>::quiet_NaN()).is_null());
 }
 
 TEST(MeasurementJson, ReadsMeasurementsFromBeforeThereWasAScale) {
   nlohmann::json earlier = to_json(example());
   earlier["measurements"][0].erase("scale");
   EXPECT_FALSE(measurements_from_json(earlier).all[0].scale.has_value());
+}
+
+TEST(MeasurementJson, ReadsMapsFromBeforeTheyHadAllCounts) {
+  nlohmann::json earlier = to_json(example());
+  for (const char* const later : {"late_tois", "early_upper_tois", "beyond_tolerance", "errors",
+                                  "undecided", "toi_error", "checks_per_query"}) {
+    earlier["stability"][0].erase(later);
+  }
+  const StabilityMark mark = measurements_from_json(earlier).stability.at(0);
+  EXPECT_EQ(mark.false_negatives, 2U);
+  EXPECT_EQ(mark.late_tois, 0U);
+  EXPECT_FALSE(mark.toi_error.has_value());
+  EXPECT_TRUE(std::isnan(mark.checks));
 }
 
 TEST(MeasurementJson, WhatIsNoneIsRefused) {

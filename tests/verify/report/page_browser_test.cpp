@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <regex>
 #include <stdexcept>
@@ -42,7 +43,7 @@ TEST_F(Browser, DrawsEveryFigureWithoutAComplaint) {
   const std::string dom = load(report_page(measurements));
   EXPECT_EQ(complaints(), "");
   const std::vector<Figure> figures = figures_of(measurements);
-  ASSERT_EQ(figures.size(), 12U);
+  ASSERT_EQ(figures.size(), 13U);
   for (const Figure& figure : figures) {
     const std::string drawn = section(dom, figure.id);
     EXPECT_EQ(count(drawn, "role=\"img\""), figure.panels.size()) << figure.id;
@@ -63,7 +64,7 @@ TEST_F(Browser, DrawsThePointsTheFrontAndTheNames) {
     EXPECT_TRUE(std::regex_search(speed, std::regex("class=\"name\"[^>]*>" + name + "<"))) << name;
   }
   const std::string stability = section(dom, "stability");
-  EXPECT_TRUE(std::regex_search(stability, std::regex(">N</text>")));
+  EXPECT_TRUE(std::regex_search(stability, std::regex(">N 40</text>")));
 }
 
 TEST_F(Browser, FitsATelephone) {
@@ -116,6 +117,94 @@ TEST_F(Browser, DrawsNumbersAtTheEndsOfTheRange) {
   EXPECT_EQ(count(drawn, "NaN"), 0U);
   EXPECT_EQ(count(drawn, "Infinity"), 0U);
   EXPECT_NE(drawn.find(">10³⁰⁰</text>"), std::string::npos) << drawn;
+}
+
+// ---- The map of stability -----------------------------------------------------------------------
+
+/// A level for each number, as the error of the time of impact, as time in nanoseconds, and as checks;
+/// each second one has a false negative.
+StabilityResult map_of(const std::vector<double>& numbers) {
+  StabilityResult result;
+  result.count = 1;
+  const Hardness& hardness = hardness_from_name("distance");
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    StabilityCell cell{.hardness = &hardness,
+                       .exponent = hardness.exponents.at(i % hardness.exponents.size()),
+                       .kind = i < hardness.exponents.size() ? Kind::vertex_face : Kind::edge_edge,
+                       .judged = {}};
+    cell.judged.queries = cell.judged.collisions = 1;
+    MethodResult judged{.name = "planted", .timed = true, .judgement = {}};
+    judged.judgement.queries = 1;
+    judged.judgement.toi_errors.add(numbers[i]);
+    judged.judgement.nanoseconds = numbers[i];
+    judged.judgement.checks = static_cast<std::uint64_t>(std::min(numbers[i], 1e15));
+    judged.judgement.faults[static_cast<std::size_t>(Fault::false_negative)] = i % 2;
+    cell.judged.methods.push_back(judged);
+    result.total += cell.judged;
+    result.cells.push_back(cell);
+  }
+  return result;
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const std::vector<double> numbers_of_any_size{
+    0.0,     4.9e-324, 2.3e-308, 3e-100, 3.2e-13, 0.0123, 0.999,   1.5,   99.9,    999.6,   8.88e5,
+    9.996e5, 1e6,      1.2e8,    8.88e8, 9.996e8, 2.5e12, 8.88e99, 1e100, 1.7e308, infinity};
+
+/// The page, with a line that says how many texts stand in cells and which are wider than these.
+/// \param planted put into every cell instead of its text, if not empty
+std::string page_that_measures(const StabilityResult& result, const std::string& planted = "") {
+  const std::string script = "<p id=\"wide\"></p><script>const planted = \"" + planted + R"(";
+const texts = Array.from(document.querySelectorAll("text.cell"));
+if (planted) for (const text of texts) text.textContent = planted;
+const isWide = (text) =>
+  text.getBBox().width > Number(text.previousElementSibling.getAttribute("width")) + 1;
+document.getElementById("wide").textContent =
+  `of ${texts.length} too wide: ${texts.filter(isWide).map((text) => text.textContent).join(" ")}.`;
+</script></body>)";
+  std::string page = stability_page(result, "touchstone stability");
+  return page.replace(page.rfind("</body>"), 7, script);
+}
+
+/// What the line says.
+std::string measured(const std::string& dom) {
+  const std::string start = R"(<p id="wide">)";
+  const std::size_t said = dom.find(start);
+  if (said == std::string::npos) return dom;
+  return dom.substr(said + start.size(), dom.find("</p>", said) - said - start.size());
+}
+
+TEST_F(Browser, DrawsTheMapOfStability) {
+  const std::string dom = load(stability_page(map_of({1e-13, 1.5}), "touchstone stability"));
+  EXPECT_EQ(complaints(), "");
+  for (const std::string id : {"stability", "stability_toi_median", "stability_toi_max",
+                               "stability_time", "stability_checks"}) {
+    const std::string drawn = section(dom, id);
+    EXPECT_EQ(count(drawn, "role=\"img\""), 1U) << id;
+    EXPECT_GE(count(drawn, "<rect"), 2U) << id;
+    EXPECT_EQ(count(drawn, "NaN"), 0U) << id;
+    EXPECT_EQ(count(drawn, "undefined"), 0U) << id;
+  }
+  EXPECT_EQ(count(section(dom, "stability"), ">N 100</text>"), 1U);
+  EXPECT_EQ(count(section(dom, "stability"), "1 queries, 1 collisions, 1 false negatives"), 1U);
+  EXPECT_EQ(count(section(dom, "stability_toi_max"), ">1e-13</text>"), 1U);
+  EXPECT_EQ(count(section(dom, "stability_toi_max"), ">1.5</text>"), 1U);
+}
+
+TEST_F(Browser, NumbersOfAnySizeFitIntoTheirCells) {
+  for (const int width : {1200, 500}) {
+    const std::string said = measured(load(page_that_measures(map_of(numbers_of_any_size)), width));
+    EXPECT_EQ(complaints(), "");
+    EXPECT_TRUE(said.ends_with(" too wide: .")) << said;
+    EXPECT_FALSE(said.starts_with("of 0 ")) << said;
+  }
+}
+
+/// The script sees what is too wide.
+TEST_F(Browser, ATextThatIsTooWideIsSeen) {
+  EXPECT_NE(measured(load(page_that_measures(map_of(numbers_of_any_size), "much too wide")))
+                .find("too wide: much too wide"),
+            std::string::npos);
 }
 
 /// The test sees a page that does load something, or fails.

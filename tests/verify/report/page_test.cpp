@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include "tests/support/measurements.hpp"
 #include "verify/report/figures.hpp"
@@ -101,6 +102,67 @@ TEST(Page, SaysIfItWasInterrupted) {
   EXPECT_FALSE(contains(report_page(measurements), "Interrupted"));
   measurements.interrupted = true;
   EXPECT_TRUE(contains(report_page(measurements), "Interrupted: not all"));
+}
+
+TEST(Page, OpensWithItsFindingsAndTimeAgainstError) {
+  const std::string page = without_d3(report_page(tests::small_report()));
+  const std::vector<std::string> order{"<h1>Touchstone report</h1>",
+                                       "<li>3 methods were asked up to 100 queries",
+                                       "<li>Every method kept its promise.</li>",
+                                       "<section class=\"figure\" id=\"speed_false_positives\">",
+                                       "<nav",
+                                       "<section id=\"table_1\">",
+                                       "<section class=\"figure\" id=\"speed_toi_median\">"};
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    ASSERT_TRUE(contains(page, order[i])) << order[i];
+    EXPECT_LT(page.find(order[i]), page.find(order[i + 1])) << order[i];
+  }
+}
+
+StabilityResult map_of_one_cell(const std::string& method) {
+  StabilityResult result;
+  result.seed = 77;
+  result.count = 10;
+  StabilityCell cell{.hardness = &hardness_from_name("distance"),
+                     .exponent = -50,
+                     .kind = Kind::edge_edge,
+                     .judged = {}};
+  cell.judged.queries = 10;
+  cell.judged.collisions = 5;
+  MethodResult judged{
+      .name = method, .promise = fast::Promise::conservative, .timed = true, .judgement = {}};
+  judged.judgement.queries = 10;
+  judged.judgement.nanoseconds = 1000.0;
+  judged.judgement.faults[static_cast<std::size_t>(Fault::false_negative)] = 1;
+  cell.judged.methods.push_back(judged);
+  result.total += cell.judged;
+  result.cells.push_back(cell);
+  return result;
+}
+
+TEST(StabilityPage, SaysWhatItIsAboutAndWhoKeepsTheirPromise) {
+  StabilityResult result = map_of_one_cell("planted");
+  result.separation = {.distance = 0.25, .norm = Norm::l2};
+  result.total.interrupted = true;
+  const std::string page = stability_page(result, "touchstone stability --seed 77");
+  EXPECT_TRUE(contains(page,
+                       "10 queries a cell, half of them collisions; seed 77; minimum separation "
+                       "0.25 (l2)."));
+  EXPECT_TRUE(contains(page, "Interrupted: not all"));
+  EXPECT_TRUE(contains(page, "<li>planted (conservative): breaks its promise.</li>"));
+  EXPECT_TRUE(contains(page, "<pre class=\"command\">touchstone stability --seed 77</pre>"));
+  EXPECT_TRUE(contains(page, "<th scope=\"row\">planted</th><td>false negative 20 %</td>"));
+  EXPECT_TRUE(contains(page, "<section class=\"figure\" id=\"stability\">"));
+  EXPECT_TRUE(contains(page, "<section class=\"figure\" id=\"stability_time\">"));
+  EXPECT_TRUE(contains(stability_page({}, ""), "No cell was judged."));
+}
+
+TEST(StabilityPage, HoldsNoMarkupOfNames) {
+  const std::string page =
+      without_d3(stability_page(map_of_one_cell("</script>&\"\xE9"), "</pre>\x1b"));
+  EXPECT_TRUE(contains(page, "&lt;/script&gt;&amp;&quot;\\xe9 (conservative)"));
+  EXPECT_TRUE(contains(page, "&lt;/pre&gt;\\x1b"));
+  EXPECT_FALSE(contains(page, "</script>&"));
 }
 
 TEST(Page, WithoutABaselineOursAreShownOverTheSeparation) {

@@ -139,5 +139,39 @@ TEST(StabilityJson, IsNullWhereNothingIsKnown) {
   EXPECT_EQ(json.at("separation").at("norm"), "l2");
 }
 
+TEST(StabilityMarks, HoldWhatAReportShowsOfACell) {
+  Judgement wrong = faults(1, 3);
+  wrong.toi_errors.add(0.25);
+  wrong.undecided = 2;
+  const auto marks =
+      marks_of(result_of({cell("scale", -800, Judgement{}), cell("scale", 0, wrong)}));
+  ASSERT_EQ(marks.size(), 2U);
+  EXPECT_EQ(marks[0].worst, "");
+  EXPECT_TRUE(std::isnan(marks[0].checks));
+  EXPECT_FALSE(marks[0].toi_error.has_value());
+  EXPECT_EQ(marks[1].method, "planted");
+  EXPECT_EQ(marks[1].hardness, "scale");
+  EXPECT_EQ(marks[1].exponent, 0);
+  EXPECT_EQ(marks[1].false_negatives, 1U);
+  EXPECT_EQ(marks[1].undecided, 2U);
+  EXPECT_EQ(marks[1].worst, "false negative");
+  EXPECT_EQ(marks[1].worst_rate, 0.2);
+  EXPECT_EQ(marks[1].toi_error->max, 0.25);
+  EXPECT_EQ(marks[1].nanoseconds, 123.4);
+  EXPECT_EQ(marks[1].checks, 2.5);
+}
+
+TEST(StabilityOverview, HasTheWorstOfEachHardness) {
+  const Table table =
+      overview_of(result_of({cell("distance", -1, faults(0, 1)), cell("distance", -5, faults(1, 0)),
+                             cell("scale", 0, faults(0, 0)), cell("angle", 0, faults(0, 2))}));
+  using Row = std::vector<std::string>;
+  EXPECT_EQ(table.columns, (Row{"method", "distance", "scale", "angle"}));
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.rows[0],
+            (Row{"planted", "false negative 10 %", "nothing wrong", "false positive 40 %"}));
+  EXPECT_EQ(overview_of(StabilityResult{}).columns, Row{"method"});
+}
+
 }  // namespace
 }  // namespace touchstone::verify

@@ -1,5 +1,4 @@
 #include "verify/run/certify.hpp"
-#include "tests/support/built_files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +7,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -17,6 +15,7 @@
 
 #include "tests/support/memory_source.hpp"
 #include "tests/support/methods.hpp"
+#include "tests/support/public_data.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
@@ -562,14 +561,8 @@ INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet,
 
 /// The public benchmark data, or nothing where they are missing.
 std::vector<CertifyResult> certify_public(const std::string& folder) {
-  const char* data = std::getenv("TOUCHSTONE_DATA");
-  const std::filesystem::path root =
-      data != nullptr ? data : tests::source_folder() + "/../shared/datasets";
-  if (!std::filesystem::exists(root)) {
-    std::cerr << "\n*** WARNING: public data missing at " << root
-              << " (set TOUCHSTONE_DATA): the oracle is NOT held against it ***\n\n";
-    return {};
-  }
+  const std::filesystem::path root = tests::public_data_folder();
+  if (root.empty()) return {};
   std::vector<CertifyResult> results;
   const std::vector<std::filesystem::path> paths{root / folder};
   for (const auto& file : find_datasets(paths)) results.push_back(certify(*open_dataset(file)));

@@ -161,10 +161,11 @@
 
   // ---- Forms ------------------------------------------------------------------------------------
 
+  const valueText = (label, value) => (isTime(label) ? timeText(value) : numberText(value));
   const pointTip = (figure, series, point) =>
     `${series.name} ${point.label === series.name ? "" : point.label}\n` +
-    `${axisTitle(figure.x_label)}: ${isTime(figure.x_label) ? timeText(point.x) : numberText(point.x)}\n` +
-    `${axisTitle(figure.y_label)}: ${isTime(figure.y_label) ? timeText(point.y) : numberText(point.y)}`;
+    `${axisTitle(figure.x_label)}: ${valueText(figure.x_label, point.x)}\n` +
+    `${axisTitle(figure.y_label)}: ${valueText(figure.y_label, point.y)}`;
 
   /// Is it drawn paler, beside another series of the same method?
   const isSecond = (series) => series.role === "faint" || / \(L2\)$/.test(series.name);
@@ -283,9 +284,95 @@
     rows.forEach((name, i) => write(svg, box.left, box.top + row * i + 13, name, "start", "name"));
   }
 
+  // ---- Grids ------------------------------------------------------------------------------------
+
   const markColors = { N: "var(--bad)", T: "var(--toi)", E: "var(--error)", B: "var(--beyond)" };
 
-  function drawMarks(figure, panel, parent, width) {
+  const shade = (tone, depth) => `rgba(var(--${tone}), ${depth})`;
+
+  function percentText(rate) {
+    const value = 100 * rate;
+    if (value > 0 && value < 1) return "<1%";
+    return `${Math.round(value > 99 && value < 100 ? 99 : value)}%`;
+  }
+
+  /// In few characters: two digits, one and a power of ten where they are many.
+  function shortText(value) {
+    if (value === 0 || value === Infinity) return numberText(value);
+    if (value >= 0.01 && value < 9950) return String(Number(value.toPrecision(2)));
+    return value.toExponential(0).replace("e+", "e");
+  }
+
+  function shortTimeText(nanoseconds) {
+    const units = [[1e9, "s"], [1e6, "ms"], [1e3, "µs"]];
+    const [size, unit] = units.find(([least]) => nanoseconds >= least * 0.995) || [1, "ns"];
+    return shortText(nanoseconds / size) + unit;
+  }
+
+  const cellText = (figure, value) => (isTime(figure.y_label) ? shortTimeText(value) : shortText(value));
+
+  /// How a cell looks: its fill, its texts from the longest to the shortest, and the colour of these.
+  function markLook(point) {
+    if (point.label === "") return { fill: "var(--calm)", texts: [] };
+    if (point.label !== "P") {
+      const percents = percentText(point.y).replace("%", "");
+      return { fill: markColors[point.label],
+        texts: [`${point.label} ${percents}`, point.label + percents, point.label],
+        ink: "var(--paper)", weight: 700 };
+    }
+    const text = percentText(point.y);
+    return { fill: shade("mild", 0.25 + 0.75 * point.y), texts: [text, text.replace("%", "")],
+      ink: point.y > 0.5 ? "var(--paper)" : "var(--ink)" };
+  }
+
+  /// The least and the greatest of the finite numbers above 0 in a figure.
+  const extentOf = (figure) => d3.extent(figure.panels.flatMap(allPoints).map((point) => point.y)
+    .filter((y) => y !== null && y > 0 && Number.isFinite(y)));
+
+  /// How deep a number is on the logarithmic scale of its figure: from 0.1 to 1, and less for zero.
+  function depthOf(value, [least, greatest]) {
+    if (value === 0 || least === undefined) return 0.04;
+    if (value === Infinity || greatest === least) return 1;
+    return 0.1 + 0.9 * Math.log(value / least) / Math.log(greatest / least);
+  }
+
+  function shadeLook(point, figure, extent) {
+    if (point.y === null) return { fill: "none", frame: "var(--line)", texts: [] };
+    const depth = depthOf(point.y, extent);
+    return { fill: shade("number", depth), ink: depth > 0.5 ? "var(--paper)" : "var(--ink)",
+      texts: [cellText(figure, point.y)] };
+  }
+
+  const pen = document.createElement("canvas").getContext("2d");
+  const widths = new Map();
+
+  /// Of a cell's text as it is drawn.
+  function widthOf(text, weight) {
+    const key = `${weight}${text}`;
+    if (!widths.has(key)) {
+      pen.font = `${weight} 11px system-ui, "DejaVu Sans", sans-serif`;
+      widths.set(key, pen.measureText(text).width);
+    }
+    return widths.get(key);
+  }
+
+  function drawCell(svg, look, x, y, width, height, tip) {
+    svg.append("rect").attr("x", x).attr("y", y).attr("width", width).attr("height", height)
+      .style("fill", look.fill).style("stroke", look.frame || "none").append("title").text(tip);
+    const weight = look.weight || 400;
+    const text = look.texts.find((one) => widthOf(one, weight) <= width - 2);
+    if (text === undefined) return;
+    write(svg, x + width / 2, y + 11.5, text, "middle", "tick cell").style("fill", look.ink)
+      .style("font-weight", weight).style("pointer-events", "none");
+  }
+
+  const gridTip = (figure, panel, series, point) =>
+    `${series.name}, ${series.role === "vf" ? "vertex-face" : "edge-edge"}, ${panel.title} 2${superscript(point.x)}: ` +
+    (figure.form === "shades" ? (point.y === null ? "not known" : valueText(figure.y_label, point.y))
+      : point.label === "" ? "nothing wrong" : `${point.label} ${percentText(point.y)}`) +
+    (point.tip ? `\n${point.tip}` : "");
+
+  function drawGrid(figure, panel, parent, width) {
     const row = 16;
     const top = 8;
     const left = Math.min(180, 34 + 6.6 * d3.max(panel.series, (series) => series.name.length));
@@ -294,6 +381,7 @@
     const height = top + row * panel.series.length + 40;
     const svg = makeSvg(parent, width, height, `${figure.title}: ${panel.title}`,
       `${figure.description} ${panel.caption}`);
+    const extent = extentOf(figure);
     panel.series.forEach((series, i) => {
       const y = top + row * i;
       if (i === 0 || panel.series[i - 1].name !== series.name) {
@@ -301,18 +389,9 @@
       }
       write(svg, left - 6, y + 12, series.role, "end", "tick");
       for (const point of series.points) {
-        const x = left + cell * levels.indexOf(point.x);
-        const isMild = point.label === "P";
-        const deep = 0.25 + 0.75 * point.y;
-        svg.append("rect").attr("x", x).attr("y", y).attr("width", cell - 1.5).attr("height", row - 1.5)
-          .style("fill", point.label === "" ? "var(--calm)"
-            : isMild ? `rgba(var(--mild), ${deep})` : markColors[point.label])
-          .append("title").text(`${series.name} ${series.role}, 2${superscript(point.x)}: ` +
-            (point.label === "" ? "nothing wrong" : `${point.label}, ${(100 * point.y).toPrecision(3)} %`));
-        if (point.label !== "" && !isMild) {
-          write(svg, x + cell / 2 - 0.7, y + 11.5, point.label, "middle", "tick")
-            .style("fill", "var(--paper)").style("font-weight", 700);
-        }
+        const look = figure.form === "shades" ? shadeLook(point, figure, extent) : markLook(point);
+        drawCell(svg, look, left + cell * levels.indexOf(point.x), y, cell - 1.5, row - 1.5,
+          gridTip(figure, panel, series, point));
       }
     });
     const every = cell < 30 ? 2 : 1;
@@ -323,7 +402,8 @@
     write(svg, (left + width) / 2, height - 6, panel.caption, "middle", "axis");
   }
 
-  const forms = { points: drawPoints, lines: drawLines, ridges: drawRidges, bars: drawBars, marks: drawMarks };
+  const forms = { points: drawPoints, lines: drawLines, ridges: drawRidges, bars: drawBars, marks: drawGrid,
+    shades: drawGrid };
 
   // ---- Legends ----------------------------------------------------------------------------------
 
@@ -347,8 +427,16 @@
       addSwatch(legend, "var(--bad)", "N false negatives");
       addSwatch(legend, "var(--toi)", "T time of impact");
       addSwatch(legend, "var(--error)", "E errors");
-      addSwatch(legend, "rgba(var(--mild), 0.35)", "some false positives");
-      addSwatch(legend, "rgba(var(--mild), 1)", "all misses are");
+      addSwatch(legend, "var(--beyond)", "B beyond its tolerance");
+      addSwatch(legend, shade("mild", 0.35), "some false positives");
+      addSwatch(legend, shade("mild", 1), "all misses are");
+      return;
+    }
+    if (figure.form === "shades") {
+      const extent = extentOf(figure);
+      for (const value of extent.filter((one) => one !== undefined)) {
+        addSwatch(legend, shade("number", depthOf(value, extent)), cellText(figure, value));
+      }
       return;
     }
     const seen = new Map();
@@ -378,13 +466,13 @@
       const heading = document.createElement("h3");
       heading.textContent = panel.title;
       element.appendChild(heading);
-      if (figure.y_label !== "" && figure.form !== "ridges") {
+      if (figure.y_label !== "" && ![drawRidges, drawGrid].includes(forms[figure.form])) {
         const axis = document.createElement("figcaption");
         axis.textContent = `↑ ${axisTitle(figure.y_label)}`;
         element.appendChild(axis);
       }
       forms[figure.form](figure, panel, element, Math.max(element.clientWidth, 280));
-      if (panel.caption !== "" && figure.form !== "marks") {
+      if (panel.caption !== "" && forms[figure.form] !== drawGrid) {
         const caption = document.createElement("figcaption");
         caption.textContent = panel.caption;
         element.appendChild(caption);

@@ -1,0 +1,52 @@
+#include "verify/io/text_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace touchstone::verify {
+namespace {
+
+TEST(TextTable, AlignsWordsToTheLeftAndNumbersToTheRight) {
+  TextTable table({word_column("name"), {"count", 7}, {"ns"}});
+  table.add({"a", "1", "2.5"});
+  table.add({"longer", "12345678", "-"});
+  EXPECT_EQ(table.text(),
+            "name       count   ns\n"
+            "a              1  2.5\n"
+            "longer  12345678    -\n");
+}
+
+TEST(TextTable, CountsCharactersAndNotBytes) {
+  TextTable table({word_column("µs"), {"é…"}, word_column("x")});
+  table.add({"a", "b", "c"});
+  table.add({"字", "b", "c"});
+  EXPECT_EQ(table.text(), "µs  é…  x\na    b  c\n字   b  c\n");
+}
+
+TEST(TextTable, HasLinesAcrossItsColumns) {
+  TextTable table({word_column("a"), {"b"}});
+  table.add({"1", "2"});
+  table.add_line("  a long line");
+  table.add({"3", "4"});
+  EXPECT_EQ(table.text(), "a  b\n1  2\n  a long line\n3  4\n");
+}
+
+TEST(TextTable, WithoutRowsIsItsHeader) {
+  EXPECT_EQ(TextTable({word_column("a", 3), {"b", 2}}).text(), "a     b\n");
+}
+
+TEST(Joined, PutsListsOneBehindTheOther) {
+  EXPECT_EQ(joined<std::string>({{"a", "b"}, {}, {"c"}}), (TextRow{"a", "b", "c"}));
+}
+
+TEST(NumberText, IsADashWhereThereIsNone) {
+  EXPECT_EQ(number_text(12.34, "{:.1f}"), "12.3");
+  EXPECT_EQ(number_text(std::nullopt, "{:.1f}"), "-");
+  EXPECT_EQ(number_text(std::numeric_limits<double>::quiet_NaN(), "{:.1f}"), "-");
+  EXPECT_EQ(error_text(0.25), "2.50e-01");
+  EXPECT_EQ(error_text(std::numeric_limits<double>::quiet_NaN()), "-");
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,37 @@
+#include "verify/io/json.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace touchstone::verify {
+namespace {
+
+constexpr const char* infinity_name = "Infinity";
+constexpr const char* negative_infinity_name = "-Infinity";
+
+}  // namespace
+
+nlohmann::json number_to_json(std::optional<double> number) {
+  if (!number || std::isnan(*number)) return {};
+  if (std::isinf(*number)) return *number > 0.0 ? infinity_name : negative_infinity_name;
+  return *number;
+}
+
+double number_from_json(const nlohmann::json& json) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (json == infinity_name) return infinity;
+  if (json == negative_infinity_name) return -infinity;
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+nlohmann::json text_or_null(std::string_view text) {
+  return text.empty() ? nlohmann::json() : nlohmann::json(text);
+}
+
+std::string json_document(const nlohmann::json& json) {
+  static constexpr auto replace = nlohmann::json::error_handler_t::replace;
+  static constexpr bool only_ascii = true;
+  return json.dump(2, ' ', only_ascii, replace) + "\n";
+}
+
+}  // namespace touchstone::verify
