@@ -319,12 +319,17 @@ namespace {
 /// How many stages a query goes through that this one decides.
 constexpr std::uint32_t stages_up_to(Stage stage) { return static_cast<std::uint32_t>(stage) + 1; }
 
+std::vector<std::string_view> stage_names() {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < stages; ++i) names.push_back(name(static_cast<Stage>(i)));
+  return names;
+}
+
 class CertifiedMethod : public Method {
  public:
   explicit CertifiedMethod(const CertifiedOptions& base) : base_(base) { check(base); }
 
-  [[nodiscard]] std::string_view name() const override { return "certified"; }
-  [[nodiscard]] Promise promise() const override { return Promise::exact; }
+  [[nodiscard]] const MethodInfo& info() const override { return certified_info(); }
 
   void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
@@ -361,6 +366,14 @@ class CertifiedMethod : public Method {
 };
 
 }  // namespace
+
+const MethodInfo& certified_info() {
+  static const MethodInfo info{.name = "certified",
+                               .promise = Promise::exact,
+                               .norms = {Norm::linf, Norm::l2},
+                               .stages = stage_names()};
+  return info;
+}
 
 std::unique_ptr<Method> certified_method(const CertifiedOptions& base) {
   return std::make_unique<CertifiedMethod>(base);

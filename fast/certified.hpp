@@ -124,7 +124,10 @@ struct EarliestImpact {
                                                      const Candidates& candidates,
                                                      const CertifiedOptions& options = {});
 
-/// As a method, named `certified`, exact.
+/// What the certified solver is as a method: named `certified`, exact.
+[[nodiscard]] const MethodInfo& certified_info();
+
+/// The certified solver as a method.
 [[nodiscard]] std::unique_ptr<Method> certified_method(const CertifiedOptions& base = {});
 
 }  // namespace touchstone::fast

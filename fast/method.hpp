@@ -1,15 +1,19 @@
 #pragma once
 
 /// \file
-/// What every solver looks like from outside: a name, what it promises, and answers to a span of
-/// queries. The judge in verify/ knows solvers by nothing else.
+/// What every solver looks like from outside: a description and answers to a span of queries.
+/// verify/ knows solvers by nothing else.
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "exact/query.hpp"
+#include "fast/filter.hpp"
 
 namespace touchstone::fast {
 
@@ -26,7 +30,8 @@ struct Answer {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   Verdict verdict = Verdict::undecided;
-  /// Steps it took, of whatever sort the method counts: boxes, stages; 0 where it does not say.
+  /// Steps it took, of whatever sort the method counts: boxes, or the stages of MethodInfo::stages
+  /// that the query went through; 0 where it does not say.
   std::uint32_t checks = 0;
   double toi_lower = none;  ///< claimed: not above the exact time of impact; only with yes
   double toi_upper = none;  ///< claimed: not below the exact time of impact; only with yes
@@ -51,6 +56,34 @@ struct MethodOptions {
   double t_max = 1.0;      ///< only impacts up to this time count (0 to 1)
 };
 
+/// All that is known of a method beside its answers. The registry, reports and help read it here.
+struct MethodInfo {
+  /// Unique, snake_case: what the command line calls it.
+  std::string_view name;
+  Promise promise = Promise::none;
+  /// The work that it comes from, by its key in docs/references.bib; empty: none.
+  std::string_view reference = {};
+  /// Is it a published method, here for comparison, known errors and all?
+  bool is_baseline = false;
+  /// The name of the method of which this is another setting, for comparison; empty: of none.
+  std::string_view variant_of = {};
+  /// In which it measures a minimum separation; empty: it knows of contact alone.
+  std::vector<Norm> norms = {};
+  /// Does it search until it is as near as MethodOptions::tolerance?
+  bool is_tolerance_driven = false;
+  /// The limit of checks that it is compared with others under: lower for slow searches.
+  std::int64_t usual_max_checks = MethodOptions{}.max_checks;
+  /// The filter that its tolerances do not include: a yes claims to be as near as its tolerance and
+  /// twice this filter. Without one, as its tolerance alone (docs/theory.md, section 7.3).
+  std::optional<ErrorModel> filter = std::nullopt;
+  /// Names of its stages, in their order; empty if it has none.
+  std::vector<std::string_view> stages = {};
+
+  [[nodiscard]] bool measures_in(Norm norm) const {
+    return std::ranges::find(norms, norm) != norms.end();
+  }
+};
+
 /// A solver. Safe to use from several threads at once.
 class Method {
  public:
@@ -61,9 +94,10 @@ class Method {
   Method& operator=(Method&&) = delete;
   virtual ~Method() = default;
 
-  /// Unique, snake_case: what the command line calls it.
-  [[nodiscard]] virtual std::string_view name() const = 0;
-  [[nodiscard]] virtual Promise promise() const = 0;
+  /// Always the same; its texts live as long as the method.
+  [[nodiscard]] virtual const MethodInfo& info() const = 0;
+  [[nodiscard]] std::string_view name() const { return info().name; }
+  [[nodiscard]] Promise promise() const { return info().promise; }
 
   /// Answers query i in answers[i], in this thread.
   /// \pre both spans have the same length.

@@ -325,25 +325,34 @@ std::uint32_t to_answer_checks(std::int64_t checks) {
       std::min<std::int64_t>(checks, std::numeric_limits<std::uint32_t>::max()));
 }
 
+MethodInfo info_of(const TightInclusionOptions& options) {
+  MethodInfo info{.name = "tight_inclusion",
+                  .promise = Promise::conservative,
+                  .reference = "wang2021",
+                  .norms = {Norm::linf},
+                  .is_tolerance_driven = true,
+                  .filter = options.error_model};
+  if (options.error_model == ErrorModel::published) {
+    info.name = "tight_inclusion_published";
+    info.variant_of = "tight_inclusion";
+  }
+  if (options.error_model == ErrorModel::released) {
+    info.name = "tight_inclusion_released";
+    info.promise = Promise::none;
+    info.is_baseline = true;
+    info.variant_of = "tight_inclusion";
+  }
+  // An answer cannot say that it is about a lower separation.
+  if (options.no_zero_toi) info.promise = Promise::none;
+  return info;
+}
+
 class TightInclusionMethod final : public Method {
  public:
-  explicit TightInclusionMethod(const TightInclusionOptions& base) : base_(base) {}
+  explicit TightInclusionMethod(const TightInclusionOptions& base)
+      : base_(base), info_(info_of(base)) {}
 
-  [[nodiscard]] std::string_view name() const override {
-    switch (base_.error_model) {
-      case ErrorModel::derived:
-        return "tight_inclusion";
-      case ErrorModel::published:
-        return "tight_inclusion_published";
-      default:
-        return "tight_inclusion_released";
-    }
-  }
-  [[nodiscard]] Promise promise() const override {
-    // An answer cannot say that it is about a lower separation.
-    const bool keeps_none = base_.no_zero_toi || base_.error_model == ErrorModel::released;
-    return keeps_none ? Promise::none : Promise::conservative;
-  }
+  [[nodiscard]] const MethodInfo& info() const override { return info_; }
 
   void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
@@ -364,6 +373,7 @@ class TightInclusionMethod final : public Method {
 
  private:
   TightInclusionOptions base_;
+  MethodInfo info_;
 };
 
 }  // namespace

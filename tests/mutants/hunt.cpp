@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "verify/fuzz/recheck.hpp"
-#include "verify/solvers/registry.hpp"
 
 namespace touchstone::tests {
 namespace {
@@ -16,25 +15,25 @@ constexpr std::int64_t most_checks = 1000;
 /// A mutant under its own name: what calls itself certified is not judged by the certified solver.
 class Named final : public fast::Method {
  public:
-  explicit Named(const Mutant& mutant) : name_(mutant.name), method_(mutant.make()) {}
+  explicit Named(const Mutant& mutant) : method_(mutant.make()), info_(method_->info()) {
+    info_.name = mutant.name;
+  }
 
-  [[nodiscard]] std::string_view name() const override { return name_; }
-  [[nodiscard]] fast::Promise promise() const override { return method_->promise(); }
+  [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
   void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
     method_->solve(kind, queries, answers, options);
   }
 
  private:
-  std::string_view name_;
   std::unique_ptr<fast::Method> method_;
+  fast::MethodInfo info_;
 };
 
 verify::FuzzOptions fuzz_options(const Mutant& mutant) {
   verify::FuzzOptions options;
   options.separation = mutant.separation;
   options.method.max_checks = most_checks;
-  options.reach = verify::reach_of(mutant.of);
   options.most_findings = 1;
   return options;
 }

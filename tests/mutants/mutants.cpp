@@ -18,6 +18,7 @@
 #include "tests/faults/filter_factors.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "verify/fuzz/recheck.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::tests {
 namespace {
@@ -34,19 +35,18 @@ class AlteredMethod final : public fast::Method {
  public:
   using Solve = std::function<Answer(Kind, const Query&, const MethodOptions&)>;
 
-  AlteredMethod(std::string_view of, fast::Promise promise, Solve solve)
-      : of_(of), promise_(promise), solve_(std::move(solve)) {}
+  /// \param of the name of the method that is altered
+  AlteredMethod(std::string_view of, Solve solve)
+      : info_(verify::find_method(of).info()), solve_(std::move(solve)) {}
 
-  [[nodiscard]] std::string_view name() const override { return of_; }
-  [[nodiscard]] fast::Promise promise() const override { return promise_; }
+  [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
   void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
              const MethodOptions& options) const override {
     for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = solve_(kind, queries[i], options);
   }
 
  private:
-  std::string_view of_;
-  fast::Promise promise_;
+  const fast::MethodInfo& info_;
   Solve solve_;
 };
 
@@ -71,7 +71,7 @@ using Filter = std::function<PerAxis(Kind, const Query&, double separation)>;
 Make with_filter(Filter filter) {
   return [filter = std::move(filter)]() -> std::unique_ptr<fast::Method> {
     return std::make_unique<AlteredMethod>(
-        tight_inclusion, fast::Promise::conservative,
+        tight_inclusion,
         [filter](Kind kind, const Query& query, const MethodOptions& options) -> Answer {
           const auto result =
               fast::tight_inclusion(kind, query,
@@ -138,7 +138,7 @@ Make with_kernel(const fast::CertifiedKernel* kernel) {
 /// The certified solver, each query by itself.
 Make with_alteration(AlteredMethod::Solve solve) {
   return [solve = std::move(solve)]() -> std::unique_ptr<fast::Method> {
-    return std::make_unique<AlteredMethod>(certified, fast::Promise::exact, solve);
+    return std::make_unique<AlteredMethod>(certified, solve);
   };
 }
 

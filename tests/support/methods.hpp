@@ -22,10 +22,13 @@ class FunctionMethod final : public fast::Method {
 
   explicit FunctionMethod(Function function, fast::Promise promise = fast::Promise::conservative,
                           std::string name = "function")
-      : function_(std::move(function)), promise_(promise), name_(std::move(name)) {}
+      : function_(std::move(function)),
+        name_(std::move(name)),
+        info_{.name = name_, .promise = promise} {}
+  FunctionMethod(Function function, fast::MethodInfo info)
+      : function_(std::move(function)), info_(std::move(info)) {}
 
-  [[nodiscard]] std::string_view name() const override { return name_; }
-  [[nodiscard]] fast::Promise promise() const override { return promise_; }
+  [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
   void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
              const fast::MethodOptions&) const override {
     for (std::size_t i = 0; i < queries.size(); ++i) answers[i] = function_(kind, queries[i]);
@@ -33,8 +36,8 @@ class FunctionMethod final : public fast::Method {
 
  private:
   Function function_;
-  fast::Promise promise_;
   std::string name_;
+  fast::MethodInfo info_;
 };
 
 /// The truth as an answer, with the narrowest times of impact that doubles can tell.

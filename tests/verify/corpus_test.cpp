@@ -13,7 +13,7 @@
 #include "verify/data/separation_file.hpp"
 #include "verify/run/certify.hpp"
 #include "verify/solvers/registry.hpp"
-#include "verify/solvers/respondent.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -22,23 +22,22 @@ std::vector<std::filesystem::path> corpus() {
   return find_datasets({{std::filesystem::path(tests::source_folder()) / "tests" / "corpus"}});
 }
 
-std::vector<std::unique_ptr<Respondent>> respondents() {
-  std::vector<std::unique_ptr<Respondent>> result;
-  for (const std::string_view name : default_methods()) {
-    result.push_back(respond_in_process(find_method(name), {.max_checks = 20'000}));
-    result.back()->set_reach(reach_of(name));
+std::vector<std::unique_ptr<Solver>> solvers() {
+  std::vector<std::unique_ptr<Solver>> result;
+  for (const std::string& name : default_methods()) {
+    result.push_back(solver_in_process(find_method(name), {.max_checks = 20'000}));
   }
   return result;
 }
 
 TEST(Corpus, is_answered_rightly_by_the_oracle_and_by_every_solver) {
-  const auto asked = respondents();
+  const auto asked = solvers();
   ASSERT_GE(asked.size(), 2U);
   std::uint64_t queries = 0;
   for (const std::filesystem::path& path : corpus()) {
     const auto source = open_dataset(path);
     CertifyOptions options{.separation = recorded_separation(path), .threads = 1};
-    for (const auto& respondent : asked) options.respondents.push_back(respondent.get());
+    for (const auto& solver : asked) options.solvers.push_back(solver.get());
     const CertifyResult result = certify(*source, options);
     EXPECT_FALSE(result.error) << *result.error;
     EXPECT_EQ(result.labels, result.queries) << path;

@@ -83,7 +83,7 @@ fast::Answer accd(Kind kind, const Query& query, const fast::MethodOptions& opti
 }
 
 std::unique_ptr<fast::Method> accd_method() {
-  return baseline_method({.name = "accd", .promise = fast::Promise::none, .answer = accd});
+  return baseline_method({.name = "accd", .reference = "li2021", .norms = {Norm::l2}}, accd);
 }
 
 }  // namespace touchstone::baselines

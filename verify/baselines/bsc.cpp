@@ -133,7 +133,7 @@ bool bsc_collides(Kind kind, const Query& query) {
 }
 
 std::unique_ptr<fast::Method> bsc_method() {
-  return std::make_unique<VerdictMethod>("bsc", bsc_collides);
+  return std::make_unique<VerdictMethod>("bsc", "tang2014", bsc_collides);
 }
 
 }  // namespace touchstone::baselines

@@ -128,7 +128,7 @@ fast::Answer fprf(Kind kind, const Query& query, const fast::MethodOptions& opti
 }
 
 std::unique_ptr<fast::Method> fprf_method() {
-  return baseline_method({.name = "fprf", .promise = fast::Promise::none, .answer = fprf});
+  return baseline_method({.name = "fprf", .reference = "provot1997", .norms = {Norm::l2}}, fprf);
 }
 
 }  // namespace touchstone::baselines

@@ -69,7 +69,12 @@ fast::Answer irf(Kind kind, const Query& query, const fast::MethodOptions& optio
 }
 
 std::unique_ptr<fast::Method> irf_method() {
-  return baseline_method({.name = "irf", .promise = fast::Promise::conservative, .answer = irf});
+  return baseline_method({.name = "irf",
+                          .promise = fast::Promise::conservative,
+                          .reference = "snyder1992",
+                          .is_tolerance_driven = true,
+                          .usual_max_checks = 100'000},
+                         irf);
 }
 
 }  // namespace touchstone::baselines

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace touchstone::baselines {
 namespace {
 
-fast::Answer answer_of(const Baseline& baseline, Kind kind, const Query& query,
+fast::Answer answer_of(AnswerFunction answer, Kind kind, const Query& query,
                        const fast::MethodOptions& options) {
   if (!is_finite(query)) return {.verdict = fast::Verdict::error};
   try {
-    return baseline.answer(kind, query, options);
+    return answer(kind, query, options);
   } catch (...) {
     return {.verdict = fast::Verdict::yes};
   }
@@ -19,10 +20,12 @@ fast::Answer answer_of(const Baseline& baseline, Kind kind, const Query& query,
 
 class BaselineMethod final : public fast::Method {
  public:
-  explicit BaselineMethod(const Baseline& baseline) : baseline_(baseline) {}
+  BaselineMethod(fast::MethodInfo info, AnswerFunction answer)
+      : info_(std::move(info)), answer_(answer) {
+    info_.is_baseline = true;
+  }
 
-  [[nodiscard]] std::string_view name() const override { return baseline_.name; }
-  [[nodiscard]] fast::Promise promise() const override { return baseline_.promise; }
+  [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
 
   void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
@@ -32,12 +35,13 @@ class BaselineMethod final : public fast::Method {
     }
     const NearestRounding state;
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      answers[i] = answer_of(baseline_, kind, queries[i], options);
+      answers[i] = answer_of(answer_, kind, queries[i], options);
     }
   }
 
  private:
-  Baseline baseline_;
+  fast::MethodInfo info_;
+  AnswerFunction answer_;
 };
 
 }  // namespace
@@ -69,8 +73,8 @@ Eigen::Vector3d position_at(const Query& query, std::size_t point, double t) {
   return query.point(0, point) + t * (query.point(1, point) - query.point(0, point));
 }
 
-std::unique_ptr<fast::Method> baseline_method(const Baseline& baseline) {
-  return std::make_unique<BaselineMethod>(baseline);
+std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info, AnswerFunction answer) {
+  return std::make_unique<BaselineMethod>(std::move(info), answer);
 }
 
 }  // namespace touchstone::baselines

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string_view>
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
@@ -34,13 +33,10 @@ class NearestRounding {
   std::fenv_t callers_;
 };
 
-/// A method as a function of one query.
-struct Baseline {
-  std::string_view name;
-  fast::Promise promise;
-  /// Called with finite coordinates and options that are_valid(), rounding to nearest.
-  fast::Answer (*answer)(Kind kind, const Query& query, const fast::MethodOptions& options);
-};
+/// A method as a function of one query. It is called with finite coordinates and options that
+/// are_valid(), rounding to nearest.
+using AnswerFunction = fast::Answer (*)(Kind kind, const Query& query,
+                                        const fast::MethodOptions& options);
 
 /// Are the tolerance positive and finite, the separation finite and not negative, and t_max in
 /// [0,1]?
@@ -55,8 +51,10 @@ struct Baseline {
 /// Where a point of the query is at time t, as most baselines compute it: start + t (end − start).
 [[nodiscard]] Eigen::Vector3d position_at(const Query& query, std::size_t point, double t);
 
-/// The baseline as a fast::Method. Its answer is fast::Verdict::error for coordinates that are not finite and
-/// options that are not valid, and yes, without times, where it throws.
-[[nodiscard]] std::unique_ptr<fast::Method> baseline_method(const Baseline& baseline);
+/// The baseline of that description (is_baseline is set) as a fast::Method. Its answer is
+/// fast::Verdict::error for coordinates that are not finite and options that are not valid, and yes,
+/// without times, where the function throws.
+[[nodiscard]] std::unique_ptr<fast::Method> baseline_method(fast::MethodInfo info,
+                                                            AnswerFunction answer);
 
 }  // namespace touchstone::baselines

@@ -110,7 +110,7 @@ fast::Answer msrf(Kind kind, const Query& query, const fast::MethodOptions& opti
 }
 
 std::unique_ptr<fast::Method> msrf_method() {
-  return baseline_method({.name = "msrf", .promise = fast::Promise::none, .answer = msrf});
+  return baseline_method({.name = "msrf", .reference = "harmon2011", .norms = {Norm::l2}}, msrf);
 }
 
 }  // namespace touchstone::baselines

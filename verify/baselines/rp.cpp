@@ -395,7 +395,7 @@ bool rp_collides(Kind kind, const Query& query) {
 }
 
 std::unique_ptr<fast::Method> rp_method() {
-  return std::make_unique<VerdictMethod>("rp", rp_collides);
+  return std::make_unique<VerdictMethod>("rp", "brochu2012", rp_collides);
 }
 
 }  // namespace touchstone::baselines

@@ -246,7 +246,7 @@ bool rrp_collides(Kind kind, const Query& query) {
 }
 
 std::unique_ptr<fast::Method> rrp_method() {
-  return std::make_unique<VerdictMethod>("rrp", rrp_collides);
+  return std::make_unique<VerdictMethod>("rrp", "brochu2012", rrp_collides);
 }
 
 }  // namespace touchstone::baselines

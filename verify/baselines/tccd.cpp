@@ -188,7 +188,7 @@ bool tccd_collides(Kind kind, const Query& query) {
 }
 
 std::unique_ptr<fast::Method> tccd_method() {
-  return std::make_unique<VerdictMethod>("tccd", tccd_collides);
+  return std::make_unique<VerdictMethod>("tccd", "wang2015", tccd_collides);
 }
 
 }  // namespace touchstone::baselines

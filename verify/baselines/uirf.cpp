@@ -70,7 +70,12 @@ fast::Answer uirf(Kind kind, const Query& query, const fast::MethodOptions& opti
 }
 
 std::unique_ptr<fast::Method> uirf_method() {
-  return baseline_method({.name = "uirf", .promise = fast::Promise::conservative, .answer = uirf});
+  return baseline_method({.name = "uirf",
+                          .promise = fast::Promise::conservative,
+                          .reference = "redon2002",
+                          .is_tolerance_driven = true,
+                          .usual_max_checks = 100'000},
+                         uirf);
 }
 
 }  // namespace touchstone::baselines

@@ -45,22 +45,23 @@ void answer_each(Kind kind, std::span<const Query> queries, std::span<fast::Answ
   }
 }
 
-/// A method of verdicts alone, which promises nothing and has no use for options.
+/// A baseline of verdicts alone, which promises nothing and has no use for options.
 class VerdictMethod final : public fast::Method {
  public:
   using Collides = bool (*)(Kind, const Query&);
 
-  VerdictMethod(std::string_view name, Collides collides) : name_(name), collides_(collides) {}
+  /// \param reference key in docs/references.bib
+  VerdictMethod(std::string_view name, std::string_view reference, Collides collides)
+      : info_{.name = name, .reference = reference, .is_baseline = true}, collides_(collides) {}
 
-  [[nodiscard]] std::string_view name() const override { return name_; }
-  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+  [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
   void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& /*options*/) const override {
     answer_each(kind, queries, answers, collides_);
   }
 
  private:
-  std::string_view name_;
+  fast::MethodInfo info_;
   Collides collides_;
 };
 

@@ -21,7 +21,7 @@
 #include "fast/certified/kernel.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/respondents.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/generate/workload.hpp"
@@ -32,24 +32,20 @@
 #include "verify/report/bench_report.hpp"
 #include "verify/run/bench.hpp"
 #include "verify/run/step_bench.hpp"
-#include "verify/solvers/contender.hpp"
-#include "verify/solvers/process_contender.hpp"
 #include "verify/solvers/registry.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Contenders = std::vector<std::unique_ptr<Contender>>;
 using Progress = std::function<void(double)>;
 
-constexpr std::string_view certified_name = "certified";
 constexpr std::string_view best_kernel = "best";
-constexpr unsigned most_threads = 1024;
 
 struct Arguments {
   SourceArguments sources;
-  RespondentArguments solvers;
+  SolverArguments solvers;
   /// The two frames of a step, or nothing.
   std::vector<fs::path> step;
   std::string kernel = std::string(best_kernel);
@@ -77,17 +73,15 @@ class BenchRun {
   explicit BenchRun(const Arguments& arguments)
       : arguments_(arguments),
         separation_(arguments.sources.separation.given()),
-        json_(arguments.json_file) {
-    certified_.kernel = kernel_of(arguments.kernel);
+        json_(arguments.json_file),
+        solvers_(arguments.solvers, MethodHost::this_process) {
+    certified_.kernel = arguments.solvers.kernel;
     certified_.separation = separation_;
     for (const std::vector<fs::path>& inputs : {arguments.solvers.files(), arguments.step}) {
       for (const fs::path& file : inputs) {
         if (json_.is(file))
           throw std::runtime_error(file.string() + ": named for input and output");
       }
-    }
-    for (const fs::path& path : arguments.solvers.plugins) {
-      plugins_.push_back(arguments.solvers.load(path));
     }
     report_.options = arguments.bench;
     report_.options.threads = arguments.sources.threads;
@@ -109,54 +103,36 @@ class BenchRun {
   }
 
  private:
-  [[nodiscard]] Contenders make_contenders(const Separation& separation) const {
-    fast::MethodOptions options = arguments_.solvers.options;
-    options.min_separation = separation.distance;
-    options.norm = separation.norm;
-    Contenders contenders;
-    for (const std::string& name : arguments_.solvers.methods) {
-      contenders.push_back(name == certified_name ? contend_certified(options, certified_)
-                                                  : contend(find_method(name), options));
-    }
-    for (const auto& plugin : plugins_) {
-      contenders.push_back(
-          std::make_unique<ProcessContender>(*plugin, options, arguments_.solvers.process()));
-    }
-    return contenders;
-  }
-
-  void bench_group(const QueryGroup& group, const Contenders& contenders,
+  void bench_group(const QueryGroup& group, const std::vector<const Solver*>& solvers,
                    const Separation& separation) {
     if (group.queries().empty() || stopped()) return;
     ProgressBar bar(fmt::format("bench {} {}", group.name(), to_string(group.kind())));
     BenchOptions options = report_.options;
     options.separation = separation;
     options.on_progress = [&bar](double fraction) { bar.update(fraction); };
-    report_.groups.push_back(bench(group, contenders, options));
+    report_.groups.push_back(bench(group, solvers, options));
     bar.clear();
-    for (const auto& contender : contenders) {
-      report_output(contender->name(), contender->take_output(), arguments_.solvers.show_output);
-    }
+    solvers_.report_output(arguments_.solvers.show_output);
   }
 
   /// The candidates of a mesh, from index pairs too.
   void bench_candidates(const MovingMesh& mesh, Kind kind) {
     const auto pairs = find_candidates(mesh, kind, 0, separation_.distance);
     const fast::Candidates candidates = candidates_of(mesh, kind, pairs);
-    Contenders contenders = make_contenders(separation_);
-    contenders.push_back(contend_with_queries(certified_));
-    contenders.push_back(contend_with_pairs(mesh.vertices, candidates, certified_));
-    bench_group(QueryGroup(mesh.name, kind, queries_of(mesh, candidates)), contenders, separation_);
+    const auto with_queries = certified_queries(certified_);
+    const auto with_pairs = certified_pairs(mesh.vertices, candidates, certified_);
+    std::vector<const Solver*> solvers = solvers_.all();
+    solvers.insert(solvers.end(), {with_queries.get(), with_pairs.get()});
+    bench_group(QueryGroup(mesh.name, kind, queries_of(mesh, candidates)), solvers, separation_);
   }
 
   void bench_built_in() {
     const SourceArguments& sources = arguments_.sources;
     const MovingMesh patches = moving_patches({.seed = sources.seed});
     for (const Kind kind : chosen_kinds()) bench_candidates(patches, kind);
-    const Contenders contenders = make_contenders(separation_);
     for (const Kind kind : chosen_kinds()) {
       if (stopped()) return;
-      bench_group(hard_set(kind, sources.seed, sources.count, separation_), contenders,
+      bench_group(hard_set(kind, sources.seed, sources.count, separation_), solvers_.all(),
                   separation_);
     }
   }
@@ -166,12 +142,12 @@ class BenchRun {
     for (const Kind kind : chosen_kinds()) bench_candidates(mesh, kind);
     if (stopped()) return;
     ProgressBar bar("bench " + mesh.name);
-    report_.step = bench_step(
-        mesh, {.repetitions = report_.options.repetitions,
-               .threads = static_cast<int>(std::min(arguments_.sources.threads, most_threads)),
-               .certified = certified_,
-               .on_progress = [&bar](double fraction) { bar.update(fraction); },
-               .stop = &interrupted()});
+    report_.step =
+        bench_step(mesh, {.repetitions = report_.options.repetitions,
+                          .threads = arguments_.sources.threads,
+                          .certified = certified_,
+                          .on_progress = [&bar](double fraction) { bar.update(fraction); },
+                          .stop = &interrupted()});
   }
 
   /// The queries below a path, of one kind at a time: both may not fit into memory.
@@ -195,7 +171,7 @@ class BenchRun {
            .stopped = [this] { return stopped(); },
            .is_output = [this](const fs::path& file) { return json_.is(file); }});
       const Separation asked = separation.value_or(separation_);
-      bench_group(group, make_contenders(asked), asked);
+      bench_group(group, solvers_.all(), asked);
     }
   }
 
@@ -233,8 +209,8 @@ class BenchRun {
   const Arguments& arguments_;
   Separation separation_;  // of what is not read from files
   ReportedOutput json_;
+  Solvers solvers_;
   fast::CertifiedOptions certified_;
-  std::vector<std::unique_ptr<fast::Method>> plugins_;
   BenchReport report_;
   std::set<std::string> errors_;
   std::uint64_t skipped_ = 0;
@@ -267,12 +243,10 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
   command.add_option("--json", arguments.json_file, "Write the result as JSON")->type_name("FILE");
 }
 
-/// Whom to time: without a word on it our own methods.
+/// Where the user names no solver, the default methods are timed.
 void settle(const CLI::App& command, Arguments& arguments) {
-  if (arguments.solvers.empty()) {
-    const auto names = default_methods();
-    arguments.solvers.methods.assign(names.begin(), names.end());
-  }
+  if (arguments.solvers.empty()) arguments.solvers.methods = default_methods();
+  arguments.solvers.kernel = kernel_of(arguments.kernel);
   settle_solver_options(command, arguments.built_in_workload(), arguments.solvers);
 }
 

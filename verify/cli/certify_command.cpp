@@ -17,7 +17,7 @@
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/respondents.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
@@ -33,18 +33,17 @@ using Progress = std::function<void(double)>;
 
 struct Arguments {
   SourceArguments sources;
-  RespondentArguments judged;
+  SolverArguments judged;
   std::string json_file;
   std::string truth_file;
   std::string proof_file;
 };
 
-/// Whom to judge: without a word on it our own methods, on the built-in set only.
-RespondentArguments judged_by(const Arguments& arguments) {
-  RespondentArguments judged = arguments.judged;
+/// Which solvers to judge: where the user names none, the default methods, on the built-in set only.
+SolverArguments judged_by(const Arguments& arguments) {
+  SolverArguments judged = arguments.judged;
   if (judged.empty() && arguments.sources.built_in_set()) {
-    const auto names = default_methods();
-    judged.methods.assign(names.begin(), names.end());
+    judged.methods = default_methods();
   }
   return judged;
 }
@@ -54,7 +53,7 @@ class CertifyRun {
  public:
   explicit CertifyRun(const Arguments& arguments)
       : arguments_(arguments),
-        respondents_(judged_by(arguments)),
+        solvers_(judged_by(arguments)),
         json_(arguments.json_file),
         truth_(arguments.truth_file),
         proof_(arguments.proof_file) {
@@ -77,7 +76,7 @@ class CertifyRun {
          .stopped = [this] { return stopped(); },
          .is_output = [this](const fs::path& path) { return is_output(path); }});
     report_answers();
-    respondents_.report_output(arguments_.judged.show_output);
+    solvers_.report_output(arguments_.judged.show_output);
     // Files first: a closed standard output must not cost them.
     truth_.close();
     proof_.close(sum_.proofs.certificates());
@@ -112,7 +111,7 @@ class CertifyRun {
     if (arguments_.sources.built_in_set()) options.toi_tolerance = 0;
     options.threads = arguments_.sources.threads;
     options.stop = &interrupted();
-    options.respondents = respondents_.all();
+    options.solvers = solvers_.all();
     options.on_progress = progress;
     if (truth_) {
       options.on_truth = [&](const Truth& truth) {
@@ -133,9 +132,9 @@ class CertifyRun {
     result.name = path.string();
     result.separation = arguments_.sources.separation.given();
     result.fail(error.what());
-    for (const Respondent* respondent : respondents_.all()) {
+    for (const Solver* solver : solvers_.all()) {
       result.methods.push_back(
-          {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
+          {solver->name(), solver->promise(), solver->is_timed(), Judgement{}});
     }
     add(std::move(result));
   }
@@ -161,7 +160,7 @@ class CertifyRun {
     }
     // What ended early did not ask for all.
     if (sum_.interrupted || sum_.errors != 0) return;
-    for (const std::string& warning : respondents_.warnings()) report_warning(warning);
+    for (const std::string& warning : solvers_.warnings()) report_warning(warning);
   }
 
   [[nodiscard]] bool stopped() const {
@@ -187,7 +186,7 @@ class CertifyRun {
   }
 
   const Arguments& arguments_;
-  Respondents respondents_;
+  Solvers solvers_;
   ReportedOutput json_;
   ReportedOutput truth_;
   CertificatesFile proof_;
@@ -195,7 +194,7 @@ class CertifyRun {
   CertifyResult sum_;
 };
 
-void add_judged_options(CLI::App& command, RespondentArguments& judged) {
+void add_judged_options(CLI::App& command, SolverArguments& judged) {
   add_solver_options(command, judged);
   command
       .add_option("--results", judged.results,

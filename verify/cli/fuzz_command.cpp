@@ -17,7 +17,7 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/respondents.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/separation_file.hpp"
@@ -41,7 +41,7 @@ constexpr double longest_run = 1e7;
 constexpr double shrink_seconds = 5.0;
 
 struct Arguments {
-  RespondentArguments solver;
+  SolverArguments solver;
   SeparationArguments separation;
   double seconds = 0.0;
   std::uint64_t queries = 0;
@@ -232,13 +232,12 @@ class FuzzRun {
 
  private:
   void load_method() {
-    const RespondentArguments& solver = arguments_.solver;
+    const SolverArguments& solver = arguments_.solver;
     if (solver.methods.size() + solver.plugins.size() != 1) {
       throw std::invalid_argument("fuzz asks one solver: name one with --method or --plugin");
     }
     if (!solver.methods.empty()) {
       method_ = &find_method(solver.methods.front());
-      options_.reach = reach_of(method_->name());
       return;
     }
     plugin_ = solver.load(solver.plugins.front());

@@ -225,11 +225,7 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
   for (const std::string name : {"--min-separation", "--norm", "--count"}) {
     command.remove_option(command.get_option(name));
   }
-  std::string names;
-  for (const auto& method : methods()) {
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", method->name());
-  }
-  command.add_option("--method", arguments.survey.methods, "Only these of " + names)
+  command.add_option("--method", arguments.survey.methods, "Only these of " + method_names())
       ->type_name("NAME")
       ->allow_extra_args(false);
   command

@@ -15,7 +15,7 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/respondents.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
@@ -32,13 +32,13 @@ using Progress = std::function<void(double)>;
 
 struct Arguments {
   SourceArguments sources;
-  RespondentArguments solver;
+  SolverArguments solver;
   std::string out_file;
   std::string json_file;
 };
 
 /// The one solver that the user named.
-RespondentArguments the_solver(const Arguments& arguments) {
+SolverArguments the_solver(const Arguments& arguments) {
   if (arguments.solver.methods.size() + arguments.solver.plugins.size() != 1 ||
       (!arguments.solver.methods.empty() && arguments.solver.methods.front() == "none")) {
     throw std::invalid_argument("solve takes one solver: --method NAME or --plugin LIB.so");
@@ -52,8 +52,8 @@ class SolveRun {
  public:
   explicit SolveRun(const Arguments& arguments)
       : arguments_(arguments),
-        respondents_(the_solver(arguments)),
-        solver_(*respondents_.all().front()),
+        solvers_(the_solver(arguments)),
+        solver_(*solvers_.all().front()),
         out_(arguments.out_file),
         json_(arguments.json_file) {
     if (json_.is(arguments.out_file)) {
@@ -78,7 +78,7 @@ class SolveRun {
     if (json_) json_.write(json_document(summary()));
     json_.close();
     report_unplaced_crashes(solver_.name(), sum_.unplaced_crashes);
-    respondents_.report_output(arguments_.solver.show_output);
+    solvers_.report_output(arguments_.solver.show_output);
     print_summary();
     return status();
   }
@@ -162,8 +162,8 @@ class SolveRun {
   }
 
   const Arguments& arguments_;
-  Respondents respondents_;
-  const Respondent& solver_;
+  Solvers solvers_;
+  const Solver& solver_;
   ReportedOutput out_;
   ReportedOutput json_;
   SolveResult sum_;

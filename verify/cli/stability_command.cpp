@@ -14,7 +14,7 @@
 
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/respondents.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/report/page.hpp"
@@ -27,7 +27,7 @@ namespace touchstone::verify::cli {
 namespace {
 
 struct Arguments {
-  RespondentArguments judged;
+  SolverArguments judged;
   SeparationArguments separation;
   std::vector<std::string> hardnesses;
   std::uint64_t seed = default_seed;
@@ -48,12 +48,12 @@ std::vector<const Hardness*> chosen(const std::vector<std::string>& names) {
   return result;
 }
 
-/// Without a word on it all methods are judged but the baselines.
-RespondentArguments judged_by(const Arguments& arguments) {
-  RespondentArguments judged = arguments.judged;
+/// Where the user names no solver, all methods but the baselines.
+SolverArguments judged_by(const Arguments& arguments) {
+  SolverArguments judged = arguments.judged;
   if (!judged.empty()) return judged;
   for (const auto& method : methods()) {
-    if (!is_baseline(method->name())) judged.methods.emplace_back(method->name());
+    if (!method->info().is_baseline) judged.methods.emplace_back(method->name());
   }
   return judged;
 }
@@ -71,28 +71,28 @@ void check_names(const Arguments& arguments, const ReportedOutput& json,
   }
 }
 
-StabilityResult measure(const Arguments& arguments, const Respondents& respondents) {
+StabilityResult measure(const Arguments& arguments, const Solvers& solvers) {
   ProgressBar bar("stability");
   return measure_stability(chosen(arguments.hardnesses),
                            {.separation = arguments.separation.given(),
                             .seed = arguments.seed,
                             .count = arguments.count,
                             .threads = arguments.threads,
-                            .respondents = respondents.all(),
+                            .solvers = solvers.all(),
                             .on_progress = [&bar](double fraction) { bar.update(fraction); },
                             .stop = &interrupted()});
 }
 
 Status run(const Arguments& arguments) {
-  const Respondents respondents(judged_by(arguments));
+  const Solvers solvers(judged_by(arguments));
   ReportedOutput json(arguments.json_file);
   ReportedOutput picture(arguments.picture_file);
   check_names(arguments, json, picture);
-  const StabilityResult result = measure(arguments, respondents);
+  const StabilityResult result = measure(arguments, solvers);
   for (const MethodResult& method : result.total.methods) {
     report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
   }
-  respondents.report_output(arguments.judged.show_output);
+  solvers.report_output(arguments.judged.show_output);
   // Files first: a closed standard output must not cost them.
   if (json) json.write(json_document(to_json(result)));
   json.close();

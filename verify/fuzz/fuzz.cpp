@@ -185,7 +185,7 @@ class Run {
         method_(method),
         name_(method.name()),
         standard_(standard_of(method, options)),
-        oracle_share_(name_ == judge_name ? 1.0 : options.oracle_share),
+        oracle_share_(name_ == judge_name() ? 1.0 : options.oracle_share),
         generators_(generators(options.separation)),
         maker_(options, generators_),
         solver_(method, process_options(options)),
@@ -240,8 +240,8 @@ class Run {
     answers_.assign(block_.queries.size(), Answer{});
     const double asked = seconds();
     // A block of a slow method may take minutes.
-    const SolverRun run =
-        solver_.solve(block_.kind, block_.queries, answers_, method_options_, solver_seconds(end_));
+    const SolverRun run = solver_.solve(block_.kind, block_.queries, answers_, method_options_,
+                                        solver_deadline(end_));
     result_.method_seconds += seconds() - asked;
     result_.unplaced_crashes += run.unplaced_crashes;
     if (end_.is_over() || is_stopped()) result_.unanswered = block_.queries.size() - run.answered;
@@ -341,9 +341,9 @@ class Run {
     const Decision decision(block_.kind, query, options_.separation);
     const Truth truth = truth_of(result_.queries, decision);
     double reward = 0.0;
-    if (name_ != judge_name) {
+    if (name_ != judge_name()) {
       const auto of_judge = accuse_judge(truth, judged_[i]);
-      if (of_judge) reward += report(i, {*of_judge, judge_name}, decision);
+      if (of_judge) reward += report(i, {*of_judge, judge_name()}, decision);
     }
     auto accusation = accuse(block_.kind, query, truth, answers_[i], standard_);
     if (!accusation && missing.any()) {
@@ -405,7 +405,7 @@ class Run {
   }
 
   void keep(std::size_t i, const Charge& charge, const Decision& decision) {
-    const bool of_judge = charge.method == judge_name && name_ != judge_name;
+    const bool of_judge = charge.method == judge_name() && name_ != judge_name();
     const std::string& generator = result_.generators[block_.arms[i]].name;
     Finding finding{.what = charge.accusation.what,
                     .kind = block_.kind,

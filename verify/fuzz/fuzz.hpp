@@ -24,7 +24,6 @@
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/fuzz/finding.hpp"
-#include "verify/judge/claimed_distance.hpp"
 #include "verify/run/deadline.hpp"
 #include "verify/solvers/child_process.hpp"
 
@@ -56,8 +55,6 @@ struct FuzzOptions {
   fast::MethodOptions method = {};
   /// What the method is held to, if not to its own promise.
   std::optional<fast::Promise> promise = std::nullopt;
-  /// What the method's tolerances claim.
-  Reach reach = stated_reach;
   /// Wall-clock seconds a query may take; 0: no limit. Exact arithmetic takes one where coordinates from
   /// 2^-1074 to 2^1023 meet a distance in L2.
   double query_limit_seconds = 10.0;

@@ -47,7 +47,7 @@ std::string certificate(Kind kind, const Query& query, const Decision& decision,
 Standard standard_of(const fast::Method& method, const FuzzOptions& options) {
   return {.promise = options.promise.value_or(method.promise()),
           .separation = options.separation,
-          .reach = options.reach};
+          .filter = method.info().filter};
 }
 
 SolverProcessOptions process_options(const FuzzOptions& options) {
@@ -57,10 +57,9 @@ SolverProcessOptions process_options(const FuzzOptions& options) {
           .limits = options.limits};
 }
 
-double solver_seconds(const Deadline& deadline) {
-  constexpr double least = 1e-3, no_limit = 0.0;
-  const double left = deadline.seconds_left();
-  return std::isinf(left) ? no_limit : std::max(least, left);
+Deadline solver_deadline(const Deadline& deadline) {
+  constexpr double least_seconds = 1e-3;
+  return Deadline(std::max(least_seconds, deadline.seconds_left()));
 }
 
 Answer answer_of(const CertifiedResult& judged) {
@@ -84,7 +83,7 @@ Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzO
     : finding_(finding),
       standard_(standard_of(method, options)),
       query_limit_seconds_(options.query_limit_seconds),
-      of_judge_(finding.method == judge_name && method.name() != judge_name),
+      of_judge_(finding.method == judge_name() && method.name() != judge_name()),
       solver_(method, process_options(options)),
       method_options_(method_options(options)) {}
 
@@ -107,7 +106,7 @@ std::optional<Recheck::Reply> Recheck::reply_to(const Query& query, const Deadli
   }
   Reply reply;
   const SolverRun run = solver_.solve(finding_.kind, {&query, 1}, {&reply.answer, 1},
-                                      method_options_, solver_seconds(deadline));
+                                      method_options_, solver_deadline(deadline));
   if (run.answered == 0) return std::nullopt;
   if (!run.failures.empty()) reply.failure = run.failures.front().failure;
   return reply;

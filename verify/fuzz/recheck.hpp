@@ -21,8 +21,8 @@
 
 namespace touchstone::verify {
 
-/// The solver that judges the others.
-inline constexpr std::string_view judge_name = "certified";
+/// The name of the solver that judges the others.
+[[nodiscard]] inline std::string_view judge_name() { return fast::certified_info().name; }
 
 /// What a method is held to in a run.
 [[nodiscard]] Standard standard_of(const fast::Method& method, const FuzzOptions& options);
@@ -30,8 +30,8 @@ inline constexpr std::string_view judge_name = "certified";
 /// How a solver's process is used in a run.
 [[nodiscard]] SolverProcessOptions process_options(const FuzzOptions& options);
 
-/// The seconds left as SolverProcess::solve takes them, at least a millisecond.
-[[nodiscard]] double solver_seconds(const Deadline& deadline);
+/// For the solver's process: as many seconds by the system's clock, at least a millisecond.
+[[nodiscard]] Deadline solver_deadline(const Deadline& deadline);
 
 /// What the judge says, as an answer.
 [[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& judged);

@@ -134,6 +134,7 @@ constexpr std::string_view includes =
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/judge/claimed_distance.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/judge.hpp"
 #include "verify/solvers/plugin.hpp"
@@ -149,9 +150,9 @@ void expect_no_fault(const fast::Method& method) {
   EXPECT_EQ(truth.collides(), collides);
   verify::Judgement judgement;
   judgement.add(verify::truth_of(0, truth), answer);
-  const verify::Reach reach = verify::reach_of(method.name());
   if (answer.verdict == fast::Verdict::yes) {
-    const Separation near = reach(kind, query, answer, separation);
+    const Separation near =
+        verify::claimed_distance(method.info().filter, kind, query, answer, separation);
     EXPECT_TRUE(!is_valid(near) || verify::Decision(kind, query, near).collides());
   }
   for (const verify::WrongAnswer& wrong : judgement.wrong_answers) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "exact/distance/distance_oracle.hpp"
+#include "verify/judge/claimed_distance.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/answers.hpp"
 
@@ -25,14 +26,14 @@ bool has_bad_number(const Answer& answer) {
 /// How near they come by what a yes claims, if it claims anything.
 std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& answer,
                                    const Standard& standard) {
-  if (!standard.reach) return std::nullopt;
-  const Separation claimed = standard.reach(kind, query, answer, standard.separation);
+  const Separation claimed =
+      claimed_distance(standard.filter, kind, query, answer, standard.separation);
   return is_valid(claimed) ? std::optional(claimed) : std::nullopt;
 }
 
 /// Of a yes to what does not collide; what collides is near enough for any claim.
-std::optional<Accusation> accuse_reach(Kind kind, const Query& query, const Answer& answer,
-                                       const Standard& standard) {
+std::optional<Accusation> accuse_tolerance(Kind kind, const Query& query, const Answer& answer,
+                                           const Standard& standard) {
   const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
   if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
   return Accusation{FindingKind::beyond_tolerance,
@@ -94,7 +95,7 @@ std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& tru
         answer.verdict == Verdict::yes ? FindingKind::false_positive : FindingKind::undecided,
         to_text(answer) + ", but they do not collide, and it promises exactness"};
   }
-  return answer.verdict == Verdict::yes ? accuse_reach(kind, query, answer, standard)
+  return answer.verdict == Verdict::yes ? accuse_tolerance(kind, query, answer, standard)
                                         : std::nullopt;
 }
 

@@ -15,7 +15,6 @@
 #include "fast/certified.hpp"
 #include "fast/method.hpp"
 #include "verify/fuzz/finding.hpp"
-#include "verify/judge/claimed_distance.hpp"
 #include "verify/judge/judge.hpp"
 #include "verify/solvers/failure.hpp"
 
@@ -25,8 +24,8 @@ namespace touchstone::verify {
 struct Standard {
   fast::Promise promise = fast::Promise::conservative;
   Separation separation = {};
-  /// What its tolerances claim; null: nothing is known of it.
-  Reach reach = nullptr;
+  /// The filter that its tolerances do not include (fast::MethodInfo::filter).
+  std::optional<fast::ErrorModel> filter = std::nullopt;
 };
 
 /// What is wrong, and in words.

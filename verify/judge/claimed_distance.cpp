@@ -38,26 +38,33 @@ double value_on_axis(Kind kind, const Query& query, std::size_t axis, double t, 
   return filters::EdgeEdge::evaluate<double>(x, {1.0 - t, t, 1.0 - u, u, 1.0 - v, v});
 }
 
-}  // namespace
-
-Separation stated_reach(Kind, const Query&, const fast::Answer& answer,
-                        const Separation& separation) {
-  if (std::isnan(answer.tolerance)) return {.distance = infinity, .norm = separation.norm};
+Separation stated_distance(const fast::Answer& answer, const Separation& separation) {
   const double sum = answer.tolerance + separation.distance;
   // The sum with 0 is exact, and 0 is what exact solvers claim.
   const bool is_exact = answer.tolerance == 0.0 || separation.distance == 0.0;
   return {.distance = is_exact ? sum : up(sum), .norm = separation.norm};
 }
 
-Separation tight_inclusion_reach(Kind kind, const Query& query, const fast::Answer& answer,
-                                 const Separation& separation, fast::ErrorModel model) {
+Separation tight_inclusion_distance(Kind kind, const Query& query, const fast::Answer& answer,
+                                    double separation, fast::ErrorModel model) {
   const std::array<double, 3> x_max = greatest_coordinates(query);
-  const double d = separation.distance;
-  if (std::isnan(answer.tolerance) || std::max(std::ranges::max(x_max), d) > greatest_unscaled) {
+  if (std::max(std::ranges::max(x_max), separation) > greatest_unscaled) {
     return {.distance = infinity, .norm = Norm::linf};
   }
-  const double filter = std::ranges::max(fast::error_filter(kind, x_max, d, model));
-  return {.distance = up(up(up(answer.tolerance) + d) + 2.0 * filter), .norm = Norm::linf};
+  // The published filter bounds the errors of the released order of operations too, and is not below
+  // the released one: so what a yes with the released filter claims follows from it.
+  if (model == fast::ErrorModel::released) model = fast::ErrorModel::published;
+  const double filter = std::ranges::max(fast::error_filter(kind, x_max, separation, model));
+  return {.distance = up(up(up(answer.tolerance) + separation) + 2.0 * filter), .norm = Norm::linf};
+}
+
+}  // namespace
+
+Separation claimed_distance(std::optional<fast::ErrorModel> filter, Kind kind, const Query& query,
+                            const fast::Answer& answer, const Separation& separation) {
+  if (std::isnan(answer.tolerance)) return {.distance = infinity, .norm = separation.norm};
+  if (!filter) return stated_distance(answer, separation);
+  return tight_inclusion_distance(kind, query, answer, separation.distance, *filter);
 }
 
 bool is_seen_within(Kind kind, const Query& query, double t, double distance) {

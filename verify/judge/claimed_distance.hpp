@@ -15,7 +15,7 @@
 /// axis at every corner, of which the one with the lowest parameters is in the domain. The width is
 /// the rounded difference of two values, hence one step more than τ.
 
-#include <functional>
+#include <optional>
 
 #include "exact/query.hpp"
 #include "fast/filter.hpp"
@@ -24,19 +24,14 @@
 namespace touchstone::verify {
 
 /// How near, in units of the coordinates and in which norm, the primitives come at some time by what
-/// a yes to the query claims; infinite, hence no valid separation, where it claims nothing.
-using Reach = std::function<Separation(Kind, const Query&, const fast::Answer&, const Separation&)>;
-
-/// What a tolerance claims in general, rounded up. Infinite for an answer without a tolerance.
-[[nodiscard]] Separation stated_reach(Kind kind, const Query& query, const fast::Answer& answer,
-                                      const Separation& separation);
-
-/// The claim of Tight-Inclusion, rounded up. Infinite for an answer without a tolerance, and for
-/// coordinates or separations beyond 2^1016, which it scales down first.
-[[nodiscard]] Separation tight_inclusion_reach(Kind kind, const Query& query,
-                                               const fast::Answer& answer,
-                                               const Separation& separation,
-                                               fast::ErrorModel model);
+/// a yes to the query claims, rounded up. Infinite, hence no valid separation, where it claims
+/// nothing: without a tolerance, and with a filter for coordinates or separations beyond 2^1016,
+/// which Tight-Inclusion scales down first.
+/// \param filter that the method's tolerances do not include (fast::MethodInfo::filter)
+/// \param separation that the method was asked for
+[[nodiscard]] Separation claimed_distance(std::optional<fast::ErrorModel> filter, Kind kind,
+                                          const Query& query, const fast::Answer& answer,
+                                          const Separation& separation);
 
 /// Is it seen at a glance, in floating point with proved bounds, that the primitives are within the
 /// distance in L∞ at time t? False says nothing.

@@ -1,68 +1,79 @@
 #include "verify/judge/ground_truth_cache.hpp"
 
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/run/cores.hpp"
 
 namespace touchstone::verify {
 namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// Queries decided between two looks at `stop`: the hardest take a quarter of a second each.
-constexpr std::size_t step = 64;
-constexpr unsigned most_threads = 1024;
+/// Queries decided between two reports of progress.
+constexpr std::size_t step = 4096;
 
 }  // namespace
 
 Truths::Truths(const QueryGroup& group, unsigned threads)
-    : group_(group),
-      threads_(threads == 0 ? tbb::info::default_concurrency()
-                            : static_cast<int>(std::min(threads, most_threads))) {}
+    : group_(group), threads_(cores_for(threads)) {}
 
 Truths::Known& Truths::known_at(const Separation& separation) {
   const auto found = std::ranges::find_if(
       known_, [&](const auto& known) { return same_question(known.first, separation); });
   if (found != known_.end()) return found->second;
-  return known_.emplace_back(separation, Known(group_.queries().size())).second;
+  return known_.emplace_back(separation, Known()).second;
 }
 
 void Truths::decide(const Separation& separation, std::span<const std::size_t> positions,
-                    Known& known, const std::atomic<bool>* stop) {
+                    Known& known, const std::atomic<bool>* stop,
+                    const std::function<void(double)>& on_progress) {
   tbb::task_arena arena(threads_);
+  std::vector<std::optional<Truth>> found(std::min(step, positions.size()));
   for (std::size_t first = 0; first < positions.size(); first += step) {
-    if (stop != nullptr && *stop) return;
-    const std::size_t last = std::min(first + step, positions.size());
+    const std::size_t count = std::min(step, positions.size() - first);
+    std::ranges::fill(found, std::nullopt);
     arena.execute([&] {
-      tbb::parallel_for(first, last, [&](std::size_t i) {
-        const std::size_t position = positions[i];
-        known[position] =
-            truth_of(position, Decision(group_.kind(), group_.queries()[position], separation));
+      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        // The hardest take a quarter of a second each.
+        if (stop != nullptr && *stop) return;
+        const std::size_t position = positions[first + i];
+        const Query& query = group_.queries().at(position);
+        found[i] = truth_of(position, Decision(group_.kind(), query, separation));
       });
     });
-    decided_ += last - first;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!found[i]) return;
+      known.emplace(positions[first + i], *found[i]);
+      ++decided_;
+    }
+    if (on_progress) {
+      on_progress(static_cast<double>(first + count) / static_cast<double>(positions.size()));
+    }
   }
 }
 
 std::vector<Truth> Truths::of(const Separation& separation, std::span<const std::size_t> positions,
-                              const std::atomic<bool>* stop) {
+                              const std::atomic<bool>* stop,
+                              const std::function<void(double)>& on_progress) {
   Known& known = known_at(separation);
   std::vector<std::size_t> unknown;
   for (const std::size_t position : positions) {
-    if (!known.at(position)) unknown.push_back(position);
+    if (!known.contains(position)) unknown.push_back(position);
   }
   std::ranges::sort(unknown);
   unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
-  decide(separation, unknown, known, stop);
+  decide(separation, unknown, known, stop, on_progress);
   std::vector<Truth> truths;
   for (const std::size_t position : positions) {
-    if (!known[position]) break;
-    truths.push_back(*known[position]);
+    const auto found = known.find(position);
+    if (found == known.end()) break;
+    truths.push_back(found->second);
   }
   return truths;
 }

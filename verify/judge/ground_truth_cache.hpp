@@ -5,8 +5,9 @@
 
 #include <atomic>
 #include <cstddef>
-#include <optional>
+#include <functional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -26,20 +27,23 @@ class Truths {
   /// The truth of the queries at these positions, in their order; `index` is the position. Those that
   /// are not known yet are decided; once *stop is true (it may be null) no more of them, and then only
   /// those before the first unknown one are returned.
-  /// \throws std::invalid_argument if a coordinate is not finite, or the separation not valid.
+  /// \param on_progress told now and then the fraction that is done, from this thread; may be null
+  /// \throws std::invalid_argument if a coordinate is not finite, or the separation not valid;
+  /// std::out_of_range for a position beyond the group.
   [[nodiscard]] std::vector<Truth> of(const Separation& separation,
                                       std::span<const std::size_t> positions,
-                                      const std::atomic<bool>* stop = nullptr);
+                                      const std::atomic<bool>* stop = nullptr,
+                                      const std::function<void(double)>& on_progress = nullptr);
 
   /// Verdicts that the oracle was asked for so far.
   [[nodiscard]] std::size_t decided() const { return decided_; }
 
  private:
-  using Known = std::vector<std::optional<Truth>>;
+  using Known = std::unordered_map<std::size_t, Truth>;
 
   [[nodiscard]] Known& known_at(const Separation& separation);
   void decide(const Separation& separation, std::span<const std::size_t> positions, Known& known,
-              const std::atomic<bool>* stop);
+              const std::atomic<bool>* stop, const std::function<void(double)>& on_progress);
 
   const QueryGroup& group_;
   int threads_;

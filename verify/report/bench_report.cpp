@@ -17,8 +17,8 @@
 namespace touchstone::verify {
 namespace {
 
-double passes(const ContenderResult& contender, const BenchResult& group) {
-  return contender.times.median() / group.memory_pass.median();
+double passes(const SolverResult& solver, const BenchResult& group) {
+  return solver.times.median() / group.memory_pass.median();
 }
 
 // ---- Text ---------------------------------------------------------------------------------------
@@ -36,27 +36,27 @@ std::vector<TextColumn> columns_of_group() {
                              toi_error_columns()});
 }
 
-TextRow row_of(const ContenderResult& contender, const BenchResult& group) {
-  const Judgement& judged = contender.judgement;
+TextRow row_of(const SolverResult& solver, const BenchResult& group) {
+  const Judgement& judged = solver.judgement;
   const auto single = [&](double SingleTimes::*time) {
-    return contender.singles ? number_text((*contender.singles).*time, "{:.0f}") : "-";
+    return solver.singles ? number_text((*solver.singles).*time, "{:.0f}") : "-";
   };
   return joined<std::string>(
-      {{printable(contender.name), number_text(contender.times.median(), "{:.1f}"),
-        number_text(passes(contender, group), "{:.2f}"), single(&SingleTimes::p50),
-        single(&SingleTimes::p99), single(&SingleTimes::max), std::to_string(contender.queries),
+      {{printable(solver.name), number_text(solver.times.median(), "{:.1f}"),
+        number_text(passes(solver, group), "{:.2f}"), single(&SingleTimes::p50),
+        single(&SingleTimes::p99), single(&SingleTimes::max), std::to_string(solver.queries),
         std::to_string(judged.queries)},
        fault_cells(judged),
        toi_error_cells(judged.toi_errors)});
 }
 
 /// "  ended by: axis 78.12 %, …"; empty for those without stages.
-std::string stages_text(const ContenderResult& contender) {
-  if (contender.queries == 0) return {};
+std::string stages_text(const SolverResult& solver) {
+  if (solver.queries == 0) return {};
   std::string text;
-  for (const StageCount& count : contender.stages) {
+  for (const StageCount& count : solver.stages) {
     const double share =
-        100.0 * static_cast<double>(count.queries) / static_cast<double>(contender.queries);
+        100.0 * static_cast<double>(count.queries) / static_cast<double>(solver.queries);
     text += fmt::format("{} {} {:.4g} %", text.empty() ? "  ended by:" : ",", count.stage, share);
   }
   return text;
@@ -76,20 +76,20 @@ void append_group(std::string& text, const BenchResult& group) {
       judged_all ? "" : fmt::format(" among {} judged", group.judged),
       number_text(group.memory_pass.median(), "{:.2f}"), group.interrupted ? " (interrupted)" : "");
   TextTable table(columns_of_group());
-  for (const ContenderResult& contender : group.contenders) {
-    table.add(row_of(contender, group));
-    const std::string stages = stages_text(contender);
+  for (const SolverResult& solver : group.solvers) {
+    table.add(row_of(solver, group));
+    const std::string stages = stages_text(solver);
     if (!stages.empty()) table.add_line(stages);
   }
   text += table.text();
-  for (const ContenderResult& contender : group.contenders) {
-    if (!broke_promise(contender)) continue;
-    text += wrong_answers_text({.method = contender.name,
-                                .promise = contender.promise,
-                                .judgement = contender.judgement,
+  for (const SolverResult& solver : group.solvers) {
+    if (!broke_promise(solver)) continue;
+    text += wrong_answers_text({.method = solver.name,
+                                .promise = solver.promise,
+                                .judgement = solver.judgement,
                                 .group = group.name,
                                 .kind = to_string(group.kind)},
-                               [&](std::size_t i) { return contender.wrong_places[i]; });
+                               [&](std::size_t i) { return solver.wrong_places[i]; });
   }
   text += '\n';
 }
@@ -151,9 +151,8 @@ std::string legend(const BenchReport& report) {
         "that of all threads together, which the other tables have.\n";
   }
   const auto is_sampled = [](const BenchResult& group) {
-    return std::ranges::any_of(group.contenders, [&](const ContenderResult& contender) {
-      return contender.queries < group.queries;
-    });
+    return std::ranges::any_of(
+        group.solvers, [&](const SolverResult& solver) { return solver.queries < group.queries; });
   };
   if (std::ranges::any_of(report.groups, is_sampled)) {
     text += fmt::format(
@@ -195,36 +194,36 @@ nlohmann::json json_of(const std::vector<StageCount>& stages) {
   return json;
 }
 
-nlohmann::json wrong_answers_of(const ContenderResult& contender) {
+nlohmann::json wrong_answers_of(const SolverResult& solver) {
   nlohmann::json list = nlohmann::json::array();
-  for (std::size_t i = 0; i < contender.judgement.wrong_answers.size(); ++i) {
-    nlohmann::json& json = list.emplace_back(to_json(contender.judgement.wrong_answers[i]));
+  for (std::size_t i = 0; i < solver.judgement.wrong_answers.size(); ++i) {
+    nlohmann::json& json = list.emplace_back(to_json(solver.judgement.wrong_answers[i]));
     json.update(
-        {{"source", contender.wrong_places[i].source}, {"index", contender.wrong_places[i].index}});
+        {{"source", solver.wrong_places[i].source}, {"index", solver.wrong_places[i].index}});
   }
   return list;
 }
 
-nlohmann::json json_of(const ContenderResult& contender, const BenchResult& group) {
-  const Judgement& judged = contender.judgement;
+nlohmann::json json_of(const SolverResult& solver, const BenchResult& group) {
+  const Judgement& judged = solver.judgement;
   nlohmann::json json = to_json(judged);
-  json.update({{"name", contender.name},
-               {"promise", to_string(contender.promise)},
-               {"queries", contender.queries},
-               {"time", json_of(contender.times)},
-               {"passes", number_to_json(passes(contender, group))},
-               {"single", json_of(contender.singles)},
-               {"stages", json_of(contender.stages)},
+  json.update({{"name", solver.name},
+               {"promise", to_string(solver.promise)},
+               {"queries", solver.queries},
+               {"time", json_of(solver.times)},
+               {"passes", number_to_json(passes(solver, group))},
+               {"single", json_of(solver.singles)},
+               {"stages", json_of(solver.stages)},
                {"judged", judged.queries},
-               {"broke_promise", broke_promise(contender)},
-               {"wrong_answers", wrong_answers_of(contender)}});
+               {"broke_promise", broke_promise(solver)},
+               {"wrong_answers", wrong_answers_of(solver)}});
   return json;
 }
 
 nlohmann::json json_of(const BenchResult& group) {
   nlohmann::json methods = nlohmann::json::array();
-  for (const ContenderResult& contender : group.contenders) {
-    methods.push_back(json_of(contender, group));
+  for (const SolverResult& solver : group.solvers) {
+    methods.push_back(json_of(solver, group));
   }
   nlohmann::json json{{"name", group.name},
                       {"kind", to_string(group.kind)},

@@ -22,11 +22,11 @@ struct BenchReport {
   std::optional<StepResult> step = std::nullopt;
 };
 
-/// Is a number that was timed or counted not what was promised: did a contender break its promise on
+/// Is a number that was timed or counted not what was promised: did a solver break its promise on
 /// judged queries, or does the earliest impact of a step contradict its collisions?
 [[nodiscard]] bool has_wrong_answers(const BenchReport& report);
 
-/// A table for each group: a line for each contender with its time a query in nanoseconds, the same
+/// A table for each group: a line for each solver with its time a query in nanoseconds, the same
 /// as a multiple of the memory pass, the times of single queries, on how many queries it was timed,
 /// how many of them were judged, the counts of the judge and the errors of the times of impact;
 /// below it the share of the queries that each of its stages ended. Then the answers that broke a

@@ -14,7 +14,7 @@ namespace touchstone::verify {
 /// With a separation a line that names it (a line for each source where they differ), and one that
 /// says what was compared if the recorded answers are about another one. Then
 /// a line for each source and one for the total, then each mismatch with source, index and both
-/// answers. Where respondents were judged follow a line for each with its total, below it a line
+/// answers. Where solvers were judged follow a line for each with its total, below it a line
 /// for each source where it broke its promise, the number of its failures of each kind (if there are
 /// any but undecided answers of its own), and the answers that broke its promise: the first twenty of
 /// a fault and source, and how many more there are.

@@ -6,39 +6,28 @@
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <utility>
 
+#include "fast/certified.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measure.hpp"
 #include "verify/report/stability_report.hpp"
-#include "verify/solvers/contender.hpp"
 #include "verify/solvers/registry.hpp"
-#include "verify/solvers/respondent.hpp"
+#include "verify/solvers/solver.hpp"
 #include "verify/stability/stability.hpp"
 
 namespace touchstone::verify {
 namespace {
 
-using Names = std::span<const std::string>;
+using Methods = std::span<const fast::Method* const>;
 
-constexpr std::string_view certified_name = "certified";
 constexpr std::array<double, 7> distances{1e-100, 1e-30, 1e-16, 1e-8, 1e-4, 1e-2, 1.0};
 constexpr std::array<double, 9> tolerances{1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array<double, 7> scales{1e-3, 1e-2, 1e-1, 1.0, 10.0, 100.0, 1000.0};
 constexpr std::array<std::int64_t, 6> limits{10, 100, 1'000, 10'000, 100'000, 1'000'000};
 
-constexpr std::array<std::string_view, 3> tolerance_driven{"tight_inclusion", "irf", "uirf"};
-constexpr std::array<std::string_view, 3> with_filters{
-    "tight_inclusion", "tight_inclusion_published", "tight_inclusion_released"};
-constexpr std::array<std::string_view, 2> measuring_in_linf{"certified", "tight_inclusion"};
-constexpr std::array<std::string_view, 4> measuring_in_l2{"certified", "fprf", "msrf", "accd"};
-
-/// Methods that search so long that they are held to fewer checks than Tight-Inclusion.
-constexpr std::array<std::string_view, 2> slow_searchers{"irf", "uirf"};
-constexpr std::int64_t slow_limit = 100'000;
 /// On the map of stability, whose queries are the hardest.
 constexpr std::int64_t stability_limit = 10'000;
 
@@ -55,68 +44,75 @@ bool is_one_of(const Thing& thing, const Range& things) {
   return std::ranges::find(things, thing) != things.end();
 }
 
-fast::MethodOptions options_of(std::string_view method) {
+fast::MethodOptions options_of(const fast::MethodInfo& method) {
   fast::MethodOptions options;
-  if (is_one_of(method, slow_searchers)) options.max_checks = slow_limit;
+  options.max_checks = method.usual_max_checks;
   return options;
 }
 
-Trial field_trial(Names methods) {
+Trial field_trial(Methods methods) {
   Trial trial{.experiment = Experiment::field};
-  for (const std::string& name : methods) trial.settings.push_back({name, options_of(name)});
+  for (const auto* method : methods) trial.settings.push_back({method, options_of(method->info())});
   return trial;
 }
 
-template <class Measuring>
-void add_settings(Names methods, const Measuring& measuring, const Separation& separation,
-                  Trial& trial) {
-  for (const std::string& name : methods) {
-    if (!is_one_of(name, measuring)) continue;
-    fast::MethodOptions options = options_of(name);
-    options.min_separation = separation.distance;
-    options.norm = separation.norm;
-    trial.settings.push_back({name, options});
-  }
-}
-
-Trial separation_trial(Names methods) {
+Trial separation_trial(Methods methods) {
   Trial trial{.experiment = Experiment::separation};
   for (const double distance : distances) {
-    add_settings(methods, measuring_in_linf, {.distance = distance, .norm = Norm::linf}, trial);
-    add_settings(methods, measuring_in_l2, {.distance = distance, .norm = Norm::l2}, trial);
+    for (const Norm norm : {Norm::linf, Norm::l2}) {
+      for (const auto* method : methods) {
+        const fast::MethodInfo& info = method->info();
+        if (!info.variant_of.empty() || !info.measures_in(norm)) continue;
+        fast::MethodOptions options = options_of(info);
+        options.min_separation = distance;
+        options.norm = norm;
+        trial.settings.push_back({method, options});
+      }
+    }
   }
   return trial;
 }
 
-Trial tolerance_trial(Names methods) {
+Trial tolerance_trial(Methods methods) {
   Trial trial{.experiment = Experiment::tolerance};
-  for (const std::string& name : methods) {
-    if (!is_one_of(name, tolerance_driven)) continue;
+  for (const auto* method : methods) {
+    const fast::MethodInfo& info = method->info();
+    if (!info.variant_of.empty() || !info.is_tolerance_driven) continue;
     for (const double tolerance : tolerances) {
-      fast::MethodOptions options = options_of(name);
+      fast::MethodOptions options = options_of(info);
       options.tolerance = tolerance;
-      trial.settings.push_back({name, options});
+      trial.settings.push_back({method, options});
     }
   }
   return trial;
 }
 
-Trial checks_trial(Names methods) {
+/// Of Tight-Inclusion, which alone has a filter.
+Trial checks_trial(Methods methods) {
   Trial trial{.experiment = Experiment::checks};
-  for (const std::string& name : methods) {
-    if (name != "tight_inclusion") continue;
+  for (const auto* method : methods) {
+    const fast::MethodInfo& info = method->info();
+    if (!info.variant_of.empty() || !info.filter) continue;
     for (const std::int64_t limit : limits) {
-      fast::MethodOptions options;
+      fast::MethodOptions options = options_of(info);
       options.max_checks = limit;
-      trial.settings.push_back({name, options});
+      trial.settings.push_back({method, options});
     }
   }
   return trial;
 }
 
-std::unique_ptr<Contender> contender_for(std::string_view name,
-                                         const fast::MethodOptions& options) {
-  return name == certified_name ? contend_certified(options) : contend(find_method(name), options);
+std::vector<const fast::Method*> find_methods(std::span<const std::string> names) {
+  std::vector<const fast::Method*> found;
+  for (const std::string& name : names) found.push_back(&find_method(name));
+  return found;
+}
+
+std::vector<Trial> trials_of_methods(Methods methods) {
+  std::vector<Trial> trials{field_trial(methods), tolerance_trial(methods), checks_trial(methods),
+                            separation_trial(methods)};
+  std::erase_if(trials, [](const Trial& trial) { return trial.settings.empty(); });
+  return trials;
 }
 
 std::string processor() {
@@ -131,11 +127,9 @@ std::string processor() {
 class Run {
  public:
   Run(std::span<const QueryGroup> groups, const SurveyOptions& options)
-      : groups_(groups), options_(options), methods_(options.methods) {
-    for (const std::string& name : methods_) static_cast<void>(find_method(name));
-    if (methods_.empty()) {
-      for (const auto& method : methods()) methods_.emplace_back(method->name());
-    }
+      : groups_(groups), options_(options), methods_(find_methods(options.methods)) {
+    if (!methods_.empty()) return;
+    for (const auto& method : methods()) methods_.push_back(method.get());
   }
 
   [[nodiscard]] Measurements result() {
@@ -164,7 +158,7 @@ class Run {
   }
 
   [[nodiscard]] std::vector<Trial> chosen_trials() const {
-    std::vector<Trial> trials = trials_of(methods_);
+    std::vector<Trial> trials = trials_of_methods(methods_);
     std::erase_if(trials, [this](const Trial& trial) { return !is_chosen(trial.experiment); });
     return trials;
   }
@@ -180,15 +174,8 @@ class Run {
 
   void measure_trial(const QueryGroup& group, Truths& truths, const Trial& trial,
                      const std::function<void(double)>& on_progress) {
-    std::vector<Subject> subjects;
-    for (const auto& [method, method_options] : trial.settings) {
-      subjects.push_back({contender_for(method, method_options), method_options});
-    }
-    const auto make_reference = [](const fast::MethodOptions& about) {
-      return contend_certified(about);
-    };
     std::vector<Measurement> measured =
-        measure(group, truths, subjects, make_reference,
+        measure(group, truths, trial.settings, find_method(fast::certified_info().name),
                 {.experiment = trial.experiment,
                  .count = count_of(trial),
                  .seconds = options_.seconds,
@@ -215,9 +202,8 @@ class Run {
 
   void judge_filters() {
     std::vector<const fast::Method*> chosen;
-    for (const std::string& name : methods_) {
-      if (is_one_of(name, with_filters)) chosen.push_back(&find_method(name));
-    }
+    const auto has_filter = [](const auto* method) { return method->info().filter.has_value(); };
+    std::ranges::copy_if(methods_, std::back_inserter(chosen), has_filter);
     if (chosen.size() < 2 || !is_chosen(Experiment::filter)) return;
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (std::ranges::find(groups_, kind, &QueryGroup::kind) == groups_.end()) continue;
@@ -252,13 +238,13 @@ class Run {
   }
 
   void map_stability() {
-    std::vector<std::unique_ptr<Respondent>> respondents;
-    std::vector<const Respondent*> asked;
-    for (const std::string& name : methods_) {
+    std::vector<std::unique_ptr<Solver>> solvers;
+    std::vector<const Solver*> asked;
+    for (const auto* method : methods_) {
       fast::MethodOptions method_options;
       method_options.max_checks = stability_limit;
-      respondents.push_back(respond_in_process(find_method(name), method_options));
-      asked.push_back(respondents.back().get());
+      solvers.push_back(solver_in_process(*method, method_options));
+      asked.push_back(solvers.back().get());
     }
     std::vector<const Hardness*> sorts;
     for (const Hardness& hardness : hardnesses()) sorts.push_back(&hardness);
@@ -266,7 +252,7 @@ class Run {
         measure_stability(sorts, {.seed = options_.seed,
                                   .count = options_.stability_count,
                                   .threads = options_.threads,
-                                  .respondents = asked,
+                                  .solvers = asked,
                                   .on_progress =
                                       [&](double fraction) {
                                         constexpr double before = part_of_trials + part_of_filters;
@@ -278,7 +264,7 @@ class Run {
 
   std::span<const QueryGroup> groups_;
   const SurveyOptions& options_;
-  std::vector<std::string> methods_;
+  std::vector<const fast::Method*> methods_;
   Measurements result_;
 };
 
@@ -288,11 +274,8 @@ std::span<const double> separation_distances() { return distances; }
 
 std::span<const double> filter_scales() { return scales; }
 
-std::vector<Trial> trials_of(Names methods) {
-  std::vector<Trial> trials{field_trial(methods), tolerance_trial(methods), checks_trial(methods),
-                            separation_trial(methods)};
-  std::erase_if(trials, [](const Trial& trial) { return trial.settings.empty(); });
-  return trials;
+std::vector<Trial> trials_of(std::span<const std::string> methods) {
+  return trials_of_methods(find_methods(methods));
 }
 
 Measurements survey(std::span<const QueryGroup> groups, const SurveyOptions& options) {

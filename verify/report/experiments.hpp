@@ -4,9 +4,9 @@
 /// Which experiments a report holds, and their run over groups of queries.
 ///
 /// - *field*: every method as it is meant to be used, without separation (the paper's table 1).
-/// - *separation*: what measures a distance, at d from 1e-100 to 1, each in its own norm and judged in
-///   it: Tight-Inclusion in L∞, FPRF, MSRF and ACCD in L2, the certified solver in both (tables 2, 3).
-/// - *tolerance*: what aims at a tolerance, at δ from 1e-8 to 1.
+/// - *separation*: methods that measure a distance, at d from 1e-100 to 1, each in its own norms and
+///   judged in them (tables 2, 3).
+/// - *tolerance*: methods that are driven by a tolerance, at δ from 1e-8 to 1.
 /// - *checks*: Tight-Inclusion with m_I from 10 to 1,000,000.
 /// - *filter*: Tight-Inclusion with its three filters, the derived, the published and the released one,
 ///   if more than one of them takes part: what each misses of the built-in families, and of contacts at
@@ -14,7 +14,8 @@
 ///   the groups.
 /// - *stability*: every method on the hard queries of verify/stability/.
 ///
-/// Of the methods named here those take part that the registry has.
+/// Which method takes part in which experiment, its fast::MethodInfo says. Variants of a method take
+/// part in *field*, *filter* and *stability*.
 
 #include <atomic>
 #include <cstddef>
@@ -26,15 +27,10 @@
 
 #include "fast/method.hpp"
 #include "verify/data/query_group.hpp"
+#include "verify/report/measure.hpp"
 #include "verify/report/measurement.hpp"
 
 namespace touchstone::verify {
-
-/// A method under some options.
-struct Setting {
-  std::string method;
-  fast::MethodOptions options;
-};
 
 /// Settings that are measured side by side.
 struct Trial {
@@ -43,6 +39,7 @@ struct Trial {
 };
 
 /// The trials of a report on these methods, none of them empty.
+/// \throws std::invalid_argument for an unknown method.
 [[nodiscard]] std::vector<Trial> trials_of(std::span<const std::string> methods);
 
 /// The minimum separations of the experiment, ascending.

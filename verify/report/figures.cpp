@@ -15,8 +15,10 @@
 #include <string_view>
 #include <utility>
 
+#include "fast/certified.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/json.hpp"
+#include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -34,6 +36,11 @@ std::string place_of(const Measurement& m) {
 double time_of(const Measurement& m) { return m.nanoseconds; }
 
 bool is_linf(const Measurement& m) { return m.separation.norm == Norm::linf; }
+
+bool measures_in_both_norms(std::string_view method) {
+  const fast::MethodInfo* const info = find_info(method);
+  return info != nullptr && info->measures_in(Norm::linf) && info->measures_in(Norm::l2);
+}
 
 /// Has it given an answer that a conservative method must not give?
 bool misses(const Measurement& m) { return m.false_negatives + m.late_tois != 0; }
@@ -327,7 +334,7 @@ class Builder {
               {Experiment::separation, "min_separation",
                [](const Measurement& m) { return m.separation.distance; }, "ns_per_query", time_of,
                [](const Measurement& m) -> std::string {
-                 if (m.method != "certified") return {};
+                 if (!measures_in_both_norms(m.method)) return {};
                  return is_linf(m) ? " (L∞)" : " (L2)";
                }});
   }
@@ -415,7 +422,10 @@ class Builder {
                   .y_log = false,
                   .panels = {},
                   .data = {{}, {"group", "kind", "stage", "queries", "asked"}, {}}};
-    FigurePanel panel{.title = "certified", .caption = {}, .series = {}, .front = {}};
+    FigurePanel panel{.title = std::string(fast::certified_info().name),
+                      .caption = {},
+                      .series = {},
+                      .front = {}};
     for (const Measurement* m : of_experiment(measurements_, Experiment::field)) {
       for (std::size_t i = 0; i < m->stages.size(); ++i) {
         const auto& [stage, queries] = m->stages[i];

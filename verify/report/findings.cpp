@@ -10,12 +10,11 @@
 #include <string_view>
 #include <utility>
 
+#include "fast/certified.hpp"
 #include "verify/report/tables.hpp"
 
 namespace touchstone::verify {
 namespace {
-
-constexpr std::string_view certified = "certified";
 
 /// The least and the greatest of some numbers.
 struct Range {
@@ -104,9 +103,10 @@ std::string right_sentence(const std::vector<Sum>& sums) {
 
 /// Nothing without times.
 std::string time_sentence(const std::vector<Sum>& sums) {
+  const std::string_view certified = fast::certified_info().name;
   const auto ours = std::ranges::find(sums, certified, &Sum::method);
   if (ours == sums.end() || ours->nanoseconds.is_empty()) return {};
-  const std::string others = list(sums, [](const Sum& sum) -> std::string {
+  const std::string others = list(sums, [certified](const Sum& sum) -> std::string {
     if (sum.method == certified || sum.missed != 0 || sum.ratio.is_empty()) return {};
     return sum.method + " " + sum.ratio.text();
   });

@@ -1,14 +1,10 @@
 #include "verify/report/measure.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -16,53 +12,27 @@
 
 #include "verify/judge/judge.hpp"
 #include "verify/report/judgement_report.hpp"
-#include "verify/run/bench.hpp"
 #include "verify/run/statistics.hpp"
-#include "verify/run/thread_clock.hpp"
+#include "verify/run/timing.hpp"
 
 namespace touchstone::verify {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// Shorter work is done several times at once, so that the clock does not show.
-constexpr double least_nanoseconds = 2e6;
-constexpr std::size_t first_sample = 16;
-constexpr int sweeps = 3;
-
-double nanoseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+Separation separation_of(const fast::MethodOptions& options) {
+  return {.distance = options.min_separation, .norm = options.norm};
 }
 
-/// An answer, and how long it took alone.
-struct Reply {
-  fast::Answer answer;
-  double nanoseconds = std::numeric_limits<double>::infinity();
-};
-
-/// A contender with the queries that it is asked.
-struct Entry {
-  Contender* contender = nullptr;
-  Separation separation = {};
-  std::vector<std::size_t> positions;  ///< in the group, ascending
-  std::vector<Query> queries;          ///< copies of those there
-  std::vector<double> times;           ///< nanoseconds a query, one a repetition
-  double spent = 0.0;                  ///< nanoseconds in all repetitions
-};
-
-/// Who was asked what. `Answerer` is a fast::Method or a Contender.
-template <class Answerer>
-Measurement of_question(const QueryGroup& group, Experiment experiment, const Answerer& answerer,
-                        const fast::MethodOptions& options, const Separation& separation) {
+/// What is asked of which method.
+Measurement of_question(const QueryGroup& group, Experiment experiment, const Setting& setting) {
   Measurement said;
   said.experiment = experiment;
   said.group = group.name();
   said.kind = group.kind();
-  said.method = answerer.name();
-  said.promise = answerer.promise();
-  said.tolerance = options.tolerance;
-  said.max_checks = options.max_checks;
-  said.separation = separation;
+  said.method = setting.method->name();
+  said.promise = setting.method->promise();
+  said.tolerance = setting.options.tolerance;
+  said.max_checks = setting.options.max_checks;
+  said.separation = separation_of(setting.options);
   said.group_queries = group.queries().size();
   return said;
 }
@@ -85,29 +55,41 @@ void set_counts(const Judgement& judgement, Measurement& said) {
 
 class Run {
  public:
-  Run(const QueryGroup& group, Truths& truths, std::span<const Subject> subjects,
-      const MakeReference& make_reference, const MeasureOptions& options)
+  Run(const QueryGroup& group, Truths& truths, std::span<const Setting> settings,
+      const fast::Method& reference, const MeasureOptions& options)
       : group_(group),
         truths_(truths),
-        subjects_(subjects),
-        make_reference_(make_reference),
-        options_(options),
-        clock_(clock_nanoseconds()) {}
+        settings_(settings),
+        reference_(solver_in_process(reference, {})),
+        options_(options) {
+    for (const Setting& setting : settings) {
+      solvers_.push_back(solver_in_process(*setting.method, setting.options));
+      timed_.emplace_back(*solvers_.back(), group, separation_of(setting.options));
+    }
+  }
 
   [[nodiscard]] std::vector<Measurement> measurements() {
-    for (const Subject& subject : subjects_) {
-      ask(subject);
-      tell(0.5 * static_cast<double>(entries_.size()) / static_cast<double>(subjects_.size()));
+    const std::size_t asked = timed_.size();
+    for (std::size_t i = 0; i < asked && !stopped(); ++i) {
+      timed_[i].choose_sample({.most = options_.count,
+                               .seconds = options_.seconds,
+                               .companion = reference_.get(),
+                               .stop = options_.stop});
+      tell(0.3 * static_cast<double>(i + 1) / static_cast<double>(asked));
     }
+    if (stopped()) return {};
     if (options_.same_sample) share_samples();
-    for (std::size_t i = 0; i < subjects_.size(); ++i) decide(i);
+    for (std::size_t i = 0; i < asked; ++i) {
+      ask_singly(timed_[i]);
+      tell(0.3 + 0.2 * static_cast<double>(i + 1) / static_cast<double>(asked));
+    }
     add_references();
     for (std::size_t i = 0; i < options_.repetitions && !stopped(); ++i) {
       repeat(i);
       tell(0.5 + 0.4 * static_cast<double>(i + 1) / static_cast<double>(options_.repetitions));
     }
     std::vector<Measurement> result;
-    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+    for (std::size_t i = 0; i < asked; ++i) {
       if (is_complete(i)) result.push_back(report(i));
     }
     tell(1.0);
@@ -121,231 +103,135 @@ class Run {
     if (options_.on_progress) options_.on_progress(fraction);
   }
 
-  // ---- Asking -----------------------------------------------------------------------------------
-
-  /// Asks larger and larger samples until the next one would take too long, or too long for the
-  /// reference, which is timed on it too.
-  void ask(const Subject& subject) {
-    Entry& entry = entries_.emplace_back();
-    std::map<std::size_t, Reply>& replies = replies_.emplace_back();
-    entry.contender = subject.contender.get();
-    entry.separation = {.distance = subject.options.min_separation, .norm = subject.options.norm};
-    const std::size_t most = std::min(options_.count, group_.queries().size());
-    const std::unique_ptr<Contender> reference = reference_at(entry.separation);
-    double own = 0.0;  // seconds
-    std::size_t count = std::min(first_sample, most);
-    for (;;) {
-      own += seconds_of([&] { sweep(entry, replies, sample(count)); });
-      take(entry, count);
-      const double of_reference =
-          seconds_of([&] { reference->solve(group_.kind(), entry.queries); });
-      const std::size_t next = std::min(2 * count, most);
-      const double pace = std::max(own, of_reference) / static_cast<double>(count);
-      if (next == count || stopped() || pace * static_cast<double>(next) > options_.seconds) break;
-      count = next;
-    }
-    const double once = own;
-    for (int i = 1; i < sweeps && own + once < options_.seconds && !stopped(); ++i) {
-      own += seconds_of([&] { time_alone(entry, replies); });
-    }
-  }
-
-  template <class Work>
-  static double seconds_of(const Work& work) {
-    const double start = thread_nanoseconds();
-    work();
-    return 1e-9 * (thread_nanoseconds() - start);
-  }
-
-  [[nodiscard]] std::unique_ptr<Contender> reference_at(const Separation& separation) const {
-    fast::MethodOptions about;
-    about.min_separation = separation.distance;
-    about.norm = separation.norm;
-    return make_reference_(about);
-  }
-
-  [[nodiscard]] std::vector<std::size_t> sample(std::size_t count) const {
-    return spread_sample(group_.queries().size(), count);
-  }
-
-  void take(Entry& entry, std::size_t count) const {
-    entry.positions = sample(count);
-    entry.queries.clear();
-    for (const std::size_t position : entry.positions) {
-      entry.queries.push_back(group_.queries()[position]);
-    }
-  }
-
-  /// Gives all entries of one name the smallest of their samples.
+  /// Gives all settings of one method the smallest of their samples.
   void share_samples() {
     std::map<std::string, std::size_t> smallest;
-    for (const Entry& entry : entries_) {
+    for (const TimedSolver& timed : timed_) {
       const auto [size, is_new] =
-          smallest.try_emplace(entry.contender->name(), entry.positions.size());
-      size->second = std::min(size->second, entry.positions.size());
+          smallest.try_emplace(timed.solver().name(), timed.queries().size());
+      size->second = std::min(size->second, timed.queries().size());
     }
-    for (Entry& entry : entries_) take(entry, smallest.at(entry.contender->name()));
+    for (TimedSolver& timed : timed_) timed.take(smallest.at(timed.solver().name()));
   }
 
-  void decide(std::size_t index) {
-    const Entry& entry = entries_[index];
-    known_.push_back(truths_.of(entry.separation, entry.positions, options_.stop));
-  }
-
-  /// Asks those that have no reply yet.
-  void sweep(const Entry& entry, std::map<std::size_t, Reply>& replies,
-             const std::vector<std::size_t>& positions) const {
-    for (const std::size_t position : positions) {
-      if (stopped()) return;
-      const auto [reply, is_new] = replies.try_emplace(position);
-      if (is_new) ask_alone(entry, position, reply->second);
-    }
-  }
-
-  void time_alone(const Entry& entry, std::map<std::size_t, Reply>& replies) const {
-    for (auto& [position, reply] : replies) {
-      if (stopped()) return;
-      ask_alone(entry, position, reply);
-    }
-  }
-
-  void ask_alone(const Entry& entry, std::size_t position, Reply& reply) const {
-    const std::span<const Query> query(&group_.queries()[position], 1);
-    const Clock::time_point before = Clock::now();
-    entry.contender->solve(group_.kind(), query);
-    const double time = std::max(nanoseconds_since(before) - clock_, 0.0);
-    reply.nanoseconds = std::min(reply.nanoseconds, time);
-    reply.answer = entry.contender->answer(0);
+  /// The times of single queries, and the truth.
+  void ask_singly(const TimedSolver& timed) {
+    single_times_.push_back(
+        timed.time_singles(timed.queries().size(), options_.seconds, options_.stop)
+            .value_or(std::vector<double>()));
+    known_.push_back(truths_.of(timed.separation(), timed.positions(), options_.stop));
   }
 
   // ---- Timing -----------------------------------------------------------------------------------
 
-  /// Which reference an entry is compared with.
+  /// Which reference a solver is compared with.
   using ReferenceKey = std::tuple<std::size_t, double, Norm>;
 
-  static ReferenceKey key_of(const Entry& entry) {
-    return {entry.positions.size(), entry.separation.distance, entry.separation.norm};
+  static ReferenceKey key_of(const TimedSolver& timed) {
+    return {timed.queries().size(), timed.separation().distance, timed.separation().norm};
   }
 
   /// The reference on each of the samples, at each of the separations.
   void add_references() {
-    for (std::size_t i = 0; i < subjects_.size(); ++i) {
-      const ReferenceKey key = key_of(entries_[i]);
-      if (reference_of_.contains(key)) continue;
-      reference_of_[key] = entries_.size();
-      Entry entry = entries_[i];
-      entry.contender = references_.emplace_back(reference_at(entry.separation)).get();
-      entries_.push_back(std::move(entry));
+    for (std::size_t i = 0; i < settings_.size(); ++i) {
+      const auto [place, is_new] = reference_of_.try_emplace(key_of(timed_[i]), timed_.size());
+      if (!is_new) continue;
+      TimedSolver reference(*reference_, group_, timed_[i].separation());
+      reference.take(timed_[i].queries().size());
+      timed_.push_back(std::move(reference));
     }
   }
 
   void repeat(std::size_t repetition) {
-    for (const std::size_t i : order_of_repetition(entries_.size(), repetition)) {
+    for (const std::size_t i : order_of_repetition(timed_.size(), repetition)) {
       if (stopped()) return;
-      Entry& entry = entries_[i];
-      if (entry.times.empty() || entry.spent < 1e9 * options_.seconds) time(entry);
+      const bool is_first = timed_[i].times().repetitions.empty();
+      if (is_first || timed_[i].seconds_spent() < options_.seconds) timed_[i].repeat();
     }
-  }
-
-  void time(Entry& entry) const {
-    std::size_t rounds = 0;
-    const double start = thread_nanoseconds();
-    double passed = 0.0;
-    do {
-      entry.contender->solve(group_.kind(), entry.queries);
-      ++rounds;
-      passed = thread_nanoseconds() - start;
-    } while (passed < least_nanoseconds);
-    entry.spent += passed;
-    entry.times.push_back(passed / static_cast<double>(rounds * entry.queries.size()));
   }
 
   // ---- Reporting --------------------------------------------------------------------------------
 
-  [[nodiscard]] const Entry& reference_for(const Entry& entry) const {
-    return entries_[reference_of_.at(key_of(entry))];
+  [[nodiscard]] const TimedSolver& reference_for(const TimedSolver& timed) const {
+    return timed_[reference_of_.at(key_of(timed))];
   }
 
   [[nodiscard]] bool is_complete(std::size_t index) const {
-    const Entry& entry = entries_[index];
-    return !entry.times.empty() && !reference_for(entry).times.empty() &&
-           known_[index].size() == entry.positions.size();
+    const TimedSolver& timed = timed_[index];
+    return !timed.times().repetitions.empty() &&
+           !reference_for(timed).times().repetitions.empty() &&
+           known_[index].size() == timed.queries().size();
   }
 
   [[nodiscard]] Measurement report(std::size_t index) const {
-    const Entry& entry = entries_[index];
-    Measurement said = of_question(group_, options_.experiment, *entry.contender,
-                                   subjects_[index].options, entry.separation);
-    said.asked = entry.positions.size();
-    said.nanoseconds = median(entry.times);
-    said.repetitions = entry.times.size();
-    said.certified_nanoseconds = median(reference_for(entry).times);
-    for (const StageCount& stage : entry.contender->stages(group_.kind(), entry.queries)) {
+    const TimedSolver& timed = timed_[index];
+    Measurement said = of_question(group_, options_.experiment, settings_[index]);
+    said.asked = timed.queries().size();
+    said.nanoseconds = timed.times().median();
+    said.repetitions = timed.times().repetitions.size();
+    said.certified_nanoseconds = reference_for(timed).times().median();
+    for (const StageCount& stage : count_stages(timed.solver().info(), timed.answers())) {
       said.stages.push_back({std::string(stage.stage), stage.queries});
     }
-    judge(replies_[index], known_[index], said);
+    set_counts(timed.judge(known_[index]), said);
+    describe_queries(index, said);
     return said;
   }
 
-  static void judge(const std::map<std::size_t, Reply>& replies, const std::vector<Truth>& truths,
-                    Measurement& said) {
-    Judgement judgement;
+  /// Counts and times that are about each query.
+  void describe_queries(std::size_t index, Measurement& said) const {
     ToiErrors tolerances;
-    for (const Truth& truth : truths) {
-      const Reply& reply = replies.at(truth.index);
-      judgement.add(truth, reply.answer);
-      said.collisions += truth.collides ? 1U : 0U;
-      said.at_limit += is_at_limit(reply.answer, said.max_checks) ? 1U : 0U;
-      (truth.collides ? said.hit_times : said.miss_times).add(reply.nanoseconds);
-      const bool is_yes = reply.answer.verdict == fast::Verdict::yes;
-      if (is_yes && reply.answer.tolerance >= 0.0) tolerances.add(reply.answer.tolerance);
+    for (std::size_t i = 0; i < known_[index].size(); ++i) {
+      const bool collides = known_[index][i].collides;
+      const fast::Answer& answer = timed_[index].answers()[i];
+      said.collisions += collides ? 1U : 0U;
+      said.at_limit += is_at_limit(answer, said.max_checks) ? 1U : 0U;
+      (collides ? said.hit_times : said.miss_times).add(single_times_[index][i]);
+      const bool is_yes = answer.verdict == fast::Verdict::yes;
+      if (is_yes && answer.tolerance >= 0.0) tolerances.add(answer.tolerance);
     }
-    set_counts(judgement, said);
     said.achieved_tolerance = spread_of(tolerances);
   }
 
   const QueryGroup& group_;
   Truths& truths_;
-  std::span<const Subject> subjects_;
-  const MakeReference& make_reference_;
+  std::span<const Setting> settings_;
+  std::unique_ptr<Solver> reference_;
   const MeasureOptions& options_;
-  double clock_;
-  /// Of the subjects in their order, then the reference on each size of sample.
-  std::vector<Entry> entries_;
-  /// Of the subjects, by position.
-  std::vector<std::map<std::size_t, Reply>> replies_;
-  /// Of the subjects; fewer than were asked if stopped.
+  std::vector<std::unique_ptr<Solver>> solvers_;
+  /// Of the settings in their order, then the reference on each of their samples.
+  std::vector<TimedSolver> timed_;
+  /// Of the settings, in the order of their samples; none if stopped.
+  std::vector<std::vector<double>> single_times_;
+  /// The same; fewer than were asked if stopped.
   std::vector<std::vector<Truth>> known_;
-  std::vector<std::unique_ptr<Contender>> references_;
-  /// Where in entries_.
+  /// Where in timed_.
   std::map<ReferenceKey, std::size_t> reference_of_;
 };
 
 }  // namespace
 
 std::vector<Measurement> measure(const QueryGroup& group, Truths& truths,
-                                 std::span<const Subject> subjects,
-                                 const MakeReference& make_reference,
+                                 std::span<const Setting> settings, const fast::Method& reference,
                                  const MeasureOptions& options) {
   if (group.queries().empty()) throw std::invalid_argument(group.name() + ": no queries");
   if (options.count == 0) throw std::invalid_argument("count must be at least 1");
   if (options.repetitions == 0) throw std::invalid_argument("repetitions must be at least 1");
   if (!(options.seconds > 0.0)) throw std::invalid_argument("seconds must be positive");
-  return Run(group, truths, subjects, make_reference, options).measurements();
+  return Run(group, truths, settings, reference, options).measurements();
 }
 
 std::optional<Measurement> judge_all(const QueryGroup& group, Truths& truths,
                                      const fast::Method& method, const fast::MethodOptions& options,
                                      Experiment experiment, const std::atomic<bool>* stop) {
-  const Separation separation{.distance = options.min_separation, .norm = options.norm};
   const std::vector<Query>& queries = group.queries();
   std::vector<std::size_t> positions(queries.size());
   std::iota(positions.begin(), positions.end(), std::size_t{0});
-  const std::vector<Truth> known = truths.of(separation, positions, stop);
+  const std::vector<Truth> known = truths.of(separation_of(options), positions, stop);
   if (known.size() < queries.size()) return std::nullopt;
   std::vector<fast::Answer> answers(queries.size());
   method.solve(group.kind(), queries, answers, options);
-  Measurement said = of_question(group, experiment, method, options, separation);
+  Measurement said = of_question(group, experiment, {.method = &method, .options = options});
   said.asked = queries.size();
   Judgement judgement;
   for (const Truth& truth : known) {

@@ -3,15 +3,10 @@
 /// \file
 /// Measures methods on one group of queries, side by side.
 ///
-/// **Sample.** Every method is asked an evenly spread sample of the group, which grows until the next
-/// one would take more than MeasureOptions::seconds, or take the reference so long, or all that may be
-/// asked are in it. Smaller samples are part of larger ones. Nothing is said of queries that were not
-/// asked.
-///
-/// **Time.** Each query alone, by the wall clock, for the histograms (the shortest of up to three
-/// calls). Then the whole sample in one call, by the thread's processor time; the repetitions of all
-/// methods are interleaved, each beginning with another one. A reference runs on each of the samples
-/// too, so that ratios compare the same queries.
+/// **Sample and time.** As in verify/run/timing.hpp. A sample grows until it would take the method, or
+/// the reference, more than MeasureOptions::seconds. Nothing is said of queries that were not asked.
+/// Each query is also timed alone, for the histograms. The reference runs on each of the samples too, so
+/// that ratios compare the same queries.
 ///
 /// Where settings of a method are compared (MeasureOptions::same_sample), all of them are asked the
 /// smallest of their samples.
@@ -22,7 +17,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,18 +25,14 @@
 #include "verify/data/query_group.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measurement.hpp"
-#include "verify/solvers/contender.hpp"
 
 namespace touchstone::verify {
 
-/// Who is measured, and under which options it answers: the truth is about their separation.
-struct Subject {
-  std::unique_ptr<Contender> contender;
+/// A method under some options. The truth is about their separation.
+struct Setting {
+  const fast::Method* method = nullptr;  ///< not null
   fast::MethodOptions options;
 };
-
-/// Makes the reference that answers under these options.
-using MakeReference = std::function<std::unique_ptr<Contender>(const fast::MethodOptions&)>;
 
 struct MeasureOptions {
   Experiment experiment = Experiment::field;
@@ -53,7 +43,7 @@ struct MeasureOptions {
   double seconds = 1.0;
   /// Times are medians of so many, of fewer where one takes longer than `seconds`; at least 1.
   std::size_t repetitions = 5;
-  /// Subjects of one name are asked the same queries.
+  /// Settings of one method are asked the same queries.
   bool same_sample = false;
   /// Called now and then with the fraction that is done.
   std::function<void(double)> on_progress = nullptr;
@@ -61,14 +51,13 @@ struct MeasureOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Measures the subjects on the group of `truths`, in their order. Once stopped, those are left out that
+/// Measures the settings on the group of `truths`, in their order. Once stopped, those are left out that
 /// have no time, no reference or no truth yet.
-/// \param make_reference whose time stands in Measurement::certified_nanoseconds
-/// \throws std::invalid_argument for options out of range or an empty group, and whatever a
-/// contender throws.
+/// \param reference the method whose time stands in Measurement::certified_nanoseconds
+/// \throws std::invalid_argument for options out of range or an empty group.
 [[nodiscard]] std::vector<Measurement> measure(const QueryGroup& group, Truths& truths,
-                                               std::span<const Subject> subjects,
-                                               const MakeReference& make_reference,
+                                               std::span<const Setting> settings,
+                                               const fast::Method& reference,
                                                const MeasureOptions& options);
 
 /// Judges the answers of a method to all queries of the group of `truths`; nothing is timed. No result

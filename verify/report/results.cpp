@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fast/certified.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/report/figures.hpp"
 #include "verify/report/tables.hpp"
@@ -154,7 +155,8 @@ class Writer {
       text_ +=
           fmt::format("Faster than `certified` on the same queries: {}.\n",
                       names_where(table.title, [](const Measurement& m) {
-                        return m.method != "certified" && m.nanoseconds < m.certified_nanoseconds;
+                        return m.method != fast::certified_info().name &&
+                               m.nanoseconds < m.certified_nanoseconds;
                       }));
     }
     text_ += "\n";

@@ -1,4 +1,5 @@
 #include "verify/report/tables.hpp"
+#include "fast/certified.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "fast/certified.hpp"
 #include "verify/io/csv.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/report/published.hpp"
@@ -124,7 +126,7 @@ Chosen at_distance(const Chosen& measurements, const Place& place, std::string_v
   static constexpr std::string_view inclusion = "tight_inclusion";
   std::vector<std::string_view> rows{method};
   if (method != inclusion) rows.push_back(inclusion);
-  rows.emplace_back("certified");
+  rows.push_back(fast::certified_info().name);
   Chosen chosen;
   for (const std::string_view wanted : rows) {
     for (const Measurement* m : measurements) {

@@ -3,24 +3,20 @@
 /// \file
 /// Speed and error of solvers on one group of queries, in one run.
 ///
-/// **Speed.** Each repetition times every contender once and, among them, a pass that only reads
-/// the queries: the physical limit. The repetitions begin with another one each time, so that no
-/// contender always runs behind the same other one, and what counts is the median of the
-/// repetitions. All run in the calling thread, or in a child process that it waits for, and time is
-/// processor time there. A contender that
-/// would take longer than BenchOptions::seconds for all queries is timed on an evenly spread sample.
-/// Afterwards single queries are timed, one call each.
+/// **Speed.** As in timing.hpp. Each repetition times every solver once and, among them, a pass that
+/// only reads the queries: the physical limit. What counts is the median of the repetitions. A solver
+/// that would take longer than BenchOptions::seconds for all queries is timed on a sample. Afterwards
+/// single queries are timed.
 ///
 /// **Error.** Queries are decided by the oracle and the answers to them judged. Of large groups not
-/// all queries are: an evenly spread sample, and those that some contender calls a collision (or is
+/// all queries are: an evenly spread sample, and those that any solver calls a collision (or is
 /// undecided about, or in error). So all that are counted are true, false positives are all there
 /// are among the answers (unless there are more than BenchOptions::judge), and a false negative
-/// outside of the sample is found only if another contender calls it a collision.
+/// outside of the sample is found only if another solver calls it a collision.
 
 #include <atomic>
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,37 +26,29 @@
 #include "fast/method.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/judge/judge.hpp"
-#include "verify/solvers/contender.hpp"
+#include "verify/run/timing.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify {
 
 struct BenchOptions {
-  /// What counts as contact: the truth is about it. Contenders know it by themselves.
+  /// What counts as contact, for the solvers and for the truth.
   Separation separation = {};
   /// At least 1.
   std::size_t repetitions = 5;
-  /// A contender is timed on as many queries as take it about this long; positive.
+  /// A solver is timed on as many queries as take it about this long; positive.
   double seconds = 2.0;
-  /// Of a group with more queries so many are judged, and at most as many again that some contender
-  /// calls a collision; 0: none.
+  /// Of a group with more queries so many are judged, and at most as many again that any solver calls
+  /// a collision; 0: none.
   std::size_t judge = 200'000;
   /// At most so many single queries are timed; 0: none.
   std::size_t singles = 20'000;
-  /// Cores to use for the oracle; 0: all of them. Contenders run on one.
+  /// Cores to use for the oracle; 0: all of them. Solvers run on one.
   unsigned threads = 0;
   /// Called now and then with the fraction of the group's work that is done, from this thread.
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further work is begun and the result is what is known by then.
   const std::atomic<bool>* stop = nullptr;
-};
-
-/// Nanoseconds a query, one number for each repetition.
-struct Times {
-  std::vector<double> repetitions;
-
-  /// NaN if there was no repetition; the same below.
-  [[nodiscard]] double median() const;
-  [[nodiscard]] double min() const;
 };
 
 /// Nanoseconds that single queries take, one call each, without what the clock itself takes. Each is
@@ -73,8 +61,8 @@ struct SingleTimes {
   double max = 0.0;
 };
 
-/// One contender's part in a result.
-struct ContenderResult {
+/// One solver's part in a result.
+struct SolverResult {
   std::string name;
   fast::Promise promise = fast::Promise::none;
   /// Timed on so many queries: those that it answered.
@@ -100,31 +88,21 @@ struct BenchResult {
   std::size_t judged = 0;      ///< queries decided by the oracle
   std::size_t collisions = 0;  ///< of these
   Times memory_pass;
-  /// In the order of the contenders.
-  std::vector<ContenderResult> contenders;
+  /// In the order of the solvers.
+  std::vector<SolverResult> solvers;
   bool interrupted = false;
 };
 
-/// Did the contender give a wrong answer that its promise excludes? It cannot break none.
-[[nodiscard]] bool broke_promise(const ContenderResult& result);
+/// Did the solver give a wrong answer that its promise excludes? Without a promise it breaks none.
+[[nodiscard]] bool broke_promise(const SolverResult& result);
 
 /// Does any? See broke_promise.
 [[nodiscard]] bool any_broke_promise(std::span<const BenchResult> results);
 
-/// What a repetition times, in this order: 0 is the memory pass, i the contender i−1. A rotation of
-/// 0, …, `items`−1.
-[[nodiscard]] std::vector<std::size_t> order_of_repetition(std::size_t items,
-                                                           std::size_t repetition);
-
-/// Nanoseconds between two readings of the clock that single queries are timed with, the median of
-/// many: what is subtracted from their times.
-[[nodiscard]] double clock_nanoseconds();
-
-/// Times and judges the contenders on the group.
-/// \throws std::invalid_argument for options out of range or an empty group, and whatever a
-/// contender throws.
-[[nodiscard]] BenchResult bench(const QueryGroup& group,
-                                std::span<const std::unique_ptr<Contender>> contenders,
+/// Times and judges the solvers on the group.
+/// \throws std::invalid_argument for options out of range or an empty group, and whatever a solver
+/// throws.
+[[nodiscard]] BenchResult bench(const QueryGroup& group, std::span<const Solver* const> solvers,
                                 const BenchOptions& options = {});
 
 }  // namespace touchstone::verify

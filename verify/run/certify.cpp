@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "verify/data/toi_writer.hpp"
+#include "verify/judge/claimed_distance.hpp"
 #include "verify/run/stream.hpp"
 #include "verify/run/thread_clock.hpp"
 
@@ -87,10 +88,10 @@ struct DecidedPart {
   ProofCounts proofs;
 };
 
-/// What a respondent says to a part of a block.
+/// What a solver answers to a part of a block.
 struct AnsweredPart {
   std::size_t count = 0;
-  Response response;
+  SolveReply reply;
 };
 
 /// The parallel stage: all that is true and all that is said of the queries of one block.
@@ -104,8 +105,8 @@ class BlockJudgement {
         truths_(block.queries.size()),
         decided_(parts()) {
     decide();
-    answers_.reserve(options.respondents.size());
-    for (const Respondent* respondent : options.respondents) ask(*respondent);
+    answers_.reserve(options.solvers.size());
+    for (const Solver* solver : options.solvers) ask(*solver);
     complete_ = passes_.complete();
     judge();
   }
@@ -137,7 +138,7 @@ class BlockJudgement {
   }
 
  private:
-  /// The answers of one respondent; a part is known by the query it begins with.
+  /// The answers of one solver; a part is known by the query it begins with.
   struct Answers {
     std::vector<fast::Answer> answers;
     std::vector<AnsweredPart> parts;
@@ -162,7 +163,7 @@ class BlockJudgement {
       decisions.emplace_back(block_.kind, block_.queries[first + i], options_.separation);
     }
     part.nanoseconds = thread_nanoseconds() - start;
-    const bool wants_toi = options_.on_truth || !options_.respondents.empty();
+    const bool wants_toi = options_.on_truth || !options_.solvers.empty();
     for (std::size_t i = 0; i < count; ++i) {
       const Decision& decision = decisions[i];
       const std::uint64_t index = block_.indices[first + i];
@@ -185,31 +186,26 @@ class BlockJudgement {
     part.proofs.nanoseconds = thread_nanoseconds() - start;
   }
 
-  void ask(const Respondent& respondent) {
+  void ask(const Solver& solver) {
     Answers& said = answers_.emplace_back();
     said.answers.resize(block_.queries.size());
     said.parts.resize(parts());
-    passes_.run(respondent.good_span(), [&](std::size_t first, std::size_t count) {
-      const Questions questions{.source = *block_.source,
-                                .kind = block_.kind,
-                                .queries = std::span(block_.queries).subspan(first, count),
-                                .indices = std::span(block_.indices).subspan(first, count),
-                                .separation = options_.separation};
-      Response response =
-          respondent.answer(questions, std::span(said.answers).subspan(first, count));
-      const bool done = !response.stopped;
-      said.parts[first / Passes::unit] = {.count = count, .response = std::move(response)};
+    passes_.run(solver.good_span(), [&](std::size_t first, std::size_t count) {
+      SolveReply reply = solver.solve_timed(block_.request(first, count, options_.separation),
+                                            std::span(said.answers).subspan(first, count));
+      const bool done = !reply.stopped;
+      said.parts[first / Passes::unit] = {.count = count, .reply = std::move(reply)};
       return done;
     });
   }
 
   void judge() {
     judgements_.resize(answers_.size());
-    for (std::size_t respondent = 0; respondent < answers_.size(); ++respondent) {
-      const Answers& said = answers_[respondent];
+    for (std::size_t solver = 0; solver < answers_.size(); ++solver) {
+      const Answers& said = answers_[solver];
       for (std::size_t first = 0; first < complete_;) {
         const AnsweredPart& part = said.parts[first / Passes::unit];
-        judge_part(first, part, said.answers, respondent);
+        judge_part(first, part, said.answers, solver);
         first += part.count;
       }
     }
@@ -217,38 +213,39 @@ class BlockJudgement {
 
   /// A part may reach beyond the queries that are complete; it then counts as far as they go.
   void judge_part(std::size_t first, const AnsweredPart& part,
-                  const std::vector<fast::Answer>& answers, std::size_t respondent) {
-    Judgement& judgement = judgements_[respondent];
+                  const std::vector<fast::Answer>& answers, std::size_t solver) {
+    Judgement& judgement = judgements_[solver];
     const std::size_t last = std::min(first + part.count, complete_);
-    auto missing = part.response.missing.begin();
-    auto failure = part.response.failures.begin();
+    auto missing = part.reply.missing.begin();
+    auto failure = part.reply.failures.begin();
     for (std::size_t i = first; i < last; ++i) {
-      if (missing != part.response.missing.end() && first + *missing == i) {
+      if (missing != part.reply.missing.end() && first + *missing == i) {
         judgement.add_missing(block_.indices[i]);
         ++missing;
       } else {
         const bool has_failed =
-            failure != part.response.failures.end() && first + failure->position == i;
+            failure != part.reply.failures.end() && first + failure->position == i;
         judgement.add(truths_[i], answers[i], has_failed ? &failure->failure : nullptr);
         if (has_failed) ++failure;
-        if (claims_too_much(*options_.respondents[respondent], i, answers[i])) {
+        if (claims_too_much(*options_.solvers[solver], i, answers[i])) {
           judgement.add_beyond_tolerance(truths_[i], answers[i]);
         }
       }
     }
-    judgement.add_unplaced_crashes(part.response.unplaced_crashes);
-    judgement.nanoseconds += part.response.nanoseconds * static_cast<double>(last - first) /
-                             static_cast<double>(part.count);
+    judgement.add_unplaced_crashes(part.reply.unplaced_crashes);
+    judgement.nanoseconds += part.reply.time.value().processor_nanoseconds *
+                             static_cast<double>(last - first) / static_cast<double>(part.count);
   }
 
   /// A yes to what never comes as near as that claims. What collides is near enough for any claim.
-  [[nodiscard]] bool claims_too_much(const Respondent& respondent, std::size_t i,
+  [[nodiscard]] bool claims_too_much(const Solver& solver, std::size_t i,
                                      const fast::Answer& answer) const {
     if (truths_[i].collides || answer.verdict != fast::Verdict::yes || failure_of(answer)) {
       return false;
     }
     const Query& query = block_.queries[i];
-    const Separation claimed = respondent.reach()(block_.kind, query, answer, options_.separation);
+    const Separation claimed =
+        claimed_distance(solver.info().filter, block_.kind, query, answer, options_.separation);
     return is_valid(claimed) && !exact::decide(block_.kind, query, claimed).collides();
   }
 
@@ -314,9 +311,8 @@ CertifyResult certify(QuerySource& source, const CertifyOptions& options) {
   result.compared = comparison.inference;
   result.name = source.name();
   result.kind = source.kind();
-  for (const Respondent* respondent : options.respondents) {
-    result.methods.push_back(
-        {respondent->name(), respondent->promise(), respondent->timed(), Judgement{}});
+  for (const Solver* solver : options.solvers) {
+    result.methods.push_back({solver->name(), solver->promise(), solver->is_timed(), Judgement{}});
   }
   const StreamResult ended = stream(
       source, [&](const Block& block) { return BlockJudgement(block, options, comparison); },

@@ -22,7 +22,7 @@
 #include "verify/judge/judge.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/run/prove.hpp"
-#include "verify/solvers/respondent.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify {
 
@@ -54,13 +54,13 @@ struct CertifyOptions {
   /// Once true, no further queries are read and the result is that of those read so far.
   const std::atomic<bool>* stop = nullptr;
   /// Judged on every query; not null.
-  std::vector<const Respondent*> respondents = {};
+  std::vector<const Solver*> solvers = {};
 
   /// 1e-40: what the 45 digits of published times of impact have to offer.
   static exact::Rational default_toi_tolerance();
 };
 
-/// The judgement on one respondent.
+/// The judgement on one solver.
 struct MethodResult {
   std::string name;
   fast::Promise promise = fast::Promise::none;  ///< what it is held to
@@ -87,7 +87,7 @@ struct CertifyResult {
   double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
   std::vector<Mismatch> mismatches;
   ProofCounts proofs;  ///< what was proved, where certificates are asked for
-  /// In the order of CertifyOptions::respondents.
+  /// In the order of CertifyOptions::solvers.
   std::vector<MethodResult> methods;
   /// The error that ended the reading before the source's end; all of the above holds up to there.
   std::optional<std::string> error;
@@ -110,7 +110,7 @@ struct CertifyResult {
 [[nodiscard]] CertifyResult certify(QuerySource& source, const CertifyOptions& options = {});
 
 /// Sums of all counts, in a result called "total"; the mismatches and wrong answers stay with their
-/// sources. \pre all were judged with the same respondents.
+/// sources. \pre all were judged with the same solvers.
 [[nodiscard]] CertifyResult total(const std::vector<CertifyResult>& results);
 
 }  // namespace touchstone::verify

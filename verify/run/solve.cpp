@@ -11,24 +11,20 @@ namespace {
 /// The parallel stage: the answers to one block.
 class BlockAnswers {
  public:
-  BlockAnswers(const Block& block, const Respondent& respondent, const SolveOptions& options)
+  BlockAnswers(const Block& block, const Solver& solver, const SolveOptions& options)
       : block_(block),
         answers_(block.queries.size()),
-        responses_(block.queries.size() / Passes::unit + 1) {
+        replies_(block.queries.size() / Passes::unit + 1) {
     Passes passes(block.queries.size(), options.stop);
-    passes.run(respondent.good_span(), [&](std::size_t first, std::size_t count) {
-      const Questions questions{.source = *block.source,
-                                .kind = block.kind,
-                                .queries = std::span(block.queries).subspan(first, count),
-                                .indices = std::span(block.indices).subspan(first, count),
-                                .separation = options.separation};
-      Response& response = responses_[first / Passes::unit];
-      response = respondent.answer(questions, std::span(answers_).subspan(first, count));
-      return !response.stopped;
+    passes.run(solver.good_span(), [&](std::size_t first, std::size_t count) {
+      SolveReply& reply = replies_[first / Passes::unit];
+      reply = solver.solve_timed(block.request(first, count, options.separation),
+                                 std::span(answers_).subspan(first, count));
+      return !reply.stopped;
     });
     complete_ = passes.complete();
-    for (std::size_t unit = 0; unit < responses_.size(); ++unit) {
-      for (const QueryFailure& found : responses_[unit].failures) {
+    for (std::size_t unit = 0; unit < replies_.size(); ++unit) {
+      for (const QueryFailure& found : replies_[unit].failures) {
         failures_.push_back(
             {.position = unit * Passes::unit + found.position, .failure = found.failure});
       }
@@ -49,8 +45,8 @@ class BlockAnswers {
       if (has_failed) ++failure;
     }
     for (std::size_t part = 0; part * Passes::unit < complete_; ++part) {
-      result.nanoseconds += responses_[part].nanoseconds;
-      result.unplaced_crashes += responses_[part].unplaced_crashes;
+      result.nanoseconds += replies_[part].time.value_or(SolverTime{}).processor_nanoseconds;
+      result.unplaced_crashes += replies_[part].unplaced_crashes;
     }
   }
 
@@ -71,7 +67,7 @@ class BlockAnswers {
 
   const Block& block_;
   std::vector<fast::Answer> answers_;
-  std::vector<Response> responses_;     // of the part that begins with a unit
+  std::vector<SolveReply> replies_;     // of the part that begins with a unit
   std::vector<QueryFailure> failures_;  // by position in the block
   std::size_t complete_ = 0;
 };
@@ -97,10 +93,10 @@ SolveResult& SolveResult::operator+=(const SolveResult& other) {
   return *this;
 }
 
-SolveResult solve(QuerySource& source, const Respondent& respondent, const SolveOptions& options) {
+SolveResult solve(QuerySource& source, const Solver& solver, const SolveOptions& options) {
   SolveResult result;
   const StreamResult ended = stream(
-      source, [&](const Block& block) { return BlockAnswers(block, respondent, options); },
+      source, [&](const Block& block) { return BlockAnswers(block, solver, options); },
       [&](const BlockAnswers& answers) { answers.add_to(result, options); },
       {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
   result.skipped = ended.skipped;

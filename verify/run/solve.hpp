@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// A solver let loose on a source, without a judge: its answers in the order of the queries.
+/// A solver's answers to all queries of a source, in their order; nothing is judged.
 
 #include <array>
 #include <atomic>
@@ -13,7 +13,7 @@
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/data/query_source.hpp"
-#include "verify/solvers/respondent.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify {
 
@@ -58,8 +58,8 @@ struct SolveResult {
 };
 
 /// Has every query of the source answered. Errors of the source end up in the result.
-/// \pre the respondent has an answer to every query: it is a method.
-[[nodiscard]] SolveResult solve(QuerySource& source, const Respondent& respondent,
+/// \pre the solver has an answer to every query: it is not recorded.
+[[nodiscard]] SolveResult solve(QuerySource& source, const Solver& solver,
                                 const SolveOptions& options = {});
 
 }  // namespace touchstone::verify

@@ -1,13 +1,12 @@
 #include "verify/run/step_bench.hpp"
 
-#include <oneapi/tbb/info.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
 
+#include "verify/run/cores.hpp"
 #include "verify/run/statistics.hpp"
 #include "verify/run/thread_clock.hpp"
 
@@ -65,8 +64,7 @@ class StepRun {
   StepRun(const MovingMesh& mesh, const StepBenchOptions& options)
       : mesh_(mesh), options_(options) {
     series_.push_back({.threads = 1});
-    const int most =
-        options.threads == 0 ? oneapi::tbb::info::default_concurrency() : options.threads;
+    const int most = cores_for(options.threads);
     if (most > 1) series_.push_back({.threads = most});
   }
 
@@ -164,7 +162,6 @@ class StepRun {
 
 StepResult bench_step(const MovingMesh& mesh, const StepBenchOptions& options) {
   if (options.repetitions == 0) throw std::invalid_argument("repetitions must be at least 1");
-  if (options.threads < 0) throw std::invalid_argument("threads must not be negative");
   return StepRun(mesh, options).result();
 }
 

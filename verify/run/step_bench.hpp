@@ -20,7 +20,7 @@ struct StepBenchOptions {
   /// At least 1.
   std::size_t repetitions = 5;
   /// Timed with one thread and with so many; 0: all cores.
-  int threads = 0;
+  unsigned threads = 0;
   /// Its separation is that of the broad phase too; max_threads is set by the benchmark.
   fast::CertifiedOptions certified = {};
   /// Called now and then with the fraction of the repetitions that is done, from this thread.

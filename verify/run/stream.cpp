@@ -1,6 +1,5 @@
 #include "verify/run/stream.hpp"
 
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
@@ -11,13 +10,12 @@
 #include <utility>
 
 #include "verify/io/terminal.hpp"
+#include "verify/run/cores.hpp"
 
 namespace touchstone::verify {
 namespace {
 
 namespace tbb = oneapi::tbb;
-
-constexpr unsigned most_threads = 1024;
 
 /// A block with what becomes of it.
 struct Token {
@@ -114,9 +112,7 @@ std::size_t Passes::complete() const {
 
 StreamResult stream(QuerySource& source, const BlockWork& work, const StreamOptions& options) {
   using TokenPointer = std::shared_ptr<Token>;
-  const int threads = options.threads == 0
-                          ? tbb::info::default_concurrency()
-                          : static_cast<int>(std::min(options.threads, most_threads));
+  const int threads = cores_for(options.threads);
   const std::size_t blocks_in_flight = 2 * static_cast<std::size_t>(threads);
   Stream ends(source, options);
   const auto read = [&](tbb::flow_control& flow) {

@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "exact/algebra/number.hpp"
 #include "exact/query.hpp"
 #include "verify/data/query_source.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify {
 
@@ -40,6 +42,16 @@ struct Block {
   std::vector<Query> queries;
   std::vector<std::uint64_t> indices;
   std::vector<Claim> claims;
+
+  /// Asks for the answers to `count` of them from number `first` on.
+  [[nodiscard]] SolveRequest request(std::size_t first, std::size_t count,
+                                     const Separation& separation) const {
+    return {.kind = kind,
+            .queries = std::span(queries).subspan(first, count),
+            .separation = separation,
+            .source = *source,
+            .indices = std::span(indices).subspan(first, count)};
+  }
 };
 
 /// Passes over the queries of a block, each on all cores.

@@ -107,10 +107,9 @@ Solve* find_solve(const Library& library, const std::filesystem::path& path) {
 class PluginMethod final : public fast::Method {
  public:
   PluginMethod(std::filesystem::path path, std::string name, fast::Promise promise)
-      : path_(std::move(path)), name_(std::move(name)), promise_(promise) {}
+      : path_(std::move(path)), name_(std::move(name)), info_{.name = name_, .promise = promise} {}
 
-  [[nodiscard]] std::string_view name() const override { return name_; }
-  [[nodiscard]] fast::Promise promise() const override { return promise_; }
+  [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
 
   void solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
              const fast::MethodOptions& options) const override {
@@ -141,7 +140,7 @@ class PluginMethod final : public fast::Method {
 
   std::filesystem::path path_;
   std::string name_;
-  fast::Promise promise_;
+  fast::MethodInfo info_;
   mutable std::once_flag is_loaded_;
   mutable Library library_;
   mutable Solve* solve_ = nullptr;

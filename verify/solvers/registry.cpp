@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <stdexcept>
-#include <string>
 
 #include "fast/certified.hpp"
 #include "fast/tight_inclusion.hpp"
@@ -26,13 +24,12 @@ namespace {
 
 using Methods = std::vector<std::unique_ptr<const fast::Method>>;
 
-std::unique_ptr<fast::Method> tight_inclusion_released() {
-  return fast::tight_inclusion_method({.error_model = fast::ErrorModel::released});
-}
-
-/// The known methods, which are here to be compared with.
-constexpr auto baselines = std::to_array<std::unique_ptr<fast::Method> (*)()>({
-    tight_inclusion_released,
+/// Ours, then the baselines.
+constexpr auto factories = std::to_array<std::unique_ptr<fast::Method> (*)()>({
+    [] { return fast::certified_method(); },
+    [] { return fast::tight_inclusion_method(); },
+    [] { return fast::tight_inclusion_method({.error_model = fast::ErrorModel::published}); },
+    [] { return fast::tight_inclusion_method({.error_model = fast::ErrorModel::released}); },
     baselines::irf_method,
     baselines::uirf_method,
     baselines::fprf_method,
@@ -44,18 +41,11 @@ constexpr auto baselines = std::to_array<std::unique_ptr<fast::Method> (*)()>({
     baselines::accd_method,
 });
 
-/// Ours, then the baselines.
 Methods make_methods() {
   Methods all;
-  all.push_back(fast::certified_method());
-  all.push_back(fast::tight_inclusion_method());
-  all.push_back(fast::tight_inclusion_method({.error_model = fast::ErrorModel::published}));
-  for (const auto make : baselines) all.push_back(make());
+  for (const auto make : factories) all.push_back(make());
   return all;
 }
-
-/// Methods that differ from another one in a setting only, for comparison.
-constexpr std::array<std::string_view, 1> variants{"tight_inclusion_published"};
 
 }  // namespace
 
@@ -64,45 +54,44 @@ const std::vector<std::unique_ptr<const fast::Method>>& methods() {
   return all;
 }
 
-bool is_baseline(std::string_view name) {
-  // They stand behind all others.
-  const auto first = methods().end() - static_cast<std::ptrdiff_t>(baselines.size());
-  return std::any_of(first, methods().end(),
-                     [&](const auto& method) { return method->name() == name; });
-}
-
-std::vector<std::string_view> default_methods() {
-  std::vector<std::string_view> names;
+std::string method_names() {
+  std::string names;
   for (const auto& method : methods()) {
-    const std::string_view name = method->name();
-    const bool is_variant = std::ranges::find(variants, name) != variants.end();
-    const bool promises = method->promise() != fast::Promise::none;
-    if (promises && !is_variant && !is_baseline(name)) names.push_back(name);
+    names += names.empty() ? "" : ", ";
+    names += method->name();
   }
   return names;
 }
 
-const fast::Method& find_method(std::string_view name) {
-  std::string known;
+std::vector<std::string> default_methods() {
+  std::vector<std::string> names;
   for (const auto& method : methods()) {
-    if (method->name() == name) return *method;
-    known += known.empty() ? "" : ", ";
-    known += method->name();
+    const fast::MethodInfo& info = method->info();
+    const bool promises = info.promise != fast::Promise::none;
+    if (promises && info.variant_of.empty() && !info.is_baseline) names.emplace_back(info.name);
   }
-  throw std::invalid_argument(
-      fmt::format("no method is called {} (there are: {})", name, known.empty() ? "none" : known));
+  return names;
 }
 
-Reach reach_of(std::string_view name) {
-  // The published filter bounds the errors of the released order of operations too, and is not below
-  // the released one: so what a yes with the released filter claims follows from it.
-  const bool published = name == "tight_inclusion_published" || name == "tight_inclusion_released";
-  if (name != "tight_inclusion" && !published) return stated_reach;
-  return
-      [model = published ? fast::ErrorModel::published : fast::ErrorModel::derived](
-          Kind kind, const Query& query, const fast::Answer& answer, const Separation& separation) {
-        return tight_inclusion_reach(kind, query, answer, separation, model);
-      };
+namespace {
+
+Methods::const_iterator find(std::string_view name) {
+  return std::ranges::find_if(methods(),
+                              [&](const auto& method) { return method->name() == name; });
+}
+
+}  // namespace
+
+const fast::Method& find_method(std::string_view name) {
+  const auto found = find(name);
+  if (found != methods().end()) return **found;
+  throw std::invalid_argument(
+      fmt::format("no method is called {} (there are: {})", name, method_names()));
+}
+
+const fast::MethodInfo* find_info(std::string_view name) {
+  const auto found = find(name);
+  return found == methods().end() ? nullptr : &(*found)->info();
 }
 
 std::string_view to_string(fast::Promise promise) {

@@ -215,11 +215,8 @@ class SolverProcess::Impl {
       : method_(method), options_(options) {}
 
   SolverRun solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
-                  const fast::MethodOptions& method_options, double seconds) {
-    deadline_.reset();
-    if (seconds > 0.0) {
-      deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
-    }
+                  const fast::MethodOptions& method_options, const Deadline& deadline) {
+    deadline_ = deadline;
     run_ = {};
     lost_children_ = 0;
     (*memory_).kind = kind;
@@ -249,8 +246,7 @@ class SolverProcess::Impl {
   };
 
   [[nodiscard]] bool is_stopped() const {
-    return (options_.stop != nullptr && options_.stop->load()) ||
-           (deadline_ && Clock::now() >= *deadline_);
+    return (options_.stop != nullptr && options_.stop->load()) || deadline_.is_over();
   }
 
   [[nodiscard]] bool has_failed_enough() const {
@@ -416,7 +412,7 @@ class SolverProcess::Impl {
   std::optional<TemporaryFolder> folder_;
   std::unique_ptr<ChildProcess> child_;
   CapturedOutput output_;
-  std::optional<Clock::time_point> deadline_;
+  Deadline deadline_;
   SolverRun run_;
   /// Failures of this call that ended a child.
   std::size_t lost_children_ = 0;
@@ -435,8 +431,9 @@ SolverProcess::~SolverProcess() = default;
 
 SolverRun SolverProcess::solve(Kind kind, std::span<const Query> queries,
                                std::span<fast::Answer> answers,
-                               const fast::MethodOptions& method_options, double seconds) {
-  return impl_->solve(kind, queries, answers, method_options, seconds);
+                               const fast::MethodOptions& method_options,
+                               const Deadline& deadline) {
+  return impl_->solve(kind, queries, answers, method_options, deadline);
 }
 
 CapturedOutput SolverProcess::take_output() { return impl_->take_output(); }

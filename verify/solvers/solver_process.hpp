@@ -22,6 +22,7 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/run/deadline.hpp"
 #include "verify/solvers/child_process.hpp"
 #include "verify/solvers/failure.hpp"
 
@@ -69,13 +70,13 @@ class SolverProcess {
 
   /// Answers query i in answers[i]: as the method does, undecided if it takes too long, error if it
   /// fails otherwise.
-  /// \param seconds after this much wall-clock time, or a quarter of a second more, it stops; 0: no
-  /// limit
+  /// \param deadline where it stops, or a quarter of a second later
   /// \pre both spans have the same length.
   /// \throws std::system_error if the system has no memory, process or temporary folder to give.
   [[nodiscard]] SolverRun solve(Kind kind, std::span<const Query> queries,
                                 std::span<fast::Answer> answers,
-                                const fast::MethodOptions& method_options, double seconds = 0.0);
+                                const fast::MethodOptions& method_options,
+                                const Deadline& deadline = {});
 
   /// What its children have printed since the last call of this, which forgets it.
   [[nodiscard]] CapturedOutput take_output();

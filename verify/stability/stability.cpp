@@ -37,7 +37,7 @@ CertifyResult judge(const StabilityCell& cell, const StabilityOptions& options,
   CertifyOptions certify_options;
   certify_options.separation = source->recorded_separation();
   certify_options.threads = options.threads;
-  certify_options.respondents = options.respondents;
+  certify_options.solvers = options.solvers;
   certify_options.on_progress = on_progress;
   certify_options.stop = options.stop;
   CertifyResult judged = certify(*source, certify_options);

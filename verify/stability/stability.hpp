@@ -18,7 +18,7 @@
 #include "exact/query.hpp"
 #include "verify/judge/judge.hpp"
 #include "verify/run/certify.hpp"
-#include "verify/solvers/respondent.hpp"
+#include "verify/solvers/solver.hpp"
 #include "verify/stability/hardness.hpp"
 
 namespace touchstone::verify {
@@ -32,7 +32,7 @@ struct StabilityOptions {
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
   /// Judged on every query; not null.
-  std::vector<const Respondent*> respondents = {};
+  std::vector<const Solver*> solvers = {};
   /// Called now and then with the fraction that is done; never from two threads at once.
   std::function<void(double)> on_progress = nullptr;
   /// May be null. Once true, the result is that of what was judged so far.
@@ -57,7 +57,7 @@ struct StabilityResult {
   std::vector<StabilityCell> cells;
 };
 
-/// Judges the respondents on the hard queries of the given sorts.
+/// Judges the solvers on the hard queries of the given sorts.
 /// \throws std::invalid_argument if there are no hard queries about the separation.
 [[nodiscard]] StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
                                                 const StabilityOptions& options);

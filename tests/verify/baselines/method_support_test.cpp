@@ -23,8 +23,7 @@ double opaque(double x) {
 
 fast::Answer solve(fast::Answer (*function)(Kind, const Query&, const fast::MethodOptions&),
                    const Query& query, const fast::MethodOptions& options = {}) {
-  const auto method =
-      baseline_method({.name = "some", .promise = fast::Promise::none, .answer = function});
+  const auto method = baseline_method({.name = "some"}, function);
   fast::Answer answer;
   method->solve(Kind::vertex_face, {&query, 1}, {&answer, 1}, options);
   return answer;
@@ -47,8 +46,8 @@ fast::Answer yes_if_rounding_to_nearest(Kind, const Query&, const fast::MethodOp
 }
 
 TEST(BaselineMethod, AnswersWithItsFunction) {
-  const auto method = baseline_method(
-      {.name = "some", .promise = fast::Promise::conservative, .answer = always_no});
+  const auto method =
+      baseline_method({.name = "some", .promise = fast::Promise::conservative}, always_no);
   EXPECT_EQ(method->name(), "some");
   EXPECT_EQ(method->promise(), fast::Promise::conservative);
   EXPECT_EQ(solve(always_no, Query{}).verdict, fast::Verdict::no);

@@ -18,7 +18,7 @@
 #include "exact/query.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/cli/respondents.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 
 namespace {
@@ -77,7 +77,7 @@ void parse_commands(const std::vector<std::string>& words) {
 void parse_shared_options(const std::vector<std::string>& words) {
   CLI::App app{"fuzzed"};
   SourceArguments sources;
-  RespondentArguments solvers;
+  SolverArguments solvers;
   add_source_options(app, sources);
   add_solver_options(app, solvers);
   if (!parse(app, words)) return;

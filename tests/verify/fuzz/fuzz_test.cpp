@@ -40,12 +40,17 @@ Answer honest(Kind kind, const Query& query) { return answer_of(fast::certified(
 
 constexpr std::uint64_t enough = 20'000;
 
-FuzzResult search(const FunctionMethod::Function& function, Promise promise,
+FuzzResult search(const FunctionMethod::Function& function, const fast::MethodInfo& info,
                   FuzzOptions options = {}) {
-  const FunctionMethod method(function, promise);
+  const FunctionMethod method(function, info);
   if (options.most_queries == 0) options.most_queries = enough;
   if (options.most_findings == 0) options.most_findings = 1;
   return fuzz(method, options);
+}
+
+FuzzResult search(const FunctionMethod::Function& function, Promise promise,
+                  const FuzzOptions& options = {}) {
+  return search(function, {.name = "function", .promise = promise}, options);
 }
 
 /// Expects a finding of that kind, soon, that is what it says.
@@ -111,7 +116,9 @@ TEST(Fuzz, FindsAYesBeyondItsTolerance) {
     };
   };
   expect_found(FindingKind::beyond_tolerance,
-               search(yes(1e-9), Promise::conservative, {.reach = reach_of("tight_inclusion")}));
+               search(yes(1e-9), {.name = "function",
+                                  .promise = Promise::conservative,
+                                  .filter = fast::ErrorModel::derived}));
   expect_found(FindingKind::beyond_tolerance, search(yes(0.0), Promise::conservative));
   expect_found(
       FindingKind::beyond_tolerance,
@@ -255,7 +262,6 @@ TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
 TEST(Fuzz, FindsNothingInTightInclusion) {
   const FuzzOptions options{.most_queries = tests::trials(std::uint64_t{1200}),
                             .method = {.max_checks = 200},
-                            .reach = reach_of("tight_inclusion"),
                             .query_limit_seconds = 30.0};
   const FuzzResult result = fuzz(find_method("tight_inclusion"), options);
   EXPECT_EQ(result.all_findings, 0U);

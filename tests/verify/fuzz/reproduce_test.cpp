@@ -181,7 +181,7 @@ Answer yes_between(double lower, double upper) {
 
 TEST(AsCppTest, passes_on_methods_that_are_right) {
   for (const auto& method : methods()) {
-    if (is_baseline(method->name())) continue;
+    if (method->info().is_baseline) continue;
     EXPECT_EQ(failures(reproduction_of_miss::expect_no_fault, *method), 0) << method->name();
     EXPECT_EQ(failures(reproduction_of_claim::expect_no_fault, *method), 0) << method->name();
   }
@@ -210,8 +210,10 @@ TEST(AsCppTest, fails_on_methods_that_are_wrong) {
 TEST(AsCppTest, asks_with_the_options) {
   class OnlyWithThese final : public fast::Method {
    public:
-    [[nodiscard]] std::string_view name() const override { return "only_with_these"; }
-    [[nodiscard]] Promise promise() const override { return Promise::none; }
+    [[nodiscard]] const fast::MethodInfo& info() const override {
+      static const fast::MethodInfo info{.name = "only_with_these"};
+      return info;
+    }
     void solve(Kind, std::span<const Query>, std::span<Answer> answers,
                const fast::MethodOptions& options) const override {
       const bool wrong = options.tolerance == 0.125 && options.max_checks == 77 &&

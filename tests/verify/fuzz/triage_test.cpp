@@ -78,7 +78,7 @@ TEST(Referee, HoldsOnlyWhatIsExactToMisses) {
 
 /// The primitives come within 1, and no nearer.
 TEST(Referee, HoldsAYesToItsTolerance) {
-  const Standard standard{.promise = Promise::conservative, .reach = reach_of("tight_inclusion")};
+  const Standard standard{.promise = Promise::conservative, .filter = fast::ErrorModel::derived};
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 1.0), standard), std::nullopt);
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.99), standard), FindingKind::beyond_tolerance);
   EXPECT_EQ(fault(never, yes(0.5, Answer::none), standard), std::nullopt);
@@ -89,7 +89,7 @@ TEST(Referee, HoldsAYesToItsTolerance) {
 /// In the norm of the separation, for a solver of which no more is known.
 TEST(Referee, HoldsAYesToItsToleranceBeyondTheSeparation) {
   const Separation separation{.distance = 0.5, .norm = Norm::l2};
-  const Standard standard{.separation = separation, .reach = stated_reach};
+  const Standard standard{.separation = separation};
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.5), standard), std::nullopt);
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.49), standard), FindingKind::beyond_tolerance);
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.0), standard), FindingKind::beyond_tolerance);
@@ -121,7 +121,7 @@ TEST(Referee, FindsMostRightAnswersRightAtAGlance) {
   EXPECT_TRUE(glance(at_third, {.verdict = Verdict::undecided}, {}));
   EXPECT_TRUE(glance(never, {.verdict = Verdict::no}, {.promise = Promise::exact}));
   EXPECT_TRUE(glance(never, yes(0.5, Answer::none), {}));
-  EXPECT_TRUE(glance(never, yes(0.5, Answer::none, 2.0), {.reach = reach_of("tight_inclusion")}));
+  EXPECT_TRUE(glance(never, yes(0.5, Answer::none, 2.0), {.filter = fast::ErrorModel::derived}));
 }
 
 TEST(Referee, AccusesAJudgeThatTheOracleContradicts) {

@@ -19,8 +19,8 @@ using Words = std::vector<std::string>;
 constexpr Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
 const Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
 
-ContenderResult careful() {
-  ContenderResult careful;
+SolverResult careful() {
+  SolverResult careful;
   careful.name = "careful";
   careful.promise = Promise::exact;
   careful.queries = 400;
@@ -33,8 +33,8 @@ ContenderResult careful() {
 }
 
 /// Wrong in each way, and not timed to the end.
-ContenderResult hasty() {
-  ContenderResult hasty;
+SolverResult hasty() {
+  SolverResult hasty;
   hasty.name = "hasty";
   hasty.promise = Promise::conservative;
   hasty.queries = 100;
@@ -58,7 +58,7 @@ BenchReport report() {
   group.judged = 27;
   group.collisions = 26;
   group.memory_pass.repetitions = {5.0, 4.0, 6.0};
-  group.contenders = {careful(), hasty()};
+  group.solvers = {careful(), hasty()};
   return report;
 }
 
@@ -130,7 +130,7 @@ TEST(BenchReport, TextSaysWhatWasSampledAndOnlyThen) {
   BenchReport sampled = report();
   EXPECT_TRUE(says(sampled, "timed: "));
   EXPECT_TRUE(says(sampled, "judged: "));
-  sampled.groups[0].contenders[1].queries = 400;
+  sampled.groups[0].solvers[1].queries = 400;
   sampled.groups[0].judged = 400;
   EXPECT_FALSE(says(sampled, "timed: "));
   EXPECT_FALSE(says(sampled, "judged: "));
@@ -171,7 +171,7 @@ TEST(BenchReport, TextHasTheStep) {
 TEST(BenchReport, WrongAnswersAreBrokenPromisesAndContradictions) {
   BenchReport right = report();
   EXPECT_TRUE(has_wrong_answers(right));
-  right.groups[0].contenders.pop_back();
+  right.groups[0].solvers.pop_back();
   EXPECT_FALSE(has_wrong_answers(right));
   right.step = step();
   EXPECT_FALSE(has_wrong_answers(right));

@@ -59,7 +59,7 @@ TEST(Survey, TrialsAreThoseOfTheMethodsThere) {
   const std::vector<Trial> few = trials_of(one);
   ASSERT_EQ(few.size(), 1U);
   EXPECT_EQ(few[0].experiment, Experiment::field);
-  EXPECT_EQ(few[0].settings[0].method, "tccd");
+  EXPECT_EQ(few[0].settings[0].method->name(), "tccd");
 }
 
 TEST(Survey, EachMeasuresDistanceInItsOwnNorm) {
@@ -69,7 +69,8 @@ TEST(Survey, EachMeasuresDistanceInItsOwnNorm) {
     for (const double distance : separation_distances()) {
       std::map<Norm, std::set<std::string>> names;
       for (const auto& [method, options] : trial.settings) {
-        if (options.min_separation == distance) names[options.norm].insert(method);
+        if (options.min_separation != distance) continue;
+        names[options.norm].insert(std::string(method->name()));
       }
       EXPECT_EQ(names[Norm::linf], (std::set<std::string>{"certified", "tight_inclusion"}));
       EXPECT_EQ(names[Norm::l2], (std::set<std::string>{"certified", "fprf", "msrf"}));

@@ -39,30 +39,29 @@ Answer yes_at(double toi, double tolerance = Answer::none, std::uint32_t checks 
   return {.verdict = Verdict::yes, .checks = checks, .toi_lower = toi, .tolerance = tolerance};
 }
 
-/// Methods as subjects, and what they need to live.
+/// Methods with their options.
 class Field {
  public:
   void add(FunctionMethod::Function function, Promise promise, const std::string& name,
            const fast::MethodOptions& options = {}) {
     methods_.push_back(std::make_unique<FunctionMethod>(std::move(function), promise, name));
-    subjects_.push_back({contend(*methods_.back(), options), options});
+    settings_.push_back({methods_.back().get(), options});
   }
-  void add(Subject subject) { subjects_.push_back(std::move(subject)); }
+  void add(const Setting& setting) { settings_.push_back(setting); }
 
   [[nodiscard]] std::vector<Measurement> run(const QueryGroup& group,
                                              const MeasureOptions& options = {}) {
-    return run(group, options,
-               [](const fast::MethodOptions& about) { return contend_certified(about); });
+    return run(group, options, *fast::certified_method());
   }
   [[nodiscard]] std::vector<Measurement> run(const QueryGroup& group, const MeasureOptions& options,
-                                             const MakeReference& reference) {
+                                             const fast::Method& reference) {
     Truths truths(group);
-    return measure(group, truths, subjects_, reference, options);
+    return measure(group, truths, settings_, reference, options);
   }
 
  private:
   std::vector<std::unique_ptr<fast::Method>> methods_;
-  std::vector<Subject> subjects_;
+  std::vector<Setting> settings_;
 };
 
 TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
@@ -128,7 +127,8 @@ TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
 TEST(Measure, TheCertifiedSolverIsRightAndTellsItsStages) {
   const QueryGroup group = falling(100);
   Field field;
-  field.add(Subject{contend_certified({}), {}});
+  const auto certified = fast::certified_method();
+  field.add({certified.get(), {}});
   const std::vector<Measurement> all = field.run(group);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].false_negatives + all[0].false_positives + all[0].late_tois, 0U);
@@ -181,9 +181,7 @@ TEST(Measure, ASampleIsNoLargerThanTheReferenceCanTake) {
   field.add(tests::true_answer, Promise::exact, "fast");
   MeasureOptions options;
   options.seconds = 0.05;
-  const std::vector<Measurement> all =
-      field.run(falling(1000), options,
-                [&](const fast::MethodOptions& about) { return contend(slow, about); });
+  const std::vector<Measurement> all = field.run(falling(1000), options, slow);
   ASSERT_EQ(all.size(), 1U);
   EXPECT_GE(all[0].asked, 16U);
   EXPECT_LE(all[0].asked, 64U) << "a millisecond each";

@@ -317,18 +317,18 @@ FunctionMethod right_but_for(std::uint64_t number, const FunctionMethod::Functio
   });
 }
 
-Judgement judged(const Respondent& respondent, std::uint64_t count = 30) {
+Judgement judged(const Solver& solver, std::uint64_t count = 30) {
   CertifyOptions options;
-  options.respondents = {&respondent};
+  options.solvers = {&solver};
   const CertifyResult result = certify_records(numbered_records(count), options);
   EXPECT_EQ(result.queries, count);
   EXPECT_EQ(result.methods.size(), 1U);
-  EXPECT_EQ(result.methods.at(0).name, respondent.name());
+  EXPECT_EQ(result.methods.at(0).name, solver.name());
   return result.methods.at(0).judgement;
 }
 
 Judgement judged(const fast::Method& method, std::uint64_t count = 30) {
-  return judged(*respond_in_process(method, {}), count);
+  return judged(*solver_in_process(method, {}), count);
 }
 
 std::uint64_t all_faults(const Judgement& judgement) {
@@ -351,9 +351,9 @@ TEST(CertifyMethods, ThePerfectMethodHasAllZeros) {
 
 TEST(CertifyMethods, ThePerfectMethodIsPerfectOnTheBuiltInSet) {
   const FunctionMethod perfect(true_answer, Promise::exact);
-  const auto respondent = respond_in_process(perfect, {});
+  const auto solver = solver_in_process(perfect, {});
   CertifyOptions options;
-  options.respondents = {respondent.get()};
+  options.solvers = {solver.get()};
   for (const Family& family : families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (!supports(family, kind)) continue;
@@ -371,10 +371,10 @@ TEST(CertifyMethods, AYesThatClaimsMoreNearnessThanThereIsIsCaught) {
       return {.verdict = fast::Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
     });
     // Nobody says what a tolerance of this method claims: it is held to it as all are.
-    const auto respondent = respond_in_process(method, {});
+    const auto solver = solver_in_process(method, {});
     CertifyOptions options;
     options.separation.distance = distance;
-    options.respondents = {respondent.get()};
+    options.solvers = {solver.get()};
     return certify_records(numbered_records(30), options).methods.at(0);
   };
   for (const double distance : {0.0, 0.25}) {
@@ -443,7 +443,7 @@ TEST(CertifyMethods, ACrashIsAnErrorAndAHangIsUndecided) {
     while (number_of(query) == 11) std::this_thread::sleep_for(std::chrono::seconds(1));
     return true_answer(kind, query);
   });
-  const Judgement judgement = judged(*respond_isolated(method, {}, {.query_limit_seconds = 1.0}));
+  const Judgement judgement = judged(*solver_in_children(method, {}, {.query_limit_seconds = 1.0}));
   EXPECT_EQ(judgement.queries, 30U);
   EXPECT_EQ(judgement.undecided, 1U);
   EXPECT_EQ(all_faults(judgement), 1U);
@@ -462,10 +462,10 @@ TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {
       const std::uint64_t number = number_of(query);
       return number % 1000 == 1 ? Answer{.verdict = fast::Verdict::no} : true_answer(kind, query);
     });
-    const auto respondent = respond_in_process(method, {});
+    const auto solver = solver_in_process(method, {});
     CertifyOptions options;
     options.threads = threads;
-    options.respondents = {respondent.get()};
+    options.solvers = {solver.get()};
     const CertifyResult result = certify_records(numbered_records(9000), options);
     const Judgement& judgement = result.methods.at(0).judgement;
     // Numbers divisible by 3 are misses, where no is right.
@@ -484,9 +484,9 @@ TEST(CertifyMethods, SeveralAreJudgedSideBySide) {
   const FunctionMethod denier(
       [](Kind, const Query&) { return Answer{.verdict = fast::Verdict::no}; }, Promise::none,
       "denier");
-  const auto first = respond_in_process(perfect, {}), second = respond_in_process(denier, {});
+  const auto first = solver_in_process(perfect, {}), second = solver_in_process(denier, {});
   CertifyOptions options;
-  options.respondents = {first.get(), second.get()};
+  options.solvers = {first.get(), second.get()};
   const CertifyResult one = certify_records(numbered_records(30), options);
   const CertifyResult other = certify_records(numbered_records(300), options);
   CertifyResult unopened;
@@ -509,12 +509,12 @@ TEST(CertifyMethods, AStopInSlowAnswersIsObeyedSoonAndLeavesAPrefix) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     return true_answer(kind, query);
   });
-  const auto respondent = respond_in_process(slow, {});
+  const auto solver = solver_in_process(slow, {});
   std::vector<std::uint64_t> truths;
   CertifyOptions options;
   options.threads = 2;
   options.stop = &stop;
-  options.respondents = {respondent.get()};
+  options.solvers = {solver.get()};
   options.on_truth = [&](const Truth& truth) { truths.push_back(truth.index); };
   const CertifyResult result = certify_records(numbered_records(2000), options);
   EXPECT_TRUE(result.interrupted);

@@ -36,7 +36,7 @@ Answer obey(Kind, const Query& query) {
 
 TEST(Solve, CountsAndHandsOutTheAnswersInOrder) {
   const tests::FunctionMethod method(obey);
-  const auto respondent = respond_in_process(method, {});
+  const auto solver = solver_in_process(method, {});
   for (const unsigned threads : {1U, 3U}) {
     MemorySource source(Kind::edge_edge, scripted(10000));
     std::uint64_t next = 0;
@@ -47,8 +47,7 @@ TEST(Solve, CountsAndHandsOutTheAnswersInOrder) {
       ASSERT_EQ(answer.toi_lower, static_cast<double>(next));
       ++next;
     };
-    const SolveResult result =
-        solve(source, *respondent, {.threads = threads, .on_answer = on_answer});
+    const SolveResult result = solve(source, *solver, {.threads = threads, .on_answer = on_answer});
     EXPECT_EQ(next, 10000U);
     EXPECT_EQ(result.queries, 10000U);
     EXPECT_EQ(result.no, 4000U);
@@ -67,10 +66,10 @@ TEST(Solve, CountsAndHandsOutTheAnswersInOrder) {
 
 TEST(Solve, AnErrorOrAStopLosesNothingBeforeIt) {
   const tests::FunctionMethod method(obey);
-  const auto respondent = respond_in_process(method, {});
+  const auto solver = solver_in_process(method, {});
   MemorySource broken(Kind::edge_edge, scripted(3000));
   broken.fail_at(2500, "row is broken");
-  const SolveResult to_error = solve(broken, *respondent);
+  const SolveResult to_error = solve(broken, *solver);
   EXPECT_EQ(to_error.queries, 2500U);
   EXPECT_EQ(to_error.reading_error, "row is broken");
 
@@ -78,7 +77,7 @@ TEST(Solve, AnErrorOrAStopLosesNothingBeforeIt) {
   MemorySource source(Kind::edge_edge, scripted(200000));
   std::uint64_t seen = 0;
   const SolveResult stopped = solve(
-      source, *respondent,
+      source, *solver,
       {.on_answer = [&](std::uint64_t, const Answer&, const Failure*) { stop = ++seen > 100; },
        .stop = &stop});
   EXPECT_TRUE(stopped.interrupted);

@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/queries.hpp"
 
 namespace touchstone::verify {
@@ -22,11 +26,13 @@ TEST(Registry, NamesAreUniqueAndFound) {
         << method->name();
     EXPECT_NE(method->name(), "none") << "what the command line calls no method";
     EXPECT_EQ(&find_method(method->name()), method.get());
+    EXPECT_EQ(find_info(method->name()), &method->info());
   }
   EXPECT_TRUE(names.contains("tight_inclusion"));
 }
 
 TEST(Registry, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
+  EXPECT_EQ(find_info("nonsense"), nullptr);
   try {
     static_cast<void>(find_method("nonsense"));
     FAIL();
@@ -52,22 +58,53 @@ TEST(Registry, EveryMethodTellsAHitFromAWideMiss) {
 }
 
 TEST(Registry, JudgesUnaskedWhatPromisesSomethingInItsDefaultSetting) {
-  EXPECT_EQ(default_methods(), (std::vector<std::string_view>{"certified", "tight_inclusion"}));
+  EXPECT_EQ(default_methods(), (std::vector<std::string>{"certified", "tight_inclusion"}));
 }
 
 TEST(Registry, BaselinesStandBehindOurOwn) {
   std::vector<std::string_view> ours;
   std::vector<std::string_view> baselines;
   for (const auto& method : methods()) {
-    (is_baseline(method->name()) ? baselines : ours).push_back(method->name());
-    EXPECT_EQ(is_baseline(method->name()), !baselines.empty()) << method->name();
+    const bool is_baseline = method->info().is_baseline;
+    (is_baseline ? baselines : ours).push_back(method->name());
+    EXPECT_EQ(is_baseline, !baselines.empty()) << method->name();
   }
   EXPECT_EQ(ours, (std::vector<std::string_view>{"certified", "tight_inclusion",
                                                  "tight_inclusion_published"}));
   EXPECT_EQ(baselines,
             (std::vector<std::string_view>{"tight_inclusion_released", "irf", "uirf", "fprf",
                                            "tccd", "rp", "rrp", "bsc", "msrf", "accd"}));
-  EXPECT_FALSE(is_baseline("nonsense"));
+}
+
+TEST(Registry, DescriptionsHold) {
+  std::ifstream file(std::filesystem::path(tests::source_folder()) / "docs" / "references.bib");
+  const std::string keys{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  for (const auto& method : methods()) {
+    const fast::MethodInfo& info = method->info();
+    const std::string name(info.name);
+    EXPECT_TRUE(!info.is_baseline || !info.reference.empty()) << name;
+    if (!info.reference.empty()) {
+      EXPECT_NE(keys.find("{" + std::string(info.reference) + ","), std::string::npos) << name;
+    }
+    if (!info.variant_of.empty()) {
+      EXPECT_EQ(find_method(info.variant_of).info().variant_of, "") << name;
+    }
+    EXPECT_GT(info.usual_max_checks, 0) << name;
+  }
+  EXPECT_EQ(method_names().substr(0, 27), "certified, tight_inclusion,");
+}
+
+/// What measures a distance finds contact within it that contact alone misses.
+TEST(Registry, MethodsHeedTheDistancesThatTheySayTheyMeasure) {
+  const Query query = tests::over_triangle(1, 1, 3, 1).query;
+  for (const auto& method : methods()) {
+    for (const Norm norm : method->info().norms) {
+      fast::Answer answer;
+      method->solve(Kind::vertex_face, {&query, 1}, {&answer, 1},
+                    {.min_separation = 1.5, .norm = norm});
+      EXPECT_EQ(answer.verdict, fast::Verdict::yes) << method->name();
+    }
+  }
 }
 
 TEST(Registry, PromisesHaveNames) {

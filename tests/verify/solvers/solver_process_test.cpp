@@ -110,8 +110,10 @@ class SharedValue {
 
 class ScriptedMethod final : public fast::Method {
  public:
-  [[nodiscard]] std::string_view name() const override { return "scripted"; }
-  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+  [[nodiscard]] const fast::MethodInfo& info() const override {
+    static const fast::MethodInfo info{.name = "scripted"};
+    return info;
+  }
 
   void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
              const fast::MethodOptions& options) const override {
@@ -277,8 +279,10 @@ TEST(SolverProcess, ShowsTheMethodLongSpansWithALimitAndWithout) {
 TEST(SolverProcess, AsksOneProcessThatIsNotThisOne) {
   class Counting final : public fast::Method {
    public:
-    [[nodiscard]] std::string_view name() const override { return "counting"; }
-    [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+    [[nodiscard]] const fast::MethodInfo& info() const override {
+      static const fast::MethodInfo info{.name = "counting"};
+      return info;
+    }
     void solve(Kind, std::span<const Query>, std::span<Answer> answers,
                const fast::MethodOptions& options) const override {
       for (Answer& answer : answers) {
@@ -394,8 +398,10 @@ TEST(SolverProcess, TheLimitHoldsForAChildThatClosesAllItsDescriptors) {
 TEST(SolverProcess, AStepThatTakesTooLongIsSearchedAndNotCharged) {
   class LateSlow final : public fast::Method {
    public:
-    [[nodiscard]] std::string_view name() const override { return "late_slow"; }
-    [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+    [[nodiscard]] const fast::MethodInfo& info() const override {
+      static const fast::MethodInfo info{.name = "late_slow"};
+      return info;
+    }
     void solve(Kind, std::span<const Query> queries, std::span<Answer> answers,
                const fast::MethodOptions&) const override {
       // A span of these never ends, one of them takes no time: as sure as no clock could be.
@@ -445,7 +451,7 @@ TEST(SolverProcess, StopsAtItsTime) {
   std::vector<Query> queries = numbered(10);
   plant(queries, Act::hangs, {5});
   std::vector<Answer> answers(queries.size());
-  const SolverRun cut = process.solve(Kind::vertex_face, queries, answers, {}, 0.1);
+  const SolverRun cut = process.solve(Kind::vertex_face, queries, answers, {}, Deadline(0.1));
   EXPECT_LE(cut.answered, 5U);
   EXPECT_TRUE(cut.failures.empty());
   // The next call has all the time.
@@ -464,8 +470,10 @@ TEST(SolverProcess, MakesNoProcessesUnlessItMay) {
 TEST(SolverProcess, MayMakeThreads) {
   class Threaded final : public fast::Method {
    public:
-    [[nodiscard]] std::string_view name() const override { return "threaded"; }
-    [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+    [[nodiscard]] const fast::MethodInfo& info() const override {
+      static const fast::MethodInfo info{.name = "threaded"};
+      return info;
+    }
     void solve(Kind, std::span<const Query>, std::span<Answer> answers,
                const fast::MethodOptions&) const override {
       std::jthread([&] {
@@ -503,8 +511,10 @@ TEST(SolverProcess, AFileThatIsTooLargeEndsIt) {
 /// Answers with whether it could write into its working directory, and says where that is.
 class WritingMethod final : public fast::Method {
  public:
-  [[nodiscard]] std::string_view name() const override { return "writing"; }
-  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+  [[nodiscard]] const fast::MethodInfo& info() const override {
+    static const fast::MethodInfo info{.name = "writing"};
+    return info;
+  }
   void solve(Kind, std::span<const Query>, std::span<Answer> answers,
              const fast::MethodOptions&) const override {
     for (Answer& answer : answers) {
@@ -688,8 +698,10 @@ TEST(SolverProcess, WorksWhereTheSystemReapsChildren) {
 class LoggingMethod final : public fast::Method {
  public:
   explicit LoggingMethod(std::atomic<pid_t>& process) : process_(process) {}
-  [[nodiscard]] std::string_view name() const override { return "logging"; }
-  [[nodiscard]] fast::Promise promise() const override { return fast::Promise::none; }
+  [[nodiscard]] const fast::MethodInfo& info() const override {
+    static const fast::MethodInfo info{.name = "logging"};
+    return info;
+  }
   void solve(Kind, std::span<const Query>, std::span<Answer>,
              const fast::MethodOptions&) const override {
     process_ = ::getpid();

@@ -26,11 +26,11 @@ constexpr std::uint64_t count = 8;
 
 /// Queries of one hardness by one method that is a function.
 StabilityResult measure(const FunctionMethod& method, const StabilityOptions& base = {}) {
-  const auto respondent = respond_in_process(method, {});
+  const auto solver = solver_in_process(method, {});
   StabilityOptions options = base;
   options.seed = 5;
   options.count = count;
-  options.respondents = {respondent.get()};
+  options.solvers = {solver.get()};
   return measure_stability({&hardness_from_name("distance")}, options);
 }
 
@@ -145,11 +145,11 @@ TEST(MeasureStability, CountsChecksWhereTheMethodDoes) {
 
 /// The queries are about the distance that was asked for, and so is the truth.
 TEST(MeasureStability, TakesASeparation) {
-  const auto certified = respond_in_process(find_method("certified"), {});
+  const auto certified = solver_in_process(find_method("certified"), {});
   const StabilityResult result = measure_stability(
       {&hardness_from_name("scale")}, {.separation = {.distance = 0.01, .norm = Norm::l2},
                                        .count = count,
-                                       .respondents = {certified.get()}});
+                                       .solvers = {certified.get()}});
   EXPECT_FALSE(has_wrong_answers(result));
   EXPECT_EQ(result.total.collisions, result.total.queries / 2);
   EXPECT_EQ(result.total.labels, result.total.queries) << "labels are about the same separation";

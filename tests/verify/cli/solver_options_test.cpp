@@ -1,4 +1,4 @@
-#include "verify/cli/respondents.hpp"
+#include "verify/cli/solver_options.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -20,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Parses words as the options of a solver.
-RespondentArguments parse(std::vector<std::string> words) {
+SolverArguments parse(std::vector<std::string> words) {
   CLI::App app;
-  RespondentArguments arguments;
+  SolverArguments arguments;
   std::vector<std::string> paths;
   app.add_option("PATH", paths);
   add_solver_options(app, arguments);
@@ -31,8 +31,8 @@ RespondentArguments parse(std::vector<std::string> words) {
   return arguments;
 }
 
-TEST(RespondentOptions, EachTakesOneWordAndMayBeRepeated) {
-  const RespondentArguments arguments =
+TEST(SolverOptions, EachTakesOneWordAndMayBeRepeated) {
+  const SolverArguments arguments =
       parse({"--method", "a", "path", "--method", "b", "path", "--plugin", "l.so", "--query-limit",
              "0.5", "--tolerance", "1e-9", "--max-checks", "77"});
   EXPECT_EQ(arguments.methods, (std::vector<std::string>{"a", "b"}));
@@ -44,7 +44,7 @@ TEST(RespondentOptions, EachTakesOneWordAndMayBeRepeated) {
   EXPECT_TRUE(parse({}).empty());
 }
 
-TEST(RespondentOptions, NumbersOutOfRangeAreRefused) {
+TEST(SolverOptions, NumbersOutOfRangeAreRefused) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--query-limit", "-1"},
                                                 {"--query-limit", "nan"},
                                                 {"--query-limit", "inf"},
@@ -58,13 +58,13 @@ TEST(RespondentOptions, NumbersOutOfRangeAreRefused) {
   }
 }
 
-TEST(Respondents, AreThoseNamedInOrder) {
-  RespondentArguments arguments;
+TEST(Solvers, AreThoseNamedInOrder) {
+  SolverArguments arguments;
   for (const auto& method : methods()) arguments.methods.emplace_back(method->name());
   for (const double limit : {0.0, 1.0}) {
     arguments.query_limit = limit;
-    const Respondents respondents(arguments);
-    const auto all = respondents.all();
+    const Solvers solvers(arguments);
+    const auto all = solvers.all();
     ASSERT_EQ(all.size(), methods().size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       EXPECT_EQ(all[i]->name(), methods()[i]->name());
@@ -72,27 +72,46 @@ TEST(Respondents, AreThoseNamedInOrder) {
     }
   }
   arguments.exact = true;
-  const Respondents held(arguments);
-  for (const Respondent* respondent : held.all()) {
-    EXPECT_EQ(respondent->promise(), fast::Promise::exact);
+  const Solvers held(arguments);
+  for (const Solver* solver : held.all()) {
+    EXPECT_EQ(solver->promise(), fast::Promise::exact);
   }
 }
 
-TEST(Respondents, OfOneNameAreToldApart) {
+TEST(Solvers, OfOneNameAreToldApart) {
   const std::string name(methods().front()->name());
-  RespondentArguments arguments;
+  SolverArguments arguments;
   arguments.methods = {name, name, name};
-  const Respondents respondents(arguments);
-  ASSERT_EQ(respondents.all().size(), 3U);
-  EXPECT_EQ(respondents.all()[0]->name(), name);
-  EXPECT_EQ(respondents.all()[1]->name(), name + " (2)");
-  EXPECT_EQ(respondents.all()[2]->name(), name + " (3)");
+  const Solvers solvers(arguments);
+  ASSERT_EQ(solvers.all().size(), 3U);
+  EXPECT_EQ(solvers.all()[0]->name(), name);
+  EXPECT_EQ(solvers.all()[1]->name(), name + " (2)");
+  EXPECT_EQ(solvers.all()[2]->name(), name + " (3)");
+}
+
+TEST(Solvers, MayAllAnswerInThisProcessAndTheCertifiedOneWithAKernel) {
+  SolverArguments arguments;
+  arguments.methods = {"certified", "tight_inclusion"};
+  arguments.query_limit = 1.0;
+  const std::vector<Query> queries(1);
+  std::vector<fast::Answer> answers(1);
+  for (const fast::CertifiedKernel* kernel :
+       {static_cast<const fast::CertifiedKernel*>(nullptr),
+        fast::find_certified_kernel(fast::InstructionSet::scalar)}) {
+    arguments.kernel = kernel;
+    const Solvers solvers(arguments, MethodHost::this_process);
+    for (const Solver* solver : solvers.all()) {
+      const SolveReply reply = solver->solve({.queries = queries}, answers);
+      EXPECT_FALSE(reply.time.has_value()) << "that of a child process";
+      EXPECT_EQ(answers[0].verdict, fast::Verdict::yes);
+    }
+  }
 }
 
 /// Settles the arguments of a parsed command line.
-RespondentArguments settled(std::vector<std::string> words, bool built_in_set) {
+SolverArguments settled(std::vector<std::string> words, bool built_in_set) {
   CLI::App app;
-  RespondentArguments arguments;
+  SolverArguments arguments;
   add_solver_options(app, arguments);
   app.add_flag("--exact", arguments.exact);
   std::ranges::reverse(words);
@@ -101,7 +120,7 @@ RespondentArguments settled(std::vector<std::string> words, bool built_in_set) {
   return arguments;
 }
 
-TEST(RespondentOptions, TheBuiltInSetHasFewerChecksUnlessToldOtherwise) {
+TEST(SolverOptions, TheBuiltInSetHasFewerChecksUnlessToldOtherwise) {
   const std::int64_t otherwise = fast::MethodOptions().max_checks;
   EXPECT_EQ(settled({}, true).options.max_checks, 100'000);
   EXPECT_EQ(settled({"--max-checks", std::to_string(otherwise)}, true).options.max_checks,
@@ -109,7 +128,7 @@ TEST(RespondentOptions, TheBuiltInSetHasFewerChecksUnlessToldOtherwise) {
   EXPECT_EQ(settled({"--method", "a"}, false).options.max_checks, otherwise);
 }
 
-TEST(RespondentOptions, WithoutASolverAreRefused) {
+TEST(SolverOptions, WithoutASolverAreRefused) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--exact"},
                                                 {"--query-limit", "1"},
                                                 {"--tolerance", "1e-6"},
@@ -122,56 +141,56 @@ TEST(RespondentOptions, WithoutASolverAreRefused) {
   }
 }
 
-TEST(Respondents, NoneIsNobody) {
-  RespondentArguments arguments;
-  EXPECT_TRUE(Respondents(arguments).all().empty());
+TEST(Solvers, NoneIsNoSolver) {
+  SolverArguments arguments;
+  EXPECT_TRUE(Solvers(arguments).all().empty());
   arguments.methods = {"none"};
   EXPECT_FALSE(arguments.empty());
-  EXPECT_TRUE(Respondents(arguments).all().empty());
+  EXPECT_TRUE(Solvers(arguments).all().empty());
 }
 
-TEST(Respondents, WhatIsNotThereIsAnError) {
-  RespondentArguments unknown, both, plugin, results;
+TEST(Solvers, WhatIsNotThereIsAnError) {
+  SolverArguments unknown, both, plugin, results;
   unknown.methods = {"nonsense"};
-  EXPECT_THROW(Respondents{unknown}, std::invalid_argument);
+  EXPECT_THROW(Solvers{unknown}, std::invalid_argument);
   both.methods = {"none", "nonsense"};
-  EXPECT_THROW(Respondents{both}, std::invalid_argument);
+  EXPECT_THROW(Solvers{both}, std::invalid_argument);
   plugin.plugins = {"missing.so"};
-  EXPECT_THROW(Respondents{plugin}, DatasetError);
+  EXPECT_THROW(Solvers{plugin}, DatasetError);
   results.results = {"missing.csv"};
-  EXPECT_THROW(Respondents{results}, DatasetError);
+  EXPECT_THROW(Solvers{results}, DatasetError);
 }
 
-TEST(Respondents, AnswersNeverAskedForAreAWarning) {
-  const fs::path path = fs::path(::testing::TempDir()) /
-                        ("touchstone_respondents_" + std::to_string(getpid()) + ".csv");
+TEST(Solvers, AnswersNeverAskedForAreAWarning) {
+  const fs::path path =
+      fs::path(::testing::TempDir()) / ("touchstone_solvers_" + std::to_string(getpid()) + ".csv");
   std::ofstream(path) << answers_header()
                       << answer_row("a", 0, Kind::edge_edge, {.verdict = fast::Verdict::no})
                       << answer_row("a", 1, Kind::edge_edge, {.verdict = fast::Verdict::no})
                       << answer_row("b", 0, Kind::edge_edge, {.verdict = fast::Verdict::no});
-  RespondentArguments arguments;
+  SolverArguments arguments;
   arguments.results = {path};
-  const Respondents respondents(arguments);
+  const Solvers solvers(arguments);
   fs::remove(path);
   const std::vector<Query> queries(1);
   const std::string a = "a", b = "b";
   std::vector<fast::Answer> answers(1);
   const auto ask = [&](const std::string& source, std::uint64_t index) {
     const std::vector<std::uint64_t> indices{index};
-    const Response response = respondents.all().front()->answer(
-        {.source = source, .kind = Kind::edge_edge, .queries = queries, .indices = indices},
+    const SolveReply reply = solvers.all().front()->solve(
+        {.kind = Kind::edge_edge, .queries = queries, .source = source, .indices = indices},
         answers);
-    EXPECT_TRUE(response.missing.empty());
+    EXPECT_TRUE(reply.missing.empty());
   };
   ask(a, 0);
-  const std::vector<std::string> warnings = respondents.warnings();
+  const std::vector<std::string> warnings = solvers.warnings();
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0], path.string() +
                              ":3: 2 answers are to queries that were not there, first to "
                              "edge-edge of a");
   ask(a, 1);
   ask(b, 0);
-  EXPECT_TRUE(respondents.warnings().empty());
+  EXPECT_TRUE(solvers.warnings().empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "verify/cli/respondents.hpp"
+#include "verify/cli/solver_options.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "exact/query.hpp"
+#include "fast/certified.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -25,34 +26,25 @@ constexpr std::int64_t built_in_max_checks = 100'000;
 constexpr double bytes_of_gibibyte = 0x1p30;
 constexpr double most_gibibytes = 1e6;
 
-std::string method_names() {
-  std::string names;
-  for (const auto& method : methods()) {
-    if (!names.empty()) names += ", ";
-    names += method->name();
+/// \throws std::invalid_argument for "none" beside others.
+std::vector<std::string> named_methods(const SolverArguments& arguments) {
+  const bool has_none = std::ranges::find(arguments.methods, no_method) != arguments.methods.end();
+  if (!has_none) return arguments.methods;
+  if (arguments.methods.size() > 1) {
+    throw std::invalid_argument("--method none excludes other methods");
   }
-  return names;
-}
-
-std::vector<const fast::Method*> named_methods(const std::vector<std::string>& names) {
-  if (names.size() == 1 && names.front() == no_method) return {};
-  std::vector<const fast::Method*> result;
-  for (const std::string& name : names) {
-    if (name == no_method) throw std::invalid_argument("--method none excludes other methods");
-    result.push_back(&find_method(name));
-  }
-  return result;
+  return {};
 }
 
 }  // namespace
 
-void add_solver_options(CLI::App& command, RespondentArguments& arguments) {
-  command.add_option("--method", arguments.methods, "A solver of ours: " + method_names())
+void add_solver_options(CLI::App& command, SolverArguments& arguments) {
+  command.add_option("--method", arguments.methods, "A built-in solver: " + method_names())
       ->type_name("NAME")
       ->allow_extra_args(false);
   command
       .add_option("--plugin", arguments.plugins,
-                  "Anyone's solver: a shared library with the interface of verify/plugin.h")
+                  "A solver of your own: a shared library with the interface of verify/plugin.h")
       ->type_name("LIB.so")
       ->allow_extra_args(false);
   command
@@ -89,26 +81,25 @@ void add_solver_options(CLI::App& command, RespondentArguments& arguments) {
       ->check(whole_number(0, INT64_MAX));
 }
 
-std::vector<std::filesystem::path> RespondentArguments::files() const {
+std::vector<std::filesystem::path> SolverArguments::files() const {
   std::vector<std::filesystem::path> all = plugins;
   all.insert(all.end(), results.begin(), results.end());
   return all;
 }
 
-ChildLimits RespondentArguments::limits() const {
+ChildLimits SolverArguments::limits() const {
   return {.memory_bytes = memory_limit, .may_fork = allow_processes};
 }
 
-std::unique_ptr<fast::Method> RespondentArguments::load(const std::filesystem::path& plugin) const {
+std::unique_ptr<fast::Method> SolverArguments::load(const std::filesystem::path& plugin) const {
   return load_plugin(plugin, {.limits = limits(), .stop = &interrupted()});
 }
 
-SolverProcessOptions RespondentArguments::process() const {
+SolverProcessOptions SolverArguments::process() const {
   return {.query_limit_seconds = query_limit, .stop = &interrupted(), .limits = limits()};
 }
 
-void settle_solver_options(const CLI::App& command, bool built_in_set,
-                           RespondentArguments& arguments) {
+void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArguments& arguments) {
   const auto is_given = [&](const std::string& name) {
     const CLI::Option* option = command.get_option_no_throw(name);
     return option != nullptr && option->count() != 0;
@@ -149,48 +140,56 @@ void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
       fmt::format("{} ended its process {} times, at no particular query", solver, crashes));
 }
 
-Respondents::Respondents(const RespondentArguments& arguments) {
+Solvers::Solvers(const SolverArguments& arguments, MethodHost host) {
   const SolverProcessOptions process = arguments.process();
-  for (const fast::Method* method : named_methods(arguments.methods)) {
-    add(arguments.query_limit > 0.0 ? respond_isolated(*method, arguments.options, process)
-                                    : respond_in_process(*method, arguments.options),
+  const bool in_children = host == MethodHost::children_with_limit && arguments.query_limit > 0.0;
+  for (const std::string& name : named_methods(arguments)) {
+    const fast::Method& method = method_named(name, arguments);
+    add(in_children ? solver_in_children(method, arguments.options, process)
+                    : solver_in_process(method, arguments.options),
         arguments.exact);
-    respondents_.back()->set_reach(reach_of(method->name()));
   }
   for (const std::filesystem::path& path : arguments.plugins) {
-    plugins_.push_back(arguments.load(path));
-    add(respond_isolated(*plugins_.back(), arguments.options, process), arguments.exact);
+    methods_.push_back(arguments.load(path));
+    add(solver_in_children(*methods_.back(), arguments.options, process), arguments.exact);
   }
   for (const std::filesystem::path& path : arguments.results) {
     results_.push_back({path, load_answers(path)});
-    add(respond_recorded(path.string(), results_.back().answers), arguments.exact);
+    add(recorded_solver(path.string(), results_.back().answers), arguments.exact);
   }
 }
 
-void Respondents::add(std::unique_ptr<Respondent> respondent, bool exact) {
-  if (exact) respondent->hold_to(fast::Promise::exact);
-  const std::string name = respondent->name();
-  const auto is_taken = [&](const auto& other) { return other->name() == respondent->name(); };
-  for (int number = 2; std::ranges::any_of(respondents_, is_taken); ++number) {
-    respondent->call(fmt::format("{} ({})", name, number));
-  }
-  respondents_.push_back(std::move(respondent));
+const fast::Method& Solvers::method_named(std::string_view name, const SolverArguments& arguments) {
+  const fast::Method& method = find_method(name);
+  if (arguments.kernel == nullptr || name != fast::certified_info().name) return method;
+  methods_.push_back(fast::certified_method({.kernel = arguments.kernel}));
+  return *methods_.back();
 }
 
-std::vector<const Respondent*> Respondents::all() const {
-  std::vector<const Respondent*> result;
-  result.reserve(respondents_.size());
-  for (const auto& respondent : respondents_) result.push_back(respondent.get());
+void Solvers::add(std::unique_ptr<Solver> solver, bool exact) {
+  if (exact) solver->hold_to(fast::Promise::exact);
+  const std::string name = solver->name();
+  const auto is_taken = [&](const auto& other) { return other->name() == solver->name(); };
+  for (int number = 2; std::ranges::any_of(solvers_, is_taken); ++number) {
+    solver->rename(fmt::format("{} ({})", name, number));
+  }
+  solvers_.push_back(std::move(solver));
+}
+
+std::vector<const Solver*> Solvers::all() const {
+  std::vector<const Solver*> result;
+  result.reserve(solvers_.size());
+  for (const auto& solver : solvers_) result.push_back(solver.get());
   return result;
 }
 
-void Respondents::report_output(bool show) const {
-  for (const auto& respondent : respondents_) {
-    cli::report_output(respondent->name(), respondent->output(), show);
+void Solvers::report_output(bool show) const {
+  for (const auto& solver : solvers_) {
+    cli::report_output(solver->name(), solver->take_output(), show);
   }
 }
 
-std::vector<std::string> Respondents::warnings() const {
+std::vector<std::string> Solvers::warnings() const {
   std::vector<std::string> result;
   for (const auto& [path, answers] : results_) {
     const std::uint64_t unasked = answers.unasked();

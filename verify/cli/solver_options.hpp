@@ -12,15 +12,16 @@
 #include <string_view>
 #include <vector>
 
+#include "fast/certified/kernel.hpp"
 #include "fast/method.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/solvers/answers.hpp"
-#include "verify/solvers/respondent.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::cli {
 
 /// What the user said of solvers.
-struct RespondentArguments {
+struct SolverArguments {
   std::vector<std::string> methods;
   std::vector<std::filesystem::path> plugins;
   std::vector<std::filesystem::path> results;
@@ -32,6 +33,8 @@ struct RespondentArguments {
   bool allow_processes = false;
   bool show_output = false;
   fast::MethodOptions options;
+  /// Of the certified solver; null: the best one for this processor.
+  const fast::CertifiedKernel* kernel = nullptr;
 
   /// Files that are read.
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
@@ -51,13 +54,12 @@ struct RespondentArguments {
 /// Adds --method, --plugin, --query-limit, --memory-limit, --allow-processes, --show-output,
 /// --tolerance and --max-checks; the arguments must live
 /// until the command line is parsed.
-void add_solver_options(CLI::App& command, RespondentArguments& arguments);
+void add_solver_options(CLI::App& command, SolverArguments& arguments);
 
 /// To be called on the arguments of a parsed command line: on the built-in set, which is made of the
 /// hardest queries, methods take fewer steps unless --max-checks says how many.
 /// \throws std::invalid_argument if an option of solvers is given and no solver is asked.
-void settle_solver_options(const CLI::App& command, bool built_in_set,
-                           RespondentArguments& arguments);
+void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArguments& arguments);
 
 /// Prints on standard error what a solver printed if that is asked for, line by line behind its name,
 /// printable (verify/io/printable.hpp); else how to see it. Nothing if it printed nothing.
@@ -66,19 +68,26 @@ void report_output(std::string_view solver, const CapturedOutput& output, bool s
 /// Says on standard error that a solver ended its process so often, unless that is never.
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes);
 
-/// The respondents of a run, and all that they need to live.
-class Respondents {
+/// Where methods answer.
+enum class MethodHost : std::uint8_t {
+  children_with_limit,  ///< in child processes if there is a limit of time for a query
+  this_process
+};
+
+/// The solvers of a run, and all that they need to live.
+class Solvers {
  public:
-  /// Those that the arguments name, in the order methods, plugins, results. Plugins, and with a
-  /// limit also methods, answer in child processes, until interrupted. The method "none" stands for
-  /// no method. Of several with one name, the second is called "NAME (2)", and so on.
+  /// Those that the arguments name, in the order methods, plugins, results. Plugins answer in child
+  /// processes, until interrupted. The method "none" stands for no method. Of several with one name,
+  /// the second is called "NAME (2)", and so on.
   /// \throws std::invalid_argument for an unknown method, or "none" beside others; DatasetError if a
   /// plugin or a file of answers cannot be loaded.
-  explicit Respondents(const RespondentArguments& arguments);
+  explicit Solvers(const SolverArguments& arguments,
+                   MethodHost host = MethodHost::children_with_limit);
 
-  [[nodiscard]] std::vector<const Respondent*> all() const;
+  [[nodiscard]] std::vector<const Solver*> all() const;
 
-  /// What they printed. Not to be called while one of them is asked.
+  /// What they printed since the last call of this. Not to be called while one of them is asked.
   void report_output(bool show) const;
 
   /// Files of answers with answers to queries that were never asked: a warning text each.
@@ -90,11 +99,14 @@ class Respondents {
     RecordedAnswers answers;
   };
 
-  void add(std::unique_ptr<Respondent> respondent, bool exact);
+  void add(std::unique_ptr<Solver> solver, bool exact);
+  [[nodiscard]] const fast::Method& method_named(std::string_view name,
+                                                 const SolverArguments& arguments);
 
-  std::vector<std::unique_ptr<fast::Method>> plugins_;
+  /// Methods that are not in the registry.
+  std::vector<std::unique_ptr<fast::Method>> methods_;
   std::deque<Results> results_;  // its elements stay where they are
-  std::vector<std::unique_ptr<Respondent>> respondents_;
+  std::vector<std::unique_ptr<Solver>> solvers_;
 };
 
 }  // namespace touchstone::verify::cli

@@ -1,0 +1,392 @@
+#include "verify/solvers/solver.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/methods.hpp"
+#include "tests/support/queries.hpp"
+#include "verify/generate/workload.hpp"
+#include "verify/mesh/moving_mesh.hpp"
+#include "verify/run/bench.hpp"
+#include "verify/run/stream.hpp"
+#include "verify/run/thread_clock.hpp"
+
+// A program of its own: it makes processes, which copy no threads.
+
+namespace touchstone::verify {
+namespace {
+
+using fast::Answer;
+using fast::Promise;
+using fast::Verdict;
+using tests::FunctionMethod;
+
+/// Queries whose first coordinate is their number in the source, which is 100 and up.
+struct Numbered {
+  std::string source = "a,file";
+  std::vector<Query> queries;
+  std::vector<std::uint64_t> indices;
+
+  explicit Numbered(std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      indices.push_back(100 + i);
+      queries.push_back({{static_cast<double>(100 + i)}});
+    }
+  }
+
+  [[nodiscard]] SolveRequest request() const {
+    return {.kind = Kind::edge_edge, .queries = queries, .source = source, .indices = indices};
+  }
+};
+
+/// Yes, the number as the time.
+Answer echo(Kind, const Query& query) {
+  return {.verdict = Verdict::yes, .toi_lower = query.coordinates[0]};
+}
+
+struct Outcome {
+  std::vector<Answer> answers;
+  SolveReply reply;
+
+  [[nodiscard]] double nanoseconds() const { return reply.time.value().processor_nanoseconds; }
+};
+
+Outcome ask(const Solver& solver, std::uint64_t count) {
+  const Numbered numbered(count);
+  Outcome outcome{.answers = std::vector<Answer>(count), .reply = {}};
+  outcome.reply = solver.solve_timed(numbered.request(), outcome.answers);
+  return outcome;
+}
+
+TEST(Solver, InThisAndInChildProcessesGivesTheMethodsAnswers) {
+  const FunctionMethod method(echo, Promise::conservative, "echo");
+  const auto in_process = solver_in_process(method, {}),
+             in_children = solver_in_children(method, {}, {});
+  for (const Solver* solver : {in_process.get(), in_children.get()}) {
+    EXPECT_EQ(solver->name(), "echo");
+    EXPECT_EQ(solver->promise(), Promise::conservative);
+    EXPECT_TRUE(solver->is_timed());
+    const Outcome outcome = ask(*solver, 50);
+    EXPECT_TRUE(outcome.reply.missing.empty());
+    EXPECT_GT(outcome.nanoseconds(), 0.0);
+    for (std::size_t i = 0; i < 50; ++i) {
+      EXPECT_EQ(outcome.answers[i].verdict, Verdict::yes);
+      EXPECT_EQ(outcome.answers[i].toi_lower, 100.0 + static_cast<double>(i));
+    }
+  }
+}
+
+TEST(Solver, TimeIsTheProcessorTimeOfTheMethod) {
+  const FunctionMethod burner([](Kind, const Query&) -> Answer {
+    const double start = thread_nanoseconds();
+    while (thread_nanoseconds() < start + 2e6) continue;
+    return {};
+  });
+  EXPECT_GE(ask(*solver_in_process(burner, {}), 10).nanoseconds(), 20e6);
+  EXPECT_GE(ask(*solver_in_children(burner, {}, {}), 10).nanoseconds(), 20e6);
+}
+
+TEST(Solver, ItIsHeldToWhatItIsToldTo) {
+  const FunctionMethod method(echo);
+  const auto solver = solver_in_process(method, {});
+  solver->hold_to(Promise::exact);
+  EXPECT_EQ(solver->promise(), Promise::exact);
+}
+
+TEST(Solver, AnExceptionCostsOneQuery) {
+  const FunctionMethod method([](Kind kind, const Query& query) {
+    if (query.coordinates[0] == 103.0) throw std::runtime_error("thrown by a solver");
+    return echo(kind, query);
+  });
+  const Outcome outcome = ask(*solver_in_process(method, {}), 10);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(outcome.answers[i].verdict, i == 3 ? Verdict::error : Verdict::yes) << i;
+  }
+  ASSERT_EQ(outcome.reply.failures.size(), 1U);
+  EXPECT_EQ(outcome.reply.failures[0].position, 3U);
+  EXPECT_EQ(to_text(outcome.reply.failures[0].failure), "exception: thrown by a solver");
+}
+
+TEST(Solver, ACrashAndAHangCostAQueryEachInChildProcesses) {
+  const FunctionMethod method([](Kind kind, const Query& query) {
+    if (query.coordinates[0] == 103.0) std::raise(SIGKILL);
+    while (query.coordinates[0] == 105.0) std::this_thread::sleep_for(std::chrono::seconds(1));
+    return echo(kind, query);
+  });
+  const Outcome outcome = ask(*solver_in_children(method, {}, {.query_limit_seconds = 0.5}), 10);
+  for (std::size_t i = 0; i < 10; ++i) {
+    const Verdict expected = i == 3 ? Verdict::error : (i == 5 ? Verdict::undecided : Verdict::yes);
+    EXPECT_EQ(outcome.answers[i].verdict, expected) << i;
+  }
+  ASSERT_EQ(outcome.reply.failures.size(), 2U);
+  EXPECT_EQ(outcome.reply.failures[0].position, 3U);
+  EXPECT_EQ(to_text(outcome.reply.failures[0].failure), "crash: SIGKILL");
+  EXPECT_EQ(outcome.reply.failures[1].position, 5U);
+  EXPECT_EQ(to_text(outcome.reply.failures[1].failure), "hang");
+}
+
+TEST(Solver, RecordedAnswersAreLookedUpBySourceKindAndIndex) {
+  const auto path = std::filesystem::path(::testing::TempDir()) /
+                    ("touchstone_solver_" + std::to_string(getpid()) + ".csv");
+  std::ofstream(path) << answers_header()
+                      << answer_row("a,file", 102, Kind::edge_edge, {.verdict = Verdict::error})
+                      << answer_row("a,file", 100, Kind::edge_edge,
+                                    {.verdict = Verdict::yes, .toi_lower = 0.25})
+                      << answer_row("a,file", 101, Kind::vertex_face, {.verdict = Verdict::no})
+                      << answer_row("other", 101, Kind::edge_edge, {.verdict = Verdict::no});
+  const RecordedAnswers answers = load_answers(path);
+  std::filesystem::remove(path);
+  const auto solver = recorded_solver("answers", answers);
+  EXPECT_EQ(solver->name(), "answers");
+  EXPECT_EQ(solver->promise(), Promise::none);
+  EXPECT_FALSE(solver->is_timed());
+  const Outcome outcome = ask(*solver, 4);
+  EXPECT_EQ(outcome.reply.missing, (std::vector<std::size_t>{1, 3}));
+  EXPECT_EQ(outcome.nanoseconds(), 0.0);
+  EXPECT_EQ(outcome.answers[0].verdict, Verdict::yes);
+  EXPECT_EQ(outcome.answers[0].toi_lower, 0.25);
+  EXPECT_EQ(outcome.answers[2].verdict, Verdict::error);
+  ASSERT_EQ(outcome.reply.failures.size(), 1U);
+  EXPECT_EQ(outcome.reply.failures[0].position, 2U);
+  EXPECT_EQ(outcome.reply.failures[0].failure.kind, FailureKind::no_verdict);
+}
+
+TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
+  const FunctionMethod slow([](Kind, const Query&) -> Answer {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return {};
+  });
+  const FunctionMethod fast_one(echo);
+  const auto slow_solver = solver_in_process(slow, {});
+  const auto fast_solver = solver_in_process(fast_one, {});
+  EXPECT_EQ(fast_solver->good_span(), 1U) << "not known yet";
+  static_cast<void>(ask(*slow_solver, 4));
+  static_cast<void>(ask(*fast_solver, 1000));
+  EXPECT_LE(slow_solver->good_span(), 2U);
+  EXPECT_GE(fast_solver->good_span(), 1000U);
+}
+
+TEST(Solver, TheMakingOfChildProcessesDoesNotShortenSpans) {
+  const FunctionMethod method(echo);
+  const auto in_children = solver_in_children(method, {}, {});
+  // What fork() costs grows with the memory of the process.
+  const std::vector<char> ballast(std::size_t{1} << 29U, 1);
+  EXPECT_EQ(ballast.back(), 1);
+  static_cast<void>(ask(*in_children, 16));
+  EXPECT_GE(in_children->good_span(), 1000U);
+}
+
+TEST(Solver, OneChildProcessAnswersCallAfterCall) {
+  const FunctionMethod method([](Kind, const Query&) {
+    return Answer{.verdict = Verdict::yes, .toi_lower = static_cast<double>(getpid())};
+  });
+  const auto in_children = solver_in_children(method, {}, {});
+  const double first = ask(*in_children, 3).answers.front().toi_lower;
+  EXPECT_NE(first, static_cast<double>(getpid()));
+  EXPECT_EQ(ask(*in_children, 3).answers.back().toi_lower, first);
+}
+
+TEST(Solver, KeepsWhatItsProcessesPrint) {
+  const FunctionMethod method([](Kind kind, const Query& query) {
+    std::printf("asked %g\n", query.coordinates[0]);
+    return echo(kind, query);
+  });
+  const auto in_children = solver_in_children(method, {}, {});
+  static_cast<void>(ask(*in_children, 2));
+  EXPECT_EQ(in_children->take_output().text, "asked 100\nasked 101\n");
+  static_cast<void>(ask(*in_children, 1));
+  EXPECT_EQ(in_children->take_output().text, "asked 100\n");
+  EXPECT_EQ(solver_in_process(method, {})->take_output().text, "");
+}
+
+TEST(Solver, SaysWhatItsChildProcessesDid) {
+  const pid_t parent = getpid();
+  int calls = 0;  // of each process
+  const FunctionMethod dies_late([&calls, parent](Kind kind, const Query& query) {
+    if (getpid() != parent && ++calls == 1500) std::raise(SIGKILL);
+    return echo(kind, query);
+  });
+  const Outcome outcome = ask(*solver_in_children(dies_late, {}, {}), Block::size);
+  EXPECT_EQ(outcome.reply.unplaced_crashes, 1U);
+  EXPECT_FALSE(outcome.reply.stopped);
+  EXPECT_EQ(outcome.answers.back().verdict, Verdict::yes);
+
+  const std::atomic<bool> stop = true;
+  const FunctionMethod hangs([](Kind, const Query&) -> Answer {
+    for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
+  });
+  EXPECT_TRUE(ask(*solver_in_children(hangs, {}, {.stop = &stop}), 10).reply.stopped);
+}
+
+TEST(Solver, MayBeCalledAnythingElse) {
+  const FunctionMethod method(echo, Promise::conservative, "echo");
+  const auto solver = solver_in_process(method, {});
+  solver->rename("echo (2)");
+  EXPECT_EQ(solver->name(), "echo (2)");
+  EXPECT_EQ(solver->info().name, "echo (2)");
+}
+
+TEST(Solver, GivesItsOptionsToTheMethodButTheSeparationOfTheRequest) {
+  class OptionsMethod final : public fast::Method {
+   public:
+    [[nodiscard]] const fast::MethodInfo& info() const override {
+      static const fast::MethodInfo info{.name = "options"};
+      return info;
+    }
+    void solve(Kind, std::span<const Query>, std::span<Answer> answers,
+               const fast::MethodOptions& options) const override {
+      std::ranges::fill(answers, Answer{.toi_lower = options.min_separation,
+                                        .toi_upper = static_cast<double>(options.norm),
+                                        .tolerance = options.tolerance});
+    }
+  };
+  const OptionsMethod method;
+  const fast::MethodOptions options{.tolerance = 0.125, .min_separation = 7.0};
+  const std::vector<Query> queries(1);
+  const auto here = solver_in_process(method, options),
+             in_child = solver_in_children(method, options, {});
+  for (const Solver* solver : {here.get(), in_child.get()}) {
+    std::vector<Answer> answers(1);
+    static_cast<void>(solver->solve(
+        {.queries = queries, .separation = {.distance = 0.5, .norm = Norm::l2}}, answers));
+    EXPECT_EQ(answers[0].tolerance, 0.125);
+    EXPECT_EQ(answers[0].toi_lower, 0.5);
+    EXPECT_EQ(answers[0].toi_upper, static_cast<double>(Norm::l2));
+  }
+}
+
+// ---- In child processes -------------------------------------------------------------------------
+
+constexpr auto vf = Kind::vertex_face;
+
+/// Vertices that fall onto a triangle, each from a height of its own.
+std::vector<Query> falling(std::size_t count) {
+  std::vector<Query> queries;
+  for (std::size_t i = 0; i < count; ++i) {
+    queries.push_back(tests::over_triangle(1, 1, 1.0 + static_cast<double>(i), -1).query);
+  }
+  return queries;
+}
+
+double height(const Query& query) { return query.at(0, 0, 2); }
+
+TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
+  // A file remembers the processes that ended.
+  const TemporaryFolder folder;
+  const std::string log = (folder.path() / "log").string();
+  const FunctionMethod method([&log](Kind kind, const Query& query) {
+    if (height(query) == 3.0) {
+      std::ofstream(log, std::ios::app) << "x";
+      std::raise(SIGKILL);
+    }
+    if (height(query) == 5.0) throw std::runtime_error("thrown");
+    return tests::true_answer(kind, query);
+  });
+  const auto solver = solver_in_children(method, {}, {});
+  const std::vector<Query> queries = falling(8);
+  std::vector<Answer> answers(queries.size());
+  std::uintmax_t ends = 0;
+  for (int round = 0; round < 3; ++round) {
+    const SolveReply reply = solver->solve({.kind = vf, .queries = queries}, answers);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      EXPECT_EQ(answers[i].verdict, i == 2 || i == 4 ? Verdict::error : Verdict::yes) << i;
+    }
+    ASSERT_EQ(reply.failures.size(), 2U);
+    EXPECT_EQ(reply.failures[0].position, 2U);
+    EXPECT_EQ(to_text(reply.failures[0].failure), "crash: SIGKILL");
+    EXPECT_EQ(reply.failures[1].position, 4U);
+    EXPECT_EQ(to_text(reply.failures[1].failure), "exception: thrown");
+    if (round == 0) ends = std::filesystem::file_size(log);
+  }
+  EXPECT_EQ(std::filesystem::file_size(log), ends);
+}
+
+/// The whole benchmark survives it.
+TEST(Solver, ACrashInABenchmarkCostsAQuery) {
+  const FunctionMethod method([](Kind kind, const Query& query) {
+    if (height(query) == 3.0) std::raise(SIGSEGV);
+    return tests::true_answer(kind, query);
+  });
+  const auto solver = solver_in_children(method, {}, {});
+  BenchOptions options;
+  options.repetitions = 2;
+  const BenchResult result = bench(QueryGroup("falling", vf, falling(8)),
+                                   std::vector<const Solver*>{solver.get()}, options);
+  const SolverResult& said = result.solvers.at(0);
+  EXPECT_EQ(said.queries, 8U);
+  EXPECT_EQ(said.judgement.count(FailureKind::crash), 1U);
+  EXPECT_EQ(said.judgement.count(Fault::error), 1U);
+  ASSERT_EQ(said.judgement.wrong_answers.size(), 1U);
+  EXPECT_EQ(said.judgement.wrong_answers[0].answer, "crash: SIGSEGV");
+  EXPECT_GT(said.times.median(), 0.0);
+  EXPECT_TRUE(said.singles.has_value());
+}
+
+// ---- Stages, and the certified solver by its own interfaces -------------------------------------
+
+TEST(Solver, StagesAreCountedInTheirOrder) {
+  const fast::MethodInfo& certified = fast::certified_info();
+  const std::vector<Query> queries{tests::over_triangle(1, 1, 1, -1).query,
+                                   tests::over_triangle(1, 1, 1, 0.5).query,
+                                   tests::over_triangle(1, 1, 1, -3).query};
+  std::vector<Answer> answers(queries.size());
+  std::vector<fast::CertifiedResult> results(queries.size());
+  const auto method = fast::certified_method();
+  static_cast<void>(
+      solver_in_process(*method, {})->solve({.kind = vf, .queries = queries}, answers));
+  fast::solve(vf, queries, results, {.max_threads = 1});
+  std::vector<StageCount> expected;
+  for (const std::string_view stage : {"axis", "direction", "determinant", "bisection", "exact"}) {
+    const auto is_it = [&](const auto& result) { return fast::name(result.stage) == stage; };
+    expected.push_back({stage, static_cast<std::uint64_t>(std::ranges::count_if(results, is_it))});
+  }
+  EXPECT_EQ(count_stages(certified, answers), expected);
+  EXPECT_EQ(certified.promise, Promise::exact);
+  EXPECT_TRUE(count_stages({.name = "other"}, answers).empty());
+}
+
+TEST(Solver, PairsAreAnsweredAsTheirQueriesAre) {
+  const MovingMesh mesh = moving_patches({.seed = 3, .cells = 6});
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const auto pairs = find_candidates(mesh, kind);
+    const fast::Candidates candidates = candidates_of(mesh, kind, pairs);
+    const auto queries = queries_of(mesh, candidates);
+    const auto with_queries = certified_queries({});
+    const auto with_pairs = certified_pairs(mesh.vertices, candidates, {});
+    EXPECT_EQ(with_queries->name(), "certified_queries");
+    EXPECT_EQ(with_pairs->name(), "certified_pairs");
+    EXPECT_FALSE(with_queries->only_as_a_whole());
+    EXPECT_TRUE(with_pairs->only_as_a_whole());
+    std::vector<Answer> expected(queries.size()), answers(queries.size());
+    const SolveRequest request{.kind = kind, .queries = queries};
+    EXPECT_TRUE(with_queries->solve(request, expected).time.has_value());
+    EXPECT_TRUE(with_pairs->solve(request, answers).time.has_value());
+    std::size_t hits = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      ASSERT_EQ(answers[i].verdict, expected[i].verdict) << i;
+      ASSERT_EQ(answers[i].verdict, tests::true_answer(kind, queries[i]).verdict) << i;
+      hits += answers[i].verdict == Verdict::yes ? 1U : 0U;
+    }
+    EXPECT_GT(hits, 0U);
+    EXPECT_LT(hits, queries.size());
+    EXPECT_THROW(
+        static_cast<void>(with_pairs->solve({.kind = kind, .queries = std::span(queries).first(1)},
+                                            std::span(answers).first(1))),
+        std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify

@@ -1,0 +1,338 @@
+#include "verify/solvers/solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include "verify/run/thread_clock.hpp"
+
+namespace touchstone::verify {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+/// What the queries that are asked at once should take.
+constexpr double span_seconds = 0.01;
+constexpr double longest_span = 1e6;
+
+fast::MethodOptions with_separation(fast::MethodOptions options, const SolveRequest& request) {
+  options.min_separation = request.separation.distance;
+  options.norm = request.separation.norm;
+  return options;
+}
+
+/// The time that work takes in this thread.
+template <class Work>
+SolverTime time_of(const Work& work) {
+  const double start = thread_nanoseconds();
+  const WallClock::time_point wall_start = WallClock::now();
+  work();
+  const double seconds = std::chrono::duration<double>(WallClock::now() - wall_start).count();
+  return {.processor_nanoseconds = thread_nanoseconds() - start, .wall_seconds = seconds};
+}
+
+// ---- In this process ----------------------------------------------------------------------------
+
+/// Solves one by one; a query where the method throws is in error.
+std::vector<QueryFailure> solve_despite_exceptions(const fast::Method& method,
+                                                   const SolveRequest& request,
+                                                   std::span<fast::Answer> answers,
+                                                   const fast::MethodOptions& options) {
+  std::vector<QueryFailure> failures;
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    try {
+      method.solve(request.kind, request.queries.subspan(i, 1), answers.subspan(i, 1), options);
+    } catch (const std::exception& error) {
+      answers[i] = {.verdict = fast::Verdict::error};
+      failures.push_back(
+          {.position = i, .failure = {.kind = FailureKind::exception, .what = error.what()}});
+    }
+  }
+  return failures;
+}
+
+class InProcess final : public Solver {
+ public:
+  InProcess(const fast::Method& method, const fast::MethodOptions& options)
+      : Solver(method.info()), method_(method), options_(options) {}
+
+  [[nodiscard]] SolveReply solve(const SolveRequest& request,
+                                 std::span<fast::Answer> answers) const override {
+    const fast::MethodOptions options = with_separation(options_, request);
+    try {
+      method_.solve(request.kind, request.queries, answers, options);
+    } catch (const std::exception&) {
+      std::ranges::fill(answers, fast::Answer{});
+      return {.failures = solve_despite_exceptions(method_, request, answers, options)};
+    }
+    return {};
+  }
+
+ private:
+  const fast::Method& method_;
+  fast::MethodOptions options_;
+};
+
+// ---- In child processes -------------------------------------------------------------------------
+
+class InChildren final : public Solver {
+ public:
+  InChildren(const fast::Method& method, const fast::MethodOptions& options,
+             const SolverProcessOptions& process)
+      : Solver(method.info()), method_(method), options_(options), process_(process) {}
+
+  [[nodiscard]] SolveReply solve(const SolveRequest& request,
+                                 std::span<fast::Answer> answers) const override {
+    SolveReply reply{.time = SolverTime{}};
+    std::unique_ptr<SolverProcess> process = take();
+    std::size_t first = 0;
+    for (const QueryFailure& lost : lost_among(request)) {
+      ask(*process, request, answers, first, lost.position, reply);
+      answers[lost.position] = {.verdict = verdict_of(lost.failure.kind)};
+      reply.failures.push_back(lost);
+      first = lost.position + 1;
+    }
+    ask(*process, request, answers, first, answers.size(), reply);
+    give_back(std::move(process));
+    return reply;
+  }
+
+  [[nodiscard]] CapturedOutput take_output() const override {
+    const std::scoped_lock lock(mutex_);
+    CapturedOutput output;
+    for (const auto& process : idle_) {
+      const CapturedOutput more = process->take_output();
+      output.append(more.text.data(), more.text.size());
+      output.dropped += more.dropped;
+    }
+    return output;
+  }
+
+ private:
+  /// A query by its bits.
+  using QueryBits =
+      std::pair<Kind, std::array<std::uint64_t, std::tuple_size_v<decltype(Query::coordinates)>>>;
+
+  static QueryBits bits_of(Kind kind, const Query& query) {
+    return {kind, std::bit_cast<QueryBits::second_type>(query.coordinates)};
+  }
+
+  /// Asks for the answers from number `first` to before `last`.
+  void ask(SolverProcess& process, const SolveRequest& request, std::span<fast::Answer> answers,
+           std::size_t first, std::size_t last, SolveReply& reply) const {
+    if (reply.stopped) return;
+    SolverTime& time = reply.time.value();
+    SolverRun run =
+        process.solve(request.kind, request.queries.subspan(first, last - first),
+                      answers.subspan(first, last - first), with_separation(options_, request));
+    time.processor_nanoseconds += 1e9 * run.processor_seconds;
+    time.wall_seconds += run.wall_seconds;
+    reply.unplaced_crashes += run.unplaced_crashes;
+    reply.stopped = run.answered < last - first;
+    for (QueryFailure& failure : run.failures) {
+      failure.position += first;
+      if (failure.failure.kind != FailureKind::exception) {
+        remember(request.kind, request.queries[failure.position], failure.failure);
+      }
+      reply.failures.push_back(std::move(failure));
+    }
+  }
+
+  // ---- Queries that ended a process or took too long
+
+  void remember(Kind kind, const Query& query, const Failure& failure) const {
+    const std::scoped_lock lock(mutex_);
+    lost_.emplace(bits_of(kind, query), failure);
+  }
+
+  [[nodiscard]] std::vector<QueryFailure> lost_among(const SolveRequest& request) const {
+    const std::scoped_lock lock(mutex_);
+    std::vector<QueryFailure> found;
+    for (std::size_t i = 0; i < request.queries.size() && !lost_.empty(); ++i) {
+      const auto lost = lost_.find(bits_of(request.kind, request.queries[i]));
+      if (lost != lost_.end()) found.push_back({.position = i, .failure = lost->second});
+    }
+    return found;
+  }
+
+  // ---- Processes that nobody else asks
+
+  [[nodiscard]] std::unique_ptr<SolverProcess> take() const {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.empty()) return std::make_unique<SolverProcess>(method_, process_);
+    std::unique_ptr<SolverProcess> process = std::move(idle_.back());
+    idle_.pop_back();
+    return process;
+  }
+
+  void give_back(std::unique_ptr<SolverProcess> process) const {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(process));
+  }
+
+  const fast::Method& method_;
+  fast::MethodOptions options_;
+  SolverProcessOptions process_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<SolverProcess>> idle_;
+  mutable std::map<QueryBits, Failure> lost_;
+};
+
+// ---- Recorded -----------------------------------------------------------------------------------
+
+class Recorded final : public Solver {
+ public:
+  Recorded(std::string_view name, const RecordedAnswers& answers)
+      : Solver(fast::MethodInfo{.name = name}), answers_(answers) {}
+
+  [[nodiscard]] bool is_timed() const override { return false; }
+
+  [[nodiscard]] SolveReply solve(const SolveRequest& request,
+                                 std::span<fast::Answer> answers) const override {
+    SolveReply reply;
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      const auto answer = answers_.answer_to(request.source, request.kind, request.indices[i]);
+      if (!answer) {
+        reply.missing.push_back(i);
+        continue;
+      }
+      answers[i] = answer->answer;
+      if (answer->failure) {
+        reply.failures.push_back({.position = i, .failure = {.kind = *answer->failure}});
+      }
+    }
+    return reply;
+  }
+
+ private:
+  const RecordedAnswers& answers_;
+};
+
+// ---- The certified solver by its own interfaces -------------------------------------------------
+
+class Collisions final : public Solver {
+ public:
+  using Find = std::function<std::vector<fast::Collision>(const SolveRequest&,
+                                                          const fast::CertifiedOptions&)>;
+
+  Collisions(std::string_view name, bool only_as_a_whole, const fast::CertifiedOptions& options,
+             Find find)
+      : Solver(fast::MethodInfo{.name = name, .promise = fast::Promise::exact}),
+        only_as_a_whole_(only_as_a_whole),
+        options_(options),
+        find_(std::move(find)) {
+    options_.max_threads = 1;
+  }
+
+  [[nodiscard]] bool only_as_a_whole() const override { return only_as_a_whole_; }
+
+  /// Times the finding of collisions alone; writing the answers is not part of the interface. One
+  /// answer is written faster than the thread's clock is read.
+  [[nodiscard]] SolveReply solve(const SolveRequest& request,
+                                 std::span<fast::Answer> answers) const override {
+    fast::CertifiedOptions options = options_;
+    options.separation = request.separation;
+    std::vector<fast::Collision> collisions;
+    const auto find = [&] { collisions = find_(request, options); };
+    SolveReply reply;
+    if (answers.size() == 1) {
+      find();
+    } else {
+      reply.time = time_of(find);
+    }
+    std::ranges::fill(answers, fast::Answer{.verdict = fast::Verdict::no});
+    for (const auto& [candidate, result] : collisions) {
+      answers[candidate] = {.verdict = result.verdict,
+                            .toi_lower = result.toi_lower,
+                            .toi_upper = result.toi_upper,
+                            .tolerance = fast::Answer::none};
+    }
+    return reply;
+  }
+
+ private:
+  bool only_as_a_whole_;
+  fast::CertifiedOptions options_;
+  Find find_;
+};
+
+}  // namespace
+
+Solver::Solver(const fast::MethodInfo& info) : name_(info.name), info_(info) { info_.name = name_; }
+
+void Solver::rename(std::string name) {
+  name_ = std::move(name);
+  info_.name = name_;
+}
+
+SolveReply Solver::solve_timed(const SolveRequest& request, std::span<fast::Answer> answers) const {
+  SolveReply reply;
+  SolverTime time = time_of([&] { reply = solve(request, answers); });
+  if (!is_timed()) time.processor_nanoseconds = 0.0;
+  reply.time = reply.time.value_or(time);
+  if (!answers.empty()) {
+    pace_ = reply.time.value().wall_seconds / static_cast<double>(answers.size());
+  }
+  return reply;
+}
+
+std::size_t Solver::good_span() const {
+  const double queries = span_seconds / std::max(pace_.load(), span_seconds / longest_span);
+  return std::max<std::size_t>(1, static_cast<std::size_t>(queries));
+}
+
+std::unique_ptr<Solver> solver_in_process(const fast::Method& method,
+                                          const fast::MethodOptions& options) {
+  return std::make_unique<InProcess>(method, options);
+}
+
+std::unique_ptr<Solver> solver_in_children(const fast::Method& method,
+                                           const fast::MethodOptions& options,
+                                           const SolverProcessOptions& process) {
+  return std::make_unique<InChildren>(method, options, process);
+}
+
+std::unique_ptr<Solver> recorded_solver(std::string_view name, const RecordedAnswers& answers) {
+  return std::make_unique<Recorded>(name, answers);
+}
+
+std::unique_ptr<Solver> certified_queries(const fast::CertifiedOptions& certified) {
+  return std::make_unique<Collisions>(
+      "certified_queries", false, certified,
+      [](const SolveRequest& request, const fast::CertifiedOptions& options) {
+        return fast::collisions(request.kind, request.queries, options);
+      });
+}
+
+std::unique_ptr<Solver> certified_pairs(const fast::MovingVertices& vertices,
+                                        const fast::Candidates& candidates,
+                                        const fast::CertifiedOptions& certified) {
+  const auto find = [&vertices, candidates](const SolveRequest& request,
+                                            const fast::CertifiedOptions& options) {
+    if (request.kind != candidates.kind || request.queries.size() != candidates.pairs.size()) {
+      throw std::invalid_argument("certified_pairs: these are not the queries of its candidates");
+    }
+    return fast::collisions(vertices, candidates, options);
+  };
+  return std::make_unique<Collisions>("certified_pairs", true, certified, find);
+}
+
+std::vector<StageCount> count_stages(const fast::MethodInfo& info,
+                                     std::span<const fast::Answer> answers) {
+  std::vector<StageCount> counts;
+  for (const std::string_view stage : info.stages) counts.push_back({stage, 0});
+  for (const fast::Answer& answer : answers) {
+    const bool is_of_stage = answer.checks >= 1 && answer.checks <= counts.size();
+    if (is_of_stage) ++counts[answer.checks - 1].queries;
+  }
+  return counts;
+}
+
+}  // namespace touchstone::verify

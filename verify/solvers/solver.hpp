@@ -1,0 +1,146 @@
+#pragma once
+
+/// \file
+/// A solver under test: a method in this process or in child processes, a file of its answers, or the
+/// certified solver through an interface of its own. Every job asks all of them in the same way.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/certified.hpp"
+#include "fast/method.hpp"
+#include "verify/solvers/answers.hpp"
+#include "verify/solvers/failure.hpp"
+#include "verify/solvers/solver_process.hpp"
+
+namespace touchstone::verify {
+
+/// Some queries, and where they come from.
+struct SolveRequest {
+  Kind kind = Kind::vertex_face;
+  std::span<const Query> queries;
+  /// What counts as contact. Methods take it from here, whatever their MethodOptions say.
+  Separation separation = {};
+  /// By which recorded answers are found: the name of the source, and the queries' numbers in it.
+  std::string_view source = {};
+  std::span<const std::uint64_t> indices = {};
+};
+
+/// What a solver took.
+struct SolverTime {
+  double processor_nanoseconds = 0.0;  ///< of all its threads
+  double wall_seconds = 0.0;
+};
+
+/// What came with the answers.
+struct SolveReply {
+  /// Where that is not the time of the whole call in this thread: what the solver itself took, without
+  /// the making of child processes.
+  std::optional<SolverTime> time = std::nullopt;
+  /// Positions in the span of the queries without an answer, ascending.
+  std::vector<std::size_t> missing = {};
+  /// Of queries without an answer, ascending, where more is known than the answers show: those
+  /// without a failure here may have one that failure_of() tells of.
+  std::vector<QueryFailure> failures = {};
+  /// Processes that it ended at no particular query: see solver_process.hpp.
+  std::uint64_t unplaced_crashes = 0;
+  /// Was it stopped? Then the answers are incomplete.
+  bool stopped = false;
+};
+
+/// Answers queries. Safe to use from several threads at once.
+class Solver {
+ public:
+  explicit Solver(const fast::MethodInfo& info);
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
+  Solver(Solver&&) = delete;
+  Solver& operator=(Solver&&) = delete;
+  virtual ~Solver() = default;
+
+  /// The description of its method, under its own name and promise.
+  [[nodiscard]] const fast::MethodInfo& info() const { return info_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+  void rename(std::string name);
+  /// What its answers are judged by: its own promise unless hold_to() says otherwise.
+  [[nodiscard]] fast::Promise promise() const { return info_.promise; }
+  void hold_to(fast::Promise promise) { info_.promise = promise; }
+
+  /// Is its processor time known?
+  [[nodiscard]] virtual bool is_timed() const { return true; }
+  /// Does it take its queries from elsewhere, so that it can be asked for all of them only?
+  [[nodiscard]] virtual bool only_as_a_whole() const { return false; }
+
+  /// Answers query i in answers[i], in this thread or in a child process that it waits for.
+  /// \pre both spans have the same length.
+  [[nodiscard]] virtual SolveReply solve(const SolveRequest& request,
+                                         std::span<fast::Answer> answers) const = 0;
+
+  /// The same, with the time in any case; the processor time is 0 where it is not known.
+  [[nodiscard]] SolveReply solve_timed(const SolveRequest& request,
+                                       std::span<fast::Answer> answers) const;
+
+  /// How many queries to ask at once, by the pace of the latest solve_timed(): as many as take some
+  /// milliseconds. Few for slow solvers, so that all cores have work and an interrupt costs little;
+  /// many for fast ones, so that neither clock nor child process shows in the time.
+  [[nodiscard]] std::size_t good_span() const;
+
+  /// What its child processes printed since the last call of this, which forgets it. Not to be called
+  /// while another thread is in solve().
+  [[nodiscard]] virtual CapturedOutput take_output() const { return {}; }
+
+ private:
+  std::string name_;
+  fast::MethodInfo info_;
+  /// Wall-clock seconds a query, of the latest call; a guess before there is one.
+  mutable std::atomic<double> pace_ = 1.0;
+};
+
+/// A method in this process. A query where it throws an exception is answered Verdict::error.
+/// The method must live as long as the solver, here and below.
+[[nodiscard]] std::unique_ptr<Solver> solver_in_process(const fast::Method& method,
+                                                        const fast::MethodOptions& options);
+
+/// A method in child processes, one for each thread that asks at the same time. A crash or a hang
+/// costs one query, which is not asked again.
+[[nodiscard]] std::unique_ptr<Solver> solver_in_children(const fast::Method& method,
+                                                         const fast::MethodOptions& options,
+                                                         const SolverProcessOptions& process);
+
+/// Recorded answers, looked up by source, kind and index. They promise nothing.
+[[nodiscard]] std::unique_ptr<Solver> recorded_solver(std::string_view name,
+                                                      const RecordedAnswers& answers);
+
+/// The certified solver by its own interface, fast::collisions, as `certified_queries`: on the array
+/// of queries, in one thread. Its separation is that of the request.
+[[nodiscard]] std::unique_ptr<Solver> certified_queries(const fast::CertifiedOptions& certified);
+
+/// The same from index pairs, as `certified_pairs`. The queries that it is asked must be those of
+/// all the candidates; it does not look at them. The mesh must live as long as the solver.
+/// Its solve() throws std::invalid_argument for another kind or number of queries.
+[[nodiscard]] std::unique_ptr<Solver> certified_pairs(const fast::MovingVertices& vertices,
+                                                      const fast::Candidates& candidates,
+                                                      const fast::CertifiedOptions& certified);
+
+/// So many queries were decided by a stage of that name.
+struct StageCount {
+  std::string_view stage;
+  std::uint64_t queries = 0;
+
+  friend bool operator==(const StageCount&, const StageCount&) = default;
+};
+
+/// How many of the answers each stage gave, all stages in their order; empty for a method without
+/// stages.
+[[nodiscard]] std::vector<StageCount> count_stages(const fast::MethodInfo& info,
+                                                   std::span<const fast::Answer> answers);
+
+}  // namespace touchstone::verify
