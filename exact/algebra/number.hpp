@@ -1,19 +1,25 @@
 #pragma once
 
 /// \file
-/// The exact numbers of this room, and the only ways between them and doubles.
+/// The exact numbers of this module, and the only conversions between them and doubles.
 ///
-/// Integer and Rational are GMP's C++ classes in their role as CGAL number types (CGAL/gmpxx.h
-/// gives them CGAL's algebraic traits).
+/// They are CGAL's. CGAL chooses the class by its configuration; this project needs the one with GMP's
+/// C++ classes (CGAL_USE_GMPXX, CMake option WITH_GMPXX), which are the fastest, and whose functions it
+/// uses.
 
+#include <CGAL/Exact_integer.h>
+#include <CGAL/Exact_rational.h>
 #include <gmpxx.h>
 
 #include <string_view>
+#include <type_traits>
 
 namespace touchstone::exact {
 
-using Integer = mpz_class;
-using Rational = mpq_class;
+using Integer = CGAL::Exact_integer;
+using Rational = CGAL::Exact_rational;
+static_assert(std::is_same_v<Integer, mpz_class> && std::is_same_v<Rational, mpq_class>,
+              "CGAL must be configured with GMP's C++ classes (libgmpxx)");
 
 /// A closed interval of rationals, lower ≤ upper; a single number where they are equal.
 struct RationalInterval {

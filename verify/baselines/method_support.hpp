@@ -46,9 +46,6 @@ struct Baseline {
 /// [0,1]?
 [[nodiscard]] bool are_valid(const fast::MethodOptions& options);
 
-/// Are all coordinates finite?
-[[nodiscard]] bool is_finite(const Query& query);
-
 /// As many steps as an answer can say.
 [[nodiscard]] std::uint32_t to_checks(std::int64_t steps);
 

@@ -239,7 +239,7 @@ class Run {
 
   [[nodiscard]] Truth truth_of(std::size_t position) const {
     return verify::truth_of(position,
-                            Decision(group_.kind(), queries_[position], options_.separation));
+                            exact::decide(group_.kind(), queries_[position], options_.separation));
   }
 
   /// The truth of these queries, or of the first of them if stopped.

@@ -23,7 +23,7 @@
 #include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/fuzz/recheck.hpp"
-#include "verify/judge/ground_truth.hpp"
+#include "exact/oracle.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
@@ -57,7 +57,7 @@ void expect_found(FindingKind what, const FuzzResult& result) {
   EXPECT_FALSE(finding.original.detail.empty());
   EXPECT_FALSE(finding.generator.empty());
   EXPECT_EQ(finding.original.collides,
-            Decision(finding.kind, finding.original.query, finding.separation).collides());
+            exact::decide(finding.kind, finding.original.query, finding.separation).collides());
   // It was not to be made simpler.
   EXPECT_EQ(finding.simplest.query, finding.original.query);
   EXPECT_EQ(finding.shrinking, Shrinking::not_tried);

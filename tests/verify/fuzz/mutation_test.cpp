@@ -62,7 +62,7 @@ TEST(Mutated, StaysFiniteWhereverItStarts) {
     for (int i = 0; i < 5000; ++i) {
       query = mutated(query, random);
       ASSERT_TRUE(
-          std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); }));
+          is_finite(query));
     }
   }
 }
