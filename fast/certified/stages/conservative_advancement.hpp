@@ -187,7 +187,8 @@ class PreciseProof {
                         Value(gap_bound.underflow(greatest_size));
     const std::array<Precise, 2> weights{filters::exact_difference(Value(1.0), time), exact(time)};
     Value least(0x1p1000);
-    for (const auto& [plus, minus, u, v] : corner_points) {
+    for (const Corner& corner : corner_points) {
+      const std::size_t plus = corner.plus, minus = corner.minus;
       std::array<Precise, filters::AdvancedGap::coordinates> x;
       x.fill(exact(Value(0.0)));
       for (std::size_t axis = 0; axis < 3; ++axis) {
