@@ -1,5 +1,8 @@
 #include "exact/algebra/number.hpp"
 
+#include <CGAL/Exact_integer.h>
+#include <CGAL/Exact_rational.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
