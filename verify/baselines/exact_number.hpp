@@ -60,7 +60,7 @@ class ExactNumber {
   friend bool same_sign(const ExactNumber& a, const ExactNumber& b) { return a.sign() == b.sign(); }
   /// About a/b. \pre b is not 0.
   friend double quotient(const ExactNumber& a, const ExactNumber& b) {
-    return exact_stage::quotient(a.value_.approximation(), b.value_.approximation());
+    return fast::exact_stage::quotient(a.value_.approximation(), b.value_.approximation());
   }
   friend bool is_zero(const ExactNumber& a) { return a.sign() == 0; }
 
