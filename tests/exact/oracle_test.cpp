@@ -216,8 +216,7 @@ void expect_toi(const PosedQuery& posed, const Rational& toi) {
   SCOPED_TRACE(posed);
   const Verdict verdict = decide(posed);
   ASSERT_TRUE(verdict.collides());
-  EXPECT_TRUE(*verdict.toi == toi)
-      << toi << " expected, near " << verdict.toi->enclosure().lower;
+  EXPECT_TRUE(*verdict.toi == toi) << toi << " expected, near " << verdict.toi->enclosure().lower;
   EXPECT_TRUE(touches_at(posed, toi));
   check_contact(posed, verdict);
 }

@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include "exact/oracle.hpp"
 #include "tests/mutants/hunt.hpp"
 #include "tests/mutants/mutants.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/fuzz/reproduce.hpp"
-#include "exact/oracle.hpp"
 
 namespace touchstone::tests {
 namespace {

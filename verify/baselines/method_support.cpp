@@ -51,7 +51,8 @@ NearestRounding::~NearestRounding() { std::fesetenv(&callers_); }
 
 bool are_valid(const fast::MethodOptions& options) {
   return std::isfinite(options.tolerance) && options.tolerance > 0.0 &&
-         std::isfinite(options.min_separation) && options.min_separation >= 0.0 && options.t_max >= 0.0 && options.t_max <= 1.0;
+         std::isfinite(options.min_separation) && options.min_separation >= 0.0 &&
+         options.t_max >= 0.0 && options.t_max <= 1.0;
 }
 
 std::uint32_t to_checks(std::int64_t steps) {

@@ -71,7 +71,8 @@ Answer answer_of(const CertifiedResult& judged) {
 }
 
 FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
-                         const exact::Verdict& verdict, std::string detail, std::string_view label) {
+                         const exact::Verdict& verdict, std::string detail,
+                         std::string_view label) {
   return {.query = query,
           .answer = answer,
           .collides = verdict.collides(),

@@ -41,8 +41,8 @@ void Truths::decide(const Separation& separation, std::span<const std::size_t> p
     arena.execute([&] {
       tbb::parallel_for(first, last, [&](std::size_t i) {
         const std::size_t position = positions[i];
-        known[position] =
-            truth_of(position, exact::decide(group_.kind(), group_.queries()[position], separation));
+        known[position] = truth_of(
+            position, exact::decide(group_.kind(), group_.queries()[position], separation));
       });
     });
     decided_ += last - first;

@@ -159,7 +159,8 @@ class BlockJudgement {
     verdicts.reserve(count);
     const double start = thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {
-      verdicts.push_back(exact::decide(block_.kind, block_.queries[first + i], options_.separation));
+      verdicts.push_back(
+          exact::decide(block_.kind, block_.queries[first + i], options_.separation));
     }
     part.nanoseconds = thread_nanoseconds() - start;
     const bool wants_toi = options_.on_truth || !options_.respondents.empty();

@@ -52,7 +52,8 @@ class BlockProofs {
     verdicts.reserve(count);
     const double start = thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {
-      verdicts.push_back(exact::decide(block_.kind, block_.queries[first + i], options_.separation));
+      verdicts.push_back(
+          exact::decide(block_.kind, block_.queries[first + i], options_.separation));
     }
     const double decided = thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "exact/certificate.hpp"
+#include "exact/oracle.hpp"
 #include "exact/query.hpp"
 #include "verify/data/query_source.hpp"
-#include "exact/oracle.hpp"
 
 namespace touchstone::verify {
 

@@ -22,8 +22,8 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <cstdint>
+#include <span>
 
 #include "fast/certified/stages/closest_point.hpp"
 #include "filters/double_double.hpp"

@@ -226,7 +226,8 @@ TEST(DistanceOracle, TheSearchAtDistanceZeroAgreesWithTheContactOracle) {
         tests::random_query(random, kind, tests::all_families.at(static_cast<std::size_t>(i % 4)));
     const Verdict plain = decide(kind, posed.query);
     for (const Norm norm : both_norms) {
-      expect_same(decide_distance(scale_uniformly(kind, posed.query, {0.0, norm})).toi, plain.toi, posed);
+      expect_same(decide_distance(scale_uniformly(kind, posed.query, {0.0, norm})).toi, plain.toi,
+                  posed);
     }
   }
 }

@@ -8,8 +8,8 @@
 #include <cstddef>
 
 #include "exact/algebra/number.hpp"
-#include "tests/support/trials.hpp"
 #include "exact/oracle.hpp"
+#include "tests/support/trials.hpp"
 
 namespace touchstone::verify {
 namespace {

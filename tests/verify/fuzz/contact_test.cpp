@@ -8,10 +8,10 @@
 #include <set>
 
 #include "exact/algebra/number.hpp"
+#include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
-#include "exact/oracle.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -112,7 +112,8 @@ TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
     double greatest = 0.0;
     for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
     hits += exact::decide(kind, query).collides() ? 1 : 0;
-    near += exact::decide(kind, query, {.distance = greatest * 0x1p-9, .norm = Norm::l2}).collides();
+    near +=
+        exact::decide(kind, query, {.distance = greatest * 0x1p-9, .norm = Norm::l2}).collides();
   });
   EXPECT_GT(hits, tests::trials(16));
   EXPECT_GT(near, hits + tests::trials(80));

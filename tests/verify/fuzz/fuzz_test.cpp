@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "exact/oracle.hpp"
 #include "fast/certified.hpp"
 #include "fast/tight_inclusion.hpp"
 #include "tests/support/methods.hpp"
@@ -23,7 +24,6 @@
 #include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/fuzz/recheck.hpp"
-#include "exact/oracle.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "exact/oracle.hpp"
 #include "fast/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
-#include "exact/oracle.hpp"
 
 namespace touchstone::verify {
 namespace {

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "exact/algebra/number.hpp"
+#include "exact/oracle.hpp"
 #include "exact/query.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/generate/random.hpp"
-#include "exact/oracle.hpp"
 
 namespace touchstone::verify {
 namespace {

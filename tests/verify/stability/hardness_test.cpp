@@ -277,7 +277,8 @@ TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
                 {.hardness = &hardness, .exponent = exponent, .kind = kind, .separation = asked},
                 seed, index);
             collisions += made.collides ? 1U : 0U;
-            const exact::Verdict truth = exact::decide(kind, made.query, separation_at(hardness, exponent, asked));
+            const exact::Verdict truth =
+                exact::decide(kind, made.query, separation_at(hardness, exponent, asked));
             ASSERT_EQ(truth.collides(), made.collides);
           }
           EXPECT_EQ(collisions, trials(16U) / 2) << hardness.name << " 2^" << exponent << " "
