@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "exact/contact/corner_motion.hpp"
+#include "exact/distance/distance_oracle.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/public_data.hpp"
@@ -428,12 +430,12 @@ TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
         const PosedQuery posed{kind, verify::make_query(family, kind, 8, i).query};
         for (const Norm norm : {Norm::linf, Norm::l2}) {
           for (const double distance : {0.125, 1e-30}) trip.add(posed, {distance, norm});
-          // By the walk, which knows nothing of the plain oracle.
-          const auto walked = decide_distance(scale_uniformly(kind, posed.query, {0.0, norm}));
-          const Verdict plain = decide(kind, posed.query);
-          ASSERT_EQ(walked.collides(), plain.collides()) << family.name << posed;
-          if (plain.collides()) {
-            ASSERT_TRUE(*walked.toi == *plain.toi) << family.name << posed;
+          // The two oracles agree at distance 0.
+          const Verdict other = decide_distance(scale_uniformly(kind, posed.query, {0.0, norm}));
+          const Verdict verdict = decide(kind, posed.query);
+          ASSERT_EQ(other.collides(), verdict.collides()) << family.name << posed;
+          if (verdict.collides()) {
+            ASSERT_TRUE(*other.toi == *verdict.toi) << family.name << posed;
           }
         }
       }

@@ -41,6 +41,9 @@ std::int64_t milliseconds() {
   return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
 }
 
+std::atomic<std::int64_t (*)()> interrupt_clock = milliseconds;
+static_assert(std::atomic<std::int64_t (*)()>::is_always_lock_free);
+
 void wake_waiting_threads() {
   if (::getpid() != interrupted_process) return;
   const std::uint64_t one = 1;
@@ -50,7 +53,7 @@ void wake_waiting_threads() {
 
 extern "C" void on_signal(int signal) {
   const int error = errno;
-  const std::int64_t now = milliseconds();
+  const std::int64_t now = interrupt_clock.load()();
   std::int64_t first = 0;
   if (interrupt_time.compare_exchange_strong(first, now)) {
     interrupt_flag = true;
@@ -146,6 +149,8 @@ const std::atomic<bool>& interrupted() {
   static_cast<void>(installed);
   return interrupt_flag;
 }
+
+void set_interrupt_clock(std::int64_t (*milliseconds)()) { interrupt_clock = milliseconds; }
 
 void wait_for_input(int descriptor) { wait_for(descriptor, POLLIN, -1); }
 

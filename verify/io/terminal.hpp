@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -59,6 +60,10 @@ inline constexpr int same_interrupt_milliseconds = 200;
 /// the next one (later than `same_interrupt_milliseconds`) ends the process at once, as if the
 /// function had never been called. A hangup that is ignored (as nohup has it) stays ignored.
 [[nodiscard]] const std::atomic<bool>& interrupted();
+
+/// Replaces the clock that tells interrupts apart, for tests: milliseconds that only go forward, positive. Called in a
+/// signal handler.
+void set_interrupt_clock(std::int64_t (*milliseconds)());
 
 /// Thrown where an interrupt ends a wait for input.
 class Interrupted : public std::runtime_error {

@@ -16,16 +16,16 @@ using tests::over_edge;
 using tests::over_triangle;
 using tests::Score;
 
-const std::unique_ptr<Method> method = baselines::accd_method();
+const std::unique_ptr<fast::Method> method = baselines::accd_method();
 
 TEST(Accd, AnswersThePrintedQueries) {
   EXPECT_EQ(method->name(), "accd");
-  EXPECT_EQ(method->promise(), Promise::none);
-  const Answer hourglass = answer_to(*method, tests::printed_hourglass());
-  EXPECT_EQ(hourglass.verdict, Verdict::yes);
+  EXPECT_EQ(method->promise(), fast::Promise::none);
+  const fast::Answer hourglass = answer_to(*method, tests::printed_hourglass());
+  EXPECT_EQ(hourglass.verdict, fast::Verdict::yes);
   EXPECT_LT(hourglass.toi_lower, 0.9);
-  const Answer coplanar = answer_to(*method, tests::printed_coplanar());
-  EXPECT_EQ(coplanar.verdict, Verdict::yes);
+  const fast::Answer coplanar = answer_to(*method, tests::printed_coplanar());
+  EXPECT_EQ(coplanar.verdict, fast::Verdict::yes);
   EXPECT_LT(coplanar.toi_lower, 0.07 / 0.29);
 }
 
@@ -35,8 +35,8 @@ TEST(Accd, StepsAsDescribed) {
   // 0.1.
   const auto posed = tests::vertex_face({1, 1, 0.5, 0, 0, -0.5, 4, 0, -0.5, 0, 4, -0.5},
                                         {1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-  const Answer answer = answer_to(*method, posed);
-  EXPECT_EQ(answer.verdict, Verdict::yes);
+  const fast::Answer answer = answer_to(*method, posed);
+  EXPECT_EQ(answer.verdict, fast::Verdict::yes);
   EXPECT_EQ(answer.toi_lower, 0.9);
   EXPECT_EQ(answer.checks, 2U);
 }
@@ -46,8 +46,8 @@ TEST(Accd, StopsStrictlyBeforeContact) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (int i = 0; i < 1000; ++i) {
       const auto posed = tests::centre_hit(random, kind, tests::Motion::independent);
-      const Answer answer = answer_to(*method, posed);
-      ASSERT_EQ(answer.verdict, Verdict::yes) << posed;
+      const fast::Answer answer = answer_to(*method, posed);
+      ASSERT_EQ(answer.verdict, fast::Verdict::yes) << posed;
       EXPECT_LT(answer.toi_lower, 0.5) << posed;
       EXPECT_TRUE(std::isnan(answer.toi_upper));
     }
@@ -60,26 +60,26 @@ TEST(Accd, TakesMissesForCollisionsWhoseGapShrinksToATenth) {
       return answer_to(*method, is_face ? over_triangle(1, 1, 1, gap) : over_edge(1, 2, 1, gap))
           .verdict;
     };
-    EXPECT_EQ(stops_at(0.05), Verdict::yes) << "a false positive";
-    EXPECT_EQ(stops_at(0.2), Verdict::no);
+    EXPECT_EQ(stops_at(0.05), fast::Verdict::yes) << "a false positive";
+    EXPECT_EQ(stops_at(0.2), fast::Verdict::no);
   }
 }
 
 TEST(Accd, KeepsTheSeparation) {
-  const MethodOptions options{.min_separation = 0.25, .norm = Norm::l2};
+  const fast::MethodOptions options{.min_separation = 0.25, .norm = Norm::l2};
   for (const bool is_face : {true, false}) {
     const auto comes_down = [&](double from, double to) {
       return answer_to(*method, is_face ? over_triangle(1, 1, from, to) : over_edge(1, 2, from, to),
                        options);
     };
     // 0.25 is reached at t=3/4.
-    const Answer hit = comes_down(1, 0);
-    EXPECT_EQ(hit.verdict, Verdict::yes);
+    const fast::Answer hit = comes_down(1, 0);
+    EXPECT_EQ(hit.verdict, fast::Verdict::yes);
     EXPECT_LT(hit.toi_lower, 0.75);
     EXPECT_GT(hit.toi_lower, 0.66);
-    EXPECT_EQ(comes_down(1, 0.5).verdict, Verdict::no);
-    const Answer at_start = comes_down(0.25, 1);
-    EXPECT_EQ(at_start.verdict, Verdict::yes);
+    EXPECT_EQ(comes_down(1, 0.5).verdict, fast::Verdict::no);
+    const fast::Answer at_start = comes_down(0.25, 1);
+    EXPECT_EQ(at_start.verdict, fast::Verdict::yes);
     EXPECT_EQ(at_start.toi_lower, 0.0);
     EXPECT_EQ(at_start.checks, 0U);
   }
@@ -90,24 +90,26 @@ TEST(Accd, WithoutRelativeMotionOnlyTheStartCounts) {
     return tests::vertex_face({1, 1, height, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                               {2, 1, height, 1, 0, 0, 5, 0, 0, 1, 4, 0});
   };
-  EXPECT_EQ(answer_to(*method, together(0)).verdict, Verdict::yes);
-  EXPECT_EQ(answer_to(*method, together(0x1p-30)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, together(0)).verdict, fast::Verdict::yes);
+  EXPECT_EQ(answer_to(*method, together(0x1p-30)).verdict, fast::Verdict::no);
 }
 
 TEST(Accd, CountsImpactsUpToTheGivenTime) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.75}).verdict, Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.25}).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.75}).verdict,
+            fast::Verdict::yes);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.25}).verdict,
+            fast::Verdict::no);
 }
 
 TEST(Accd, StopsAtMaxChecks) {
   // Grazing: the vertex moves along the face, above it by 2^-20.
   const auto grazing = tests::vertex_face({1, 1, 0x1p-20, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                                           {2, 1, 0x1p-20, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-  const Answer answer = answer_to(*method, grazing, {.max_checks = 1000});
-  EXPECT_EQ(answer.verdict, Verdict::yes) << "a false positive";
+  const fast::Answer answer = answer_to(*method, grazing, {.max_checks = 1000});
+  EXPECT_EQ(answer.verdict, fast::Verdict::yes) << "a false positive";
   EXPECT_EQ(answer.checks, 1000U);
-  const Answer all = answer_to(*method, grazing, {.max_checks = 0});
-  EXPECT_EQ(all.verdict, Verdict::no);
+  const fast::Answer all = answer_to(*method, grazing, {.max_checks = 0});
+  EXPECT_EQ(all.verdict, fast::Verdict::no);
   EXPECT_GT(all.checks, 1000000U / 2);
 }
 

@@ -19,8 +19,8 @@ using tests::PosedQuery;
 using tests::Random;
 using tests::says_yes;
 
-const Method& bsc() {
-  static const std::unique_ptr<const Method> method = baselines::bsc_method();
+const fast::Method& bsc() {
+  static const std::unique_ptr<const fast::Method> method = baselines::bsc_method();
   return *method;
 }
 
@@ -135,14 +135,14 @@ TEST(Bsc, OnThePublicHandcraftedQueries) {
 
 TEST(BscMethod, HasNoTimeNoSeparationAndNoPromise) {
   EXPECT_EQ(bsc().name(), "bsc");
-  EXPECT_EQ(bsc().promise(), Promise::none);
+  EXPECT_EQ(bsc().promise(), fast::Promise::none);
   const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
-  const MethodOptions options{.min_separation = 1.5, .norm = Norm::l2, .t_max = 0.25};
-  EXPECT_EQ(verdict_of(bsc(), hit, options), Verdict::yes);
-  EXPECT_EQ(verdict_of(bsc(), near, options), Verdict::no);
+  const fast::MethodOptions options{.min_separation = 1.5, .norm = Norm::l2, .t_max = 0.25};
+  EXPECT_EQ(verdict_of(bsc(), hit, options), fast::Verdict::yes);
+  EXPECT_EQ(verdict_of(bsc(), near, options), fast::Verdict::no);
   PosedQuery bad = hit;
-  bad.query.coordinates[7] = Answer::none;
-  EXPECT_EQ(verdict_of(bsc(), bad), Verdict::error);
+  bad.query.coordinates[7] = fast::Answer::none;
+  EXPECT_EQ(verdict_of(bsc(), bad), fast::Verdict::error);
 }
 
 }  // namespace

@@ -17,19 +17,19 @@ using tests::over_edge;
 using tests::over_triangle;
 using tests::Score;
 
-const std::unique_ptr<Method> method = baselines::fprf_method();
-constexpr MethodOptions wide{.min_separation = 1e-3, .norm = Norm::l2};
+const std::unique_ptr<fast::Method> method = baselines::fprf_method();
+constexpr fast::MethodOptions wide{.min_separation = 1e-3, .norm = Norm::l2};
 constexpr int hits = 2000;
 
 TEST(Fprf, AnswersThePrintedQueriesAsItWasSeenTo) {
   EXPECT_EQ(method->name(), "fprf");
-  EXPECT_EQ(method->promise(), Promise::none);
-  const Answer hourglass = answer_to(*method, tests::printed_hourglass());
-  EXPECT_EQ(hourglass.verdict, Verdict::yes);
+  EXPECT_EQ(method->promise(), fast::Promise::none);
+  const fast::Answer hourglass = answer_to(*method, tests::printed_hourglass());
+  EXPECT_EQ(hourglass.verdict, fast::Verdict::yes);
   EXPECT_NEAR(hourglass.toi_lower, 0.5, 1e-6) << "where the normal vanishes; contact is at 0.9";
-  EXPECT_EQ(answer_to(*method, tests::printed_inflection()).verdict, Verdict::no);
-  const Answer coplanar = answer_to(*method, tests::printed_coplanar());
-  EXPECT_EQ(coplanar.verdict, Verdict::yes);
+  EXPECT_EQ(answer_to(*method, tests::printed_inflection()).verdict, fast::Verdict::no);
+  const fast::Answer coplanar = answer_to(*method, tests::printed_coplanar());
+  EXPECT_EQ(coplanar.verdict, fast::Verdict::yes);
   EXPECT_NEAR(coplanar.toi_lower, 0.241379, 1e-6);
   EXPECT_TRUE(std::isnan(coplanar.toi_upper));
 }
@@ -55,42 +55,45 @@ TEST(Fprf, MissesParallelEdges) {
   // They meet all along, at t=1/2; and so they do with a separation.
   const auto parallel = tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 1, 3, 0, 1},  //
                                          {0, 0, 0, 4, 0, 0, 1, 0, -1, 3, 0, -1});
-  EXPECT_EQ(answer_to(*method, parallel).verdict, Verdict::no);
-  EXPECT_EQ(answer_to(*method, parallel, wide).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, parallel).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*method, parallel, wide).verdict, fast::Verdict::no);
   // Small edges all count as parallel.
   auto crossing = over_edge(1, 2, 1, -1);
-  EXPECT_EQ(answer_to(*method, crossing).verdict, Verdict::yes);
+  EXPECT_EQ(answer_to(*method, crossing).verdict, fast::Verdict::yes);
   for (double& x : crossing.query.coordinates) x *= 0x1p-16;
-  EXPECT_EQ(answer_to(*method, crossing).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, crossing).verdict, fast::Verdict::no);
 }
 
 TEST(Fprf, SeparatesInteriorsOnly) {
   for (const double gap : {0.25, 0.75}) {
-    const Verdict expected = gap < 0.5 ? Verdict::yes : Verdict::no;
-    const MethodOptions options{.min_separation = 0.5, .norm = Norm::l2};
+    const fast::Verdict expected = gap < 0.5 ? fast::Verdict::yes : fast::Verdict::no;
+    const fast::MethodOptions options{.min_separation = 0.5, .norm = Norm::l2};
     EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 2, gap), options).verdict, expected);
     EXPECT_EQ(answer_to(*method, over_edge(1, 2, 2, gap), options).verdict, expected);
     // Beside the primitives at that distance: not seen.
-    EXPECT_EQ(answer_to(*method, over_triangle(-gap, 1, 2, -2), options).verdict, Verdict::no);
-    EXPECT_EQ(answer_to(*method, over_edge(4 + gap, 2, 2, -2), options).verdict, Verdict::no);
+    EXPECT_EQ(answer_to(*method, over_triangle(-gap, 1, 2, -2), options).verdict,
+              fast::Verdict::no);
+    EXPECT_EQ(answer_to(*method, over_edge(4 + gap, 2, 2, -2), options).verdict, fast::Verdict::no);
   }
 }
 
 TEST(Fprf, CountsImpactsUpToTheGivenTime) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.75}).verdict, Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.25}).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.75}).verdict,
+            fast::Verdict::yes);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.25}).verdict,
+            fast::Verdict::no);
 }
 
 TEST(Fprf, AgreesWithTheTruthElsewhere) {
   // Clear misses: none of the families' queries that a direction separates by far is a hit.
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, Verdict::no);
-  EXPECT_EQ(answer_to(*method, over_triangle(3, 3, 1, -1)).verdict, Verdict::no);
-  EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, Verdict::no);
-  const Answer face = answer_to(*method, over_triangle(1, 1, 1, -3));
-  EXPECT_EQ(face.verdict, Verdict::yes);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(3, 3, 1, -1)).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, fast::Verdict::no);
+  const fast::Answer face = answer_to(*method, over_triangle(1, 1, 1, -3));
+  EXPECT_EQ(face.verdict, fast::Verdict::yes);
   EXPECT_NEAR(face.toi_lower, 0.25, 1e-7);
-  const Answer edge = answer_to(*method, over_edge(1, 2, 1, -3));
-  EXPECT_EQ(edge.verdict, Verdict::yes);
+  const fast::Answer edge = answer_to(*method, over_edge(1, 2, 1, -3));
+  EXPECT_EQ(edge.verdict, fast::Verdict::yes);
   EXPECT_NEAR(edge.toi_lower, 0.25, 1e-7);
   const Score score = tests::score_on_random(*method, {}, 500);
   EXPECT_GT(score.false_negatives, 0);

@@ -32,7 +32,7 @@ Posed<1> square_is(double c) {
 
 TEST(IntervalSearch, FindsARootInOneDimension) {
   const auto found = search_box<1>(square_is(0.5), {unit}, {1e-12}, 0);
-  ASSERT_EQ(found.verdict, Verdict::yes);
+  ASSERT_EQ(found.verdict, fast::Verdict::yes);
   EXPECT_LE(found.box[0].lower(), std::sqrt(0.5));
   EXPECT_GE(found.box[0].upper(), std::sqrt(0.5));
   EXPECT_LE(boost::numeric::width(found.box[0]), 1e-12);
@@ -45,7 +45,7 @@ TEST(IntervalSearch, ProvesThatThereIsNoRoot) {
     return may_be_zero(x * x + Interval(1e-6));
   }};
   const auto found = search_box<1>(problem, {unit}, {1e-9}, 0);
-  EXPECT_EQ(found.verdict, Verdict::no);
+  EXPECT_EQ(found.verdict, fast::Verdict::no);
   EXPECT_GT(found.checks, 10);
 }
 
@@ -55,11 +55,11 @@ TEST(IntervalSearch, TakesTheEarliestOfSeveralInOneDimension) {
     return may_be_zero((box[0] - Interval(0.25)) * (box[0] - Interval(0.75)));
   }};
   const auto first = search_box<1>(problem, {unit}, {1e-6}, 0);
-  ASSERT_EQ(first.verdict, Verdict::yes);
+  ASSERT_EQ(first.verdict, fast::Verdict::yes);
   EXPECT_NEAR(first.box[0].lower(), 0.25, 2e-6);
   problem.accept = [](const auto& box) { return box[0].lower() > 0.5; };
   const auto second = search_box<1>(problem, {unit}, {1e-6}, 0);
-  ASSERT_EQ(second.verdict, Verdict::yes) << "what is not accepted is dropped";
+  ASSERT_EQ(second.verdict, fast::Verdict::yes) << "what is not accepted is dropped";
   EXPECT_NEAR(second.box[0].lower(), 0.75, 2e-6);
 }
 
@@ -76,12 +76,12 @@ TEST(IntervalSearch, DoesNotSplitNeighbouringDoubles) {
   const Interval narrow(1.0, std::nextafter(1.0, 2.0));
   EXPECT_EQ(dimension_to_split<1>({narrow}, {0.0}, 0), std::nullopt);
   const auto found = search_box<1>(square_is(0.5), {unit}, {0.0}, 0);
-  EXPECT_EQ(found.verdict, Verdict::yes);
+  EXPECT_EQ(found.verdict, fast::Verdict::yes);
 }
 
 TEST(IntervalSearch, AnInfiniteToleranceMakesTheWholeAxisSmall) {
   const auto found = search_box<1>(Posed<1>{}, {unit}, {infinity}, 0);
-  EXPECT_EQ(found.verdict, Verdict::yes);
+  EXPECT_EQ(found.verdict, fast::Verdict::yes);
   EXPECT_EQ(found.checks, 1);
   EXPECT_EQ(found.box[0].lower(), 0.0);
   EXPECT_EQ(found.box[0].upper(), 1.0);
@@ -90,19 +90,19 @@ TEST(IntervalSearch, AnInfiniteToleranceMakesTheWholeAxisSmall) {
 TEST(IntervalSearch, AsksForTheDomainOfAllButTheFirstDimension) {
   Posed<2> problem;
   problem.reach = [](const auto&) { return false; };
-  EXPECT_EQ(search_box<2>(problem, {unit, unit}, {0.5, infinity}, 0).verdict, Verdict::yes);
-  EXPECT_EQ(search_box<2>(problem, {unit, unit}, {infinity, 0.5}, 0).verdict, Verdict::no);
+  EXPECT_EQ(search_box<2>(problem, {unit, unit}, {0.5, infinity}, 0).verdict, fast::Verdict::yes);
+  EXPECT_EQ(search_box<2>(problem, {unit, unit}, {infinity, 0.5}, 0).verdict, fast::Verdict::no);
 }
 
 TEST(IntervalSearch, SaysWhenItsChecksAreSpent) {
   Posed<1> problem;
   problem.accept = [](const auto&) { return false; };
   const auto found = search_box<1>(problem, {unit}, {1e-9}, 100);
-  EXPECT_EQ(found.verdict, Verdict::undecided);
+  EXPECT_EQ(found.verdict, fast::Verdict::undecided);
   EXPECT_EQ(found.checks, 100);
   // One interval, two halves, and all are known.
-  EXPECT_EQ(search_box<1>(problem, {unit}, {0.5}, 3).verdict, Verdict::no);
-  EXPECT_EQ(search_box<1>(problem, {unit}, {0.5}, 2).verdict, Verdict::undecided);
+  EXPECT_EQ(search_box<1>(problem, {unit}, {0.5}, 3).verdict, fast::Verdict::no);
+  EXPECT_EQ(search_box<1>(problem, {unit}, {0.5}, 2).verdict, fast::Verdict::undecided);
 }
 
 }  // namespace

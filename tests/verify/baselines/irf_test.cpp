@@ -16,10 +16,10 @@ using tests::over_edge;
 using tests::over_triangle;
 using tests::Score;
 
-const std::unique_ptr<Method> method = baselines::irf_method();
+const std::unique_ptr<fast::Method> method = baselines::irf_method();
 
 /// Enough for nearly all queries, few enough for a test.
-constexpr MethodOptions quick{.max_checks = 2000};
+constexpr fast::MethodOptions quick{.max_checks = 2000};
 
 void expect_no_miss(const Score& score) {
   EXPECT_GT(score.hits, 0);
@@ -30,10 +30,10 @@ void expect_no_miss(const Score& score) {
 
 TEST(Irf, DecidesThePrintedQueries) {
   EXPECT_EQ(method->name(), "irf");
-  EXPECT_EQ(method->promise(), Promise::conservative);
-  EXPECT_EQ(answer_to(*method, tests::printed_hourglass()).verdict, Verdict::yes);
-  EXPECT_EQ(answer_to(*method, tests::printed_inflection()).verdict, Verdict::no);
-  EXPECT_EQ(answer_to(*method, tests::printed_coplanar()).verdict, Verdict::yes);
+  EXPECT_EQ(method->promise(), fast::Promise::conservative);
+  EXPECT_EQ(answer_to(*method, tests::printed_hourglass()).verdict, fast::Verdict::yes);
+  EXPECT_EQ(answer_to(*method, tests::printed_inflection()).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*method, tests::printed_coplanar()).verdict, fast::Verdict::yes);
 }
 
 TEST(Irf, MissesNothingInTheFamilies) {
@@ -62,8 +62,8 @@ TEST(Irf, MissesNothingOnThePublicData) {
 }
 
 TEST(Irf, GivesNoTimes) {
-  const Answer answer = answer_to(*method, over_triangle(1, 1, 1, -3));
-  EXPECT_EQ(answer.verdict, Verdict::yes);
+  const fast::Answer answer = answer_to(*method, over_triangle(1, 1, 1, -3));
+  EXPECT_EQ(answer.verdict, fast::Verdict::yes);
   EXPECT_TRUE(std::isnan(answer.toi_lower) && std::isnan(answer.toi_upper));
 }
 
@@ -75,50 +75,52 @@ TEST(Irf, TakesNearMissesForCollisionsWithinItsToleranceOnly) {
                             {0, 0, 0, 4, 4, 0, 2.6, 0, -1, 1.3 + gap, 1.3 - gap, -1});
   };
   for (const double tolerance : {1e-3, 1e-6}) {
-    const MethodOptions options{.tolerance = tolerance};
+    const fast::MethodOptions options{.tolerance = tolerance};
     for (const bool is_face : {true, false}) {
       const auto verdict = [&](double gap) {
         return answer_to(*method, is_face ? over_triangle(2 + gap, 2, 1, -1) : near_edges(gap),
                          options)
             .verdict;
       };
-      EXPECT_EQ(verdict(tolerance / 16), Verdict::yes) << "a false positive";
-      EXPECT_EQ(verdict(16 * tolerance), Verdict::no);
+      EXPECT_EQ(verdict(tolerance / 16), fast::Verdict::yes) << "a false positive";
+      EXPECT_EQ(verdict(16 * tolerance), fast::Verdict::no);
     }
   }
 }
 
 TEST(Irf, KnowsTheFaceFromTheParallelogramAroundIt) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 3, 1, -1)).verdict, Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 3.01, 1, -1)).verdict, Verdict::no);
-  EXPECT_EQ(answer_to(*method, over_triangle(3, 3, 1, -1)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 3, 1, -1)).verdict, fast::Verdict::yes);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 3.01, 1, -1)).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(3, 3, 1, -1)).verdict, fast::Verdict::no);
 }
 
 TEST(Irf, StopsAtMaxChecks) {
-  const Answer few = answer_to(*method, over_triangle(1, 1, 1, -3), {.max_checks = 10});
-  EXPECT_EQ(few.verdict, Verdict::undecided);
+  const fast::Answer few = answer_to(*method, over_triangle(1, 1, 1, -3), {.max_checks = 10});
+  EXPECT_EQ(few.verdict, fast::Verdict::undecided);
   EXPECT_EQ(few.checks, 10U);
-  const Answer all = answer_to(*method, over_triangle(1, 1, 1, -3), {.max_checks = 0});
-  EXPECT_EQ(all.verdict, Verdict::yes);
+  const fast::Answer all = answer_to(*method, over_triangle(1, 1, 1, -3), {.max_checks = 0});
+  EXPECT_EQ(all.verdict, fast::Verdict::yes);
 }
 
 TEST(Irf, CountsImpactsUpToTheGivenTime) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.5}).verdict, Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.49}).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.5}).verdict,
+            fast::Verdict::yes);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.49}).verdict,
+            fast::Verdict::no);
 }
 
 TEST(Irf, KnowsNoSeparation) {
   EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, 0.25), {.min_separation = 0.5}).verdict,
-            Verdict::no);
+            fast::Verdict::no);
 }
 
 TEST(Irf, TakesWhatIsAtRest) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 0, 0)).verdict, Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, 1)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 0, 0)).verdict, fast::Verdict::yes);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, 1)).verdict, fast::Verdict::no);
   const auto points = tests::vertex_face({1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3},
                                          {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3});
-  const Answer answer = answer_to(*method, points);
-  EXPECT_EQ(answer.verdict, Verdict::yes);
+  const fast::Answer answer = answer_to(*method, points);
+  EXPECT_EQ(answer.verdict, fast::Verdict::yes);
   EXPECT_EQ(answer.checks, 1U) << "no tolerance to reach";
 }
 

@@ -21,41 +21,43 @@ double opaque(double x) {
   return hidden;
 }
 
-Answer solve(Answer (*function)(Kind, const Query&, const MethodOptions&), const Query& query,
-             const MethodOptions& options = {}) {
+fast::Answer solve(fast::Answer (*function)(Kind, const Query&, const fast::MethodOptions&),
+                   const Query& query, const fast::MethodOptions& options = {}) {
   const auto method =
-      baseline_method({.name = "some", .promise = Promise::none, .answer = function});
-  Answer answer;
+      baseline_method({.name = "some", .promise = fast::Promise::none, .answer = function});
+  fast::Answer answer;
   method->solve(Kind::vertex_face, {&query, 1}, {&answer, 1}, options);
   return answer;
 }
 
-Answer always_no(Kind, const Query&, const MethodOptions&) { return {.verdict = Verdict::no}; }
+fast::Answer always_no(Kind, const Query&, const fast::MethodOptions&) {
+  return {.verdict = fast::Verdict::no};
+}
 
-Answer always_throws(Kind, const Query&, const MethodOptions&) {
+fast::Answer always_throws(Kind, const Query&, const fast::MethodOptions&) {
   throw std::runtime_error("given up");
 }
 
-Answer number_thrown(Kind, const Query&, const MethodOptions&) { throw 1; }
+fast::Answer number_thrown(Kind, const Query&, const fast::MethodOptions&) { throw 1; }
 
-Answer yes_if_rounding_to_nearest(Kind, const Query&, const MethodOptions&) {
+fast::Answer yes_if_rounding_to_nearest(Kind, const Query&, const fast::MethodOptions&) {
   const bool nearest = opaque(1.0) + opaque(0x1p-53) == 1.0 &&
                        opaque(1.0) + opaque(0x1.8p-53) > 1.0 && std::fegetround() == FE_TONEAREST;
-  return {.verdict = nearest ? Verdict::yes : Verdict::no};
+  return {.verdict = nearest ? fast::Verdict::yes : fast::Verdict::no};
 }
 
 TEST(BaselineMethod, AnswersWithItsFunction) {
-  const auto method =
-      baseline_method({.name = "some", .promise = Promise::conservative, .answer = always_no});
+  const auto method = baseline_method(
+      {.name = "some", .promise = fast::Promise::conservative, .answer = always_no});
   EXPECT_EQ(method->name(), "some");
-  EXPECT_EQ(method->promise(), Promise::conservative);
-  EXPECT_EQ(solve(always_no, Query{}).verdict, Verdict::no);
+  EXPECT_EQ(method->promise(), fast::Promise::conservative);
+  EXPECT_EQ(solve(always_no, Query{}).verdict, fast::Verdict::no);
 }
 
 TEST(BaselineMethod, WhatIsThrownIsACollision) {
-  EXPECT_EQ(solve(always_throws, Query{}).verdict, Verdict::yes);
+  EXPECT_EQ(solve(always_throws, Query{}).verdict, fast::Verdict::yes);
   EXPECT_TRUE(std::isnan(solve(always_throws, Query{}).toi_lower));
-  EXPECT_EQ(solve(number_thrown, Query{}).verdict, Verdict::yes);
+  EXPECT_EQ(solve(number_thrown, Query{}).verdict, fast::Verdict::yes);
 }
 
 TEST(BaselineMethod, RefusesWhatIsNotFinite) {
@@ -63,24 +65,24 @@ TEST(BaselineMethod, RefusesWhatIsNotFinite) {
     for (const std::size_t place : {0U, 11U, 23U}) {
       Query query{};
       query.coordinates[place] = bad;
-      EXPECT_EQ(solve(always_no, query).verdict, Verdict::error);
+      EXPECT_EQ(solve(always_no, query).verdict, fast::Verdict::error);
     }
   }
 }
 
 TEST(BaselineMethod, RefusesOptionsThatMeanNothing) {
-  const auto bad = std::to_array<MethodOptions>({{.tolerance = 0.0},
-                                                 {.tolerance = nan},
-                                                 {.tolerance = infinity},
-                                                 {.min_separation = -1.0},
-                                                 {.min_separation = nan},
-                                                 {.min_separation = infinity},
-                                                 {.t_max = -0.5},
-                                                 {.t_max = 1.5},
-                                                 {.t_max = nan}});
-  for (const MethodOptions& options : bad) {
+  const auto bad = std::to_array<fast::MethodOptions>({{.tolerance = 0.0},
+                                                       {.tolerance = nan},
+                                                       {.tolerance = infinity},
+                                                       {.min_separation = -1.0},
+                                                       {.min_separation = nan},
+                                                       {.min_separation = infinity},
+                                                       {.t_max = -0.5},
+                                                       {.t_max = 1.5},
+                                                       {.t_max = nan}});
+  for (const fast::MethodOptions& options : bad) {
     EXPECT_FALSE(are_valid(options));
-    EXPECT_EQ(solve(always_no, Query{}, options).verdict, Verdict::error);
+    EXPECT_EQ(solve(always_no, Query{}, options).verdict, fast::Verdict::error);
   }
   EXPECT_TRUE(are_valid({}));
   EXPECT_TRUE(are_valid({.min_separation = 1e-100, .t_max = 0.0}));
@@ -89,10 +91,10 @@ TEST(BaselineMethod, RefusesOptionsThatMeanNothing) {
 TEST(BaselineMethod, RoundsToNearestWhateverTheCallerDoes) {
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {
     std::fesetround(mode);
-    const Verdict verdict = solve(yes_if_rounding_to_nearest, Query{}).verdict;
+    const fast::Verdict verdict = solve(yes_if_rounding_to_nearest, Query{}).verdict;
     const int after = std::fegetround();
     std::fesetround(FE_TONEAREST);
-    EXPECT_EQ(verdict, Verdict::yes) << mode;
+    EXPECT_EQ(verdict, fast::Verdict::yes) << mode;
     EXPECT_EQ(after, mode);
   }
 }

@@ -18,21 +18,23 @@ using tests::over_edge;
 using tests::over_triangle;
 using tests::Score;
 
-const std::unique_ptr<Method> method = baselines::msrf_method();
+const std::unique_ptr<fast::Method> method = baselines::msrf_method();
 constexpr int hits = 4000;
 
-constexpr MethodOptions within(double h) { return {.min_separation = h, .norm = Norm::l2}; }
+constexpr fast::MethodOptions within(double h) { return {.min_separation = h, .norm = Norm::l2}; }
 
 TEST(Msrf, AnswersThePrintedQueriesAsItWasSeenTo) {
   EXPECT_EQ(method->name(), "msrf");
-  EXPECT_EQ(method->promise(), Promise::none);
+  EXPECT_EQ(method->promise(), fast::Promise::none);
   for (const double h : {1e-16, 1e-30, 1e-100}) {
-    EXPECT_EQ(answer_to(*method, tests::printed_hourglass(), within(h)).verdict, Verdict::no) << h;
+    EXPECT_EQ(answer_to(*method, tests::printed_hourglass(), within(h)).verdict, fast::Verdict::no)
+        << h;
   }
-  const Answer hourglass = answer_to(*method, tests::printed_hourglass(), within(1e-8));
-  EXPECT_EQ(hourglass.verdict, Verdict::yes);
+  const fast::Answer hourglass = answer_to(*method, tests::printed_hourglass(), within(1e-8));
+  EXPECT_EQ(hourglass.verdict, fast::Verdict::yes);
   EXPECT_NEAR(hourglass.toi_lower, 0.9, 1e-4);
-  EXPECT_EQ(answer_to(*method, tests::printed_inflection(), within(1e-8)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, tests::printed_inflection(), within(1e-8)).verdict,
+            fast::Verdict::no);
 }
 
 TEST(Msrf, MissesTheMoreTheSmallerItsSeparation) {
@@ -59,29 +61,30 @@ TEST(Msrf, ReachesTheRootOfItsSeparation) {
   const auto passes_at = [](double distance) {
     return answer_to(*method, over_triangle(-distance, 1, 1, -1), within(1e-8)).verdict;
   };
-  EXPECT_EQ(passes_at(3e-5), Verdict::yes) << "a false positive";
-  EXPECT_EQ(passes_at(3.3e-5), Verdict::no);
+  EXPECT_EQ(passes_at(3e-5), fast::Verdict::yes) << "a false positive";
+  EXPECT_EQ(passes_at(3.3e-5), fast::Verdict::no);
 }
 
 TEST(Msrf, MissesWhatIsWithinItsSeparationFromTheStart) {
   // Within 0.5 all the time, and moving.
   const auto near = tests::vertex_face({1, 1, 0.25, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                                        {1.5, 1, 0.125, 0, 0, 0, 4, 0, 0, 0, 4, 0});
-  EXPECT_EQ(answer_to(*method, near, within(0.5)).verdict, Verdict::no);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, 0.25), within(0.5)).verdict, Verdict::yes);
+  EXPECT_EQ(answer_to(*method, near, within(0.5)).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, 0.25), within(0.5)).verdict,
+            fast::Verdict::yes);
 }
 
 TEST(Msrf, MissesEndsOfEdgesAndParallelEdges) {
   // An end 0.25 beside the other edge's end, where the lines pass at 0.
-  EXPECT_EQ(answer_to(*method, over_edge(4.25, 2, 1, -1), within(0.25)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_edge(4.25, 2, 1, -1), within(0.25)).verdict, fast::Verdict::no);
   const auto parallel = tests::edge_edge({0, 0, 0, 4, 0, 0, 1, 0, 1, 3, 0, 1},  //
                                          {0, 0, 0, 4, 0, 0, 1, 0, -1, 3, 0, -1});
-  EXPECT_EQ(answer_to(*method, parallel, within(0.25)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, parallel, within(0.25)).verdict, fast::Verdict::no);
   // A vertex has candidates for the edges and vertices of a face.
   EXPECT_EQ(answer_to(*method, over_triangle(-0.125, 1, 1, -1), within(0.25)).verdict,
-            Verdict::yes);
+            fast::Verdict::yes);
   EXPECT_EQ(answer_to(*method, over_triangle(-0.125, -0.125, 1, -1), within(0.25)).verdict,
-            Verdict::yes);
+            fast::Verdict::yes);
 }
 
 TEST(Msrf, QuickTestsRuleOutWhatHasNoZero) {
@@ -106,22 +109,24 @@ TEST(Msrf, QuickTestsRuleOutZerosToo) {
 }
 
 TEST(Msrf, CountsImpactsUpToTheGivenTime) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.75}).verdict, Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.25}).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.75}).verdict,
+            fast::Verdict::yes);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.25}).verdict,
+            fast::Verdict::no);
 }
 
 TEST(Msrf, AgreesWithTheTruthElsewhere) {
-  const Answer face = answer_to(*method, over_triangle(1, 1, 1, -3));
-  EXPECT_EQ(face.verdict, Verdict::yes);
+  const fast::Answer face = answer_to(*method, over_triangle(1, 1, 1, -3));
+  EXPECT_EQ(face.verdict, fast::Verdict::yes);
   EXPECT_NEAR(face.toi_lower, 0.25, 1e-7);
-  const Answer edge = answer_to(*method, over_edge(1, 2, 1, -3));
-  EXPECT_EQ(edge.verdict, Verdict::yes);
+  const fast::Answer edge = answer_to(*method, over_edge(1, 2, 1, -3));
+  EXPECT_EQ(edge.verdict, fast::Verdict::yes);
   EXPECT_NEAR(edge.toi_lower, 0.25, 1e-7);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, Verdict::no);
-  EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, fast::Verdict::no);
   // All at rest: every polynomial is constant or 0.
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 0, 0)).verdict, Verdict::no);
-  EXPECT_EQ(answer_to(*method, {Kind::vertex_face, Query{}}).verdict, Verdict::no);
+  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 0, 0)).verdict, fast::Verdict::no);
+  EXPECT_EQ(answer_to(*method, {Kind::vertex_face, Query{}}).verdict, fast::Verdict::no);
   const Score score = tests::score_on_random(*method, {}, 500);
   EXPECT_GT(score.false_negatives, 0);
   EXPECT_LT(score.false_negatives + score.false_positives, (score.hits + score.misses) / 4);

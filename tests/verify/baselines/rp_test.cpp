@@ -23,8 +23,8 @@ using tests::PosedQuery;
 using tests::Random;
 using tests::says_yes;
 
-const Method& rp() {
-  static const std::unique_ptr<const Method> method = baselines::rp_method();
+const fast::Method& rp() {
+  static const std::unique_ptr<const fast::Method> method = baselines::rp_method();
   return *method;
 }
 
@@ -81,7 +81,7 @@ TEST(Rp, AnswersAlikeInAnyOrderAndAnyRounding) {
   for (Query& query : queries) {
     query = tests::random_query(random, Kind::edge_edge, tests::Family::tiny_integers).query;
   }
-  std::vector<Answer> forwards(queries.size()), backwards(queries.size());
+  std::vector<fast::Answer> forwards(queries.size()), backwards(queries.size());
   rp().solve(Kind::edge_edge, queries, forwards, {});
   std::ranges::reverse(queries);
   std::fesetround(FE_UPWARD);
@@ -90,7 +90,8 @@ TEST(Rp, AnswersAlikeInAnyOrderAndAnyRounding) {
   std::fesetround(FE_TONEAREST);
   EXPECT_GT(after, 1.0);
   std::ranges::reverse(backwards);
-  EXPECT_TRUE(std::ranges::equal(forwards, backwards, {}, &Answer::verdict, &Answer::verdict));
+  EXPECT_TRUE(
+      std::ranges::equal(forwards, backwards, {}, &fast::Answer::verdict, &fast::Answer::verdict));
 }
 
 TEST(Rp, KeepsItsAnswersAtOtherScales) {
@@ -138,14 +139,14 @@ TEST(Rp, OnThePublicHandcraftedQueries) {
 
 TEST(RpMethod, HasNoTimeNoSeparationAndNoPromise) {
   EXPECT_EQ(rp().name(), "rp");
-  EXPECT_EQ(rp().promise(), Promise::none);
+  EXPECT_EQ(rp().promise(), fast::Promise::none);
   const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
-  const MethodOptions options{.min_separation = 1.5, .norm = Norm::l2, .t_max = 0.25};
-  EXPECT_EQ(verdict_of(rp(), hit, options), Verdict::yes);
-  EXPECT_EQ(verdict_of(rp(), near, options), Verdict::no);
+  const fast::MethodOptions options{.min_separation = 1.5, .norm = Norm::l2, .t_max = 0.25};
+  EXPECT_EQ(verdict_of(rp(), hit, options), fast::Verdict::yes);
+  EXPECT_EQ(verdict_of(rp(), near, options), fast::Verdict::no);
   PosedQuery bad = hit;
-  bad.query.coordinates[7] = Answer::none;
-  EXPECT_EQ(verdict_of(rp(), bad), Verdict::error);
+  bad.query.coordinates[7] = fast::Answer::none;
+  EXPECT_EQ(verdict_of(rp(), bad), fast::Verdict::error);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ using tests::PosedQuery;
 using tests::Random;
 using tests::says_yes;
 
-const Method& rrp() {
-  static const std::unique_ptr<const Method> method = baselines::rrp_method();
+const fast::Method& rrp() {
+  static const std::unique_ptr<const fast::Method> method = baselines::rrp_method();
   return *method;
 }
 
@@ -113,11 +113,11 @@ TEST(RrpMethod, HasNoTimeNoSeparationAndNoPromise) {
   EXPECT_EQ(rrp().promise(), fast::Promise::none);
   const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
   const fast::MethodOptions options{.min_separation = 1.5, .norm = Norm::l2, .t_max = 0.25};
-  EXPECT_EQ(verdict_of(rrp(), hit, options), Verdict::yes);
-  EXPECT_EQ(verdict_of(rrp(), near, options), Verdict::no);
+  EXPECT_EQ(verdict_of(rrp(), hit, options), fast::Verdict::yes);
+  EXPECT_EQ(verdict_of(rrp(), near, options), fast::Verdict::no);
   PosedQuery bad = hit;
   bad.query.coordinates[7] = fast::Answer::none;
-  EXPECT_EQ(verdict_of(rrp(), bad), Verdict::error);
+  EXPECT_EQ(verdict_of(rrp(), bad), fast::Verdict::error);
 }
 
 }  // namespace

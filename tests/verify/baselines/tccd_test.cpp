@@ -23,8 +23,8 @@ using tests::PosedQuery;
 using tests::Random;
 using tests::says_yes;
 
-const Method& tccd() {
-  static const std::unique_ptr<const Method> method = baselines::tccd_method();
+const fast::Method& tccd() {
+  static const std::unique_ptr<const fast::Method> method = baselines::tccd_method();
   return *method;
 }
 
@@ -195,14 +195,14 @@ TEST(Tccd, MissesContactsOfASimulationWhichScalingFinds) {
 
 TEST(TccdMethod, HasNoTimeNoSeparationAndNoPromise) {
   EXPECT_EQ(tccd().name(), "tccd");
-  EXPECT_EQ(tccd().promise(), Promise::none);
+  EXPECT_EQ(tccd().promise(), fast::Promise::none);
   const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
-  const MethodOptions options{.min_separation = 1.5, .norm = Norm::l2, .t_max = 0.25};
-  EXPECT_EQ(verdict_of(tccd(), hit, options), Verdict::yes);
-  EXPECT_EQ(verdict_of(tccd(), near, options), Verdict::no);
+  const fast::MethodOptions options{.min_separation = 1.5, .norm = Norm::l2, .t_max = 0.25};
+  EXPECT_EQ(verdict_of(tccd(), hit, options), fast::Verdict::yes);
+  EXPECT_EQ(verdict_of(tccd(), near, options), fast::Verdict::no);
   PosedQuery bad = hit;
-  bad.query.coordinates[7] = Answer::none;
-  EXPECT_EQ(verdict_of(tccd(), bad), Verdict::error);
+  bad.query.coordinates[7] = fast::Answer::none;
+  EXPECT_EQ(verdict_of(tccd(), bad), fast::Verdict::error);
 }
 
 }  // namespace

@@ -22,20 +22,20 @@ constexpr auto never = [](Kind, const Query&) { return false; };
 
 TEST(Verdicts, AreThoseOfTheFunction) {
   const Query query = tests::over_triangle(1, 1, 1, -1).query;
-  EXPECT_EQ(verdict_of(Kind::vertex_face, query, always), Verdict::yes);
-  EXPECT_EQ(verdict_of(Kind::vertex_face, query, never), Verdict::no);
+  EXPECT_EQ(verdict_of(Kind::vertex_face, query, always), fast::Verdict::yes);
+  EXPECT_EQ(verdict_of(Kind::vertex_face, query, never), fast::Verdict::no);
   const auto is_edge_edge = [](Kind kind, const Query&) { return kind == Kind::edge_edge; };
-  EXPECT_EQ(verdict_of(Kind::vertex_face, query, is_edge_edge), Verdict::no);
-  EXPECT_EQ(verdict_of(Kind::edge_edge, query, is_edge_edge), Verdict::yes);
+  EXPECT_EQ(verdict_of(Kind::vertex_face, query, is_edge_edge), fast::Verdict::no);
+  EXPECT_EQ(verdict_of(Kind::edge_edge, query, is_edge_edge), fast::Verdict::yes);
 }
 
 TEST(Verdicts, InfiniteOrNaNIsAnError) {
   for (std::size_t i = 0; i < 24; ++i) {
     for (const double bad : {std::numeric_limits<double>::infinity(),
-                             -std::numeric_limits<double>::infinity(), Answer::none}) {
+                             -std::numeric_limits<double>::infinity(), fast::Answer::none}) {
       Query query = tests::over_triangle(1, 1, 1, -1).query;
       query.coordinates[i] = bad;
-      EXPECT_EQ(verdict_of(Kind::vertex_face, query, always), Verdict::error);
+      EXPECT_EQ(verdict_of(Kind::vertex_face, query, always), fast::Verdict::error);
     }
   }
 }
@@ -44,9 +44,9 @@ TEST(Verdicts, WhatIsThrownIsACollision) {
   const Query query{};
   EXPECT_EQ(verdict_of(Kind::vertex_face, query,
                        [](Kind, const Query&) -> bool { throw std::domain_error("inflection"); }),
-            Verdict::yes);
+            fast::Verdict::yes);
   EXPECT_EQ(verdict_of(Kind::vertex_face, query, [](Kind, const Query&) -> bool { throw 1; }),
-            Verdict::yes);
+            fast::Verdict::yes);
   EXPECT_THROW(
       static_cast<void>(verdict_of(Kind::vertex_face, query,
                                    [](Kind, const Query&) -> bool { throw std::bad_alloc(); })),
@@ -56,7 +56,7 @@ TEST(Verdicts, WhatIsThrownIsACollision) {
 TEST(Answers, AreGivenInOrderAndRoundedToNearest) {
   std::array<Query, 3> queries{};
   for (std::size_t i = 0; i < 3; ++i) queries[i].coordinates[0] = static_cast<double>(i);
-  std::array<Answer, 3> answers;
+  std::array<fast::Answer, 3> answers;
   std::fesetround(FE_UPWARD);
   bool is_to_nearest = true;
   answer_each(Kind::edge_edge, queries, answers, [&](Kind, const Query& query) {
@@ -67,10 +67,10 @@ TEST(Answers, AreGivenInOrderAndRoundedToNearest) {
   std::fesetround(FE_TONEAREST);
   EXPECT_TRUE(is_to_nearest);
   EXPECT_GT(after, 1.0);
-  EXPECT_EQ(answers[0].verdict, Verdict::no);
-  EXPECT_EQ(answers[1].verdict, Verdict::yes);
-  EXPECT_EQ(answers[2].verdict, Verdict::no);
-  for (const Answer& answer : answers) {
+  EXPECT_EQ(answers[0].verdict, fast::Verdict::no);
+  EXPECT_EQ(answers[1].verdict, fast::Verdict::yes);
+  EXPECT_EQ(answers[2].verdict, fast::Verdict::no);
+  for (const fast::Answer& answer : answers) {
     EXPECT_TRUE(std::isnan(answer.toi_lower) && std::isnan(answer.toi_upper));
     EXPECT_TRUE(std::isnan(answer.tolerance));
   }

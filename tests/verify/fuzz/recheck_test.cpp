@@ -80,7 +80,7 @@ TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
     return answer;
   };
   const FunctionMethod method(ill, Promise::none);
-  const FuzzOptions options{.query_limit_seconds = 0.1};
+  const FuzzOptions options{.query_limit_seconds = 0.5};
   const auto query_at = [](double x) { return tests::over_triangle(x, 0.25, 1, -1).query; };
   Finding finding;
   finding.method = "function";

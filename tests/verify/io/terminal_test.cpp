@@ -44,13 +44,18 @@ TEST(Terminal, ProgressBarIsSilentWhereThereIsNoTerminal) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
+/// The clock of a process whose signals are all raised at this time.
+std::atomic<std::int64_t> time_of_signals = 1;
+std::int64_t clock_of_signals() { return time_of_signals; }
+
 TEST(Terminal, FirstInterruptSetsTheFlagSecondOneEndsTheProcess) {
   const auto interrupt_twice = [](int signal) {
+    set_interrupt_clock(clock_of_signals);
     const std::atomic<bool>& flag = interrupted();
     if (flag) _exit(2);
     std::raise(signal);
     if (!flag) _exit(3);
-    std::this_thread::sleep_for(std::chrono::milliseconds(same_interrupt_milliseconds + 1));
+    time_of_signals += same_interrupt_milliseconds;
     std::raise(signal);
     _exit(4);
   };
@@ -61,8 +66,11 @@ TEST(Terminal, FirstInterruptSetsTheFlagSecondOneEndsTheProcess) {
 
 TEST(Terminal, InterruptsAtOnceAreOne) {
   const auto interrupt_thrice = [] {
+    set_interrupt_clock(clock_of_signals);
     const std::atomic<bool>& flag = interrupted();
     for (int i = 0; i < 3; ++i) std::raise(i == 1 ? SIGTERM : SIGINT);
+    time_of_signals += same_interrupt_milliseconds - 1;
+    std::raise(SIGINT);
     _exit(flag ? 0 : 1);
   };
   EXPECT_EXIT(interrupt_thrice(), ::testing::ExitedWithCode(0), "");

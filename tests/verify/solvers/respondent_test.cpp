@@ -116,7 +116,7 @@ TEST(Respondent, ACrashAndAHangCostAQueryEachWhenIsolated) {
     while (query.coordinates[0] == 105.0) std::this_thread::sleep_for(std::chrono::seconds(1));
     return echo(kind, query);
   });
-  const Outcome outcome = ask(*respond_isolated(method, {}, {.query_limit_seconds = 0.2}), 10);
+  const Outcome outcome = ask(*respond_isolated(method, {}, {.query_limit_seconds = 0.5}), 10);
   for (std::size_t i = 0; i < 10; ++i) {
     const Verdict expected = i == 3 ? Verdict::error : (i == 5 ? Verdict::undecided : Verdict::yes);
     EXPECT_EQ(outcome.answers[i].verdict, expected) << i;
