@@ -74,9 +74,8 @@ struct DomainSide {
   }
 };
 
-/// A triangle's fourth is the point (0,0).
-std::array<DomainSide, 4> sides(Kind kind) {
-  const std::span<const Corner> all = corners(kind);
+/// Between neighbouring corners; a triangle's fourth is the point (0,0).
+constexpr std::array<DomainSide, 4> sides_between(std::span<const Corner> all) {
   const auto parameters = [&](std::size_t i) {
     const Corner& corner = all[i % all.size()];
     return Parameters{static_cast<double>(corner.u), static_cast<double>(corner.v)};
@@ -84,6 +83,12 @@ std::array<DomainSide, 4> sides(Kind kind) {
   std::array<DomainSide, 4> result;
   for (std::size_t i = 0; i < all.size(); ++i) result[i] = {parameters(i), parameters(i + 1)};
   return result;
+}
+
+std::array<DomainSide, 4> sides(Kind kind) {
+  constexpr auto of_face = sides_between(vertex_face_corners);
+  constexpr auto of_edges = sides_between(edge_edge_corners);
+  return kind == Kind::vertex_face ? of_face : of_edges;
 }
 
 /// The rows a · (u,v) = b.
