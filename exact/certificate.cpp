@@ -6,6 +6,8 @@
 
 #include "exact/algebra/algebraic_number.hpp"
 #include "exact/algebra/positivity.hpp"
+#include "exact/certificate/separation_intervals.hpp"
+#include "exact/contact/contact_conditions.hpp"
 #include "exact/contact/corner_motion.hpp"
 
 namespace touchstone::exact {
@@ -175,8 +177,8 @@ void prove_collision(const Motion& motion, const AlgebraicNumber& first,
 
 }  // namespace
 
-Certificate prove(Kind kind, const Query& query, const Separation& separation,
-                  const DistanceVerdict& verdict, const ProveOptions& options) {
+Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
+                  const ProveOptions& options) {
   if (options.width && sgn(*options.width) <= 0) {
     throw std::invalid_argument("the interval of a time of impact must have a positive width");
   }
@@ -186,9 +188,9 @@ Certificate prove(Kind kind, const Query& query, const Separation& separation,
   Certificate certificate;
   certificate.kind = kind;
   certificate.query = query;
-  certificate.separation = separation;
-  Motion motion = scale_uniformly(kind, query, separation);
-  // At distance 0 there is but one collision, and the features of l2 are fewer.
+  certificate.separation = verdict.separation;
+  Motion motion = scale_uniformly(kind, query, verdict.separation);
+  // At distance 0 both norms mean the same, and l2 has fewer features.
   if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
   if (verdict.toi) {
     prove_collision(motion, *verdict.toi, options, certificate);
@@ -197,13 +199,6 @@ Certificate prove(Kind kind, const Query& query, const Separation& separation,
   }
   require_limits(certificate);
   return certificate;
-}
-
-Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
-                  const ProveOptions& options) {
-  DistanceVerdict first;
-  if (verdict.impact) first.toi = verdict.impact->toi;
-  return prove(kind, query, Separation{}, first, options);
 }
 
 }  // namespace touchstone::exact

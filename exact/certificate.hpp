@@ -1,42 +1,112 @@
 #pragma once
 
 /// \file
-/// Verdicts that carry their proof, for a checker that trusts nothing of the oracle.
+/// Verdicts with their proof, for a checker that does not trust the oracle.
 ///
-/// A certificate is a claim about a query, and a distance at which things count as touching, and what
-/// proves it:
-///   - no collision: pieces of [0,1] with a separating feature each (exact/certificate/separation_intervals.hpp);
+/// A certificate states a query, a separation, a claim, and what proves the claim:
+///   - no collision: pieces of [0,1], each with a feature whose direction separates throughout;
 ///   - collision: a contact;
 ///   - time of impact in (lower, upper]: a contact there, and pieces of [0,lower].
 ///
-/// **A contact** is a time t* and a place with its conditions (exact/contact/contact_conditions.hpp).
-/// The time is a rational number, or a root of an integer polynomial g in an interval at whose ends g
-/// has opposite signs. Then g divides every polynomial of the conditions that is zero at t*, and every other one
-/// has one sign on the whole interval: whichever root of g there it is, the conditions hold at it.
-/// Hence g is the greatest common divisor of the polynomials that vanish, and the interval is so
-/// small that the others do not.
+/// **A contact** is a time t* and a place with its sign conditions. The time is a rational number, or
+/// a root of an integer polynomial g in an interval at whose ends g has opposite signs. Then g
+/// divides every polynomial of the conditions that is zero at t*, and every other one has one sign on
+/// the whole interval: whichever root of g there it is, the conditions hold at it. Hence g is the
+/// greatest common divisor of the polynomials that vanish, and the interval is so small that the
+/// others do not.
 ///
-/// exact/certificate/certificate_text.hpp writes certificates down, exact/CERTIFICATES.md is the format.
+/// exact/CERTIFICATES.md defines the format and the directions and conditions of features and places;
+/// exact/certificate/certificate_text.hpp writes it. docs/theory.md, section 5.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <variant>
 #include <vector>
 
 #include "exact/algebra/number.hpp"
 #include "exact/algebra/polynomial.hpp"
-#include "exact/certificate/separation_intervals.hpp"
-#include "exact/contact/contact_conditions.hpp"
-#include "exact/distance/distance_oracle.hpp"
 #include "exact/oracle.hpp"
 #include "exact/query.hpp"
 
 namespace touchstone::exact {
 
-/// What a certificate says of its query.
-enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
+// ---- No collision -------------------------------------------------------------------------------
+
+/// The name of a direction, which is a polynomial in time (docs/theory.md, sections 3.2 and 3.3).
+struct Feature {
+  enum class Sort : std::uint8_t {
+    vertex,
+    edge,
+    positive_face,
+    negative_face,
+    positive_axis,
+    negative_axis,
+    cross
+  };
+
+  Sort sort = Sort::vertex;
+  std::size_t i = 0;     ///< corner, of a vertex, edge or cross
+  std::size_t j = 0;     ///< corner, of an edge or cross
+  std::size_t axis = 0;  ///< of an axis or cross
+
+  friend bool operator==(const Feature&, const Feature&) = default;
+};
+
+/// The feature separates on all of [from, to].
+struct Piece {
+  Rational from;
+  Rational to;
+  Feature feature;
+
+  friend bool operator==(const Piece&, const Piece&) = default;
+};
+
+// ---- Contact ------------------------------------------------------------------------------------
+
+/// The origin is in the triangle of three corners; their normal's component `axis` is not zero.
+struct TriangleContact {
+  std::array<std::size_t, 3> corners;
+  std::size_t axis;
+
+  friend bool operator==(const TriangleContact&, const TriangleContact&) = default;
+};
+
+/// The origin is on the segment between two corners.
+struct SegmentContact {
+  std::array<std::size_t, 2> corners;
+
+  friend bool operator==(const SegmentContact&, const SegmentContact&) = default;
+};
+
+/// In l2: this corner is within the distance.
+struct VertexContact {
+  std::size_t corner;
+
+  friend bool operator==(const VertexContact&, const VertexContact&) = default;
+};
+
+/// In l2: a point between two corners is within the distance.
+struct EdgeContact {
+  std::array<std::size_t, 2> corners;
+
+  friend bool operator==(const EdgeContact&, const EdgeContact&) = default;
+};
+
+/// In l2: a point of the face is within the distance.
+struct FaceContact {
+  friend bool operator==(const FaceContact&, const FaceContact&) = default;
+};
+
+/// In linf: no axis separates.
+struct AxesContact {
+  friend bool operator==(const AxesContact&, const AxesContact&) = default;
+};
+
+using ContactPlace = std::variant<TriangleContact, SegmentContact, VertexContact, EdgeContact,
+                                  FaceContact, AxesContact>;
 
 /// A root of the polynomial strictly inside the interval, where its ends' signs are opposite.
 struct RootTime {
@@ -50,19 +120,35 @@ struct ContactProof {
   ContactPlace place;
 };
 
+// ---- The certificate ----------------------------------------------------------------------------
+
+/// The kinds of claims about a query.
+enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
+
 /// A claim about a query with its proof.
 struct Certificate {
   Kind kind = Kind::vertex_face;
   Query query{};
-  /// How near is a contact.
   Separation separation{};
   Claim claim = Claim::no_collision;
   /// For a time of impact: lower < toi ≤ upper, or both are 0 and so is the toi.
   RationalInterval toi;
-  /// Of [0,1] or, for a time of impact, of [0, toi.lower]; none for a collision, nor for a toi of 0.
+  /// Of [0,1] or, for a time of impact, of [0, toi.lower]; empty for a collision and for a toi of 0.
   std::vector<Piece> pieces;
   /// For a collision and a time of impact.
   std::optional<ContactProof> contact;
+};
+
+/// A certificate has at most so many pieces.
+inline constexpr std::size_t piece_limit = 4096;
+
+/// Numerator and denominator of a number in a certificate have at most so many bits.
+inline constexpr std::size_t number_limit = 16384;
+
+/// A certificate would exceed the limits of the format.
+class CertificateLimitError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 struct ProveOptions {
@@ -73,24 +159,16 @@ struct ProveOptions {
   std::optional<Rational> width = std::nullopt;
 };
 
-/// The proof of the oracle's verdict on a query at a distance: always one, and the same on every machine and in
-/// every floating-point environment. Thread-safe.
-/// \param verdict decide(kind, query, separation)
+/// The proof of the oracle's verdict on a query. There always is one, and it is the same on every
+/// machine and in every floating-point environment. Thread-safe.
+/// \param verdict decide(kind, query, verdict.separation)
 /// \throws std::invalid_argument if a coordinate is NaN or infinite, the separation is not valid, the
 /// width is not positive, or the claim asked for is `no_collision`.
 /// \throws std::logic_error if the verdict is not the query's.
-/// \throws CertificateLimitError if the certificate would exceed the format's limits: at most
-/// number_limit bits above and below in a number and piece_limit pieces. separate() says when; the
-/// interval of a contact needs no more bits than the break points there.
-[[nodiscard]] Certificate prove(Kind kind, const Query& query, const Separation& separation,
-                                const DistanceVerdict& verdict, const ProveOptions& options = {});
-
-/// The same without a distance.
-/// \param verdict decide(kind, query)
+/// \throws CertificateLimitError if the certificate would exceed number_limit or piece_limit.
+/// exact/certificate/separation_intervals.hpp proves when the break points of pieces do not; the
+/// interval of a contact needs no more bits than they.
 [[nodiscard]] Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
                                 const ProveOptions& options = {});
-
-/// A certificate has at most so many pieces.
-inline constexpr std::size_t piece_limit = 4096;
 
 }  // namespace touchstone::exact

@@ -1,224 +1,26 @@
 #include "exact/oracle.hpp"
 
-#include <algorithm>
-#include <array>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
+#include "exact/contact/contact_oracle.hpp"
 #include "exact/contact/corner_motion.hpp"
+#include "exact/distance/distance_oracle.hpp"
 
 namespace touchstone::exact {
-namespace {
 
-/// (u,v) at each corner: the vertices of F's domain.
-std::array<int, 2> corner_parameters(Kind kind, std::size_t corner) {
-  static constexpr std::array<std::array<int, 2>, 3> triangle{{{0, 0}, {1, 0}, {0, 1}}};
-  static constexpr std::array<std::array<int, 2>, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  return kind == Kind::vertex_face ? triangle.at(corner) : square.at(corner);
+Verdict decide(Kind kind, const Query& query, const Separation& separation) {
+  Verdict verdict = is_contact(separation)
+                        ? decide_contact(scale_to_integers(kind, query))
+                        : decide_distance(scale_uniformly(kind, query, separation));
+  verdict.separation = separation;
+  return verdict;
 }
 
-/// The contact's (u,v) as forms with a common denominator that is positive at the time of contact.
-struct ContactForms {
-  Form<2> u_numerator;
-  Form<2> v_numerator;
-  Form<2> denominator;
-};
-
-/// The sign rules of the theorem at given times, each polynomial made when it is first needed.
-class ContainsOrigin {
- public:
-  explicit ContainsOrigin(const Motion& motion) : motion_(motion) {}
-
-  /// Is the origin in conv{w_i(t)}? If so, where. \pre det vanishes at t.
-  std::optional<ContactForms> at(AlgebraicNumber& t) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const int orientation = sign_at(normal(axis), t);
-      if (orientation != 0) return in_polygon(t, axis, orientation);
-    }
-    return in_segment(t);
-  }
-
-  /// For motion in a common plane: polynomials between whose roots the answer does not change.
-  std::vector<Polynomial> planar_polynomials() {
-    std::vector<Polynomial> result;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (normal(axis).is_zero()) continue;
-      result.push_back(to_polynomial(normal(axis)));
-      for (std::size_t edge = 0; edge < edges(); ++edge) append(cross(edge, axis), result);
-      return result;
-    }
-    for (std::size_t edge = 0; edge < edges(); ++edge) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (append(cross(edge, axis), result)) break;
-      }
-      append(dot(motion_, edge, next(edge)), result);
-    }
-    return result;
-  }
-
- private:
-  const Form<2>& normal(std::size_t axis) {
-    auto& form = normals_.at(axis);
-    if (!form) form = normal_component(motion_, axis);
-    return *form;
-  }
-  /// Component `axis` of w_i × w_j, where corners i and j end an edge.
-  const Form<2>& cross(std::size_t edge, std::size_t axis) {
-    auto& form = crosses_.at(edge).at(axis);
-    if (!form) form = cross_component(motion_, edge, next(edge), axis);
-    return *form;
-  }
-
-  [[nodiscard]] std::size_t edges() const { return motion_.corner_count; }
-  [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % edges(); }
-
-  /// Is it not identically zero, and so appended?
-  static bool append(const Form<2>& form, std::vector<Polynomial>& result) {
-    if (form.is_zero()) return false;
-    result.push_back(to_polynomial(form));
-    return true;
-  }
-
-  /// N_axis ≠ 0. Cramer's rule: u N = w_last × w_0 and v N = w_0 × w_1.
-  std::optional<ContactForms> in_polygon(AlgebraicNumber& t, std::size_t axis, int orientation) {
-    for (std::size_t edge = 0; edge < edges(); ++edge) {
-      if (sign_at(cross(edge, axis), t) * orientation < 0) return std::nullopt;
-    }
-    const auto oriented = [&](const Form<2>& form) { return orientation > 0 ? form : -form; };
-    return ContactForms{oriented(cross(edges() - 1, axis)), oriented(cross(0, axis)),
-                        oriented(normal(axis))};
-  }
-
-  /// N = 0.
-  std::optional<ContactForms> in_segment(AlgebraicNumber& t) {
-    for (std::size_t edge = 0; edge < edges(); ++edge) {
-      const auto vanishes = [&](std::size_t axis) { return sign_at(cross(edge, axis), t) == 0; };
-      if (vanishes(0) && vanishes(1) && vanishes(2) &&
-          sign_at(dot(motion_, edge, next(edge)), t) <= 0) {
-        return on_segment(t, edge, next(edge));
-      }
-    }
-    return std::nullopt;
-  }
-
-  /// 0 = (1−λ) w_i + λ w_j, hence λ = w_i,k / (w_i,k − w_j,k) for any axis k where they differ.
-  [[nodiscard]] ContactForms on_segment(AlgebraicNumber& t, std::size_t i, std::size_t j) const {
-    Form<1> numerator{}, denominator = one<1>();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Form<1>& from = motion_.corners.at(i).at(axis);
-      const Form<1> difference = from - motion_.corners.at(j).at(axis);
-      const int sign = sign_at(difference, t);
-      if (sign == 0) continue;
-      numerator = sign > 0 ? from : -from;
-      denominator = sign > 0 ? difference : -difference;
-      break;
-    }
-    const auto at_i = corner_parameters(motion_.kind, i);
-    const auto at_j = corner_parameters(motion_.kind, j);
-    const auto parameter = [&](std::size_t which) {
-      const Form<1> start = denominator * Form<0>{{Integer(at_i.at(which))}};
-      const Form<0> step{{Integer(at_j.at(which) - at_i.at(which))}};
-      return (start + numerator * step) * one<1>();
-    };
-    return {parameter(0), parameter(1), denominator * one<1>()};
-  }
-
-  const Motion& motion_;
-  std::array<std::optional<Form<2>>, 3> normals_;
-  std::array<std::array<std::optional<Form<2>>, 3>, 4> crosses_;
-};
-
-/// The denominator times F(t,u,v), component `axis`, from the eight points.
-Form<3> scaled_contact_function(const Motion& motion, const ContactForms& contact,
-                                std::size_t axis) {
-  const auto& [u, v, d] = contact;
-  const auto point = [&](std::size_t i) -> const Form<1>& { return motion.points.at(i).at(axis); };
-  Form<3> value;
-  if (motion.kind == Kind::vertex_face) {
-    add_product(value, d, point(0));
-    subtract_product(value, d - u - v, point(1));
-    subtract_product(value, u, point(2));
-  } else {
-    add_product(value, d - u, point(0));
-    add_product(value, u, point(1));
-    subtract_product(value, d - v, point(2));
-  }
-  subtract_product(value, v, point(3));
-  return value;
-}
-
-/// F(toi,u,v) = 0 with (u,v) in the domain, or the oracle itself is wrong.
-void check_contact(const Motion& motion, const ContactForms& contact, AlgebraicNumber& toi) {
-  const auto& [u, v, d] = contact;
-  bool holds = sign_at(d, toi) > 0;
-  const auto require_nonnegative = [&](const Form<2>& form) {
-    holds = holds && sign_at(form, toi) >= 0;
-  };
-  require_nonnegative(u);
-  require_nonnegative(v);
-  if (motion.kind == Kind::vertex_face) {
-    require_nonnegative(d - u - v);
-  } else {
-    require_nonnegative(d - u);
-    require_nonnegative(d - v);
-  }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Form<3> value = scaled_contact_function(motion, contact, axis);
-    holds = holds && (value.is_zero() || toi.is_root_of(to_polynomial(value)));
-  }
-  if (!holds) throw std::logic_error("touchstone: the oracle found a contact where F is not zero");
-}
-
-/// Candidates of motion in a common plane, in ascending order.
-std::vector<AlgebraicNumber> planar_candidates(ContainsOrigin& contains_origin) {
-  std::vector<Polynomial> distinct;
-  for (const Polynomial& p : contains_origin.planar_polynomials()) {
-    Polynomial squarefree = squarefree_part(p);
-    if (std::ranges::find(distinct, squarefree) == distinct.end()) {
-      distinct.push_back(std::move(squarefree));
-    }
-  }
-  std::vector<AlgebraicNumber> candidates{AlgebraicNumber(0)};
-  for (const Polynomial& p : distinct) {
-    auto roots = roots_in_unit_interval(p);
-    std::ranges::move(roots, std::back_inserter(candidates));
-  }
-  std::ranges::sort(candidates, [](const auto& a, const auto& b) { return a < b; });
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-  return candidates;
-}
-
-/// Times that include the toi if there is one, in ascending order.
-std::vector<AlgebraicNumber> candidates(const Motion& motion, ContainsOrigin& contains_origin) {
-  const Form<3> det = determinant(motion);
-  const auto is_positive = [](const Integer& c) { return sgn(c) > 0; };
-  const auto is_negative = [](const Integer& c) { return sgn(c) < 0; };
-  if (std::ranges::all_of(det.c, is_positive) || std::ranges::all_of(det.c, is_negative)) return {};
-  if (det.is_zero()) return planar_candidates(contains_origin);
-  return roots_in_unit_interval(to_polynomial(det));
-}
-
-}  // namespace
-
-Verdict decide(Kind kind, const Query& query) {
-  const Motion motion = scale_to_integers(kind, query);
-  ContainsOrigin contains_origin(motion);
-  for (AlgebraicNumber& t : candidates(motion, contains_origin)) {
-    const std::optional<ContactForms> contact = contains_origin.at(t);
-    if (!contact) continue;
-    check_contact(motion, *contact, t);
-    return {Impact{std::move(t),
-                   {to_polynomial(contact->u_numerator), to_polynomial(contact->v_numerator),
-                    to_polynomial(contact->denominator)}}};
-  }
-  return {};
-}
-
-ContactParameters contact_parameters(const Impact& impact, const Rational& width) {
-  const auto& [u, v, denominator] = impact.contact;
-  return {enclose_quotient(u, denominator, impact.toi, width),
-          enclose_quotient(v, denominator, impact.toi, width)};
+ContactParameters contact_parameters(const Verdict& verdict, const Rational& width) {
+  if (!verdict.contact) throw std::invalid_argument("the place of contact is not known");
+  const auto& [u, v, denominator] = *verdict.contact;
+  return {enclose_quotient(u, denominator, *verdict.toi, width),
+          enclose_quotient(v, denominator, *verdict.toi, width)};
 }
 
 }  // namespace touchstone::exact

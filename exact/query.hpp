@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The one definition of the problem that every room works on.
+/// The one definition of the problem that every module works on.
 ///
 /// Four points move on straight lines from t=0 to t=1. For u, v in the domain of the kind,
 ///
@@ -21,7 +21,10 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -80,19 +83,37 @@ struct QueryBatch {
   std::span<const Query> queries;
 };
 
-/// A corner of F: the difference of point `plus` and point `minus` (0..3).
+/// Are all numbers, or all coordinates, finite?
+[[nodiscard]] inline bool is_finite(std::span<const double> numbers) {
+  return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
+}
+[[nodiscard]] inline bool is_finite(const Query& query) { return is_finite(query.coordinates); }
+
+/// A corner of F: its value at the vertex (u,v) of the domain, where it is the difference of point
+/// `plus` and point `minus` (0..3).
 struct Corner {
   std::size_t plus;
   std::size_t minus;
+  int u;
+  int v;
 };
 
+inline constexpr std::array<Corner, 3> vertex_face_corners{
+    {{0, 1, 0, 0}, {0, 2, 1, 0}, {0, 3, 0, 1}}};
+inline constexpr std::array<Corner, 4> edge_edge_corners{
+    {{0, 2, 0, 0}, {1, 2, 1, 0}, {1, 3, 1, 1}, {0, 3, 0, 1}}};
+
 /// The corners of a kind: v−f0, v−f1, v−f2, or ea0−eb0, ea1−eb0, ea1−eb1, ea0−eb1 in cyclic order.
-/// Their parameters (u,v) are (0,0), (1,0), (0,1), or (0,0), (1,0), (1,1), (0,1).
-[[nodiscard]] inline std::span<const Corner> corners(Kind kind) {
-  static constexpr std::array<Corner, 3> vertex_face{{{0, 1}, {0, 2}, {0, 3}}};
-  static constexpr std::array<Corner, 4> edge_edge{{{0, 2}, {1, 2}, {1, 3}, {0, 3}}};
-  if (kind == Kind::vertex_face) return vertex_face;
-  return edge_edge;
+[[nodiscard]] constexpr std::span<const Corner> corners(Kind kind) {
+  if (kind == Kind::vertex_face) return vertex_face_corners;
+  return edge_edge_corners;
+}
+
+/// r = w_0, p = w_0 − w_1 and q = w_0 − w_last, so that F = r − u p − v q; each as a pair of points
+/// whose difference it is.
+[[nodiscard]] constexpr std::array<std::array<std::size_t, 2>, 3> affine_vectors(Kind kind) {
+  if (kind == Kind::vertex_face) return {{{0, 1}, {2, 1}, {3, 1}}};
+  return {{{0, 2}, {0, 1}, {3, 2}}};
 }
 
 /// F(t,u,v), evaluated with the operations of `Scalar` in the order of the formulas above: the
@@ -132,6 +153,12 @@ struct Separation {
 /// Is the distance finite and not negative?
 [[nodiscard]] inline bool is_valid(const Separation& separation) {
   return separation.distance >= 0.0 && separation.distance <= std::numeric_limits<double>::max();
+}
+
+/// Is the distance 0, so that the norm does not matter? Decided by its bits, because a floating-point
+/// environment may take a subnormal distance for 0.
+[[nodiscard]] inline bool is_contact(const Separation& separation) {
+  return std::bit_cast<std::uint64_t>(separation.distance) << 1U == 0;
 }
 
 /// "linf" or "l2".

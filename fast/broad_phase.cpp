@@ -46,10 +46,8 @@ void require_countable(std::size_t count, std::string_view name) {
 }
 
 void require_finite(const MovingVertices& vertices) {
-  const auto is_finite = [](double x) { return std::isfinite(x); };
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (!std::ranges::all_of(vertices[i].start, is_finite) ||
-        !std::ranges::all_of(vertices[i].end, is_finite)) {
+    if (!is_finite(vertices[i].start) || !is_finite(vertices[i].end)) {
       throw std::domain_error("vertex " + std::to_string(i) + ": a coordinate is not finite");
     }
   }

@@ -79,10 +79,6 @@ Batch batch_of(const MovingVertices& vertices, const Candidates& candidates) {
           .candidates = candidates};
 }
 
-bool is_finite(const Query& query) {
-  return std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); });
-}
-
 // ---- A block ------------------------------------------------------------------------------------
 
 CertifiedResult decide_last(const Batch& batch, std::size_t i, const CertifiedOptions& options) {

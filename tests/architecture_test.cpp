@@ -129,8 +129,7 @@ constexpr auto foreign_headers = std::to_array<Exception>({
 /// Headers without a test file of their own.
 constexpr auto headers_without_test = std::to_array<Exception>({
     {"filters/strict_arithmetic.hpp", "tested by compilation, in tests/filters/CMakeLists.txt"},
-    {"exact/algebra/cgal.hpp",
-     "a conversion that polynomial_test.cpp compares the oracle's algebra through"},
+    {"exact/contact/contact_oracle.hpp", "tested through the oracle, in oracle_test.cpp"},
     {"verify/data/query_source.hpp", "an interface without code"},
     {"fast/method.hpp", "an interface without code"},
     {"fast/platform/avx_rows.hpp", "a part of the kernels, tested through them"},

@@ -9,12 +9,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 
 namespace touchstone::exact {
-
-static_assert(std::is_same_v<Integer, CGAL::Exact_integer> &&
-              std::is_same_v<Rational, CGAL::Exact_rational>);
 
 namespace {
 

@@ -21,8 +21,8 @@ namespace touchstone::exact {
 /// A polynomial with integer coefficients and no leading zeros; the zero polynomial is the constant
 /// 0.
 ///
-/// CGAL's own class will not do: copies share one representation, whose counter (CGAL 5.5) is not
-/// atomic, so verdicts could not be used by several threads. exact/algebra/cgal.hpp converts.
+/// CGAL::Polynomial is not used: its copies share one representation, whose reference count is not
+/// atomic in CGAL 5.5, so verdicts could not be used by several threads.
 class Polynomial {
  public:
   /// Zero.

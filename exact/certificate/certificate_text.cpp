@@ -85,11 +85,8 @@ void write_points(std::string& text, const Query& query) {
   }
 }
 
-/// In bits, because a floating-point environment may take what is small for zero.
-bool is_zero(double value) { return std::bit_cast<std::uint64_t>(value) << 1U == 0; }
-
 void write_separation(std::string& text, const Separation& separation) {
-  if (is_zero(separation.distance)) return;
+  if (is_contact(separation)) return;
   text += "separation ";
   write_hexadecimal(text, separation.distance);
   text.append(" ").append(to_string(separation.norm)).append("\n");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exact/algebra/positivity.hpp"
+#include "exact/distance/separating_axes.hpp"
 
 namespace touchstone::exact {
 namespace {

@@ -66,10 +66,10 @@ Motion in_units(Kind kind, const Query& query, const std::array<int, 3>& units) 
       }
     }
   }
-  for (const auto& [plus, minus] : corners(kind)) {
+  for (const Corner& corner : corners(kind)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       motion.corners[motion.corner_count][axis] =
-          motion.points[plus][axis] - motion.points[minus][axis];
+          motion.points[corner.plus][axis] - motion.points[corner.minus][axis];
     }
     ++motion.corner_count;
   }

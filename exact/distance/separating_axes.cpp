@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -13,7 +14,7 @@ using Coefficients = std::span<const Integer>;
 bool is_positive(const Integer& x) { return sgn(x) > 0; }
 bool is_negative(const Integer& x) { return sgn(x) < 0; }
 
-/// The polynomials of features; products of corners are made when first needed.
+/// The polynomials of features; products of corners are computed when first needed.
 class Values {
  public:
   using Holds = std::function<bool(Coefficients, bool is_guard)>;
@@ -26,7 +27,7 @@ class Values {
     return motion_.norm == Norm::l2 ? l2_features() : linf_features();
   }
 
-  /// Does it hold for the forms of a feature? None is asked after the first for which it does not.
+  /// Does the predicate hold for all forms of a feature? It is not called again after a failure.
   bool every(const Feature& feature, const Holds& holds) {
     switch (feature.sort) {
       case Feature::Sort::vertex:
@@ -158,8 +159,8 @@ class Values {
 
   // ---- linf -------------------------------------------------------------------------------------
 
-  /// a·w > d(σ·a) for all σ, from a·w and those components of a that may differ from zero. Of a
-  /// component whose sign is that of its coefficients, that sign is the one that asks for most.
+  /// a·w > d(σ·a) for all σ, from a·w and those components of a that may differ from zero. If the
+  /// coefficients of a component have one sign, that sign is the strictest σ.
   template <std::size_t degree, std::size_t below, std::size_t count>
   bool is_beyond_cube(const Form<degree>& value, const std::array<Form<below>, count>& components,
                       const Holds& holds) {
@@ -248,8 +249,8 @@ bool Separator::holds_at(AlgebraicNumber& t) {
   return true;
 }
 
-/// Is one of its polynomials seen to be negative between t and the bound? Asked of one point close to
-/// the bound, which spares most separators the isolation of roots.
+/// Is one of its polynomials negative at a point between t and the bound, and close to the bound? For
+/// most separators this saves the isolation of roots.
 bool Separator::is_over_before(const AlgebraicNumber& t, const AlgebraicNumber& bound) {
   const Rational point = bound.interval().lower;
   if (t >= point) return false;
@@ -318,7 +319,7 @@ std::optional<Span> farthest(std::vector<Separator>& separators, AlgebraicNumber
   return best;
 }
 
-std::optional<AlgebraicNumber> first_contact(const Motion& motion) {
+std::optional<AlgebraicNumber> end_of_separation(const Motion& motion) {
   std::vector<Separator> all = separators(motion);
   AlgebraicNumber t(0);
   while (std::optional<Span> span = farthest(all, t)) {

@@ -1,10 +1,9 @@
 #pragma once
 
 /// \file
-/// Directions that keep a polygon away from a ball, and the times at which they do.
+/// Directions that separate a polygon from a ball, and the times at which they do.
 ///
-/// P(t) = conv{w_i(t)} is the polygon of corners, d the distance that counts as contact. A direction
-/// a separates P from the ball of radius d strictly iff a·w_k > d‖a‖* for every corner k, ‖·‖* the
+/// P(t) = conv{w_i(t)} is the polygon of corners, d the distance of the query. A direction a separates P from the ball of radius d strictly iff a·w_k > d‖a‖* for every corner k, ‖·‖* the
 /// dual norm: |a| for l2, |a_x| + |a_y| + |a_z| for linf. While the distance is above d, one of
 /// finitely many does, each polynomial in t and named by a *feature*:
 ///
@@ -33,18 +32,16 @@
 /// In integer polynomials, all of which have to be positive for a feature to hold:
 ///   - l2: a·w_k and (a·w_k)² − d²|a|². For k = i of vertex i these say |w_i|² − d² > 0; for k = i, j
 ///     of edge i, j, where a·w_k = V = |e|²|w_i|² − (w_i·e)² and |a|² = |e|² V, V − d²|e|² > 0. In
-///     time the second of a pair ends first: where a·w_k gets to 0 it is not positive. So the first is
-///     a *guard*, which has to be asked where a walk begins, but whose roots are never needed.
+///     time the second of a pair ends first: where a·w_k reaches 0 it is not positive. So the first is
+///     a *guard*, which must be evaluated where an interval begins, but whose roots are never needed.
 ///   - linf: a·w_k − d(σ·a) for every vector σ of signs.
 ///
-/// So the times at which P is farther than d are a finite union of open sets. **The walk**: from
-/// t = 0, while some feature holds at t, go to where the one that does so longest ends. Every step
-/// goes to a later root of finitely many polynomials, so it ends: at the first time of contact or
-/// with a feature that holds to the end of time.
+/// So the times at which P is farther than d are a finite union of open sets. **The search**: from
+/// t = 0, while some feature holds at t, go to where the one that holds longest ends. Every step goes
+/// to a later root of finitely many polynomials, so the search ends: at the first time of contact, or
+/// with a feature that holds up to t = 1.
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -52,35 +49,16 @@
 #include "exact/algebra/algebraic_number.hpp"
 #include "exact/algebra/number.hpp"
 #include "exact/algebra/polynomial.hpp"
+#include "exact/certificate.hpp"
 #include "exact/contact/corner_motion.hpp"
 
 namespace touchstone::exact {
 
-/// The name of a direction as above.
-struct Feature {
-  enum class Sort : std::uint8_t {
-    vertex,
-    edge,
-    positive_face,
-    negative_face,
-    positive_axis,
-    negative_axis,
-    cross
-  };
-
-  Sort sort = Sort::vertex;
-  std::size_t i = 0;     ///< corner, of a vertex, edge or cross
-  std::size_t j = 0;     ///< corner, of an edge or cross
-  std::size_t axis = 0;  ///< of an axis or cross
-
-  friend bool operator==(const Feature&, const Feature&) = default;
-};
-
-/// A feature that holds at some times, with those of its polynomials that are not positive
-/// throughout by the signs of their forms' coefficients.
+/// A feature that holds at some times, with its polynomials, except those whose forms have positive
+/// coefficients only: they are positive throughout.
 class Separator {
  public:
-  /// A form that is to be positive.
+  /// A form that must be positive.
   struct Condition {
     std::vector<Integer> form;
     bool is_guard = false;
@@ -90,11 +68,11 @@ class Separator {
 
   [[nodiscard]] const Feature& feature() const { return feature_; }
 
-  /// Does it hold at all times by those signs?
+  /// Are all of its polynomials positive by their coefficients?
   [[nodiscard]] bool is_trivial() const { return values_.empty(); }
 
   [[nodiscard]] std::size_t size() const { return values_.size(); }
-  /// Coefficients of a form that is to be positive (exact/contact/corner_motion.hpp).
+  /// Coefficients of a form that must be positive (exact/contact/corner_motion.hpp).
   [[nodiscard]] const std::vector<Integer>& form(std::size_t n) const {
     return values_[n].condition.form;
   }
@@ -104,17 +82,17 @@ class Separator {
   /// Does it hold at this time?
   bool holds_at(AlgebraicNumber& t);
 
-  /// Up to where it holds from t on, excluded: the first root after t, none if there is no such.
+  /// The end of the open interval on which it holds from t on: the first root after t, if there is one.
   /// \pre holds_at(t)
   struct End {
     std::optional<AlgebraicNumber> root;
-    /// Is it not after the bound that was given? Then `root` may be missing or a later one.
+    /// Is the end not after the given bound? Then `root` may be missing or a later one.
     bool is_within_bound = false;
   };
-  /// \param bound If one is given, which is after t, ends that are not after it need not be found.
+  /// \param bound A time after t, or none: an end that is not after it need not be found.
   End end_after(AlgebraicNumber& t, std::optional<AlgebraicNumber>& bound);
 
-  /// The last root before t, none if there is no such: from where on it holds, excluded.
+  /// The beginning of that interval: the last root before t, if there is one.
   /// \pre holds_at(t)
   std::optional<AlgebraicNumber> begin_before(AlgebraicNumber& t);
 
@@ -124,7 +102,7 @@ class Separator {
     std::optional<Polynomial> polynomial;
     std::optional<std::vector<AlgebraicNumber>> roots;
   };
-  /// None of a guard.
+  /// Empty for a guard.
   std::vector<AlgebraicNumber>& roots(std::size_t n);
   bool is_over_before(const AlgebraicNumber& t, const AlgebraicNumber& bound);
 
@@ -142,12 +120,13 @@ struct Span {
   std::optional<AlgebraicNumber> end;
 };
 
-/// Of the separators that hold at a time the one that does so longest, the first of several; none if
-/// none holds.
+/// Of the separators that hold at a time the one that holds longest, the first if there are several;
+/// empty if none holds.
 [[nodiscard]] std::optional<Span> farthest(std::vector<Separator>& separators, AlgebraicNumber t);
 
-/// The first time in [0,1] at which the polygon is within the motion's distance, by the walk.
+/// The first time in [0,1] at which no direction separates, by the search above; empty if there is
+/// none.
 /// \pre the motion is scaled uniformly.
-[[nodiscard]] std::optional<AlgebraicNumber> first_contact(const Motion& motion);
+[[nodiscard]] std::optional<AlgebraicNumber> end_of_separation(const Motion& motion);
 
 }  // namespace touchstone::exact

@@ -12,9 +12,9 @@ int main() {
   const exact::Verdict verdict = exact::decide(Kind::vertex_face, query);
   if (!verdict.collides()) return 1;
   const exact::Rational width = exact::power_of_two(-60);
-  const exact::ContactParameters at = exact::contact_parameters(*verdict.impact, width);
-  const exact::DoubleInterval toi = verdict.impact->toi.enclosure();
+  const exact::ContactParameters at = exact::contact_parameters(verdict, width);
+  const exact::DoubleInterval toi = verdict.toi->enclosure();
   std::printf("toi in [%.17g, %.17g], u = %s, v = %s\n", toi.lower, toi.upper,
               at.u.lower.get_str().c_str(), at.v.lower.get_str().c_str());
-  return verdict.impact->toi == exact::Rational(1, 3) ? 0 : 1;
+  return *verdict.toi == exact::Rational(1, 3) ? 0 : 1;
 }

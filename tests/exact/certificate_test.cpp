@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "exact/contact/corner_motion.hpp"
+#include "exact/distance/distance_oracle.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/certificates.hpp"
 #include "tests/support/public_data.hpp"
@@ -235,12 +237,13 @@ TEST(Prove, AtADistanceCannotProveAWrongVerdict) {
     const Separation one{1, norm};
     const auto of_hit = decide(hit.kind, hit.query, one),
                of_miss = decide(miss.kind, miss.query, one);
-    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, one, of_miss)), std::logic_error);
-    EXPECT_THROW(static_cast<void>(prove(miss.kind, miss.query, one, of_hit)), std::logic_error);
-    const DistanceVerdict late{AlgebraicNumber(Rational(3, 4))};
-    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, one, late)), std::logic_error);
-    const Separation bad{-1, norm};
-    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, bad, of_hit)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, of_miss)), std::logic_error);
+    EXPECT_THROW(static_cast<void>(prove(miss.kind, miss.query, of_hit)), std::logic_error);
+    const Verdict late{.separation = one, .toi = AlgebraicNumber(Rational(3, 4))};
+    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, late)), std::logic_error);
+    Verdict bad = of_hit;
+    bad.separation.distance = -1;
+    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, bad)), std::invalid_argument);
   }
 }
 
@@ -263,7 +266,7 @@ TEST(Prove, KeepsToTheWidthAskedFor) {
     for (const Rational& width : {Rational(2), Rational(1, 1000), power_of_two(-500)}) {
       const Certificate certificate = tests::prove(posed, {.width = width});
       EXPECT_LE(certificate.toi.upper - certificate.toi.lower, width);
-      const AlgebraicNumber toi = decide(posed.kind, posed.query).impact->toi;
+      const AlgebraicNumber toi = *decide(posed.kind, posed.query).toi;
       EXPECT_TRUE(toi > certificate.toi.lower && toi <= certificate.toi.upper);
       EXPECT_EQ(rejection(certificate), "");
     }
@@ -288,7 +291,7 @@ TEST(Prove, CannotProveAWrongVerdict) {
   // A contact that is not the first.
   const PosedQuery through_twice = tests::turning_triangle(8, 4, 1, 1);
   Verdict late = decide(through_twice.kind, through_twice.query);
-  late.impact->toi = AlgebraicNumber(1);
+  *late.toi = AlgebraicNumber(1);
   EXPECT_THROW(static_cast<void>(prove(through_twice.kind, through_twice.query, late)),
                std::logic_error);
 }
@@ -356,8 +359,8 @@ TEST(Prove, IsIndependentOfTheRoundingMode) {
 class RoundTrip {
  public:
   void add(const PosedQuery& posed, const Separation& separation = {}) {
-    const DistanceVerdict verdict = decide(posed.kind, posed.query, separation);
-    const Certificate certificate = prove(posed.kind, posed.query, separation, verdict);
+    const Verdict verdict = decide(posed.kind, posed.query, separation);
+    const Certificate certificate = prove(posed.kind, posed.query, verdict);
     ASSERT_EQ(certificate.claim == Claim::time_of_impact, verdict.collides());
     if (verdict.collides()) {
       ++collisions_;
@@ -427,12 +430,12 @@ TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
         const PosedQuery posed{kind, verify::make_query(family, kind, 8, i).query};
         for (const Norm norm : {Norm::linf, Norm::l2}) {
           for (const double distance : {0.125, 1e-30}) trip.add(posed, {distance, norm});
-          // By the walk, which knows nothing of the plain oracle.
-          const auto walked = decide_by_walk(scale_uniformly(kind, posed.query, {0.0, norm}));
-          const Verdict plain = decide(kind, posed.query);
-          ASSERT_EQ(walked.collides(), plain.collides()) << family.name << posed;
-          if (plain.collides()) {
-            ASSERT_TRUE(*walked.toi == plain.impact->toi) << family.name << posed;
+          // The two oracles agree at distance 0.
+          const Verdict other = decide_distance(scale_uniformly(kind, posed.query, {0.0, norm}));
+          const Verdict verdict = decide(kind, posed.query);
+          ASSERT_EQ(other.collides(), verdict.collides()) << family.name << posed;
+          if (verdict.collides()) {
+            ASSERT_TRUE(*other.toi == *verdict.toi) << family.name << posed;
           }
         }
       }

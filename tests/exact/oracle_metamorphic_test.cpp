@@ -129,8 +129,8 @@ void expect_same_answer(const Verdict& original, Kind kind, const Query& changed
   const Verdict verdict = decide({kind, changed});
   ASSERT_EQ(verdict.collides(), original.collides()) << PosedQuery{kind, changed};
   if (!verdict.collides()) return;
-  EXPECT_TRUE(verdict.impact->toi == original.impact->toi) << PosedQuery{kind, changed};
-  EXPECT_EQ(verdict.impact->toi.enclosure(), original.impact->toi.enclosure());
+  EXPECT_TRUE(*verdict.toi == *original.toi) << PosedQuery{kind, changed};
+  EXPECT_EQ(verdict.toi->enclosure(), original.toi->enclosure());
 }
 
 /// The number 1 − α.
@@ -276,9 +276,9 @@ TEST(OracleMetamorphic, ReversingTimeKeepsTheVerdictAndBoundsTheToi) {
                    const Verdict backward = decide({posed.kind, reversed(posed.query)});
                    ASSERT_EQ(backward.collides(), verdict.collides());
                    if (!verdict.collides()) return;
-                   const AlgebraicNumber last = one_minus(backward.impact->toi);
-                   EXPECT_TRUE(verdict.impact->toi <= last);
-                   ++(verdict.impact->toi == last ? single_instants : longer);
+                   const AlgebraicNumber last = one_minus(*backward.toi);
+                   EXPECT_TRUE(*verdict.toi <= last);
+                   ++(*verdict.toi == last ? single_instants : longer);
                  });
   EXPECT_GT(single_instants, trials(100));
   EXPECT_GT(longer, trials(100));
@@ -304,7 +304,7 @@ TEST(OracleMetamorphic, StoppingBeforeTheToiMissesAndAfterItCollides) {
   check_families(integer_families,
                  [&](Random&, const PosedQuery& posed, const Verdict& verdict, Tally&) {
                    if (!verdict.collides()) return;
-                   const AlgebraicNumber& toi = verdict.impact->toi;
+                   const AlgebraicNumber& toi = *verdict.toi;
                    const auto [lower, upper] = grid_times(toi);
                    if (sgn(upper) > 0) {
                      const std::optional<Query> before = cut(posed.query, 0, lower);
@@ -313,7 +313,7 @@ TEST(OracleMetamorphic, StoppingBeforeTheToiMissesAndAfterItCollides) {
                      EXPECT_FALSE(decide({posed.kind, *before}).collides());
                      const Verdict stopped = decide({posed.kind, *after});
                      ASSERT_TRUE(stopped.collides());
-                     expect_toi_of_part(stopped.impact->toi, toi, 0, upper);
+                     expect_toi_of_part(*stopped.toi, toi, 0, upper);
                      ++stopped_before;
                    }
                    const double end = toi.enclosure().upper;
@@ -321,7 +321,7 @@ TEST(OracleMetamorphic, StoppingBeforeTheToiMissesAndAfterItCollides) {
                    if (end == 0.0 || !at_enclosure) return;
                    const Verdict stopped = decide({posed.kind, *at_enclosure});
                    ASSERT_TRUE(stopped.collides());
-                   expect_toi_of_part(stopped.impact->toi, toi, 0, Rational(end));
+                   expect_toi_of_part(*stopped.toi, toi, 0, Rational(end));
                    ++stopped_after;
                  });
   EXPECT_GT(stopped_before, trials(300));
@@ -333,14 +333,14 @@ TEST(OracleMetamorphic, StartingLaterKeepsTheContactAtTheToi) {
   check_families(integer_families,
                  [&](Random&, const PosedQuery& posed, const Verdict& verdict, Tally&) {
                    if (!verdict.collides()) return;
-                   const AlgebraicNumber& toi = verdict.impact->toi;
+                   const AlgebraicNumber& toi = *verdict.toi;
                    const Rational from = grid_times(toi).lower;
                    if (sgn(from) <= 0) return;
                    const std::optional<Query> later = cut(posed.query, from, 1);
                    ASSERT_TRUE(later.has_value());
                    const Verdict rest = decide({posed.kind, *later});
                    ASSERT_TRUE(rest.collides());
-                   expect_toi_of_part(rest.impact->toi, toi, from, 1);
+                   expect_toi_of_part(*rest.toi, toi, from, 1);
                    ++started_later;
                  });
   EXPECT_GT(started_later, trials(300));
@@ -357,13 +357,13 @@ TEST(OracleMetamorphic, CollidesIffOneOfItsHalvesDoes) {
                    const Verdict second = decide({original.kind, *cut(even, half, 1)});
                    ASSERT_EQ(original_verdict.collides(), first.collides() || second.collides());
                    if (!original_verdict.collides()) return;
-                   const AlgebraicNumber& toi = original_verdict.impact->toi;
+                   const AlgebraicNumber& toi = *original_verdict.toi;
                    EXPECT_EQ(first.collides(), toi <= half);
                    if (first.collides()) {
-                     expect_toi_of_part(first.impact->toi, toi, 0, half);
+                     expect_toi_of_part(*first.toi, toi, 0, half);
                      ++in_first;
                    } else {
-                     expect_toi_of_part(second.impact->toi, toi, half, 1);
+                     expect_toi_of_part(*second.toi, toi, half, 1);
                      ++in_second;
                    }
                  });

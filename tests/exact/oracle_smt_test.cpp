@@ -229,7 +229,7 @@ TEST(OracleSmt, AgreesWithAnSmtSolver) {
     SCOPED_TRACE(posed);
     const Verdict verdict = decide(posed.kind, posed.query);
     compare_verdict(posed, verdict.collides(), tally);
-    if (verdict.collides()) compare_toi(posed, verdict.impact->toi, tally);
+    if (verdict.collides()) compare_toi(posed, *verdict.toi, tally);
   }
   print_summary(tally);
   EXPECT_GE(tally.decided, 100U);

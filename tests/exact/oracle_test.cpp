@@ -147,9 +147,9 @@ Rational greatest_coordinate(const Query& query) {
 }
 
 /// (u,v) at the exact toi lies in the domain, whatever is known of it numerically.
-void expect_parameters_in_domain(Kind kind, const Impact& impact) {
-  AlgebraicNumber t = impact.toi;
-  const auto& [u, v, denominator] = impact.contact;
+void expect_parameters_in_domain(Kind kind, const Verdict& verdict) {
+  AlgebraicNumber t = *verdict.toi;
+  const auto& [u, v, denominator] = *verdict.contact;
   EXPECT_EQ(t.sign_of(denominator), 1);
   for (const Affine& side : domain_sides(kind)) {
     // The sides' coefficients are −1, 0 and 1.
@@ -162,12 +162,12 @@ void expect_parameters_in_domain(Kind kind, const Impact& impact) {
 /// F in the middle of the box of width 2^-bits: zero if the box is a point, and otherwise at most
 /// the width times a bound on the sum of F's derivatives (4M, 2M and 2M for coordinates up to M,
 /// doubled because the box may reach out of the domain).
-void expect_root_of_contact_function(const PosedQuery& posed, const Impact& impact, long bits) {
+void expect_root_of_contact_function(const PosedQuery& posed, const Verdict& verdict, long bits) {
   const Rational width = power_of_two(-bits);
-  AlgebraicNumber t = impact.toi;
+  AlgebraicNumber t = *verdict.toi;
   t.refine(width);
   const RationalInterval time = t.interval();
-  const auto [u, v] = contact_parameters(impact, width);
+  const auto [u, v] = contact_parameters(verdict, width);
   EXPECT_LE(Rational(time.upper - time.lower), width);
   EXPECT_LE(Rational(u.upper - u.lower), width);
   EXPECT_LE(Rational(v.upper - v.lower), width);
@@ -192,15 +192,17 @@ void expect_tight_enclosure(const AlgebraicNumber& toi) {
   }
 }
 
-void check_impact(const PosedQuery& posed, const Impact& impact) {
-  EXPECT_TRUE(impact.toi >= Rational(0));
-  EXPECT_TRUE(impact.toi <= Rational(1));
-  EXPECT_TRUE(impact.toi.is_root_of(impact.toi.polynomial()));
-  expect_tight_enclosure(impact.toi);
-  expect_parameters_in_domain(posed.kind, impact);
-  for (const long bits : {10, 100, 300}) expect_root_of_contact_function(posed, impact, bits);
-  if (impact.toi.rational()) {
-    EXPECT_TRUE(touches_at(posed, *impact.toi.rational()));
+void check_contact(const PosedQuery& posed, const Verdict& verdict) {
+  ASSERT_TRUE(verdict.toi && verdict.contact);
+  const AlgebraicNumber& toi = *verdict.toi;
+  EXPECT_TRUE(toi >= Rational(0));
+  EXPECT_TRUE(toi <= Rational(1));
+  EXPECT_TRUE(toi.is_root_of(toi.polynomial()));
+  expect_tight_enclosure(toi);
+  expect_parameters_in_domain(posed.kind, verdict);
+  for (const long bits : {10, 100, 300}) expect_root_of_contact_function(posed, verdict, bits);
+  if (toi.rational()) {
+    EXPECT_TRUE(touches_at(posed, *toi.rational()));
   }
 }
 
@@ -214,10 +216,9 @@ void expect_toi(const PosedQuery& posed, const Rational& toi) {
   SCOPED_TRACE(posed);
   const Verdict verdict = decide(posed);
   ASSERT_TRUE(verdict.collides());
-  EXPECT_TRUE(verdict.impact->toi == toi)
-      << toi << " expected, near " << verdict.impact->toi.enclosure().lower;
+  EXPECT_TRUE(*verdict.toi == toi) << toi << " expected, near " << verdict.toi->enclosure().lower;
   EXPECT_TRUE(touches_at(posed, toi));
-  check_impact(posed, *verdict.impact);
+  check_contact(posed, verdict);
 }
 
 /// A hit at a rational time where contact is a single point.
@@ -227,12 +228,12 @@ void expect_contact(const PosedQuery& posed, const Rational& toi, const Rational
   const Verdict verdict = decide(posed);
   ASSERT_TRUE(verdict.collides());
   const Rational width = power_of_two(-200);
-  const ContactParameters parameters = contact_parameters(*verdict.impact, width);
+  const ContactParameters parameters = contact_parameters(verdict, width);
   const auto expect_encloses = [&](const RationalInterval& enclosure, const Rational& value) {
     EXPECT_LE(enclosure.lower, value);
     EXPECT_GE(enclosure.upper, value);
     EXPECT_LE(Rational(enclosure.upper - enclosure.lower), width);
-    if (verdict.impact->toi.rational()) {
+    if (verdict.toi->rational()) {
       EXPECT_TRUE(is_exact(enclosure));
     }
   };
@@ -246,13 +247,13 @@ void expect_irrational_toi(const PosedQuery& posed, const Polynomial& polynomial
   SCOPED_TRACE(posed);
   const Verdict verdict = decide(posed);
   ASSERT_TRUE(verdict.collides());
-  const AlgebraicNumber& toi = verdict.impact->toi;
+  const AlgebraicNumber& toi = *verdict.toi;
   EXPECT_FALSE(toi.rational());
   EXPECT_TRUE(toi.is_root_of(polynomial));
   const Rational value = rational_from_decimal(decimal), ulp = rational_from_decimal("1e-18");
   EXPECT_TRUE(toi > Rational(value - ulp));
   EXPECT_TRUE(toi < Rational(value + ulp));
-  check_impact(posed, *verdict.impact);
+  check_contact(posed, verdict);
 }
 
 Polynomial polynomial(std::initializer_list<int> coefficients) {
@@ -374,10 +375,10 @@ TEST(Oracle, FindsTheDoubleRootAndSeparatesItFromItsNeighbours) {
   const PosedQuery below = turning_triangle(1, 1, 0, std::nextafter(0.25, 0.0));
   const Verdict verdict = decide(below);
   ASSERT_TRUE(verdict.collides());
-  check_impact(below, *verdict.impact);
+  check_contact(below, verdict);
   // 1/4 − 2^-55 = t(1−t) at 1/2 − 2^-27.5, which is irrational.
-  EXPECT_TRUE(verdict.impact->toi < Rational(ratio(1, 2) - power_of_two(-28)));
-  EXPECT_TRUE(verdict.impact->toi > Rational(ratio(1, 2) - power_of_two(-27)));
+  EXPECT_TRUE(*verdict.toi < Rational(ratio(1, 2) - power_of_two(-28)));
+  EXPECT_TRUE(*verdict.toi > Rational(ratio(1, 2) - power_of_two(-27)));
 }
 
 // ------------------------------------------------------------------ degenerate primitives
@@ -404,7 +405,7 @@ TEST(Oracle, DecidesPointOnEdge) {
   const PosedQuery on_edge =
       edge_edge({1, 0, 1, 1, 0, 1, 0, 0, 0, 4, 0, 0}, {1, 0, -2, 1, 0, -2, 0, 0, 0, 4, 0, 0});
   expect_toi(on_edge, ratio(1, 3));
-  const RationalInterval v = contact_parameters(*decide(on_edge).impact, 1).v;
+  const RationalInterval v = contact_parameters(decide(on_edge), 1).v;
   EXPECT_EQ(v.lower, ratio(1, 4));
   EXPECT_EQ(v.upper, ratio(1, 4));
   expect_miss(
@@ -545,9 +546,9 @@ TEST(Oracle, IsExactAcrossTheWholeRangeOfDoubles) {
   }
   expect_miss(over_greatest_triangle(-least, -least, greatest));
   expect_miss(over_greatest_triangle(-least, greatest, -greatest));
-  const auto first = decide(over_greatest_triangle(1, -least, greatest)).impact->toi.enclosure();
+  const auto first = decide(over_greatest_triangle(1, -least, greatest)).toi->enclosure();
   EXPECT_EQ(first, (DoubleInterval{0.0, least}));
-  const auto last = decide(over_greatest_triangle(1, greatest, -least)).impact->toi.enclosure();
+  const auto last = decide(over_greatest_triangle(1, greatest, -least)).toi->enclosure();
   EXPECT_EQ(last, (DoubleInterval{std::nextafter(1.0, 0.0), 1.0}));
 }
 
@@ -574,8 +575,8 @@ TEST(Oracle, DecidesSubnormalQueriesAsTheirMultiples) {
     ASSERT_EQ(verdict.collides(), expected.collides());
     if (!verdict.collides()) continue;
     ++hits;
-    EXPECT_TRUE(verdict.impact->toi == expected.impact->toi);
-    check_impact(small, *verdict.impact);
+    EXPECT_TRUE(*verdict.toi == *expected.toi);
+    check_contact(small, verdict);
   }
   EXPECT_GT(hits, 50);
   EXPECT_LT(hits, 350);
@@ -588,9 +589,9 @@ TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
     SCOPED_TRACE(query);
     const Verdict verdict = decide(query);
     ASSERT_TRUE(verdict.collides());
-    EXPECT_TRUE(verdict.impact->toi > Rational(0));
-    EXPECT_LT(verdict.impact->toi.enclosure().upper, std::sqrt(y));
-    check_impact(query, *verdict.impact);
+    EXPECT_TRUE(*verdict.toi > Rational(0));
+    EXPECT_LT(verdict.toi->enclosure().upper, std::sqrt(y));
+    check_contact(query, verdict);
   }
   // A toi of a few thousandths or less, where cells of dyadic ends fall between doubles otherwise
   // than near 1.
@@ -599,7 +600,7 @@ TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
     SCOPED_TRACE(query);
     const Verdict verdict = decide(query);
     ASSERT_TRUE(verdict.collides());
-    check_impact(query, *verdict.impact);
+    check_contact(query, verdict);
   }
   // t(ε(1−t) + t) = 1/4: about 1/2 − ε/4, on the side of the double that ε says.
   for (const double epsilon : {0x1p-100, 0x1p-601, -0x1p-100, -0x1p-601}) {
@@ -608,9 +609,9 @@ TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
     const Verdict verdict = decide(query);
     ASSERT_TRUE(verdict.collides());
     const double beside = std::nextafter(0.5, epsilon > 0 ? 0.0 : 1.0);
-    EXPECT_EQ(verdict.impact->toi.enclosure(),
+    EXPECT_EQ(verdict.toi->enclosure(),
               (DoubleInterval{std::min(0.5, beside), std::max(0.5, beside)}));
-    check_impact(query, *verdict.impact);
+    check_contact(query, verdict);
   }
 }
 
@@ -631,6 +632,29 @@ TEST(Oracle, IsIndependentOfTheFloatingPointEnvironment) {
     std::fesetround(FE_TONEAREST);
     EXPECT_FALSE(collides) << mode;
   }
+}
+
+TEST(Oracle, KnowsThePlaceOfContactAtDistanceZeroOnly) {
+  const PosedQuery falling = over_triangle(1, 1, 2, 0);
+  const auto at = [&](double distance, Norm norm) {
+    return exact::decide(falling.kind, falling.query, {.distance = distance, .norm = norm});
+  };
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    for (const double zero : {0.0, -0.0}) {
+      const Verdict verdict = at(zero, norm);
+      EXPECT_TRUE(verdict.toi && *verdict.toi == Rational(1));
+      EXPECT_TRUE(verdict.contact);
+      EXPECT_EQ(verdict.separation, (Separation{zero, norm}));
+    }
+    const Verdict near = at(1.0, norm);
+    EXPECT_TRUE(near.toi && *near.toi == ratio(1, 2));
+    EXPECT_FALSE(near.contact);
+    EXPECT_EQ(near.separation, (Separation{1.0, norm}));
+    EXPECT_THROW(static_cast<void>(contact_parameters(near, 1)), std::invalid_argument);
+  }
+  const Verdict miss = decide(over_triangle(1, 1, 2, 1));
+  EXPECT_FALSE(miss.collides() || miss.contact);
+  EXPECT_THROW(static_cast<void>(contact_parameters(miss, 1)), std::invalid_argument);
 }
 
 TEST(Oracle, RejectsEveryCoordinateThatIsNotFinite) {
@@ -670,15 +694,14 @@ std::vector<Verdict> decide_all(std::span<const PosedQuery> queries) {
 void expect_same(const Verdict& verdict, const Verdict& expected) {
   ASSERT_EQ(verdict.collides(), expected.collides());
   if (!verdict.collides()) return;
-  const Impact &a = *verdict.impact, &b = *expected.impact;
-  EXPECT_EQ(a.toi.polynomial(), b.toi.polynomial());
-  EXPECT_EQ(a.toi.rational(), b.toi.rational());
-  EXPECT_EQ(a.toi.interval().lower, b.toi.interval().lower);
-  EXPECT_EQ(a.toi.interval().upper, b.toi.interval().upper);
-  EXPECT_EQ(a.toi.enclosure(), b.toi.enclosure());
-  EXPECT_EQ(a.contact.u_numerator, b.contact.u_numerator);
-  EXPECT_EQ(a.contact.v_numerator, b.contact.v_numerator);
-  EXPECT_EQ(a.contact.denominator, b.contact.denominator);
+  EXPECT_EQ(verdict.toi->polynomial(), expected.toi->polynomial());
+  EXPECT_EQ(verdict.toi->rational(), expected.toi->rational());
+  EXPECT_EQ(verdict.toi->interval().lower, expected.toi->interval().lower);
+  EXPECT_EQ(verdict.toi->interval().upper, expected.toi->interval().upper);
+  EXPECT_EQ(verdict.toi->enclosure(), expected.toi->enclosure());
+  EXPECT_EQ(verdict.contact->u_numerator, expected.contact->u_numerator);
+  EXPECT_EQ(verdict.contact->v_numerator, expected.contact->v_numerator);
+  EXPECT_EQ(verdict.contact->denominator, expected.contact->denominator);
 }
 
 TEST(Oracle, GivesTheSameAnswersInFourThreadsAsInOne) {
@@ -707,7 +730,7 @@ TEST(Oracle, GivesVerdictsWhoseCopiesCanBeUsedByDistinctThreads) {
   const PosedQuery query = twisting_triangle({0.75, 0.125, 0}, {0.75, 0.125, 1});
   const Verdict original = decide(query);
   ASSERT_TRUE(original.collides());
-  const DoubleInterval expected = original.impact->toi.enclosure();
+  const DoubleInterval expected = original.toi->enclosure();
   std::array<int, thread_count> wrong{};
   std::latch all_started(thread_count);
   {
@@ -717,16 +740,16 @@ TEST(Oracle, GivesVerdictsWhoseCopiesCanBeUsedByDistinctThreads) {
       threads.emplace_back([own = original, &count, &expected, &all_started] {
         all_started.arrive_and_wait();
         for (int i = 0; i < 10000; ++i) {
-          const std::vector<Contact> contacts(100, own.impact->contact);
+          const std::vector<Contact> contacts(100, *own.contact);
           const Verdict copy = own;
-          if (i % 100 == 0 && copy.impact->toi.enclosure() != expected) ++count;
+          if (i % 100 == 0 && copy.toi->enclosure() != expected) ++count;
         }
       });
     }
   }
   EXPECT_EQ(wrong, (std::array<int, thread_count>{}));
-  EXPECT_EQ(original.impact->toi.enclosure(), expected);
-  check_impact(query, *original.impact);
+  EXPECT_EQ(original.toi->enclosure(), expected);
+  check_contact(query, original);
 }
 
 // ------------------------------------------------------------------ the second way to decide
@@ -761,7 +784,7 @@ void expect_no_contact_before(const PosedQuery& posed, Random& random, const Alg
 void compare_with_second_way(const PosedQuery& posed, Random& random, Tally& tally) {
   SCOPED_TRACE(posed);
   const Verdict verdict = decide(posed);
-  const AlgebraicNumber* toi = verdict.collides() ? &verdict.impact->toi : nullptr;
+  const AlgebraicNumber* toi = verdict.collides() ? &*verdict.toi : nullptr;
   expect_no_contact_before(posed, random, toi);
   if (toi == nullptr) {
     ++tally.misses;
@@ -771,7 +794,7 @@ void compare_with_second_way(const PosedQuery& posed, Random& random, Tally& tal
   tally.rational_hits += toi->rational() ? 1 : 0;
   tally.touching_at_start += *toi == Rational(0) ? 1 : 0;
   EXPECT_EQ(*toi == Rational(0), touches_at(posed, 0));
-  check_impact(posed, *verdict.impact);
+  check_contact(posed, verdict);
 }
 
 void compare_family_with_second_way(Family family, int count, Tally& tally) {

@@ -53,12 +53,6 @@ Vector corner_at(const Query& query, const Corner& corner, const Rational& t) {
   return w;
 }
 
-/// The parameters (u,v) of corner i.
-std::array<Rational, 2> parameters(Kind kind, std::size_t i) {
-  if (kind == Kind::vertex_face) return {Rational(i == 1 ? 1 : 0), Rational(i == 2 ? 1 : 0)};
-  return {Rational(i == 1 || i == 2 ? 1 : 0), Rational(i >= 2 ? 1 : 0)};
-}
-
 TEST(Query, AnArrayOfDoublesIsASpanOfQueries) {
   static constexpr std::size_t count = 5;
   std::vector<double> values(count * 24);
@@ -127,15 +121,58 @@ TEST(Query, EqualityComparesEveryCoordinate) {
   }
 }
 
+TEST(Query, IsFiniteIfAllCoordinatesAre) {
+  using Limits = std::numeric_limits<double>;
+  EXPECT_TRUE(is_finite(Query{}));
+  for (std::size_t i = 0; i < Query{}.coordinates.size(); ++i) {
+    Query query{};
+    query.coordinates[i] = -Limits::max();
+    EXPECT_TRUE(is_finite(query)) << i;
+    for (const double bad : {Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN()}) {
+      query.coordinates[i] = bad;
+      EXPECT_FALSE(is_finite(query)) << i << ' ' << bad;
+    }
+  }
+}
+
 TEST(Corners, AreTheDocumentedDifferences) {
   const auto pairs = [](Kind kind) {
     std::vector<std::pair<std::size_t, std::size_t>> result;
-    for (const auto& [plus, minus] : corners(kind)) result.emplace_back(plus, minus);
+    for (const Corner& corner : corners(kind)) result.emplace_back(corner.plus, corner.minus);
     return result;
   };
   using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
   EXPECT_EQ(pairs(Kind::vertex_face), (Pairs{{0, 1}, {0, 2}, {0, 3}}));
   EXPECT_EQ(pairs(Kind::edge_edge), (Pairs{{0, 2}, {1, 2}, {1, 3}, {0, 3}}));
+}
+
+TEST(Corners, StandAtTheVerticesOfTheDomainInCyclicOrder) {
+  const auto parameters = [](Kind kind) {
+    std::vector<std::pair<int, int>> result;
+    for (const Corner& corner : corners(kind)) result.emplace_back(corner.u, corner.v);
+    return result;
+  };
+  using Pairs = std::vector<std::pair<int, int>>;
+  EXPECT_EQ(parameters(Kind::vertex_face), (Pairs{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(parameters(Kind::edge_edge), (Pairs{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+}
+
+TEST(AffineVectors, AreDifferencesOfCorners) {
+  Random random(3);
+  const Query query = random_query(random);
+  const Rational t = random_fraction(random);
+  for (const Kind kind : kinds) {
+    const auto difference = [&](const std::array<std::size_t, 2>& points) {
+      return corner_at(query, {points[0], points[1], 0, 0}, t);
+    };
+    const auto [r, p, q] = affine_vectors(kind);
+    const Vector w0 = corner_at(query, corners(kind).front(), t);
+    EXPECT_EQ(difference(r), w0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(difference(p)[axis], w0[axis] - corner_at(query, corners(kind)[1], t)[axis]);
+      EXPECT_EQ(difference(q)[axis], w0[axis] - corner_at(query, corners(kind).back(), t)[axis]);
+    }
+  }
 }
 
 TEST(ContactFunction, EqualsTheCornerAtEveryVertexOfTheDomain) {
@@ -145,8 +182,9 @@ TEST(ContactFunction, EqualsTheCornerAtEveryVertexOfTheDomain) {
     const Rational t = random_fraction(random);
     for (const Kind kind : kinds) {
       for (std::size_t i = 0; i < corners(kind).size(); ++i) {
-        const auto [u, v] = parameters(kind, i);
-        EXPECT_EQ(contact_function(kind, query, t, u, v), corner_at(query, corners(kind)[i], t))
+        const Corner& corner = corners(kind)[i];
+        const Rational u(corner.u), v(corner.v);
+        EXPECT_EQ(contact_function(kind, query, t, u, v), corner_at(query, corner, t))
             << to_string(kind) << " corner " << i;
       }
     }
@@ -266,6 +304,14 @@ TEST(Separation, DistancesAreFiniteAndNotNegative) {
   for (const double d : {-Limits::denorm_min(), -1.0, Limits::infinity(), -Limits::infinity(),
                          Limits::quiet_NaN()}) {
     EXPECT_FALSE(is_valid(Separation{.distance = d})) << d;
+  }
+}
+
+TEST(Separation, OnlyZeroIsContact) {
+  using Limits = std::numeric_limits<double>;
+  for (const double d : {0.0, -0.0}) EXPECT_TRUE(is_contact({.distance = d})) << d;
+  for (const double d : {Limits::denorm_min(), -Limits::denorm_min(), 1.0, Limits::quiet_NaN()}) {
+    EXPECT_FALSE(is_contact({.distance = d})) << d;
   }
 }
 

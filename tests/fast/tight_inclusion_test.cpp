@@ -162,7 +162,7 @@ TEST(TightInclusion, MissesNothingOnThePublicData) {
         const bool yes = result.verdict == Verdict::yes;
         EXPECT_TRUE(yes || !truth.collides()) << file << ' ' << recorded->index;
         if (yes && truth.collides()) {
-          EXPECT_FALSE(truth.impact->toi < Rational(result.toi)) << file << ' ' << recorded->index;
+          EXPECT_FALSE(*truth.toi < Rational(result.toi)) << file << ' ' << recorded->index;
         }
         false_positives[model] += yes && !truth.collides() ? 1 : 0;
       }
@@ -730,7 +730,7 @@ TEST(Published, TheReleaseDeniesAVertexThatLandsOnATriangle) {
                          {0.02, 0, 0, 0.02, -0.01, -0.01, 0.02, 0.02, -0.01, 0.02, -0.01, 0.02});
   const exact::Verdict truth = exact::decide(posed.kind, posed.query);
   ASSERT_TRUE(truth.collides());
-  EXPECT_TRUE(truth.impact->toi == Rational(1));
+  EXPECT_TRUE(*truth.toi == Rational(1));
   const auto denied = solve_with(ErrorModel::released, posed.kind, posed.query);
   EXPECT_EQ(denied.verdict, Verdict::no);
   EXPECT_EQ(denied.checks, 1) << "at the first box already";

@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include "exact/oracle.hpp"
 #include "tests/mutants/hunt.hpp"
 #include "tests/mutants/mutants.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/fuzz/reproduce.hpp"
-#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::tests {
 namespace {
@@ -51,7 +51,7 @@ class Corpus {
  public:
   void add(const Mutant& mutant, const verify::Finding& finding) {
     const Query query = simplest(mutant, finding);
-    const verify::Decision truth(finding.kind, query, finding.separation);
+    const exact::Verdict truth = exact::decide(finding.kind, query, finding.separation);
     auto& queries = queries_[{name_of(finding.separation), finding.kind}];
     const Labelled labelled{query, truth.collides()};
     if (std::ranges::find(queries, labelled) == queries.end()) queries.push_back(labelled);

@@ -118,7 +118,7 @@ struct Score {
     if (answer.verdict != fast::Verdict::yes) return;
     if (!truth.collides()) ++false_positives;
     if (truth.collides() && answer.toi_lower <= 1.0 &&
-        truth.impact->toi < exact::Rational(answer.toi_lower)) {
+        *truth.toi < exact::Rational(answer.toi_lower)) {
       ++late;
     }
   }

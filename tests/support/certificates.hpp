@@ -15,26 +15,23 @@
 #include "exact/certificate.hpp"
 #include "exact/certificate/certificate_text.hpp"
 #include "exact/checker/checker.hpp"
-#include "exact/distance/distance_oracle.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 
 namespace touchstone::tests {
 
 /// The certificate of a query's own verdict.
-[[nodiscard]] inline exact::Certificate prove(const PosedQuery& posed,
-                                              const exact::ProveOptions& options = {}) {
-  return exact::prove(posed.kind, posed.query, exact::decide(posed.kind, posed.query), options);
-}
-
-/// The certificate of its verdict at a distance.
 [[nodiscard]] inline exact::Certificate prove(const PosedQuery& posed, const Separation& separation,
                                               const exact::ProveOptions& options = {}) {
-  const auto verdict = exact::decide(posed.kind, posed.query, separation);
-  return exact::prove(posed.kind, posed.query, separation, verdict, options);
+  const exact::Verdict verdict = exact::decide(posed.kind, posed.query, separation);
+  return exact::prove(posed.kind, posed.query, verdict, options);
+}
+[[nodiscard]] inline exact::Certificate prove(const PosedQuery& posed,
+                                              const exact::ProveOptions& options = {}) {
+  return prove(posed, Separation{}, options);
 }
 
-/// What the checker says of a stream.
+/// The checker's report on a stream.
 [[nodiscard]] inline checker::Report check(const std::string& stream) {
   std::istringstream in(stream);
   return checker::check(in);

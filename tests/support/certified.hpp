@@ -10,7 +10,7 @@
 #include <string>
 
 #include "exact/algebra/number.hpp"
-#include "exact/distance/distance_oracle.hpp"
+#include "exact/oracle.hpp"
 #include "fast/certified.hpp"
 
 namespace touchstone::tests {
@@ -41,7 +41,7 @@ namespace touchstone::tests {
 [[nodiscard]] inline std::optional<std::string> fault(Kind kind, const Query& query,
                                                       const fast::CertifiedResult& result,
                                                       const fast::CertifiedOptions& options = {}) {
-  const exact::DistanceVerdict truth = exact::decide(kind, query, options.separation);
+  const exact::Verdict truth = exact::decide(kind, query, options.separation);
   bool collides = truth.collides();
   if (collides && options.t_max < 1.0) collides = compare(*truth.toi, options.t_max) <= 0;
   if (result.verdict != (collides ? fast::Verdict::yes : fast::Verdict::no)) {

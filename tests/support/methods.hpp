@@ -44,7 +44,7 @@ class FunctionMethod final : public fast::Method {
 [[nodiscard]] inline fast::Answer true_answer(Kind kind, const Query& query) {
   const exact::Verdict verdict = exact::decide(kind, query);
   if (!verdict.collides()) return {.verdict = fast::Verdict::no};
-  const exact::DoubleInterval toi = verdict.impact->toi.enclosure();
+  const exact::DoubleInterval toi = verdict.toi->enclosure();
   return {.verdict = fast::Verdict::yes,
           .toi_lower = toi.lower,
           .toi_upper = toi.upper,

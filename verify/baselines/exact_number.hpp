@@ -12,12 +12,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
 
 #include "fast/certified/exact/big_integer.hpp"
+#include "fast/certified/exact/enclosing_doubles.hpp"
 
 namespace touchstone::baselines {
 
@@ -68,31 +68,18 @@ class ExactNumber {
   Integer value_;
 };
 
-/// A finite double as numerator · 2^exponent.
-struct BinaryFraction {
-  std::int64_t numerator = 0;
-  int exponent = 0;
-};
-
-[[nodiscard]] inline BinaryFraction binary_fraction(double x) {
-  constexpr int digits = std::numeric_limits<double>::digits;
-  int exponent = 0;
-  const double significand = std::frexp(x, &exponent);
-  return {static_cast<std::int64_t>(std::ldexp(significand, digits)), exponent - digits};
-}
-
 /// The exponent of a power of two that all these finite doubles are multiples of; 0 if all are 0.
 [[nodiscard]] inline int common_exponent(std::span<const double> values) {
   int least = std::numeric_limits<int>::max();
   for (const double x : values) {
-    if (x != 0.0) least = std::min(least, binary_fraction(x).exponent);
+    if (x != 0.0) least = std::min(least, fast::exact_stage::binary_fraction(x).exponent);
   }
   return least == std::numeric_limits<int>::max() ? 0 : least;
 }
 
 /// x / 2^exponent. \pre x is a multiple of 2^exponent.
 [[nodiscard]] inline ExactNumber scaled_to_integer(double x, int exponent) {
-  const BinaryFraction fraction = binary_fraction(x);
+  const auto fraction = fast::exact_stage::binary_fraction(x);
   if (fraction.numerator == 0) return {};
   const fast::exact_stage::BigInteger numerator(fraction.numerator);
   const long shift = long{fraction.exponent} - exponent;

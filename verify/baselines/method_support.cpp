@@ -54,14 +54,9 @@ NearestRounding::NearestRounding() : callers_{} {
 NearestRounding::~NearestRounding() { std::fesetenv(&callers_); }
 
 bool are_valid(const fast::MethodOptions& options) {
-  const auto is_number = [](double x) { return std::isfinite(x); };
-  return is_number(options.tolerance) && options.tolerance > 0.0 &&
-         is_number(options.min_separation) && options.min_separation >= 0.0 &&
+  return std::isfinite(options.tolerance) && options.tolerance > 0.0 &&
+         std::isfinite(options.min_separation) && options.min_separation >= 0.0 &&
          options.t_max >= 0.0 && options.t_max <= 1.0;
-}
-
-bool is_finite(const Query& query) {
-  return std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); });
 }
 
 std::uint32_t to_checks(std::int64_t steps) {

@@ -42,9 +42,6 @@ using AnswerFunction = fast::Answer (*)(Kind kind, const Query& query,
 /// [0,1]?
 [[nodiscard]] bool are_valid(const fast::MethodOptions& options);
 
-/// Are all coordinates finite?
-[[nodiscard]] bool is_finite(const Query& query);
-
 /// As many steps as an answer can say.
 [[nodiscard]] std::uint32_t to_checks(std::int64_t steps);
 

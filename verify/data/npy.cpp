@@ -258,11 +258,7 @@ NpyWriter::NpyWriter(std::filesystem::path path) : file_(std::move(path)) {
 }
 
 void NpyWriter::write(const Query& query) {
-  const auto& coordinates = query.coordinates;
-  if (!std::all_of(coordinates.begin(), coordinates.end(),
-                   [](double x) { return std::isfinite(x); })) {
-    throw std::invalid_argument("a coordinate must be finite");
-  }
+  if (!is_finite(query)) throw std::invalid_argument("a coordinate must be finite");
   const void* const bytes = &query;
   file_.write({static_cast<const char*>(bytes), sizeof(Query)});
   ++count_;

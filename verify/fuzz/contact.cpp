@@ -280,7 +280,7 @@ Query hovering(Kind kind, const Separation& separation, Random& random) {
   const std::size_t end = below(random, 2);
   if (!one_in(random, 4)) above.at(end) = height + d * random.uniform(1.0, 2.0);
   put_heights(kind, {.first = above, .second = {height, height}}, query);
-  return draws::is_finite(query) ? turned(kind, query, random) : level_contact(kind, random);
+  return is_finite(query) ? turned(kind, query, random) : level_contact(kind, random);
 }
 
 }  // namespace
@@ -375,7 +375,7 @@ Query contact_apart(Kind kind, const Separation& separation, Random& random) {
                          static_cast<int>(random.between(0, 20));
     Query scaled = query;
     for (double& x : scaled.coordinates) x = std::ldexp(x, exponent);
-    if (draws::is_finite(scaled)) query = scaled;
+    if (is_finite(scaled)) query = scaled;
   }
   const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
   const Vector offset = draw_offset(separation, random);
@@ -386,7 +386,7 @@ Query contact_apart(Kind kind, const Separation& separation, Random& random) {
       put(moved, end, point, place_of(query, end, point) + offset);
     }
   }
-  return draws::is_finite(moved) ? moved : query;
+  return is_finite(moved) ? moved : query;
 }
 
 Query tilting(Kind kind, const Separation& separation, Random& random) {
@@ -419,7 +419,7 @@ Query tilting(Kind kind, const Separation& separation, Random& random) {
   const double size = std::ldexp(separation.distance, ratio);
   Query sized = query;
   draws::multiply(sized, {size, size, size});
-  return turned(kind, draws::is_finite(sized) ? sized : query, random);
+  return turned(kind, is_finite(sized) ? sized : query, random);
 }
 
 Query sliding(Kind kind, Random& random) {

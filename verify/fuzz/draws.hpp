@@ -3,7 +3,6 @@
 /// \file
 /// Small draws that the generators of the fuzzer share.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -59,11 +58,6 @@ inline void multiply(Query& query, const std::array<double, 3>& factors) {
   for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
     query.coordinates.at(i) *= factors.at(i % 3);
   }
-}
-
-/// Are all coordinates finite?
-[[nodiscard]] inline bool is_finite(const Query& query) {
-  return std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); });
 }
 
 }  // namespace touchstone::verify::draws

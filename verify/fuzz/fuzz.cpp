@@ -338,23 +338,23 @@ class Run {
     }
     work += oracle_work;
     ++result_.judged_by_oracle;
-    const Decision decision(block_.kind, query, options_.separation);
-    const Truth truth = truth_of(result_.queries, decision);
+    const exact::Verdict verdict = exact::decide(block_.kind, query, options_.separation);
+    const Truth truth = truth_of(result_.queries, verdict);
     double reward = 0.0;
     if (name_ != judge_name()) {
       const auto of_judge = accuse_judge(truth, judged_[i]);
-      if (of_judge) reward += report(i, {*of_judge, judge_name()}, decision);
+      if (of_judge) reward += report(i, {*of_judge, judge_name()}, verdict);
     }
     auto accusation = accuse(block_.kind, query, truth, answers_[i], standard_);
     if (!accusation && missing.any()) {
       accusation = {FindingKind::not_finite,
                     fmt::format("{} is NaN, which it gives with other collisions",
                                 missing.lower ? "toi_lower" : "toi_upper")};
-      return reward + report(i, {*accusation, name_, missing}, decision);
+      return reward + report(i, {*accusation, name_, missing}, verdict);
     }
     if (!accusation) return reward;
     explain_asymmetry(i, *accusation);
-    return reward + report(i, {*accusation, name_}, decision);
+    return reward + report(i, {*accusation, name_}, verdict);
   }
 
   MissingBounds missing_bounds(const Answer& answer) {
@@ -379,7 +379,7 @@ class Run {
   double report_failure(std::size_t i, const Failure& failure) {
     ++result_.judged_by_oracle;
     return report(i, {accuse_failure(failure, options_.query_limit_seconds), name_},
-                  Decision(block_.kind, block_.queries[i], options_.separation));
+                  exact::decide(block_.kind, block_.queries[i], options_.separation));
   }
 
   /// Who does what wrong.
@@ -390,7 +390,7 @@ class Run {
   };
 
   /// Counts a finding, keeps the first of a class. Returns the reward, less for what is not new.
-  double report(std::size_t i, const Charge& charge, const Decision& decision) {
+  double report(std::size_t i, const Charge& charge, const exact::Verdict& verdict) {
     if (!seeks(options_, charge.accusation.what)) {
       ++result_.other_findings;
       return 0.0;
@@ -400,11 +400,11 @@ class Run {
     const Class what{std::string(charge.method), charge.accusation.what, block_.kind,
                      judged_[i].stage, block_.arms[i]};
     const std::uint64_t before = classes_[what]++;
-    if (before < kept_of_class && !has_found_enough()) keep(i, charge, decision);
+    if (before < kept_of_class && !has_found_enough()) keep(i, charge, verdict);
     return finding_reward / (1.0 + static_cast<double>(before));
   }
 
-  void keep(std::size_t i, const Charge& charge, const Decision& decision) {
+  void keep(std::size_t i, const Charge& charge, const exact::Verdict& verdict) {
     const bool of_judge = charge.method == judge_name() && name_ != judge_name();
     const std::string& generator = result_.generators[block_.arms[i]].name;
     Finding finding{.what = charge.accusation.what,
@@ -413,7 +413,7 @@ class Run {
                     .method = std::string(charge.method),
                     .original = failing_case(block_.kind, block_.queries[i],
                                              of_judge ? answer_of(judged_[i]) : answers_[i],
-                                             decision, charge.accusation.detail, generator),
+                                             verdict, charge.accusation.detail, generator),
                     .missing = charge.missing,
                     .seconds = seconds(),
                     .queries = result_.queries,

@@ -87,18 +87,17 @@ nlohmann::json case_json(const FailingCase& failing) {
 }
 
 nlohmann::json solver_json(const SolverCall& solver) {
-  return {
-      {"method", solver.method},
-      {"plugin", text_or_null(solver.plugin.string())},
-      {"promise", to_string(solver.promise)},
-      {"tolerance", solver.options.tolerance},
-      {"max_checks", solver.options.max_checks},
-      {"min_separation", solver.options.min_separation},
-      {"norm", to_string(solver.options.norm)},
-      {"t_max", solver.options.t_max},
-      {"query_limit", solver.query_limit_seconds},
-      {"memory_limit", solver.limits.memory_bytes},
-      {"allow_processes", solver.limits.may_fork}};
+  return {{"method", solver.method},
+          {"plugin", text_or_null(solver.plugin.string())},
+          {"promise", to_string(solver.promise)},
+          {"tolerance", solver.options.tolerance},
+          {"max_checks", solver.options.max_checks},
+          {"min_separation", solver.options.min_separation},
+          {"norm", to_string(solver.options.norm)},
+          {"t_max", solver.options.t_max},
+          {"query_limit", solver.query_limit_seconds},
+          {"memory_limit", solver.limits.memory_bytes},
+          {"allow_processes", solver.limits.may_fork}};
 }
 
 Separation separation_of(const SolverCall& solver) {

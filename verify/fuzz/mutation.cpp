@@ -121,7 +121,7 @@ void overshoot(Kind kind, Query& query, Random& random) {
   for (std::size_t point = 0; point < count; ++point) {
     moved.point(end, point) += part * (query.point(end, point) - query.point(1 - end, point));
   }
-  if (draws::is_finite(moved)) query = moved;
+  if (is_finite(moved)) query = moved;
 }
 
 Query mutated(const Query& query, Random& random) {

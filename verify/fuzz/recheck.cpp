@@ -33,10 +33,10 @@ bool lacks_same_bounds(const Answer& a, const Answer& b) {
 }
 
 /// Empty where it would exceed the format's limits.
-std::string certificate(Kind kind, const Query& query, const Decision& decision,
+std::string certificate(Kind kind, const Query& query, const exact::Verdict& verdict,
                         std::string_view label) {
   try {
-    return exact::certificate_stream(decision.prove(kind, query, {}), label);
+    return exact::certificate_stream(exact::prove(kind, query, verdict, {}), label);
   } catch (const exact::CertificateLimitError&) {
     return {};
   }
@@ -70,13 +70,14 @@ Answer answer_of(const CertifiedResult& judged) {
 }
 
 FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
-                         const Decision& decision, std::string detail, std::string_view label) {
+                         const exact::Verdict& verdict, std::string detail,
+                         std::string_view label) {
   return {.query = query,
           .answer = answer,
-          .collides = decision.collides(),
-          .truth = to_text(truth_of(0, decision)),
+          .collides = verdict.collides(),
+          .truth = to_text(truth_of(0, verdict)),
           .detail = std::move(detail),
-          .certificate = certificate(kind, query, decision, label)};
+          .certificate = certificate(kind, query, verdict, label)};
 }
 
 Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options)
@@ -88,13 +89,13 @@ Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzO
       method_options_(method_options(options)) {}
 
 std::optional<FailingCase> Recheck::ask(const Query& query, const Deadline& deadline) {
-  if (!draws::is_finite(query) || deadline.is_over()) return std::nullopt;
+  if (!is_finite(query) || deadline.is_over()) return std::nullopt;
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
-  const Decision decision(finding_.kind, query, standard_.separation);
-  const auto accusation = accuse_reply(query, truth_of(0, decision), *reply);
+  const exact::Verdict verdict = exact::decide(finding_.kind, query, standard_.separation);
+  const auto accusation = accuse_reply(query, truth_of(0, verdict), *reply);
   if (!accusation || !is_same(*accusation)) return std::nullopt;
-  return failing_case(finding_.kind, query, reply->answer, decision, accusation->detail,
+  return failing_case(finding_.kind, query, reply->answer, verdict, accusation->detail,
                       finding_.generator);
 }
 

@@ -36,9 +36,9 @@ namespace touchstone::verify {
 /// What the judge says, as an answer.
 [[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& judged);
 
-/// The evidence of a fault. \param decision of the query, at the run's separation
+/// The evidence of a fault. \param verdict of the query, at the run's separation
 [[nodiscard]] FailingCase failing_case(Kind kind, const Query& query, const fast::Answer& answer,
-                                       const Decision& decision, std::string detail,
+                                       const exact::Verdict& verdict, std::string detail,
                                        std::string_view label);
 
 /// Does a solver do the same wrong to another query? Each call asks it alone, in a child process, and

@@ -132,6 +132,7 @@ constexpr std::string_view includes =
     R"(
 #include <cmath>
 
+#include "exact/oracle.hpp"
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/judge/claimed_distance.hpp"
@@ -146,14 +147,14 @@ constexpr std::string_view judging = R"(
 void expect_no_fault(const fast::Method& method) {
   fast::Answer answer;
   method.solve(kind, {&query, 1}, {&answer, 1}, options);
-  const verify::Decision truth(kind, query, separation);
+  const exact::Verdict truth = exact::decide(kind, query, separation);
   EXPECT_EQ(truth.collides(), collides);
   verify::Judgement judgement;
   judgement.add(verify::truth_of(0, truth), answer);
   if (answer.verdict == fast::Verdict::yes) {
     const Separation near =
         verify::claimed_distance(method.info().filter, kind, query, answer, separation);
-    EXPECT_TRUE(!is_valid(near) || verify::Decision(kind, query, near).collides());
+    EXPECT_TRUE(!is_valid(near) || exact::decide(kind, query, near).collides());
   }
   for (const verify::WrongAnswer& wrong : judgement.wrong_answers) {
     EXPECT_FALSE(verify::breaks(wrong.fault, promise))

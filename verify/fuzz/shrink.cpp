@@ -76,10 +76,6 @@ bool is_greater(const Query& query, const PointPair& pair) {
   return false;
 }
 
-bool is_finite(const Query& query) {
-  return std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); });
-}
-
 std::uint64_t hash_of(const Query& query) {
   std::uint64_t result = 0;
   for (const double x : query.coordinates) {

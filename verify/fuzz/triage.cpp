@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "exact/distance/distance_oracle.hpp"
+#include "exact/oracle.hpp"
 #include "verify/judge/claimed_distance.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/answers.hpp"

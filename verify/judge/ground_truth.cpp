@@ -1,37 +1,20 @@
 #include "verify/judge/ground_truth.hpp"
 
-#include "verify/judge/separation_inference.hpp"
+#include <fmt/format.h>
 
 namespace touchstone::verify {
-namespace {
 
-std::variant<exact::Verdict, exact::DistanceVerdict> verdict_on(Kind kind, const Query& query,
-                                                                const Separation& separation) {
-  if (is_contact(separation)) return exact::decide(kind, query);
-  return exact::decide(kind, query, separation);
+Truth truth_of(std::uint64_t index, const exact::Verdict& verdict) {
+  Truth truth{.index = index, .collides = verdict.collides(), .toi = std::nullopt};
+  if (truth.collides) truth.toi = verdict.toi->enclosure();
+  return truth;
 }
 
-}  // namespace
-
-Decision::Decision(Kind kind, const Query& query, const Separation& separation)
-    : separation_(separation), verdict_(verdict_on(kind, query, separation)) {}
-
-bool Decision::collides() const {
-  return std::visit([](const auto& verdict) { return verdict.collides(); }, verdict_);
-}
-
-const exact::AlgebraicNumber& Decision::toi() const {
-  if (const auto* contact = std::get_if<exact::Verdict>(&verdict_)) return contact->impact->toi;
-  return *std::get<exact::DistanceVerdict>(verdict_).toi;
-}
-
-exact::Certificate Decision::prove(Kind kind, const Query& query,
-                                   const exact::ProveOptions& options) const {
-  if (const auto* contact = std::get_if<exact::Verdict>(&verdict_)) {
-    return exact::prove(kind, query, *contact, options);
-  }
-  return exact::prove(kind, query, separation_, std::get<exact::DistanceVerdict>(verdict_),
-                      options);
+std::string to_text(const Truth& truth) {
+  if (!truth.collides) return "no collision";
+  const auto [lower, upper] = truth.toi.value();
+  return lower == upper ? fmt::format("collision at {}", lower)
+                        : fmt::format("collision after {} and before {}", lower, upper);
 }
 
 }  // namespace touchstone::verify

@@ -1,39 +1,31 @@
 #pragma once
 
 /// \file
-/// The oracle's verdict on a query at a separation, whichever oracle gives it: at distance 0 the
-/// plain one (exact/oracle.hpp), which knows the place of the contact too, else the one for distances
-/// (exact/distance/distance_oracle.hpp).
+/// The truth about a query, as answers are compared with it: the oracle's verdict (exact/oracle.hpp) in
+/// doubles.
 
-#include <variant>
+#include <cstdint>
+#include <optional>
+#include <string>
 
-#include "exact/algebra/algebraic_number.hpp"
-#include "exact/certificate.hpp"
-#include "exact/distance/distance_oracle.hpp"
+#include "exact/algebra/number.hpp"
 #include "exact/oracle.hpp"
-#include "exact/query.hpp"
 
 namespace touchstone::verify {
 
-/// What is true of a query at a separation.
-class Decision {
- public:
-  /// \throws std::invalid_argument if a coordinate is NaN or infinite, or the separation not valid.
-  Decision(Kind kind, const Query& query, const Separation& separation);
-
-  [[nodiscard]] bool collides() const;
-
-  /// The exact time of impact. \pre it collides.
-  [[nodiscard]] const exact::AlgebraicNumber& toi() const;
-
-  /// The certificate of the verdict. \pre the arguments are those that were decided.
-  /// \throws exact::CertificateLimitError as exact::prove does.
-  [[nodiscard]] exact::Certificate prove(Kind kind, const Query& query,
-                                         const exact::ProveOptions& options) const;
-
- private:
-  Separation separation_;
-  std::variant<exact::Verdict, exact::DistanceVerdict> verdict_;
+/// The truth about one query.
+struct Truth {
+  std::uint64_t index;
+  bool collides;
+  /// On collision neighbouring doubles around the exact time of impact, or the double that it is.
+  std::optional<exact::DoubleInterval> toi;
 };
+
+/// The truth about query number `index` of its source, of which this is the verdict.
+[[nodiscard]] Truth truth_of(std::uint64_t index, const exact::Verdict& verdict);
+
+/// "no collision", "collision at 0.5" or "collision after 0.1 and before 0.2", both excluded: so that a
+/// time of impact that differs from the exact one by less than a spacing of doubles is seen to be wrong.
+[[nodiscard]] std::string to_text(const Truth& truth);
 
 }  // namespace touchstone::verify

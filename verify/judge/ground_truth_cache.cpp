@@ -44,7 +44,7 @@ void Truths::decide(const Separation& separation, std::span<const std::size_t> p
         if (stop != nullptr && *stop) return;
         const std::size_t position = positions[first + i];
         const Query& query = group_.queries().at(position);
-        found[i] = truth_of(position, Decision(group_.kind(), query, separation));
+        found[i] = truth_of(position, exact::decide(group_.kind(), query, separation));
       });
     });
     for (std::size_t i = 0; i < count; ++i) {

@@ -36,19 +36,6 @@ std::string answer_text(Fault fault, const fast::Answer& answer) {
 
 }  // namespace
 
-std::string to_text(const Truth& truth) {
-  if (!truth.collides) return "no collision";
-  const auto [lower, upper] = truth.toi.value();
-  return lower == upper ? fmt::format("collision at {}", lower)
-                        : fmt::format("collision after {} and before {}", lower, upper);
-}
-
-Truth truth_of(std::uint64_t index, const Decision& decision) {
-  Truth truth{.index = index, .collides = decision.collides(), .toi = std::nullopt};
-  if (truth.collides) truth.toi = decision.toi().enclosure();
-  return truth;
-}
-
 std::string_view to_string(Fault fault) {
   switch (fault) {
     case Fault::false_negative:

@@ -30,21 +30,6 @@
 
 namespace touchstone::verify {
 
-/// What is true of one query.
-struct Truth {
-  std::uint64_t index;
-  bool collides;
-  /// On collision neighbouring doubles around the exact time of impact, or the double that it is.
-  std::optional<exact::DoubleInterval> toi;
-};
-
-/// The truth of query number `index` of its source.
-[[nodiscard]] Truth truth_of(std::uint64_t index, const Decision& decision);
-
-/// "no collision", "collision at 0.5" or, strictly, "collision after 0.1 and before 0.2": so that a time
-/// of impact beside the exact one by less than a spacing of doubles is seen to be wrong.
-[[nodiscard]] std::string to_text(const Truth& truth);
-
 /// What an answer can be wrong in.
 enum class Fault : std::uint8_t {
   false_negative,   ///< no, but they collide

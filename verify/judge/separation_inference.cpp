@@ -7,8 +7,6 @@
 
 namespace touchstone::verify {
 
-bool is_contact(const Separation& separation) { return separation.distance == 0.0; }
-
 bool same_question(const Separation& a, const Separation& b) {
   return a == b || (is_contact(a) && is_contact(b));
 }

@@ -17,9 +17,6 @@
 
 namespace touchstone::verify {
 
-/// Is it about contact itself, at distance 0, where the norm does not matter?
-[[nodiscard]] bool is_contact(const Separation& separation);
-
 /// Do both ask the same?
 [[nodiscard]] bool same_question(const Separation& a, const Separation& b);
 

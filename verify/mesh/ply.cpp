@@ -427,9 +427,7 @@ class BodyReader {
                                           need_property(element, "z")};
     for_each(element, nothing, [&] {
       const std::array<double, 3> vertex{row_[axes[0]], row_[axes[1]], row_[axes[2]]};
-      if (!std::ranges::all_of(vertex, [](double x) { return std::isfinite(x); })) {
-        input_.fail("a coordinate must be finite");
-      }
+      if (!is_finite(vertex)) input_.fail("a coordinate must be finite");
       vertices_.push_back(vertex);
     });
   }

@@ -67,15 +67,15 @@ struct Comparison {
   }
 };
 
-void compare(std::uint64_t index, const Block::Claim& claim, const Decision& truth,
+void compare(std::uint64_t index, const Block::Claim& claim, const exact::Verdict& truth,
              const Comparison& comparison, std::vector<Mismatch>& mismatches) {
   if (comparison.uses_label(claim) && *claim.collides != truth.collides()) {
     mismatches.push_back({Mismatch::Of::label, index, verdict_text(*claim.collides),
                           verdict_text(truth.collides())});
   }
   if (!comparison.uses_toi(claim)) return;
-  if (truth.collides() && comparison.accepts(*claim.toi, truth.toi())) return;
-  mismatches.push_back(truth.collides() ? toi_mismatch(index, *claim.toi, truth.toi())
+  if (truth.collides() && comparison.accepts(*claim.toi, *truth.toi)) return;
+  mismatches.push_back(truth.collides() ? toi_mismatch(index, *claim.toi, *truth.toi)
                                         : Mismatch{Mismatch::Of::toi, index, to_decimal(*claim.toi),
                                                    verdict_text(false)});
 }
@@ -156,30 +156,31 @@ class BlockJudgement {
   }
 
   void decide_part(std::size_t first, std::size_t count, DecidedPart& part) {
-    std::vector<Decision> decisions;
-    decisions.reserve(count);
+    std::vector<exact::Verdict> verdicts;
+    verdicts.reserve(count);
     const double start = thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {
-      decisions.emplace_back(block_.kind, block_.queries[first + i], options_.separation);
+      verdicts.push_back(
+          exact::decide(block_.kind, block_.queries[first + i], options_.separation));
     }
     part.nanoseconds = thread_nanoseconds() - start;
     const bool wants_toi = options_.on_truth || !options_.solvers.empty();
     for (std::size_t i = 0; i < count; ++i) {
-      const Decision& decision = decisions[i];
+      const exact::Verdict& verdict = verdicts[i];
       const std::uint64_t index = block_.indices[first + i];
-      compare(index, block_.claims[first + i], decision, comparison_, part.mismatches);
+      compare(index, block_.claims[first + i], verdict, comparison_, part.mismatches);
       truths_[first + i] =
-          wants_toi ? truth_of(index, decision)
-                    : Truth{.index = index, .collides = decision.collides(), .toi = std::nullopt};
+          wants_toi ? truth_of(index, verdict)
+                    : Truth{.index = index, .collides = verdict.collides(), .toi = std::nullopt};
     }
-    if (options_.on_certificates) prove_part(first, decisions, part);
+    if (options_.on_certificates) prove_part(first, verdicts, part);
   }
 
-  void prove_part(std::size_t first, const std::vector<Decision>& decisions,
+  void prove_part(std::size_t first, const std::vector<exact::Verdict>& verdicts,
                   DecidedPart& part) const {
     const double start = thread_nanoseconds();
-    for (std::size_t i = 0; i < decisions.size(); ++i) {
-      append_certificate(block_.kind, block_.queries[first + i], decisions[i],
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+      append_certificate(block_.kind, block_.queries[first + i], verdicts[i],
                          certificate_label(*block_.source, block_.indices[first + i]), {},
                          part.certificates, part.proofs);
     }

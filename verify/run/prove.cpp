@@ -49,15 +49,16 @@ class BlockProofs {
 
  private:
   void prove_part(std::size_t first, std::size_t count, ProvedPart& part) const {
-    std::vector<Decision> decisions;
-    decisions.reserve(count);
+    std::vector<exact::Verdict> verdicts;
+    verdicts.reserve(count);
     const double start = thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {
-      decisions.emplace_back(block_.kind, block_.queries[first + i], options_.separation);
+      verdicts.push_back(
+          exact::decide(block_.kind, block_.queries[first + i], options_.separation));
     }
     const double decided = thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {
-      append_certificate(block_.kind, block_.queries[first + i], decisions[i],
+      append_certificate(block_.kind, block_.queries[first + i], verdicts[i],
                          certificate_label(*block_.source, block_.indices[first + i]),
                          options_.proof, part.text, part.counts);
     }
@@ -111,11 +112,11 @@ std::string certificate_label(std::string_view source, std::uint64_t index) {
   return fmt::format("{}:{}", printable(source), index);
 }
 
-void append_certificate(Kind kind, const Query& query, const Decision& decision,
+void append_certificate(Kind kind, const Query& query, const exact::Verdict& verdict,
                         std::string_view label, const exact::ProveOptions& options,
                         std::string& text, ProofCounts& counts) {
   try {
-    const exact::Certificate certificate = decision.prove(kind, query, options);
+    const exact::Certificate certificate = exact::prove(kind, query, verdict, options);
     const std::size_t before = text.size();
     exact::write(text, certificate, label);
     count(certificate, counts);

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "exact/certificate.hpp"
+#include "exact/oracle.hpp"
 #include "exact/query.hpp"
 #include "verify/data/query_source.hpp"
-#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 
@@ -42,7 +42,7 @@ struct ProofCounts {
 [[nodiscard]] std::string certificate_label(std::string_view source, std::uint64_t index);
 
 /// Appends the certificate of a query to the text, and counts it; the time it takes is not counted.
-void append_certificate(Kind kind, const Query& query, const Decision& decision,
+void append_certificate(Kind kind, const Query& query, const exact::Verdict& verdict,
                         std::string_view label, const exact::ProveOptions& options,
                         std::string& text, ProofCounts& counts);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 namespace touchstone::fast::exact_stage {
 namespace {
@@ -27,14 +28,15 @@ Polygon polygon_at(Kind kind, const Query& query, double t) {
   int exponent = 0;
   std::frexp(largest, &exponent);
   const auto scaled = [&](double x) { return std::ldexp(x, -exponent); };
-  const auto moving = [&](std::size_t a, std::size_t b) {
+  const auto moving = [&](const std::array<std::size_t, 2>& points) {
     const auto at = [&](std::size_t end) -> Eigen::Vector3d {
-      return query.point(end, a).unaryExpr(scaled) - query.point(end, b).unaryExpr(scaled);
+      return query.point(end, points[0]).unaryExpr(scaled) -
+             query.point(end, points[1]).unaryExpr(scaled);
     };
     return Eigen::Vector3d((1.0 - t) * at(0) + t * at(1));
   };
-  if (kind == Kind::vertex_face) return {kind, moving(0, 1), moving(2, 1), moving(3, 1)};
-  return {kind, moving(0, 2), moving(0, 1), moving(3, 2)};
+  const auto [r, p, q] = affine_vectors(kind);
+  return {kind, moving(r), moving(p), moving(q)};
 }
 
 /// The best of the points of the domain that it is shown.
@@ -72,10 +74,21 @@ struct DomainSide {
   }
 };
 
+/// Between neighbouring corners; a triangle's fourth is the point (0,0).
+constexpr std::array<DomainSide, 4> sides_between(std::span<const Corner> all) {
+  const auto parameters = [&](std::size_t i) {
+    const Corner& corner = all[i % all.size()];
+    return Parameters{static_cast<double>(corner.u), static_cast<double>(corner.v)};
+  };
+  std::array<DomainSide, 4> result;
+  for (std::size_t i = 0; i < all.size(); ++i) result[i] = {parameters(i), parameters(i + 1)};
+  return result;
+}
+
 std::array<DomainSide, 4> sides(Kind kind) {
-  constexpr Parameters o{0, 0}, u{1, 0}, v{0, 1}, uv{1, 1};
-  if (kind == Kind::vertex_face) return {{{o, u}, {u, v}, {v, o}, {o, o}}};
-  return {{{o, u}, {u, uv}, {uv, v}, {v, o}}};
+  constexpr auto of_face = sides_between(vertex_face_corners);
+  constexpr auto of_edges = sides_between(edge_edge_corners);
+  return kind == Kind::vertex_face ? of_face : of_edges;
 }
 
 /// The rows a · (u,v) = b.

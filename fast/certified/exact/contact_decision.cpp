@@ -48,10 +48,10 @@ AnyTime as(const Time& t) {
 template <class AnyTime>
 std::optional<AnyTime> time_of(std::uint64_t bits) {
   using Weight = decltype(AnyTime::x);
-  const DyadicDouble t = dyadic(bits);
-  if (t.exponent > 64 * static_cast<int>(limbs_of<Weight>) - 2) return std::nullopt;
-  const Weight y = t.numerator;
-  return AnyTime{static_cast<Weight>((Weight{1} << static_cast<unsigned>(t.exponent)) - y), y};
+  const auto [numerator, exponent] = odd_fraction(std::bit_cast<double>(bits));
+  if (-exponent > 64 * static_cast<int>(limbs_of<Weight>) - 2) return std::nullopt;
+  const Weight y = numerator;
+  return AnyTime{static_cast<Weight>((Weight{1} << static_cast<unsigned>(-exponent)) - y), y};
 }
 
 /// Is the time later than the double of these bits? A time that is not 0 is at least 2^-62.

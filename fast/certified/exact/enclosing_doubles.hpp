@@ -1,11 +1,11 @@
 #pragma once
 
 /// \file
-/// The doubles of [0,1] as integers.
+/// Doubles as integers, so that no floating-point arithmetic, with its rounding modes and flushed
+/// subnormals, takes part.
 ///
-/// The bits of doubles that are not negative, read as integers, are in the order of the doubles. So
-/// a number can be enclosed between doubles by questions "is it above this double?" alone, and no
-/// floating-point arithmetic, with its rounding modes and flushed subnormals, takes part.
+/// The bits of doubles that are not negative, read as integers, have the order of the doubles. So a
+/// number can be enclosed between doubles by comparisons with doubles alone.
 
 #include <algorithm>
 #include <bit>
@@ -71,21 +71,32 @@ template <class IsAbove>
   return cell;
 }
 
-/// A double of [0,1] by its bits: numerator / 2^exponent.
-struct DyadicDouble {
-  std::int64_t numerator = 0;  ///< odd, or 0
-  int exponent = 0;            ///< 0 to 1074
+/// A number numerator · 2^exponent.
+struct BinaryFraction {
+  std::int64_t numerator = 0;
+  int exponent = 0;
 };
 
-[[nodiscard]] inline DyadicDouble dyadic(std::uint64_t bits) {
-  constexpr int significand_bits = 52, largest_exponent = 1075;
-  const auto biased = static_cast<int>(bits >> significand_bits);
-  std::uint64_t significand = bits & ((std::uint64_t{1} << significand_bits) - 1);
-  if (biased != 0) significand |= std::uint64_t{1} << significand_bits;
-  if (significand == 0) return {};
-  const int zeros = std::countr_zero(significand);
-  return {static_cast<std::int64_t>(significand >> static_cast<unsigned>(zeros)),
-          largest_exponent - std::max(biased, 1) - zeros};
+inline constexpr int significand_bits = std::numeric_limits<double>::digits;
+
+/// A finite double as a fraction; its numerator is below 2^53 in magnitude. By its bits, so that flushed
+/// subnormals take no part.
+[[nodiscard]] inline BinaryFraction binary_fraction(double x) {
+  constexpr int stored_bits = significand_bits - 1, exponent_bias = 1075;
+  constexpr std::uint64_t hidden_bit = std::uint64_t{1} << stored_bits, exponent_mask = 0x7FF;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const auto biased = static_cast<int>((bits >> stored_bits) & exponent_mask);
+  auto significand = static_cast<std::int64_t>(bits & (hidden_bit - 1));
+  if (biased != 0) significand |= static_cast<std::int64_t>(hidden_bit);
+  return {(bits >> 63U) != 0 ? -significand : significand, std::max(biased, 1) - exponent_bias};
+}
+
+/// The same with an odd numerator; 0 · 2^0 for zero.
+[[nodiscard]] inline BinaryFraction odd_fraction(double x) {
+  const BinaryFraction fraction = binary_fraction(x);
+  if (fraction.numerator == 0) return {};
+  const int zeros = std::countr_zero(static_cast<std::uint64_t>(fraction.numerator));
+  return {fraction.numerator >> zeros, fraction.exponent + zeros};
 }
 
 }  // namespace touchstone::fast::exact_stage

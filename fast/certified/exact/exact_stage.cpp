@@ -24,28 +24,9 @@ using namespace exact_stage;
 /// Coordinates below 2^28 have differences below 2^29, and so on.
 constexpr int short_bits = 28, one_limb_bits = 60, two_limb_bits = 124;
 
-/// Of a double.
-constexpr int significand_bits = 53;
-
-/// numerator · 2^exponent, the numerator's magnitude below 2^53.
-struct Scaled {
-  std::int64_t numerator;
-  int exponent;
-};
-
-/// A finite double, taken apart by its bits.
-Scaled scaled(double x) {
-  constexpr unsigned stored_bits = significand_bits - 1, exponent_bits = 11;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  const auto biased = static_cast<int>((bits >> stored_bits) & ((1U << exponent_bits) - 1));
-  auto significand = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << stored_bits) - 1));
-  if (biased != 0) significand |= std::int64_t{1} << stored_bits;
-  return {(bits >> 63U) != 0 ? -significand : significand, std::max(biased, 1) - 1075};
-}
-
 /// The eight coordinates of one axis.
 struct Axis {
-  std::array<std::array<Scaled, moving_points>, 2> x;
+  std::array<std::array<BinaryFraction, moving_points>, 2> x;
   int lowest;   ///< all are multiples of 2^lowest
   int highest;  ///< all magnitudes are below 2^highest
 };
@@ -57,7 +38,7 @@ Axis axis_of(const Query& query, std::size_t axis) {
   result.highest = -none;
   for (std::size_t end = 0; end < 2; ++end) {
     for (std::size_t i = 0; i < moving_points; ++i) {
-      const Scaled x = result.x[end][i] = scaled(query.at(end, i, axis));
+      const BinaryFraction x = result.x[end][i] = binary_fraction(query.at(end, i, axis));
       if (x.numerator == 0) continue;
       // As many zeros as its magnitude ends in.
       const int zeros = std::countr_zero(static_cast<std::uint64_t>(x.numerator));
@@ -78,10 +59,7 @@ Whole shifted(Whole x, int bits) {
 /// r, p and q in units of 2^lowest on each axis. `Whole` must hold the differences of coordinates.
 template <class Number, class Whole>
 Motion<Number> motion_of(Kind kind, const std::array<Axis, 3>& axes) {
-  using Difference = std::array<std::size_t, 2>;
-  constexpr std::array<Difference, 3> vertex_face{{{0, 1}, {2, 1}, {3, 1}}};
-  constexpr std::array<Difference, 3> edge_edge{{{0, 2}, {0, 1}, {3, 2}}};
-  const auto& points = kind == Kind::vertex_face ? vertex_face : edge_edge;
+  const auto points = affine_vectors(kind);
   Motion<Number> motion;
   motion.kind = kind;
   const std::array<MovingVector<Number>*, 3> vectors{&motion.r, &motion.p, &motion.q};
@@ -90,7 +68,7 @@ Motion<Number> motion_of(Kind kind, const std::array<Axis, 3>& axes) {
     for (std::size_t end = 0; end < 2; ++end) {
       std::array<Whole, moving_points> x;
       for (std::size_t i = 0; i < moving_points; ++i) {
-        const Scaled& from = axes[k].x[end][i];
+        const BinaryFraction& from = axes[k].x[end][i];
         x[i] = from.numerator == 0 ? Whole(0)
                                    : shifted(Whole(from.numerator), from.exponent - axes[k].lowest);
       }
@@ -117,11 +95,10 @@ std::array<Axis, 3> axes_of_one_unit(const Query& query) {
 
 /// In units of 2^unit.
 ScaledDistance scaled_distance(double distance, int unit) {
-  const Scaled d = scaled(distance);
+  const BinaryFraction d = odd_fraction(distance);
   if (d.numerator == 0) return {};
-  const int zeros = std::countr_zero(static_cast<std::uint64_t>(d.numerator));
-  const int exponent = d.exponent + zeros - unit;
-  return {BigInteger(d.numerator >> zeros) << std::max(exponent, 0), std::max(-exponent, 0)};
+  const int exponent = d.exponent - unit;
+  return {BigInteger(d.numerator) << std::max(exponent, 0), std::max(-exponent, 0)};
 }
 
 std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64_t latest,

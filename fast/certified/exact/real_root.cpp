@@ -393,8 +393,8 @@ class RootSearch {
 }  // namespace
 
 Dyadic dyadic_of(std::uint64_t bits) {
-  const DyadicDouble value = dyadic(bits);
-  return {value.numerator, value.exponent};
+  const auto [numerator, exponent] = odd_fraction(std::bit_cast<double>(bits));
+  return {numerator, -exponent};
 }
 
 Polynomial inner_polynomial(Polynomial coefficients) {

@@ -70,13 +70,8 @@ class NearestPoint {
 
   /// (u,v) of a corner.
   static constexpr std::array<double, 2> parameters(std::size_t corner) {
-    if constexpr (kind == Kind::vertex_face) {
-      constexpr std::array<std::array<double, 2>, 3> all{{{0, 0}, {1, 0}, {0, 1}}};
-      return all[corner];
-    } else {
-      constexpr std::array<std::array<double, 2>, 4> all{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-      return all[corner];
-    }
+    const Corner& place = touchstone::corners(kind)[corner];
+    return {static_cast<double>(place.u), static_cast<double>(place.v)};
   }
 
   /// Takes a point of the side i, j where `is_better`.

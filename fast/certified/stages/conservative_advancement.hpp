@@ -23,6 +23,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "fast/certified/stages/closest_point.hpp"
 #include "filters/double_double.hpp"
@@ -186,7 +187,8 @@ class PreciseProof {
                         Value(gap_bound.underflow(greatest_size));
     const std::array<Precise, 2> weights{filters::exact_difference(Value(1.0), time), exact(time)};
     Value least(0x1p1000);
-    for (const auto& [plus, minus] : corner_points) {
+    for (const Corner& corner : corner_points) {
+      const std::size_t plus = corner.plus, minus = corner.minus;
       std::array<Precise, filters::AdvancedGap::coordinates> x;
       x.fill(exact(Value(0.0)));
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -230,19 +232,10 @@ class PreciseProof {
   static constexpr auto defect_bound = filters::length_defect_double_double;
   static constexpr double greatest_size = 0x1p104;
 
-  using Pair = std::array<std::size_t, 2>;
-  static constexpr std::size_t corners = kind == Kind::vertex_face ? 3 : 4;
-  static constexpr std::array<Pair, corners> corner_points = [] {
-    if constexpr (kind == Kind::vertex_face) {
-      return std::array<Pair, 3>{{{0, 1}, {0, 2}, {0, 3}}};
-    } else {
-      return std::array<Pair, 4>{{{0, 2}, {1, 2}, {1, 3}, {0, 3}}};
-    }
-  }();
+  static constexpr std::span<const Corner> corner_points = touchstone::corners(kind);
+  static constexpr std::size_t corners = corner_points.size();
   /// r, p, q of filters/polynomial_expressions.hpp.
-  static constexpr std::array<Pair, 3> vectors =
-      kind == Kind::vertex_face ? std::array<Pair, 3>{{{0, 1}, {2, 1}, {3, 1}}}
-                                : std::array<Pair, 3>{{{0, 2}, {0, 1}, {3, 2}}};
+  static constexpr auto vectors = affine_vectors(kind);
 
   static Precise exact(const Value& x) { return {x, Value(0.0)}; }
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "exact/algebra/cgal.hpp"
 #include "tests/support/random.hpp"
 
 namespace touchstone::exact {
@@ -20,6 +19,10 @@ using Coefficients = std::vector<Integer>;
 
 /// Σ c_i t^i.
 Polynomial polynomial(const Coefficients& c) { return Polynomial(c); }
+
+CGAL::Polynomial<Integer> to_cgal(const Polynomial& p) {
+  return {p.coefficients().begin(), p.coefficients().end()};
+}
 
 Polynomial from_cgal(const CGAL::Polynomial<Integer>& p) {
   return polynomial({p.begin(), p.end()});

@@ -932,8 +932,8 @@ bool is_true(const std::string& claim, const RandomCertificate& certificate) {
   if (claim == "no_collision") return !verdict.collides();
   if (!verdict.collides() || claim == "collision") return verdict.collides();
   const auto [lower, upper] = certificate.bounds();
-  if (upper == 0) return compare(verdict.impact->toi, 0) == 0;
-  return compare(verdict.impact->toi, lower) > 0 && compare(verdict.impact->toi, upper) <= 0;
+  if (upper == 0) return compare(*verdict.toi, 0) == 0;
+  return compare(*verdict.toi, lower) > 0 && compare(*verdict.toi, upper) <= 0;
 }
 
 TEST(AtRandom, NoFalseClaimIsAccepted) {

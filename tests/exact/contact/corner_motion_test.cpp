@@ -427,7 +427,7 @@ Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1
 std::vector<Vector> corners_at(Kind kind, const Query& query, const Vector& scale,
                                const Rational& t) {
   std::vector<Vector> result;
-  for (const auto& [plus, minus] : touchstone::corners(kind)) {
+  for (const auto& [plus, minus, u, v] : touchstone::corners(kind)) {
     Vector& corner = result.emplace_back();
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Rational start = Rational(query.at(0, plus, axis)) - Rational(query.at(0, minus, axis));

@@ -188,11 +188,11 @@ TEST(Farthest, IsTheOneThatHoldsLongest) {
 
 TEST(FirstContact, IsWhereTheLastSeparatorEnds) {
   const PosedQuery falling = over_triangle(1, 1, 3, -1);
-  const auto first = first_contact(scale_uniformly(falling.kind, falling.query, {1, Norm::l2}));
+  const auto first = end_of_separation(scale_uniformly(falling.kind, falling.query, {1, Norm::l2}));
   ASSERT_TRUE(first);
   EXPECT_TRUE(*first == Rational(1, 2));
   const PosedQuery above = over_triangle(1, 1, 3, 2);
-  EXPECT_FALSE(first_contact(scale_uniformly(above.kind, above.query, {1, Norm::l2})));
+  EXPECT_FALSE(end_of_separation(scale_uniformly(above.kind, above.query, {1, Norm::l2})));
 }
 
 }  // namespace

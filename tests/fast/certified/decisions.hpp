@@ -45,7 +45,7 @@ inline void expect_truth(const PosedQuery& posed,
   const exact::Verdict truth = exact::decide(posed.kind, posed.query);
   ASSERT_EQ(impact.has_value(), truth.collides()) << posed;
   if (!impact) return;
-  const exact::AlgebraicNumber& toi = truth.impact->toi;
+  const exact::AlgebraicNumber& toi = *truth.toi;
   const exact::Rational lower(std::bit_cast<double>(impact->time.lower));
   const exact::Rational upper(std::bit_cast<double>(impact->time.upper));
   EXPECT_TRUE(toi <= upper) << posed;

@@ -61,16 +61,5 @@ TEST(ExactNumber, EstimatesDoubles) {
   EXPECT_EQ(ExactNumber(-3).estimate(2), -12.0);
 }
 
-TEST(BinaryFraction, IsTheDouble) {
-  tests::Random random(5);
-  for (int i = 0; i < tests::trials(2000); ++i) {
-    const double x = random.finite_double();
-    const BinaryFraction fraction = binary_fraction(x);
-    EXPECT_EQ(
-        Rational(static_cast<double>(fraction.numerator)) * exact::power_of_two(fraction.exponent),
-        Rational(x));
-  }
-}
-
 }  // namespace
 }  // namespace touchstone::baselines

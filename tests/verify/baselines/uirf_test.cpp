@@ -69,7 +69,7 @@ TEST(Uirf, GivesTimesThatAreNotLate) {
       ASSERT_EQ(answer.verdict, fast::Verdict::yes);
       const auto truth = exact::decide(kind, posed.query);
       ASSERT_TRUE(truth.collides());
-      EXPECT_LE(exact::Rational(answer.toi_lower), truth.impact->toi.enclosure().upper);
+      EXPECT_LE(exact::Rational(answer.toi_lower), truth.toi->enclosure().upper);
       EXPECT_TRUE(std::isnan(answer.toi_upper));
     }
   }

@@ -8,8 +8,8 @@
 #include <cstddef>
 
 #include "exact/algebra/number.hpp"
+#include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -42,10 +42,10 @@ TEST(Aligned, RoundingsAddUpAtAContact) {
   const int count = tests::trials(200);
   for (int i = 0; i < count; ++i) {
     const Query query = aligned_contact(random);
-    const Decision decision(Kind::edge_edge, query, {});
-    if (!decision.collides()) continue;
+    const exact::Verdict verdict = exact::decide(Kind::edge_edge, query);
+    if (!verdict.collides()) continue;
     ++collisions;
-    const double toi = decision.toi().enclosure().lower;
+    const double toi = verdict.toi->enclosure().lower;
     const double c = toi < 0.5 ? 31.0 / 64 : 33.0 / 64;
     EXPECT_NEAR(toi, c, 1e-12);
     EXPECT_GE(toi, c);

@@ -8,10 +8,10 @@
 #include <set>
 
 #include "exact/algebra/number.hpp"
+#include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
-#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -34,9 +34,9 @@ void for_each_query(Maker make, int count, const Use& use) {
 TEST(Contact, OnAGridIsContactAlways) {
   std::set<double> tois;
   for_each_query(grid_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
-    const Decision decision(kind, query, {});
-    ASSERT_TRUE(decision.collides());
-    tois.insert(decision.toi().enclosure().lower);
+    const exact::Verdict verdict = exact::decide(kind, query);
+    ASSERT_TRUE(verdict.collides());
+    tois.insert(verdict.toi->enclosure().lower);
   });
   // Eighths, and earlier contacts where the construction happens to have one.
   for (const double eighth : {0.0, 0.125, 0.5, 0.875, 1.0}) EXPECT_TRUE(tois.contains(eighth));
@@ -45,9 +45,9 @@ TEST(Contact, OnAGridIsContactAlways) {
 TEST(Contact, OfCentresIsAtAnEnd) {
   int at_start = 0, at_end = 0;
   for_each_query(central_contact, tests::trials(400), [&](Kind kind, const Query& query) {
-    const Decision decision(kind, query, {});
-    ASSERT_TRUE(decision.collides());
-    const double toi = decision.toi().enclosure().lower;
+    const exact::Verdict verdict = exact::decide(kind, query);
+    ASSERT_TRUE(verdict.collides());
+    const double toi = verdict.toi->enclosure().lower;
     ASSERT_TRUE(toi == 0.0 || toi == 1.0) << toi;
     (toi == 0.0 ? at_start : at_end) += 1;
   });
@@ -58,10 +58,10 @@ TEST(Contact, OfCentresIsAtAnEnd) {
 TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
   int full = 0, inside = 0, at_one = 0;
   for_each_query(level_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
-    const Decision decision(kind, query, {});
-    ASSERT_TRUE(decision.collides());
+    const exact::Verdict verdict = exact::decide(kind, query);
+    ASSERT_TRUE(verdict.collides());
     full += builtin::uses_full_significands(query) ? 1 : 0;
-    const double toi = decision.toi().enclosure().lower;
+    const double toi = verdict.toi->enclosure().lower;
     inside += toi > 0.0 && toi < 1.0 ? 1 : 0;
     at_one += toi == 1.0 ? 1 : 0;
   });
@@ -74,13 +74,13 @@ TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
 TEST(Contact, RoundedIsAHitOrAMissByAHair) {
   int hits = 0;
   for_each_query(rounded_contact, tests::trials(800), [&](Kind kind, const Query& query) {
-    const bool collides = Decision(kind, query, {}).collides();
+    const bool collides = exact::decide(kind, query).collides();
     hits += collides ? 1 : 0;
     if (collides) return;
     double greatest = 0.0;
     for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
     const Separation near{.distance = 1e-13 * greatest, .norm = Norm::l2};
-    EXPECT_TRUE(Decision(kind, query, near).collides());
+    EXPECT_TRUE(exact::decide(kind, query, near).collides());
   });
   EXPECT_GT(hits, tests::trials(200));
   EXPECT_LT(hits, tests::trials(760));
@@ -97,8 +97,8 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
         const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
         const Query query = contact_apart(kind, separation, random);
         for (const double x : query.coordinates) ASSERT_TRUE(std::isfinite(x));
-        hits += Decision(kind, query, separation).collides() ? 1 : 0;
-        near += Decision(kind, query, {.distance = 1.01 * distance, .norm = norm}).collides();
+        hits += exact::decide(kind, query, separation).collides() ? 1 : 0;
+        near += exact::decide(kind, query, {.distance = 1.01 * distance, .norm = norm}).collides();
       }
       EXPECT_GT(hits, count / 2);
       EXPECT_GT(near, hits);
@@ -111,8 +111,9 @@ TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
   for_each_query(sliding, tests::trials(400), [&](Kind kind, const Query& query) {
     double greatest = 0.0;
     for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
-    hits += Decision(kind, query, {}).collides() ? 1 : 0;
-    near += Decision(kind, query, {.distance = greatest * 0x1p-9, .norm = Norm::l2}).collides();
+    hits += exact::decide(kind, query).collides() ? 1 : 0;
+    near +=
+        exact::decide(kind, query, {.distance = greatest * 0x1p-9, .norm = Norm::l2}).collides();
   });
   EXPECT_GT(hits, tests::trials(16));
   EXPECT_GT(near, hits + tests::trials(80));

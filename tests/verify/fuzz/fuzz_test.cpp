@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "exact/oracle.hpp"
 #include "fast/certified.hpp"
 #include "fast/tight_inclusion.hpp"
 #include "tests/support/methods.hpp"
@@ -23,7 +24,6 @@
 #include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/fuzz/recheck.hpp"
-#include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify {
@@ -62,7 +62,7 @@ void expect_found(FindingKind what, const FuzzResult& result) {
   EXPECT_FALSE(finding.original.detail.empty());
   EXPECT_FALSE(finding.generator.empty());
   EXPECT_EQ(finding.original.collides,
-            Decision(finding.kind, finding.original.query, finding.separation).collides());
+            exact::decide(finding.kind, finding.original.query, finding.separation).collides());
   // It was not to be made simpler.
   EXPECT_EQ(finding.simplest.query, finding.original.query);
   EXPECT_EQ(finding.shrinking, Shrinking::not_tried);

@@ -107,7 +107,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
   const Answer answer = function(finding.kind, failing.query);
   EXPECT_EQ(failing.answer.verdict, answer.verdict);
   EXPECT_EQ(failing.answer.toi_lower, answer.toi_lower);
-  const Decision truth(finding.kind, failing.query, finding.separation);
+  const exact::Verdict truth = exact::decide(finding.kind, failing.query, finding.separation);
   EXPECT_EQ(failing.collides, truth.collides());
   EXPECT_EQ(failing.truth, to_text(truth_of(0, truth)));
   EXPECT_NE(failing.detail.find(fmt::format("{}", answer.toi_lower)), std::string::npos)

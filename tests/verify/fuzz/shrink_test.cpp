@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "exact/oracle.hpp"
 #include "fast/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
-#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -174,7 +174,7 @@ bool is_missed_in_float(Kind kind, const Query& query) {
   Query rounded = query;
   for (double& x : rounded.coordinates) x = static_cast<double>(static_cast<float>(x));
   return fast::certified(kind, rounded).verdict == fast::Verdict::no &&
-         Decision(kind, query, {}).collides();
+         exact::decide(kind, query).collides();
 }
 
 TEST(Shrink, makes_findings_of_a_method_short) {
@@ -198,8 +198,8 @@ TEST(Shrink, makes_findings_of_a_method_short) {
 TEST(Shrink, leaves_nothing_of_a_missed_start) {
   // A fault of all solvers that look for a sign to change: who touches from the beginning is missed.
   const auto is_missed = [](const Query& query) {
-    const Decision truth(Kind::vertex_face, query, {});
-    return truth.collides() && truth.toi().enclosure().upper == 0.0;
+    const exact::Verdict truth = exact::decide(Kind::vertex_face, query);
+    return truth.collides() && truth.toi->enclosure().upper == 0.0;
   };
   Query query = tests::over_triangle(1, 1, 0, -2).query;
   for (double& x : query.coordinates) x *= 0.7;
@@ -209,8 +209,8 @@ TEST(Shrink, leaves_nothing_of_a_missed_start) {
 
 TEST(Shrink, finds_small_integers_for_a_time_of_impact) {
   const auto is_late = [](const Query& query) {
-    const Decision truth(Kind::vertex_face, query, {});
-    return truth.collides() && truth.toi().enclosure().lower > 0.6;
+    const exact::Verdict truth = exact::decide(Kind::vertex_face, query);
+    return truth.collides() && truth.toi->enclosure().lower > 0.6;
   };
   Random random(11);
   const Query base = tests::over_triangle(1, 1, 0.8, -0.4).query;

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "exact/algebra/number.hpp"
+#include "exact/oracle.hpp"
 #include "exact/query.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/generate/random.hpp"
-#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -103,11 +103,11 @@ TEST(Symmetry, KeepsPrimitivesTogether) {
 
 void expect_same_truth(Kind kind, const Query& query, const Separation& separation,
                        const Symmetry& symmetry) {
-  const Decision truth(kind, query, separation);
-  const Decision of_image(kind, image(symmetry, query).value(), separation);
+  const exact::Verdict truth = exact::decide(kind, query, separation);
+  const exact::Verdict of_image = exact::decide(kind, image(symmetry, query).value(), separation);
   ASSERT_EQ(truth.collides(), of_image.collides()) << to_text(symmetry);
   if (!truth.collides() || symmetry.reversed) return;
-  const exact::DoubleInterval toi = truth.toi().enclosure(), image_toi = of_image.toi().enclosure();
+  const exact::DoubleInterval toi = truth.toi->enclosure(), image_toi = of_image.toi->enclosure();
   EXPECT_EQ(toi.lower, image_toi.lower) << to_text(symmetry);
   EXPECT_EQ(toi.upper, image_toi.upper) << to_text(symmetry);
 }
@@ -125,7 +125,7 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
       const Query query = generator.make(kind, context, random);
       const Symmetry symmetry = draw_symmetry(kind, query, separation, random);
       expect_same_truth(kind, query, separation, symmetry);
-      ++(Decision(kind, query, separation).collides() ? collisions : others);
+      ++(exact::decide(kind, query, separation).collides() ? collisions : others);
     }
   }
   EXPECT_GT(collisions, tests::trials(80));

@@ -30,7 +30,7 @@ const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
 /// What the oracle says, after a check that the quick look does not excuse what is wrong.
 std::optional<FindingKind> fault(const tests::PosedQuery& posed, const Answer& answer,
                                  const Standard& standard = {}) {
-  const Truth truth = truth_of(0, Decision(posed.kind, posed.query, standard.separation));
+  const Truth truth = truth_of(0, exact::decide(posed.kind, posed.query, standard.separation));
   const CertifiedResult judged =
       fast::certified(posed.kind, posed.query, {.separation = standard.separation});
   const auto accusation = accuse(posed.kind, posed.query, truth, answer, standard);
@@ -125,14 +125,14 @@ TEST(Referee, FindsMostRightAnswersRightAtAGlance) {
 }
 
 TEST(Referee, AccusesAJudgeThatTheOracleContradicts) {
-  const Truth truth = truth_of(0, Decision(at_half.kind, at_half.query, {}));
+  const Truth truth = truth_of(0, exact::decide(at_half.kind, at_half.query));
   CertifiedResult judged = fast::certified(at_half.kind, at_half.query);
   EXPECT_FALSE(accuse_judge(truth, judged));
   judged.toi_lower = 0.75;
   EXPECT_EQ(accuse_judge(truth, judged)->what, FindingKind::late_toi);
   judged = {.verdict = Verdict::no};
   EXPECT_EQ(accuse_judge(truth, judged)->what, FindingKind::false_negative);
-  const Truth miss = truth_of(0, Decision(never.kind, never.query, {}));
+  const Truth miss = truth_of(0, exact::decide(never.kind, never.query));
   EXPECT_EQ(accuse_judge(miss, {.verdict = Verdict::yes})->what, FindingKind::false_positive);
 }
 

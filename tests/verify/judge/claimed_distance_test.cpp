@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "exact/algebra/number.hpp"
-#include "exact/distance/distance_oracle.hpp"
+#include "exact/oracle.hpp"
 #include "fast/tight_inclusion.hpp"
 #include "verify/generate/families.hpp"
 

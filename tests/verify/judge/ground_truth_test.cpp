@@ -2,38 +2,37 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <stdexcept>
+#include <optional>
+
+#include "exact/oracle.hpp"
+#include "tests/support/queries.hpp"
 
 namespace touchstone::verify {
 namespace {
 
-using exact::Rational;
+using exact::DoubleInterval;
 
-/// A vertex falls from height 2 to height 0 on the middle of a resting triangle.
-constexpr Query falling{{1, 1, 2, 0, 0, 0, 4, 0, 0, 0, 4, 0,  //
-                         1, 1, 0, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
-
-TEST(Decision, IsAboutTheSeparation) {
-  EXPECT_EQ(Decision(Kind::vertex_face, falling, {}).toi(), Rational(1));
-  for (const Norm norm : {Norm::linf, Norm::l2}) {
-    EXPECT_EQ(Decision(Kind::vertex_face, falling, {.distance = 1.0, .norm = norm}).toi(),
-              Rational(1, 2));
-    EXPECT_EQ(Decision(Kind::vertex_face, falling, {.distance = 0.0, .norm = norm}).toi(),
-              Rational(1));
-  }
-  Query above = falling;
-  above.at(1, 0, 2) = 1.5;
-  EXPECT_FALSE(Decision(Kind::vertex_face, above, {.distance = 1.0}).collides());
-  EXPECT_TRUE(Decision(Kind::vertex_face, above, {.distance = 1.5}).collides());
+TEST(Truth, IsTheVerdictInDoubles) {
+  const auto truth_about = [](const tests::PosedQuery& posed, const Separation& separation) {
+    return truth_of(7, exact::decide(posed.kind, posed.query, separation));
+  };
+  const tests::PosedQuery falling = tests::over_triangle(1, 1, 2, -1);
+  const Truth at_two_thirds = truth_about(falling, {});
+  EXPECT_EQ(at_two_thirds.index, 7U);
+  EXPECT_TRUE(at_two_thirds.collides);
+  EXPECT_EQ(at_two_thirds.toi, (DoubleInterval{0x1.5555555555555p-1, 0x1.5555555555556p-1}));
+  EXPECT_EQ(truth_about(falling, {.distance = 0.5}).toi, (DoubleInterval{0.5, 0.5}));
+  const Truth never = truth_about(tests::over_triangle(1, 1, 2, 1), {});
+  EXPECT_FALSE(never.collides);
+  EXPECT_EQ(never.toi, std::nullopt);
 }
 
-TEST(Decision, RefusesWhatIsNoQueryOrNoSeparation) {
-  Query bad = falling;
-  bad.at(0, 0, 0) = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(Decision(Kind::vertex_face, bad, {}), std::invalid_argument);
-  EXPECT_THROW(Decision(Kind::vertex_face, bad, {.distance = 1.0}), std::invalid_argument);
-  EXPECT_THROW(Decision(Kind::vertex_face, falling, {.distance = -1.0}), std::invalid_argument);
+TEST(Truth, InWords) {
+  EXPECT_EQ(to_text(Truth{.index = 0, .collides = false, .toi = std::nullopt}), "no collision");
+  EXPECT_EQ(to_text(Truth{.index = 0, .collides = true, .toi = DoubleInterval{0.5, 0.5}}),
+            "collision at 0.5");
+  EXPECT_EQ(to_text(Truth{.index = 0, .collides = true, .toi = DoubleInterval{0.25, 0.5}}),
+            "collision after 0.25 and before 0.5");
 }
 
 }  // namespace

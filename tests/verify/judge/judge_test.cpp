@@ -69,11 +69,6 @@ TEST(Judge, EveryVerdictHasItsColumn) {
   }
 }
 
-TEST(Judge, SaysTruthsInWords) {
-  EXPECT_EQ(to_text(miss()), "no collision");
-  EXPECT_EQ(to_text(hit(0.5, 0.5)), "collision at 0.5");
-}
-
 /// Late by less than a spacing of doubles: the printed end of the enclosure is not the time.
 TEST(Judge, ATimeBesideTheExactOneIsSeenToBeWrong) {
   const Truth third = hit(0.3333333333333333, 0.33333333333333337);
@@ -185,7 +180,7 @@ TEST(Judge, AgreesWithExactComparison) {
     const Query query = tests::random_query(random, kind, tests::all_families[i % 4]).query;
     const exact::Verdict verdict = exact::decide(kind, query);
     if (!verdict.collides()) continue;
-    const exact::AlgebraicNumber& toi = verdict.impact->toi;
+    const exact::AlgebraicNumber& toi = *verdict.toi;
     const exact::DoubleInterval enclosure = toi.enclosure();
     between_doubles += enclosure.lower < enclosure.upper ? 1 : 0;
     for (const double t : {enclosure.lower, enclosure.upper, below(enclosure.lower),

@@ -32,7 +32,7 @@ Expected expected(const MovingMesh& mesh, Kind kind) {
     const exact::Verdict verdict = exact::decide(kind, query);
     if (!verdict.collides()) continue;
     ++all.collisions;
-    const auto [lower, upper] = verdict.impact->toi.enclosure();
+    const auto [lower, upper] = verdict.toi->enclosure();
     all.earliest_lower = std::min(all.earliest_lower, lower);
     all.earliest_upper = std::min(all.earliest_upper, upper);
   }

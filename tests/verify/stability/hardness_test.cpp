@@ -17,12 +17,10 @@
 #include <vector>
 
 #include "exact/algebra/number.hpp"
-#include "exact/distance/distance_oracle.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
-#include "verify/judge/ground_truth.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -279,7 +277,8 @@ TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
                 {.hardness = &hardness, .exponent = exponent, .kind = kind, .separation = asked},
                 seed, index);
             collisions += made.collides ? 1U : 0U;
-            const Decision truth(kind, made.query, separation_at(hardness, exponent, asked));
+            const exact::Verdict truth =
+                exact::decide(kind, made.query, separation_at(hardness, exponent, asked));
             ASSERT_EQ(truth.collides(), made.collides);
           }
           EXPECT_EQ(collisions, trials(16U) / 2) << hardness.name << " 2^" << exponent << " "

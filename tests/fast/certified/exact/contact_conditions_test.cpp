@@ -108,7 +108,7 @@ TEST(ContactRule, EventsOfMotionInAPlaneIncludeTheFirstContact) {
                      tests::integer_query(random, 3)};
     tests::flatten(posed.query, 2);
     const auto truth = exact::decide(posed.kind, posed.query);
-    if (!truth.collides() || truth.impact->toi == exact::Rational(0)) continue;
+    if (!truth.collides() || *truth.toi == exact::Rational(0)) continue;
     const Motion<BigInteger> motion = integer_motion<BigInteger>(posed);
     bool is_event = false;
     for (const auto& event : events_in_plane(motion, normal(motion))) {
@@ -120,7 +120,7 @@ TEST(ContactRule, EventsOfMotionInAPlaneIncludeTheFirstContact) {
       // c0 (1−t)² + c1 (1−t) t + c2 t²
       const exact::Integer linear = c(1) - 2 * c(0), square = c(0) - c(1) + c(2);
       const exact::Polynomial in_t(c(0), linear, square);
-      is_event = is_event || truth.impact->toi.is_root_of(in_t);
+      is_event = is_event || truth.toi->is_root_of(in_t);
     }
     EXPECT_TRUE(is_event) << posed;
     ++found;

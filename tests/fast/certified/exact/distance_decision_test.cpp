@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "exact/distance/distance_oracle.hpp"
+#include "exact/oracle.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/exact/general_contact_decision.hpp"
 #include "tests/fast/certified/decisions.hpp"
@@ -61,7 +61,7 @@ void expect_impact(const PosedQuery& posed, const ExactImpact& impact,
 
 /// Verdict and enclosure against the oracle.
 void expect_truth(const PosedQuery& posed, const Separation& separation) {
-  const exact::DistanceVerdict truth = exact::decide(posed.kind, posed.query, separation);
+  const exact::Verdict truth = exact::decide(posed.kind, posed.query, separation);
   const auto impact = decide(posed, separation);
   ASSERT_EQ(impact.has_value(), truth.collides())
       << posed << ' ' << to_string(separation.norm) << ' ' << separation.distance;
@@ -247,7 +247,7 @@ TEST(SeparatedDecision, SubnormalTimesAreEnclosedByOneSpacing) {
       for (const int k : {1, 3, 1000}) {
         const PosedQuery posed = over(kind, 1.0 + k * 0x1p-52, -0x1p1000);
         const Separation one{1.0, norm};
-        const exact::DistanceVerdict truth = exact::decide(kind, posed.query, one);
+        const exact::Verdict truth = exact::decide(kind, posed.query, one);
         ASSERT_TRUE(truth.collides());
         for (const double tolerance : {0.0, 1e-12, 0.1}) {
           const auto impact = decide_exactly(kind, posed.query, one, tolerance, 1.0);

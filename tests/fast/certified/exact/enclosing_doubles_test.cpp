@@ -5,7 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <utility>
 
 #include "tests/support/random.hpp"
 
@@ -71,22 +73,31 @@ TEST(DoubleSearch, TakesAnyGuessIntoTheInterval) {
   EXPECT_EQ(unit_bits(std::numeric_limits<double>::quiet_NaN()), bits_of_zero);
 }
 
-TEST(DoubleSearch, TakesDoublesApart) {
+TEST(BinaryFraction, IsTheDouble) {
   Random random(2);
   for (int i = 0; i < 10000; ++i) {
-    const auto x = std::bit_cast<double>(random.bits() % (bits_of_one + 1));
-    const DyadicDouble value = dyadic(bits_of(x));
-    EXPECT_EQ(std::ldexp(static_cast<double>(value.numerator), -value.exponent), x);
-    EXPECT_EQ(value.numerator % 2, 1);
-    EXPECT_GE(value.exponent, 0);
+    const double x = random.finite_double();
+    const auto [numerator, exponent] = binary_fraction(x);
+    EXPECT_EQ(std::ldexp(static_cast<double>(numerator), exponent), x);
+    EXPECT_LT(std::abs(numerator), std::int64_t{1} << 53);
+    EXPECT_GE(exponent, -1074);
+    const BinaryFraction odd = odd_fraction(x);
+    EXPECT_EQ(std::ldexp(static_cast<double>(odd.numerator), odd.exponent), x);
+    EXPECT_EQ(std::abs(odd.numerator % 2), x == 0.0 ? 0 : 1);
   }
-  EXPECT_EQ(dyadic(bits_of_zero).numerator, 0);
-  const DyadicDouble least = dyadic(1);
-  EXPECT_EQ(least.numerator, 1);
-  EXPECT_EQ(least.exponent, 1074);
-  const DyadicDouble one = dyadic(bits_of_one);
-  EXPECT_EQ(one.numerator, 1);
-  EXPECT_EQ(one.exponent, 0);
+}
+
+TEST(BinaryFraction, KnownValues) {
+  const auto odd = [](double x) {
+    const BinaryFraction fraction = odd_fraction(x);
+    return std::pair(fraction.numerator, fraction.exponent);
+  };
+  using Limits = std::numeric_limits<double>;
+  for (const double zero : {0.0, -0.0}) EXPECT_EQ(odd(zero), std::pair(std::int64_t{0}, 0));
+  EXPECT_EQ(odd(1.0), std::pair(std::int64_t{1}, 0));
+  EXPECT_EQ(odd(-12.0), std::pair(std::int64_t{-3}, 2));
+  EXPECT_EQ(odd(Limits::denorm_min()), std::pair(std::int64_t{1}, -1074));
+  EXPECT_EQ(odd(-Limits::max()), std::pair(1 - (std::int64_t{1} << 53), 971));
 }
 
 }  // namespace

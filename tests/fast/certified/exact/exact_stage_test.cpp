@@ -78,7 +78,7 @@ void expect_truth(const PosedQuery& posed, double tolerance) {
   const auto impact = decide_exactly(posed.kind, posed.query, tolerance, 1.0);
   ASSERT_EQ(impact.has_value(), truth.collides()) << posed;
   if (!impact) return;
-  expect_enclosure(posed, truth.impact->toi, *impact, tolerance);
+  expect_enclosure(posed, *truth.toi, *impact, tolerance);
   if (tolerance <= 1e-12) expect_contact(posed, *impact);
   const auto collides_until = [&](double t_max) {
     return decide_exactly(posed.kind, posed.query, tolerance, t_max).has_value();
@@ -86,7 +86,7 @@ void expect_truth(const PosedQuery& posed, double tolerance) {
   EXPECT_TRUE(collides_until(impact->toi_upper)) << posed;
   if (impact->toi_upper == 0.0) return;
   EXPECT_FALSE(collides_until(impact->toi_lower)) << posed;
-  const exact::DoubleInterval cell = truth.impact->toi.enclosure();
+  const exact::DoubleInterval cell = truth.toi->enclosure();
   EXPECT_TRUE(collides_until(cell.upper)) << posed;
   EXPECT_FALSE(collides_until(below(cell.upper))) << posed;
 }
@@ -286,7 +286,7 @@ bool is_wrong(Decide* decide, Kind kind, const Query& query) {
   const exact::Verdict truth = exact::decide(kind, query);
   if (impact.has_value() != truth.collides()) return true;
   if (!impact) return false;
-  const exact::AlgebraicNumber& toi = truth.impact->toi;
+  const exact::AlgebraicNumber& toi = *truth.toi;
   return toi > Rational(impact->toi_upper) ||
          (impact->toi_upper != 0 && toi <= Rational(impact->toi_lower));
 }
