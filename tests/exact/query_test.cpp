@@ -16,7 +16,7 @@
 #include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone {
+namespace touchstone::query_test {
 namespace {
 
 using exact::Rational;
@@ -270,4 +270,4 @@ TEST(Separation, DistancesAreFiniteAndNotNegative) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::query_test

@@ -12,7 +12,7 @@
 #include "exact/algebra/cgal.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::polynomial_test {
 namespace {
 
 using tests::Random;
@@ -452,4 +452,4 @@ TEST(ExactQuotient, DividesByBothUnits) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::polynomial_test

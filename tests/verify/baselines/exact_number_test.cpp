@@ -12,7 +12,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::exact_number_test {
 namespace {
 
 using exact::Rational;
@@ -73,4 +73,4 @@ TEST(BinaryFraction, IsTheDouble) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::exact_number_test

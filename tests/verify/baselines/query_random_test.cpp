@@ -6,7 +6,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::query_random_test {
 namespace {
 
 TEST(QueryRandom, RepeatsForAQueryAndDiffersBetweenQueries) {
@@ -35,4 +35,4 @@ TEST(QueryRandom, IsUniformInItsRange) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::query_random_test

@@ -14,7 +14,7 @@
 #include "verify/data/dataset_error.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::respondents_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -175,4 +175,4 @@ TEST(Respondents, AnswersNeverAskedForAreAWarning) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::respondents_test

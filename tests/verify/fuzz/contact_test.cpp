@@ -13,7 +13,7 @@
 #include "verify/generate/random.hpp"
 #include "verify/judge/ground_truth.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::contact_test {
 namespace {
 
 using builtin::Random;
@@ -119,4 +119,4 @@ TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::contact_test

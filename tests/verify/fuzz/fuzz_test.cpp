@@ -26,7 +26,7 @@
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz_test {
 namespace {
 
 using fast::Answer;
@@ -456,4 +456,4 @@ TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz_test

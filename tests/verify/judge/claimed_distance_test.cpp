@@ -11,7 +11,7 @@
 #include "fast/tight_inclusion.hpp"
 #include "verify/generate/families.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::claimed_distance_test {
 namespace {
 
 using exact::Rational;
@@ -132,4 +132,4 @@ TEST(Reach, WhatIsSeenIsTrue) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::claimed_distance_test

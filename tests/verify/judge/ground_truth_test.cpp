@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace touchstone::verify {
+namespace touchstone::verify::ground_truth_test {
 namespace {
 
 using exact::Rational;
@@ -37,4 +37,4 @@ TEST(Decision, RefusesWhatIsNoQueryOrNoSeparation) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::ground_truth_test

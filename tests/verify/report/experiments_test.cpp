@@ -13,7 +13,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::experiments_test {
 namespace {
 
 /// Vertices over a triangle, every second of which falls through it.
@@ -195,4 +195,4 @@ TEST(Survey, UnknownMethodsAreRefused) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::experiments_test

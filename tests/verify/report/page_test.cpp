@@ -10,7 +10,7 @@
 #include "verify/report/figures.hpp"
 #include "verify/report/page_texts.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::page_test {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
@@ -111,4 +111,4 @@ TEST(Page, WithoutABaselineOursAreShownOverTheSeparation) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::page_test

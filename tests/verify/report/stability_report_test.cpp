@@ -9,7 +9,7 @@
 
 #include "tests/support/methods.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::stability_report_test {
 namespace {
 
 using fast::Verdict;
@@ -140,4 +140,4 @@ TEST(StabilityJson, IsNullWhereNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::stability_report_test

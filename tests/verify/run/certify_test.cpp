@@ -21,7 +21,7 @@
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::certify_test {
 namespace {
 
 using exact::Rational;
@@ -599,4 +599,4 @@ TEST(PublicData, SimulationQueriesAndTimesOfImpactAgree) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::certify_test

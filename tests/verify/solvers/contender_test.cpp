@@ -11,7 +11,7 @@
 #include "verify/generate/workload.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::contender_test {
 namespace {
 
 using fast::Verdict;
@@ -123,4 +123,4 @@ TEST(Contender, PairsAreAnsweredAsTheirQueriesAre) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::contender_test

@@ -18,7 +18,7 @@
 
 // A program of its own: it makes processes, which copy no threads.
 
-namespace touchstone::verify {
+namespace touchstone::verify::process_contender_test {
 namespace {
 
 using fast::Answer;
@@ -111,4 +111,4 @@ TEST(ProcessContender, ACrashInABenchmarkCostsAQuery) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::process_contender_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::registry_test {
 namespace {
 
 TEST(Registry, NamesAreUniqueAndFound) {
@@ -77,4 +77,4 @@ TEST(Registry, PromisesHaveNames) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::registry_test

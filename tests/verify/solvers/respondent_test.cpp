@@ -18,7 +18,7 @@
 #include "verify/run/stream.hpp"
 #include "verify/run/thread_clock.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::respondent_test {
 namespace {
 
 using fast::Answer;
@@ -229,4 +229,4 @@ TEST(Respondent, MayBeCalledAnythingElse) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::respondent_test

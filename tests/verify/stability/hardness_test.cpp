@@ -24,7 +24,7 @@
 #include "verify/generate/random.hpp"
 #include "verify/judge/ground_truth.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::hardness_test {
 namespace {
 
 using exact::Rational;
@@ -329,4 +329,4 @@ TEST(OpenHardQueries, StreamsThemWithTheirLabels) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::hardness_test

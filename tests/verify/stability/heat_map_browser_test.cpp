@@ -11,7 +11,7 @@
 #include "tests/support/browser_test.hpp"
 #include "verify/stability/heat_map.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::heat_map_browser_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -76,4 +76,4 @@ TEST_F(HeatMapBrowser, APlantedFaultIsSeen) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::heat_map_browser_test

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace touchstone::verify {
+namespace touchstone::verify::heat_map_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -198,4 +198,4 @@ TEST(PowerText, IsTheExponentAsPeopleWriteIt) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::heat_map_test

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-namespace touchstone::verify {
+namespace touchstone::verify::svg_test {
 namespace {
 
 const std::string replacement = "\xEF\xBF\xBD";
@@ -66,4 +66,4 @@ TEST(SvgPicture, IsAnXmlDocumentOfItsParts) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::svg_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::enclosing_doubles_test {
 namespace {
 
 using tests::Random;
@@ -90,4 +90,4 @@ TEST(DoubleSearch, TakesDoublesApart) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::enclosing_doubles_test
