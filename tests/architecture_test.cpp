@@ -18,7 +18,7 @@
 
 #include "tests/support/built_files.hpp"
 
-namespace touchstone::tests {
+namespace touchstone::tests::architecture_test {
 namespace {
 
 /// Files by their path from the project root, with '/' between the parts.
@@ -510,4 +510,4 @@ TEST(PlantedFault, ASourceOfAnotherExtensionIsFound) {
 }
 
 }  // namespace
-}  // namespace touchstone::tests
+}  // namespace touchstone::tests::architecture_test

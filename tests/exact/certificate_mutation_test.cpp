@@ -23,7 +23,7 @@
 // Certificates (exact/certificate.hpp) altered in every field: whatever the checker still accepts has
 // to be true, by the oracle asked about the altered query.
 
-namespace touchstone::exact {
+namespace touchstone::exact::certificate_mutation_test {
 namespace {
 
 using tests::PosedQuery;
@@ -423,4 +423,4 @@ TEST_F(MutationTest, WhatIsAcceptedAtADistanceIsTrue) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::certificate_mutation_test

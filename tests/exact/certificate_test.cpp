@@ -22,7 +22,7 @@
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::certificate_test {
 namespace {
 
 using tests::edge_edge;
@@ -497,4 +497,4 @@ TEST(RoundTrip, PublicDataAreAccepted) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::certificate_test

@@ -21,7 +21,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::oracle_metamorphic_test {
 namespace {
 
 using tests::all_families;
@@ -372,4 +372,4 @@ TEST(OracleMetamorphic, CollidesIffOneOfItsHalvesDoes) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::oracle_metamorphic_test

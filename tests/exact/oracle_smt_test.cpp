@@ -25,7 +25,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::oracle_smt_test {
 namespace {
 
 using tests::edge_edge;
@@ -241,4 +241,4 @@ TEST(OracleSmt, AgreesWithAnSmtSolver) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::oracle_smt_test

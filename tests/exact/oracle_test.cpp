@@ -31,7 +31,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::oracle_test {
 namespace {
 
 using tests::edge_edge;
@@ -825,4 +825,4 @@ TEST(Oracle, AgreesWithEliminationOnFullSignificands) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::oracle_test

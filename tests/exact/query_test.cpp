@@ -16,7 +16,7 @@
 #include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone {
+namespace touchstone::query_test {
 namespace {
 
 using exact::Rational;
@@ -316,4 +316,4 @@ TEST(Separation, OnlyZeroIsContact) {
 }
 
 }  // namespace
-}  // namespace touchstone
+}  // namespace touchstone::query_test

@@ -28,7 +28,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace touchstone::fast {
+namespace touchstone::fast::broad_phase_test {
 namespace {
 
 using exact::Rational;
@@ -584,4 +584,4 @@ TEST(PublicSteps, HaveThePublishedCandidatesAndLabelsPairByPair) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::broad_phase_test

@@ -31,7 +31,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace touchstone::fast {
+namespace touchstone::fast::certified_test {
 namespace {
 
 using tests::fault;
@@ -597,4 +597,4 @@ TEST(CertifiedMethod, HeedsTMaxAndTheSeparation) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::certified_test

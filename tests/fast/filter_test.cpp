@@ -7,7 +7,7 @@
 
 #include "filters/error_bounds.hpp"
 
-namespace touchstone::fast {
+namespace touchstone::fast::filter_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -102,4 +102,4 @@ TEST(ErrorFilter, IsInfiniteWhereOverflowCouldOccur) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::filter_test

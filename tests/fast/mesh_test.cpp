@@ -12,7 +12,7 @@
 
 #include "exact/query.hpp"
 
-namespace touchstone::fast {
+namespace touchstone::fast::mesh_test {
 namespace {
 
 /// Vertex i is at (3i, 3i+1, 3i+2) and moves by 100.
@@ -143,4 +143,4 @@ TEST(RequireInRange, LooksIntoTheEdgesAndFacesOfPairs) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::mesh_test

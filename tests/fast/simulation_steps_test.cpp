@@ -13,7 +13,7 @@
 #include "fast/certified.hpp"
 #include "tests/support/simulation_steps.hpp"
 
-namespace touchstone::fast {
+namespace touchstone::fast::simulation_steps_test {
 namespace {
 
 using tests::SimulationStep;
@@ -69,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(Public, SimulationSteps, ::testing::ValuesIn(tests::sim
                          });
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::simulation_steps_test

@@ -31,7 +31,7 @@
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
 
-namespace touchstone::fast {
+namespace touchstone::fast::tight_inclusion_test {
 namespace {
 
 using exact::Rational;
@@ -906,4 +906,4 @@ TEST(Method, AnswersASpanAsQueryByQuery) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::tight_inclusion_test

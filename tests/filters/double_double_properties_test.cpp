@@ -11,7 +11,7 @@
 // Double-doubles by their laws: those that hold exactly, and those that hold up to the errors that the
 // header derives.
 
-namespace touchstone::filters {
+namespace touchstone::filters::double_double_properties_test {
 namespace {
 
 using tests::expect_property;
@@ -115,4 +115,4 @@ TEST(DoubleDoubleProperties, ProductsDistributeUpToTheirErrors) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::double_double_properties_test

@@ -12,7 +12,7 @@
 #include "filters/derivation/mpfr_number.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::double_double_test {
 namespace {
 
 using Pair = DoubleDouble<double>;
@@ -316,4 +316,4 @@ TEST(DoubleDouble, ProductsLoseNoMoreByUnderflowThanTheDerivationCounts) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::double_double_test

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace touchstone::filters {
+namespace touchstone::filters::error_bound_test {
 namespace {
 
 TEST(ErrorBound, IsAPolynomialInTheGreatestCoordinate) {
@@ -23,4 +23,4 @@ TEST(ErrorBound, KeepsUnderflowWhereRoundingVanishes) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::error_bound_test

@@ -16,7 +16,7 @@
 // A filter is right if what it calls certain is true. Coordinates are any doubles that the bound
 // admits: subnormals, the greatest, and those that RapidCheck finds simple.
 
-namespace touchstone::filters {
+namespace touchstone::filters::error_bounds_properties_test {
 namespace {
 
 using tests::expect_property;
@@ -137,4 +137,4 @@ TEST(ErrorBoundsProperties, ComputedValuesScaleWithTheCoordinates) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::error_bounds_properties_test

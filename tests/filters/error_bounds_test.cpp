@@ -15,7 +15,7 @@
 #include "filters/separation_expressions.hpp"
 #include "tests/filters/support.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::error_bounds_test {
 namespace {
 
 TEST(ErrorBounds, StandAsTheDerivationGivesThem) {
@@ -389,4 +389,4 @@ TYPED_TEST(EveryBoundByClasses, HoldsAtTheGreatestCoordinateWithoutOverflow) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::error_bounds_test

@@ -8,7 +8,7 @@
 #include "exact/query.hpp"
 #include "tests/filters/support.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::expressions_test {
 namespace {
 
 /// The axis 0 of a query whose coordinates there are these.
@@ -171,4 +171,4 @@ TEST(Expressions, CanRunAtCompileTime) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::expressions_test

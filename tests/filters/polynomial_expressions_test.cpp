@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-namespace touchstone::filters {
+namespace touchstone::filters::polynomial_expressions_test {
 namespace {
 
 /// A random integer, small enough that no expression of a few of them rounds in double.
@@ -287,4 +287,4 @@ TEST(PolynomialExpressionsAlone, CanRunAtCompileTime) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::polynomial_expressions_test

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <random>
 
-namespace touchstone::filters {
+namespace touchstone::filters::separation_expressions_test {
 namespace {
 
 using Vector = Vector3<mpq_class>;
@@ -85,4 +85,4 @@ TEST(SeparationExpressionsAlone, CanRunAtCompileTime) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::separation_expressions_test

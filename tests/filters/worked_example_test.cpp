@@ -13,7 +13,7 @@
 #include "tests/filters/worked_example/orientation.hpp"
 #include "tests/support/built_files.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::worked_example_test {
 namespace {
 
 using researcher::Orientation;
@@ -84,4 +84,4 @@ TEST(WorkedExample, ItsFilterIsNeverWrongAndOftenSure) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::worked_example_test

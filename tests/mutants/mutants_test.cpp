@@ -17,7 +17,7 @@
 #include "verify/solvers/plugin.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::tests {
+namespace touchstone::tests::mutants_test {
 namespace {
 
 TEST(Mutants, are_many_and_each_is_of_a_method) {
@@ -128,4 +128,4 @@ TEST(Plugin, with_min_for_max_in_its_filter_is_found) {
 }
 
 }  // namespace
-}  // namespace touchstone::tests
+}  // namespace touchstone::tests::mutants_test

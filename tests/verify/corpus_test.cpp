@@ -15,7 +15,7 @@
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::corpus_test {
 namespace {
 
 std::vector<std::filesystem::path> corpus() {
@@ -63,4 +63,4 @@ TEST(Corpus, has_both_kinds_and_a_separation) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::corpus_test

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <type_traits>
 
-namespace touchstone::verify {
+namespace touchstone::verify::plugin_test {
 namespace {
 
 // Libraries that are out there were compiled with these numbers. To change one of them is to change
@@ -47,4 +47,4 @@ TEST(PluginInterface, FunctionsHaveTheirTypes) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::plugin_test

@@ -152,12 +152,11 @@ class Writer {
           "with false negatives: {}. Without false positives: {}. ",
           names_where(table.title, [](const Measurement& m) { return m.false_negatives != 0; }),
           names_where(table.title, [](const Measurement& m) { return m.false_positives == 0; }));
-      text_ +=
-          fmt::format("Faster than `certified` on the same queries: {}.\n",
-                      names_where(table.title, [](const Measurement& m) {
-                        return m.method != fast::certified_info().name &&
-                               m.nanoseconds < m.certified_nanoseconds;
-                      }));
+      text_ += fmt::format("Faster than `certified` on the same queries: {}.\n",
+                           names_where(table.title, [](const Measurement& m) {
+                             return m.method != fast::certified_info().name &&
+                                    m.nanoseconds < m.certified_nanoseconds;
+                           }));
     }
     text_ += "\n";
     write_fronts();

@@ -25,7 +25,7 @@ constexpr std::string_view header_without_failure = header.substr(0, header.rfin
 
 /// Numbers of the fields, counted from 1 as errors name them; 0 for the whole line.
 enum class Column : std::uint64_t {
-  none,
+  whole_line,
   file,
   index,
   kind,
@@ -81,7 +81,7 @@ class AnswersReader {
 
   RecordedAnswers read() {
     if (!next_record() || !is_header())
-      fail(Column::none, fmt::format("first line must be {}", header));
+      fail(Column::whole_line, fmt::format("first line must be {}", header));
     columns_ = split_.count;
     while (next_record()) add_row();
     for (auto& [key, rows] : answers_.rows_) {
@@ -108,8 +108,9 @@ class AnswersReader {
     std::optional<Line> line = lines_.next();
     if (!line) return false;
     line_number_ = line->number;
-    if (line->too_long) fail(Column::none, "line longer than 1 MiB");
-    if (trimmed(line->text).empty()) fail(Column::none, "blank line before the end of the file");
+    if (line->too_long) fail(Column::whole_line, "line longer than 1 MiB");
+    if (trimmed(line->text).empty())
+      fail(Column::whole_line, "blank line before the end of the file");
     split_ = split_csv(line->text, fields_);
     if (split_.fault == CsvSplit::Fault::open_quote) continue_record(std::string(line->text));
     if (split_.fault == CsvSplit::Fault::text_after_quote) {
@@ -143,7 +144,7 @@ class AnswersReader {
 
   void add_row() {
     if (split_.count != columns_) {
-      fail(Column::none, fmt::format("{} columns, expected {}", split_.count, columns_));
+      fail(Column::whole_line, fmt::format("{} columns, expected {}", split_.count, columns_));
     }
     static constexpr std::uint64_t last_line = std::numeric_limits<std::uint32_t>::max();
     const fast::Verdict verdict = read_verdict();

@@ -13,7 +13,7 @@
 
 // Algebraic numbers by their laws: known roots of products, the order, and signs.
 
-namespace touchstone::exact {
+namespace touchstone::exact::algebraic_number_properties_test {
 namespace {
 
 using tests::expect_property;
@@ -173,4 +173,4 @@ TEST(AlgebraicNumberProperties, RefiningChangesNothingButTheWidth) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::algebraic_number_properties_test

@@ -19,7 +19,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::algebraic_number_test {
 namespace {
 
 using tests::Random;
@@ -975,4 +975,4 @@ TEST(EncloseQuotient, IsExactAtRationalNumbers) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::algebraic_number_test

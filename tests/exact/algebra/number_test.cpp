@@ -13,7 +13,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::number_test {
 namespace {
 
 using tests::Random;
@@ -326,4 +326,4 @@ TEST(PowerOfTwo, IsExactForBothSigns) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::number_test

@@ -9,7 +9,7 @@
 
 // The algebra of exact/algebra/polynomial.hpp by its laws: no second implementation is asked.
 
-namespace touchstone::exact {
+namespace touchstone::exact::polynomial_properties_test {
 namespace {
 
 using tests::expect_property;
@@ -134,4 +134,4 @@ TEST(PolynomialProperties, SquarefreePartForgetsMultiplicityOnly) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::polynomial_properties_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::polynomial_test {
 namespace {
 
 using tests::Random;
@@ -455,4 +455,4 @@ TEST(ExactQuotient, DividesByBothUnits) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::polynomial_test

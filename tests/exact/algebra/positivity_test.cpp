@@ -6,7 +6,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::positivity_test {
 namespace {
 
 using Outcome = BisectionProof::Outcome;
@@ -92,4 +92,4 @@ TEST(ProvePositive, GoesAsDeepAsTheGapIsSmallAndSaysWhere) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::positivity_test

@@ -11,7 +11,7 @@
 #include "tests/support/certificates.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::certificate_text_test {
 namespace {
 
 using Limits = std::numeric_limits<double>;
@@ -179,4 +179,4 @@ TEST(WriteCertificate, KeepsLabelsToOneLineAndTheirLimit) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::certificate_text_test

@@ -17,7 +17,7 @@
 #include "exact/checker/proof.hpp"
 #include "tests/support/checker_outcome.hpp"
 
-namespace touchstone::checker {
+namespace touchstone::checker::certificate_test {
 namespace {
 
 using namespace std::string_literals;
@@ -375,4 +375,4 @@ TEST(Reader, CountsLines) {
 }
 
 }  // namespace
-}  // namespace touchstone::checker
+}  // namespace touchstone::checker::certificate_test

@@ -26,7 +26,7 @@
 
 #include "tests/support/checker_outcome.hpp"
 
-namespace touchstone::checker {
+namespace touchstone::checker::checker_test {
 namespace {
 
 using namespace std::string_literals;
@@ -358,4 +358,4 @@ TEST(Manual, HasExamplesThatAreAccepted) {
 }
 
 }  // namespace
-}  // namespace touchstone::checker
+}  // namespace touchstone::checker::checker_test

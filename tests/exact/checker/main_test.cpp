@@ -14,7 +14,7 @@
 
 #include "tests/support/built_files.hpp"
 
-namespace touchstone::checker {
+namespace touchstone::checker::main_test {
 namespace {
 
 struct Outcome {
@@ -129,4 +129,4 @@ TEST(Command, KnowsItsUsage) {
 }
 
 }  // namespace
-}  // namespace touchstone::checker
+}  // namespace touchstone::checker::main_test

@@ -24,7 +24,7 @@
 #include "tests/support/checker_outcome.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::checker {
+namespace touchstone::checker::proof_test {
 namespace {
 
 using namespace std::string_literals;
@@ -964,4 +964,4 @@ TEST(AtRandom, NoFalseClaimIsAccepted) {
 }
 
 }  // namespace
-}  // namespace touchstone::checker
+}  // namespace touchstone::checker::proof_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::contact_conditions_test {
 namespace {
 
 using tests::over_triangle;
@@ -76,4 +76,4 @@ TEST(FindNearContact, ItsConditionsAreSplitBySign) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::contact_conditions_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::corner_motion_test {
 namespace {
 
 using tests::Random;
@@ -503,4 +503,4 @@ TEST(Determinant, IsTheTripleProductOfTheFirstTwoCornersAndTheLast) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::corner_motion_test

@@ -18,7 +18,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::distance_oracle_test {
 namespace {
 
 using tests::edge_edge;
@@ -396,4 +396,4 @@ TEST(DistanceOracle, ReversedTimeHasTheSameVerdict) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::distance_oracle_test

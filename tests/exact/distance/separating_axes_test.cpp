@@ -12,7 +12,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::exact {
+namespace touchstone::exact::separating_axes_test {
 namespace {
 
 using tests::over_triangle;
@@ -196,4 +196,4 @@ TEST(FirstContact, IsWhereTheLastSeparatorEnds) {
 }
 
 }  // namespace
-}  // namespace touchstone::exact
+}  // namespace touchstone::exact::separating_axes_test

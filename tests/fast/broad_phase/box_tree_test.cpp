@@ -13,7 +13,7 @@
 #include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::fast {
+namespace touchstone::fast::box_tree_test {
 namespace {
 
 using exact::Rational;
@@ -240,4 +240,4 @@ TEST(Group, TellsTheLanesThatOverlapABox) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::box_tree_test

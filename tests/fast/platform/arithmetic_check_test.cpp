@@ -5,7 +5,7 @@
 
 #include <cfenv>
 
-namespace touchstone::fast {
+namespace touchstone::fast::arithmetic_check_test {
 namespace {
 
 /// Restores the floating-point environment that the test found.
@@ -77,4 +77,4 @@ TEST_F(ArithmeticCheck, SeesTheEnvironmentChangeAfterItsFirstCall) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::arithmetic_check_test

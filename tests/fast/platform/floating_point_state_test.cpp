@@ -9,7 +9,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace touchstone::fast {
+namespace touchstone::fast::floating_point_state_test {
 namespace {
 
 double opaque(double x) {
@@ -50,4 +50,4 @@ TEST(StrictFloatingPoint, KeepsSubnormalsAndTrapsNothing) {
 #endif
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::floating_point_state_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::fast {
+namespace touchstone::fast::instruction_set_test {
 namespace {
 
 struct Kernel {
@@ -58,4 +58,4 @@ TEST(InstructionSet, AKernelIsFoundByItsInstructions) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::instruction_set_test

@@ -9,7 +9,7 @@
 
 #include "tests/filters/support.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::catalogue_test {
 namespace {
 
 TEST(Catalogue, HoldsEachExpressionOnce) {
@@ -65,4 +65,4 @@ TEST(Catalogue, ShipsBoundsThatAreNumbersThatCodeComparesWith) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::catalogue_test

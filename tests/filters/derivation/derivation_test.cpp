@@ -7,7 +7,7 @@
 
 #include "filters/derivation/catalogue.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::derivation_test {
 namespace {
 
 DeriveOptions quick(std::set<Model> models) {
@@ -117,4 +117,4 @@ TEST(Derivation, PrintsALineARow) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::derivation_test

@@ -8,7 +8,7 @@
 #include "filters/polynomial_expressions.hpp"
 #include "tests/filters/support.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::expression_graph_test {
 namespace {
 
 TEST(ExpressionGraph, RecordsEachOperationOnce) {
@@ -159,4 +159,4 @@ TEST(ExpressionGraph, AcceptsTheClassesOfThePolynomials) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::expression_graph_test

@@ -15,7 +15,7 @@
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::gappa_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -246,4 +246,4 @@ TEST(Gappa, IsMissedByThePackagesName) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::gappa_test

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace touchstone::filters {
+namespace touchstone::filters::mpfr_number_test {
 namespace {
 
 TEST(MpfrNumber, ComputesBeyondDoubles) {
@@ -39,4 +39,4 @@ TEST(MpfrNumber, IsCopiedByValue) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::mpfr_number_test

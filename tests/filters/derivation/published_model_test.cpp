@@ -6,7 +6,7 @@
 #include "filters/derivation/rounding_model.hpp"
 #include "tests/filters/support.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::published_model_test {
 namespace {
 
 template <class Expression>
@@ -48,4 +48,4 @@ TEST(PublishedModel, FollowsABlendByHand) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::published_model_test

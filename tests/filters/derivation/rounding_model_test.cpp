@@ -11,7 +11,7 @@
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::rounding_model_test {
 namespace {
 
 /// The bound on the rounding error in units of u, second-order terms left out.
@@ -169,4 +169,4 @@ TEST(RoundingModel, KnowsItsFormats) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::rounding_model_test

@@ -10,7 +10,7 @@
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::shipped_bound_test {
 namespace {
 
 mpq_class value(const std::vector<mpq_class>& coefficients, const mpq_class& x) {
@@ -170,4 +170,4 @@ TEST(ShippedBound, HeadersDeclareEachBoundInItsFormat) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::shipped_bound_test

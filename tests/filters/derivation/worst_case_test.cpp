@@ -6,7 +6,7 @@
 #include "tests/filters/support.hpp"
 #include "tests/filters/worked_example/orientation.hpp"
 
-namespace touchstone::filters {
+namespace touchstone::filters::worst_case_test {
 namespace {
 
 /// Checks in rationals what the search says of its worst input; its constant in units of u.
@@ -157,4 +157,4 @@ TEST(WorstCase, FindsThatABoundIsOfAnotherOrderOfOperations) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters
+}  // namespace touchstone::filters::worst_case_test

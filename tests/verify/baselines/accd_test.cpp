@@ -8,7 +8,7 @@
 
 #include "tests/support/baselines.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::accd_test {
 namespace {
 
 using tests::answer_to;
@@ -134,4 +134,4 @@ TEST(Accd, MissesNothingOnThePublicData) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::accd_test

@@ -14,7 +14,7 @@
 #include "tests/support/trials.hpp"
 #include "verify/baselines/exact_number.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::bernstein_test {
 namespace {
 
 using Number = ExactNumber;
@@ -151,4 +151,4 @@ TEST(Derivative, IsTheDifferences) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::bernstein_test

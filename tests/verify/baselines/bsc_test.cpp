@@ -12,7 +12,7 @@
 #include "tests/support/trials.hpp"
 #include "tests/support/verdict_scores.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::bsc_test {
 namespace {
 
 using tests::PosedQuery;
@@ -146,4 +146,4 @@ TEST(BscMethod, HasNoTimeNoSeparationAndNoPromise) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::bsc_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::closest_features_test {
 namespace {
 
 using Vector = Eigen::Vector3d;
@@ -117,4 +117,4 @@ TEST(Distances, ByFeatureAndByPointAgree) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::closest_features_test

@@ -11,7 +11,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::error_bounded_test {
 namespace {
 
 using exact::Rational;
@@ -87,4 +87,4 @@ TEST(ErrorBounded, LosesItsBoundBeforeItsValueWhenItUnderflows) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::error_bounded_test

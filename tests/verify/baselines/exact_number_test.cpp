@@ -12,7 +12,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::exact_number_test {
 namespace {
 
 using exact::Rational;
@@ -62,4 +62,4 @@ TEST(ExactNumber, EstimatesDoubles) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::exact_number_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/baselines.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::fprf_test {
 namespace {
 
 using tests::answer_to;
@@ -116,4 +116,4 @@ TEST(Fprf, MissesContactsOfThePublicData) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::fprf_test

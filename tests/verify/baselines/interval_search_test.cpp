@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::interval_search_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -106,4 +106,4 @@ TEST(IntervalSearch, SaysWhenItsChecksAreSpent) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::interval_search_test

@@ -12,7 +12,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::intervals_test {
 namespace {
 
 using exact::Rational;
@@ -133,4 +133,4 @@ TEST(IntervalMotion, GreatestDisplacementIsThatOfOnePoint) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::intervals_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/baselines.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::irf_test {
 namespace {
 
 using tests::answer_to;
@@ -125,4 +125,4 @@ TEST(Irf, TakesWhatIsAtRest) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::irf_test

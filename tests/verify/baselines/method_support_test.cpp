@@ -10,7 +10,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::method_support_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -111,4 +111,4 @@ TEST(MethodSupport, ChecksEndWhereAnswersDo) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::method_support_test

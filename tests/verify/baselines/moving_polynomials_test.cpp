@@ -7,7 +7,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::moving_polynomials_test {
 namespace {
 
 using tests::Random;
@@ -80,4 +80,4 @@ TEST(Coefficients, DescendWithoutLeadingZeros) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::moving_polynomials_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/baselines.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::msrf_test {
 namespace {
 
 using tests::answer_to;
@@ -147,4 +147,4 @@ TEST(Msrf, MissesContactsOfThePublicData) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::msrf_test

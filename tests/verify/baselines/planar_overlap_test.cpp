@@ -12,7 +12,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::planar_overlap_test {
 namespace {
 
 using Flat = std::array<int, 2>;
@@ -112,4 +112,4 @@ TEST(PlanarOverlap, DoesNotNoticeACrossingOfTheFirstEdge) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::planar_overlap_test

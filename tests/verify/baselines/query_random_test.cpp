@@ -6,7 +6,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::query_random_test {
 namespace {
 
 TEST(RandomOf, RepeatsForAQueryAndDiffersBetweenQueries) {
@@ -35,4 +35,4 @@ TEST(RandomOf, IsUniformInItsRange) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::query_random_test

@@ -16,7 +16,7 @@
 #include "tests/support/trials.hpp"
 #include "tests/support/verdict_scores.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::rp_test {
 namespace {
 
 using tests::PosedQuery;
@@ -150,4 +150,4 @@ TEST(RpMethod, HasNoTimeNoSeparationAndNoPromise) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::rp_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::rpoly_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -138,4 +138,4 @@ TEST(Rpoly, EndsOnCoefficientsOfAllMagnitudes) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::rpoly_test

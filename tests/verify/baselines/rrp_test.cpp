@@ -11,7 +11,7 @@
 #include "tests/support/root_count.hpp"
 #include "tests/support/verdict_scores.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::rrp_test {
 namespace {
 
 using fast::Method;
@@ -121,4 +121,4 @@ TEST(RrpMethod, HasNoTimeNoSeparationAndNoPromise) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::rrp_test

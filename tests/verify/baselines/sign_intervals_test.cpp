@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::sign_intervals_test {
 namespace {
 
 using Intervals = std::vector<TimeInterval>;
@@ -78,4 +78,4 @@ TEST(SignIntervals, DoNotDependOnTheScale) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::sign_intervals_test

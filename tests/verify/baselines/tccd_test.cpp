@@ -16,7 +16,7 @@
 #include "tests/support/verdict_scores.hpp"
 #include "verify/baselines/bernstein.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::tccd_test {
 namespace {
 
 using tests::PosedQuery;
@@ -206,4 +206,4 @@ TEST(TccdMethod, HasNoTimeNoSeparationAndNoPromise) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::tccd_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/baselines.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::uirf_test {
 namespace {
 
 using tests::answer_to;
@@ -119,4 +119,4 @@ TEST(Uirf, KnowsNoSeparation) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::uirf_test

@@ -15,7 +15,7 @@
 #include "tests/support/trials.hpp"
 #include "verify/baselines/upward_rounding.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::upward_interval_test {
 namespace {
 
 using exact::Rational;
@@ -109,4 +109,4 @@ TEST(UpwardInterval, KnowsItsSign) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::upward_interval_test

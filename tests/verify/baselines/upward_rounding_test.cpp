@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::upward_rounding_test {
 namespace {
 
 double opaque(double x) {
@@ -38,4 +38,4 @@ TEST(UpwardRounding, GivesTheModeBackAfterAnException) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::upward_rounding_test

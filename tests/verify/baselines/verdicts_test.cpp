@@ -14,7 +14,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/verdict_scores.hpp"
 
-namespace touchstone::baselines {
+namespace touchstone::baselines::verdicts_test {
 namespace {
 
 constexpr auto always = [](Kind, const Query&) { return true; };
@@ -77,4 +77,4 @@ TEST(Answers, AreGivenInOrderAndRoundedToNearest) {
 }
 
 }  // namespace
-}  // namespace touchstone::baselines
+}  // namespace touchstone::baselines::verdicts_test

@@ -14,7 +14,7 @@
 
 // `touchstone bench` as users meet it: by running the tool.
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::bench_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -245,4 +245,4 @@ TEST_F(Bench, AnInterruptKeepsWhatIsDone) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::bench_command_test

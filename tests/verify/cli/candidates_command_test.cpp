@@ -20,7 +20,7 @@
 
 // `touchstone candidates` as users meet it: by running the tool.
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::candidates_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -209,4 +209,4 @@ TEST_F(CandidatesCommand, HelpHasAnExample) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::candidates_command_test

@@ -23,7 +23,7 @@
 
 // The commands (verify/cli/commands.hpp) are tested as users meet them: by running the tool.
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::commands_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -863,4 +863,4 @@ TEST_F(Tool, AnInterruptOfSolveKeepsWhatIsDone) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::commands_test

@@ -12,7 +12,7 @@
 
 // `touchstone derive` as users meet it: by running the tool.
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::derive_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,4 +105,4 @@ TEST_F(Derive, RefusesBadUsageAndOutputsOfOneName) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::derive_command_test

@@ -19,7 +19,7 @@
 // `touchstone fuzz` as users meet it: by running the tool. The plugin is the example, which compares
 // swept boxes and is conservative, but nothing near exact.
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::fuzz_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -245,4 +245,4 @@ TEST_F(FuzzTool, ReportsWhatWasDoneWhenInterrupted) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::fuzz_command_test

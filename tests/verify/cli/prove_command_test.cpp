@@ -20,7 +20,7 @@
 // The command touchstone prove (verify/cli/prove_command.cpp), and certify --prove, as users run
 // them.
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::prove_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -178,4 +178,4 @@ TEST_F(ProveCommand, HelpHasAnExample) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::prove_command_test

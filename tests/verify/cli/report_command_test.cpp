@@ -12,7 +12,7 @@
 
 // `touchstone report` as users meet it: by running the tool.
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::report_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -147,4 +147,4 @@ TEST_F(Report, AnInterruptLeavesWhatIsMeasured) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::report_command_test

@@ -14,7 +14,7 @@
 
 // --min-separation and --norm as users meet them: by running the tool.
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::separation_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -290,4 +290,4 @@ TEST_F(SeparationOptions, BenchJudgesUnderThem) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::separation_test

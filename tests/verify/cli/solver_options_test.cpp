@@ -14,7 +14,7 @@
 #include "verify/data/dataset_error.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::respondents_test::solver_options_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,4 +194,4 @@ TEST(Solvers, AnswersNeverAskedForAreAWarning) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::respondents_test::solver_options_test

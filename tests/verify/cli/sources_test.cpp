@@ -15,7 +15,7 @@
 
 #include "verify/generate/families.hpp"
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::sources_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -188,4 +188,4 @@ TEST_F(Sources, OptionsFillTheArguments) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::sources_test

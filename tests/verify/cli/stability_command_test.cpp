@@ -10,7 +10,7 @@
 
 // `touchstone stability` as users meet it: by running the tool.
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::stability_command_test {
 namespace {
 
 class Stability : public tests::FolderTest {
@@ -123,4 +123,4 @@ TEST_F(Stability, AnInterruptLeavesWhatIsDone) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::stability_command_test

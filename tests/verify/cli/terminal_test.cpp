@@ -22,7 +22,7 @@
 // What the tool does when its user or its reader has gone, or its input never comes, and what names from
 // outside look like on a terminal (verify/io/terminal.hpp, verify/io/printable.hpp).
 
-namespace touchstone::verify::cli {
+namespace touchstone::verify::cli::terminal_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -223,4 +223,4 @@ TEST_F(TerminalTool, MessagesShowWhatTheyName) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli
+}  // namespace touchstone::verify::cli::terminal_test

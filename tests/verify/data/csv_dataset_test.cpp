@@ -12,7 +12,7 @@
 
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::csv_dataset_test {
 namespace {
 
 using test::contents;
@@ -470,4 +470,4 @@ TEST(CsvWriter, without_close_there_is_no_file) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::csv_dataset_test

@@ -7,7 +7,7 @@
 
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::ground_truth_files_test {
 namespace {
 
 using exact::Rational;
@@ -223,4 +223,4 @@ TEST(Companions, that_cannot_be_read_are_errors) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::ground_truth_files_test

@@ -11,7 +11,7 @@
 #include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::aligned_roundings_test {
 namespace {
 
 using exact::Rational;
@@ -59,4 +59,4 @@ TEST(Aligned, RoundingsAddUpAtAContact) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::aligned_roundings_test

@@ -13,7 +13,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::contact_test {
 namespace {
 
 using builtin::Random;
@@ -120,4 +120,4 @@ TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::contact_test

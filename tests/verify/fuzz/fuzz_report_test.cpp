@@ -10,7 +10,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz_report_test {
 namespace {
 
 FuzzReport sample() {
@@ -208,4 +208,4 @@ TEST(FindingKind, NamesFailuresAsTheyAreNamedEverywhere) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz_report_test

@@ -26,7 +26,7 @@
 #include "verify/fuzz/recheck.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz_test {
 namespace {
 
 using fast::Answer;
@@ -462,4 +462,4 @@ TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz_test

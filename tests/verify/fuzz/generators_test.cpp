@@ -14,7 +14,7 @@
 #include "tests/support/trials.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::generators_test {
 namespace {
 
 using builtin::Random;
@@ -111,4 +111,4 @@ TEST(QueryPool, ForgetsTheOldestButNotWhatItKeeps) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::generators_test

@@ -10,7 +10,7 @@
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mutation_test {
 namespace {
 
 using builtin::Random;
@@ -90,4 +90,4 @@ TEST(Mutated, DoesAllThatItSays) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mutation_test

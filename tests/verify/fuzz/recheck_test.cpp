@@ -20,7 +20,7 @@
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/judge/ground_truth.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::recheck_test {
 namespace {
 
 using fast::Answer;
@@ -196,4 +196,4 @@ TEST(Simplify, leaves_a_hang_alone_that_takes_longer_than_there_is_time) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::recheck_test

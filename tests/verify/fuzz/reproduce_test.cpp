@@ -29,7 +29,7 @@ namespace touchstone::reproduction_of_claim {
 void expect_no_fault(const fast::Method& method);
 }
 
-namespace touchstone::verify {
+namespace touchstone::verify::reproduce_test {
 namespace {
 
 using fast::Answer;
@@ -343,4 +343,4 @@ TEST(ReproductionOf, is_about_the_simplest_query_and_who_is_wrong) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::reproduce_test

@@ -7,7 +7,7 @@
 
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::scheduler_test {
 namespace {
 
 TEST(SignatureTable, CountsHowOftenASignatureWasSeen) {
@@ -84,4 +84,4 @@ TEST(Steering, IsTheSameForTheSameSeed) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::scheduler_test

@@ -16,7 +16,7 @@
 #include "verify/fuzz/generators.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::symmetry_test {
 namespace {
 
 using builtin::Random;
@@ -133,4 +133,4 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::symmetry_test

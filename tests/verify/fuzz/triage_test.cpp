@@ -12,7 +12,7 @@
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::triage_test {
 namespace {
 
 using fast::Answer;
@@ -142,4 +142,4 @@ TEST(Referee, SaysAnswersInWords) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::triage_test

@@ -15,7 +15,7 @@
 #include "verify/generate/families.hpp"
 #include "verify/judge/separation_inference.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::separation_families_test {
 namespace {
 
 constexpr std::uint64_t seed = 20211;
@@ -150,4 +150,4 @@ TEST(SeparationFamilies, AStreamSaysWhatItsClaimsAreAbout) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::separation_families_test

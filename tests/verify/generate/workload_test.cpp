@@ -15,7 +15,7 @@
 #include "verify/generate/families.hpp"
 #include "verify/run/statistics.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::workload_test {
 namespace {
 
 std::vector<Query> patch_queries(const MovingMesh& mesh, Kind kind) {
@@ -132,4 +132,4 @@ TEST(Workload, TheHardSetIsThatOfTheFamilies) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::workload_test

@@ -13,7 +13,7 @@
 #include "exact/algebra/number.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::coordinate_text_test {
 namespace {
 
 using Limits = std::numeric_limits<double>;
@@ -205,4 +205,4 @@ TEST(AppendCoordinate, refuses_what_is_not_finite) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::coordinate_text_test

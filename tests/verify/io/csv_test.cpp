@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::verify {
+namespace touchstone::verify::csv_test {
 namespace {
 
 using Fault = CsvSplit::Fault;
@@ -123,4 +123,4 @@ TEST(SplitCsv, UndoesTheQuotesOfCsvField) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::csv_test

@@ -15,7 +15,7 @@
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/io/terminal.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::input_file_test {
 namespace {
 
 using test::error_of;
@@ -165,4 +165,4 @@ TEST(Trimmed, removes_spaces_and_tabs_at_both_ends_only) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::input_file_test

@@ -14,7 +14,7 @@
 
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::output_file_test {
 namespace {
 
 using test::contents;
@@ -241,4 +241,4 @@ TEST(OutputFile, a_full_disk_is_an_error_and_leaves_nothing) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::output_file_test

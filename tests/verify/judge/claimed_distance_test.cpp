@@ -11,7 +11,7 @@
 #include "fast/tight_inclusion.hpp"
 #include "verify/generate/families.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::claimed_distance_test {
 namespace {
 
 using exact::Rational;
@@ -140,4 +140,4 @@ TEST(ClaimedDistance, WhatIsSeenIsTrue) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::claimed_distance_test

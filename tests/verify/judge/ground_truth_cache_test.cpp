@@ -9,7 +9,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::ground_truth_cache_test {
 namespace {
 
 /// Vertices over a triangle that fall from height 1: through it, to half of it, and so on.
@@ -82,4 +82,4 @@ TEST(Truths, PositionsBeyondTheGroupAreRefused) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::ground_truth_cache_test

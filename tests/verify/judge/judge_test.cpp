@@ -12,7 +12,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge_test {
 namespace {
 
 using fast::Answer;
@@ -321,4 +321,4 @@ TEST(Promises, OnlyExactnessForbidsFalsePositives) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/mesh_files.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::index_file_test {
 namespace {
 
 using tests::MeshFolder;
@@ -52,4 +52,4 @@ TEST(WriteIndexPairs, SaysWhereItCannot) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::index_file_test

@@ -13,7 +13,7 @@
 #include "fast/broad_phase.hpp"
 #include "verify/data/dataset_error.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::moving_mesh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -141,4 +141,4 @@ TEST_F(Step, RefusesAFileThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::moving_mesh_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::verify {
+namespace touchstone::verify::bench_report_test {
 namespace {
 
 using fast::Promise;
@@ -274,4 +274,4 @@ TEST(BenchReport, NamesTheSeparationWhereThereIsOne) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::bench_report_test

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::verify {
+namespace touchstone::verify::certify_report_test {
 namespace {
 
 std::vector<CertifyResult> results() {
@@ -301,4 +301,4 @@ TEST(CertifyReport, TruthIsCsvWhoseDoublesComeBack) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::certify_report_test

@@ -13,7 +13,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::experiments_test {
 namespace {
 
 /// Vertices over a triangle, every second of which falls through it.
@@ -196,4 +196,4 @@ TEST(Survey, UnknownMethodsAreRefused) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::experiments_test

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace touchstone::verify {
+namespace touchstone::verify::judgement_report_test {
 namespace {
 
 using fast::Verdict;
@@ -112,4 +112,4 @@ TEST(SpreadOf, IsNothingWithoutErrors) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judgement_report_test

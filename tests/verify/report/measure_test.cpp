@@ -16,7 +16,7 @@
 #include "tests/support/queries.hpp"
 #include "verify/run/thread_clock.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::measure_test {
 namespace {
 
 using fast::Answer;
@@ -275,4 +275,4 @@ TEST(Measure, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::measure_test

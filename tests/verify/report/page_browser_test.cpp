@@ -18,7 +18,7 @@
 #include "verify/report/figures.hpp"
 #include "verify/report/page.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::page_browser_test {
 namespace {
 
 class Browser : public tests::BrowserTest {};
@@ -220,4 +220,4 @@ TEST_F(Browser, APlantedFaultIsSeen) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::page_browser_test

@@ -11,7 +11,7 @@
 #include "verify/report/figures.hpp"
 #include "verify/report/page_texts.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::page_test {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
@@ -173,4 +173,4 @@ TEST(Page, WithoutABaselineOursAreShownOverTheSeparation) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::page_test

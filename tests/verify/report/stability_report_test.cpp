@@ -9,7 +9,7 @@
 
 #include "tests/support/methods.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::stability_report_test {
 namespace {
 
 using fast::Verdict;
@@ -174,4 +174,4 @@ TEST(StabilityOverview, HasTheWorstOfEachHardness) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::stability_report_test

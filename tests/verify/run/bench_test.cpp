@@ -22,7 +22,7 @@
 #include "verify/run/statistics.hpp"
 #include "verify/run/thread_clock.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::bench_test {
 namespace {
 
 using fast::Answer;
@@ -400,4 +400,4 @@ TEST(Bench, RefusesWhatMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::bench_test

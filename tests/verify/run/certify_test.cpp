@@ -20,7 +20,7 @@
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::certify_test {
 namespace {
 
 using exact::Rational;
@@ -592,4 +592,4 @@ TEST(PublicData, SimulationQueriesAndTimesOfImpactAgree) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::certify_test

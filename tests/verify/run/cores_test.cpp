@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchstone::verify {
+namespace touchstone::verify::cores_test {
 namespace {
 
 TEST(Cores, AreThoseAskedForWithinReason) {
@@ -12,4 +12,4 @@ TEST(Cores, AreThoseAskedForWithinReason) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::cores_test

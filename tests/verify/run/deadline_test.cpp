@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace touchstone::verify {
+namespace touchstone::verify::deadline_test {
 namespace {
 
 TEST(Deadline, IsNeverOverWithoutALimit) {
@@ -48,4 +48,4 @@ TEST(SteadySeconds, NeverRunBackwards) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::deadline_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::memory_pass_test {
 namespace {
 
 std::vector<Query> random_queries(std::size_t count) {
@@ -51,4 +51,4 @@ TEST(MemoryPass, ChangesWithEveryCoordinate) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::memory_pass_test

@@ -14,7 +14,7 @@
 #include "tests/support/queries.hpp"
 #include "verify/run/certify.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::prove_test {
 namespace {
 
 using tests::MemorySource;
@@ -179,4 +179,4 @@ TEST(ProofCounts, AddUpAndAreReported) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::prove_test

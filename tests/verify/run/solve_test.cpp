@@ -10,7 +10,7 @@
 #include "tests/support/memory_source.hpp"
 #include "tests/support/methods.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solve_test {
 namespace {
 
 using fast::Answer;
@@ -110,4 +110,4 @@ TEST(Solve, ResultsAddUp) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solve_test

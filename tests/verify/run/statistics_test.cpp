@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace touchstone::verify {
+namespace touchstone::verify::statistics_test {
 namespace {
 
 using Positions = std::vector<std::size_t>;
@@ -81,4 +81,4 @@ TEST(SpreadSample, FallsIntoStepWithNoPeriod) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::statistics_test

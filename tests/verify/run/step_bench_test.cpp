@@ -14,7 +14,7 @@
 #include "fast/broad_phase.hpp"
 #include "verify/generate/workload.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::step_bench_test {
 namespace {
 
 /// What the oracle says of the candidates of a kind.
@@ -113,4 +113,4 @@ TEST(StepBench, RefusesOptionsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::step_bench_test

@@ -15,7 +15,7 @@
 #include "tests/support/memory_source.hpp"
 #include "verify/io/terminal.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::stream_test {
 namespace {
 
 using tests::MemorySource;
@@ -198,4 +198,4 @@ TEST(Passes, WhatTheWorkIsNotDoneWithIsNotComplete) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::stream_test

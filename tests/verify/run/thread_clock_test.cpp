@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-namespace touchstone::verify {
+namespace touchstone::verify::thread_clock_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -41,4 +41,4 @@ TEST(ProcessClock, CountsAllThreads) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::thread_clock_test

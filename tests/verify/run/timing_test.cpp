@@ -15,7 +15,7 @@
 #include "tests/support/queries.hpp"
 #include "verify/run/statistics.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::timing_test {
 namespace {
 
 using fast::Answer;
@@ -149,4 +149,4 @@ TEST(TimedSolver, JudgesTheQueriesWhoseTruthIsKnown) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::timing_test

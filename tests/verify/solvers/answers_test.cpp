@@ -15,7 +15,7 @@
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/io/printable.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::answers_test {
 namespace {
 
 using fast::Answer;
@@ -422,4 +422,4 @@ TEST(LoadAnswers, FindsLinesThatAreTooLong) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::answers_test

@@ -19,7 +19,7 @@
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
 #include "verify/solvers/solver_process.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::plugin_test {
 namespace {
 
 using fast::Answer;
@@ -355,4 +355,4 @@ TEST(Plugin, InAProcessOfItsOwnItsWorstCostsOneQueryEach) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::plugin_test

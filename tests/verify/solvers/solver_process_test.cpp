@@ -30,7 +30,7 @@
 
 // A program of its own: it makes processes, which copy no threads.
 
-namespace touchstone::verify {
+namespace touchstone::verify::solver_process_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -740,4 +740,4 @@ TEST(SolverProcess, DiesWithItsParent) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solver_process_test

@@ -25,7 +25,7 @@
 
 // A program of its own: it makes processes, which copy no threads.
 
-namespace touchstone::verify {
+namespace touchstone::verify::solver_test {
 namespace {
 
 using fast::Answer;
@@ -389,4 +389,4 @@ TEST(Solver, PairsAreAnsweredAsTheirQueriesAre) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solver_test

@@ -22,7 +22,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::hardness_test {
 namespace {
 
 using exact::Rational;
@@ -328,4 +328,4 @@ TEST(OpenHardQueries, StreamsThemWithTheirLabels) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::hardness_test

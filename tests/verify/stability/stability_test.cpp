@@ -14,7 +14,7 @@
 #include "verify/generate/random.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::stability_test {
 namespace {
 
 using fast::Answer;
@@ -198,4 +198,4 @@ TEST(MeasureStability, AStopLeavesWhatWasJudged) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::stability_test

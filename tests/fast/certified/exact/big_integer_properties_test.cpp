@@ -10,7 +10,7 @@
 
 // The integers of the certified solver by their laws; big_integer_test.cpp compares them with GMP's.
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::big_integer_properties_test {
 namespace {
 
 using tests::expect_property;
@@ -85,4 +85,4 @@ TEST(BigIntegerProperties, ApproximationsDivide) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::big_integer_properties_test

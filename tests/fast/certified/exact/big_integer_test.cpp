@@ -9,7 +9,7 @@
 #include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::big_integer_test {
 namespace {
 
 using exact::Integer;
@@ -128,4 +128,4 @@ TEST(BigInteger, DividesApproximationsBeyondTheRangeOfDoubles) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::big_integer_test

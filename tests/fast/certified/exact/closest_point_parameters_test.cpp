@@ -8,7 +8,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::closest_point_parameters_test {
 namespace {
 
 using tests::PosedQuery;
@@ -66,4 +66,4 @@ TEST(NearestParameters, OverflowsForNoCoordinates) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::closest_point_parameters_test

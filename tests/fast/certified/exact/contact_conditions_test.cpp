@@ -13,7 +13,7 @@
 #include "fast/certified/exact/fixed_integer.hpp"
 #include "tests/fast/certified/decisions.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::contact_conditions_test {
 namespace {
 
 using tests::integer_motion;
@@ -129,4 +129,4 @@ TEST(ContactRule, EventsOfMotionInAPlaneIncludeTheFirstContact) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::contact_conditions_test

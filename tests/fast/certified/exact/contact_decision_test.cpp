@@ -8,7 +8,7 @@
 
 #include "tests/fast/certified/decisions.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::contact_decision_test {
 namespace {
 
 using tests::integer_motion;
@@ -95,4 +95,4 @@ TEST(QuickDecision, HandsOnWhatItCannotHold) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::contact_decision_test

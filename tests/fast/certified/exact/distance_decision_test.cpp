@@ -25,7 +25,7 @@
 
 namespace touchstone::fast {}  // namespace touchstone::fast
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::distance_decision_test {
 namespace {
 
 using exact::Rational;
@@ -368,4 +368,4 @@ TEST(SeparatedDecision, PlantedFaultsAreFoundAndNoOthers) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::distance_decision_test

@@ -11,7 +11,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::enclosing_doubles_test {
 namespace {
 
 using tests::Random;
@@ -101,4 +101,4 @@ TEST(BinaryFraction, KnownValues) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::enclosing_doubles_test

@@ -9,7 +9,7 @@
 #include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::fixed_integer_test {
 namespace {
 
 using exact::Integer;
@@ -129,4 +129,4 @@ TEST(ShortInteger, MultipliesExactlyUpToItsBound) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::fixed_integer_test

@@ -11,7 +11,7 @@
 #include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::fixed_point_filter_test {
 namespace {
 
 using exact::Rational;
@@ -89,4 +89,4 @@ TEST(RoughForm, TakesNumbersOfAnySize) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::fixed_point_filter_test

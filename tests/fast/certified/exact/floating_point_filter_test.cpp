@@ -12,7 +12,7 @@
 #include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::floating_point_filter_test {
 namespace {
 
 using exact::Integer;
@@ -161,4 +161,4 @@ TEST(FilteredForm, KnowsItsCoefficients) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::floating_point_filter_test

@@ -4,7 +4,7 @@
 
 #include "tests/fast/certified/decisions.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::general_contact_decision_test {
 namespace {
 
 using tests::integer_motion;
@@ -47,4 +47,4 @@ TEST(GeneralDecision, TakesTheLatestTimeExactly) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::general_contact_decision_test

@@ -12,7 +12,7 @@
 
 #include "fast/certified/exact/enclosing_doubles.hpp"
 
-namespace touchstone::fast::exact_stage {
+namespace touchstone::fast::exact_stage::real_root_test {
 namespace {
 
 using Quadratic = Form<BigInteger, 2>;
@@ -256,4 +256,4 @@ TEST(AlgebraicInstant, SeesSignsBetweenTimes) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::exact_stage
+}  // namespace touchstone::fast::exact_stage::real_root_test

@@ -25,7 +25,7 @@
 #include "verify/data/dataset.hpp"
 #include "verify/generate/families.hpp"
 
-namespace touchstone::fast {
+namespace touchstone::fast::conservative_advancement_test {
 namespace {
 
 using tests::over_edge;
@@ -379,4 +379,4 @@ TEST(Separated, BatchesFindTheSameAndTheEarliest) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::conservative_advancement_test
