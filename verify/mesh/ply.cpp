@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "exact/query.hpp"
 #include "verify/data/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/mesh/words.hpp"

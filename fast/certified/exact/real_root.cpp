@@ -1,6 +1,7 @@
 #include "fast/certified/exact/real_root.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
