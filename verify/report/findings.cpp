@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
+#include <limits>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -18,8 +18,8 @@ namespace {
 
 /// The least and the greatest of some numbers.
 struct Range {
-  double least = INFINITY;
-  double greatest = -INFINITY;
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -std::numeric_limits<double>::infinity();
 
   void add(double number) {
     if (std::isnan(number)) return;
