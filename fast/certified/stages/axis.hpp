@@ -4,12 +4,12 @@
 /// Stage 1, axis (docs/theory.md, section 6.2).
 ///
 /// **Theorem.** If on some coordinate axis all corners w_i are on the same side of 0 at t=0, and on
-/// that side at t=1, there is no contact: they move linearly, so they are on that side all the time.
-/// With a minimum separation D, they have to be farther than D from 0.
+/// that side at t=1, there is no contact: they move linearly, so they are on that side all the
+/// time. With a minimum separation D, they have to be farther than D from 0.
 ///
-/// The corners are the differences of the two primitives' points, so this compares coordinates. Nothing
-/// has to be bounded: signs of differences are comparisons, and a rounded difference greater than D is
-/// truly greater, as rounding is monotone and leaves D as it is.
+/// The corners are the differences of the two primitives' points, so this compares coordinates.
+/// Nothing has to be bounded: signs of differences are comparisons, and a rounded difference
+/// greater than D is truly greater, as rounding is monotone and leaves D as it is.
 
 #include <array>
 #include <cstddef>

@@ -4,9 +4,9 @@
 /// Stage 6, bisection (docs/theory.md, section 6.7).
 ///
 /// Intervals of time are examined in ascending order (orientation.hpp). One without contact is left
-/// behind. A contact proved in one ends the search: there is none before, and the zero of det in it is the
-/// only one there, so that it is the time of impact. Any other interval is halved. Queries whose intervals
-/// become too short, or too many, are left to the exact stage.
+/// behind. A contact proved in one ends the search: there is none before, and the zero of det in it
+/// is the only one there, so that it is the time of impact. Any other interval is halved. Queries
+/// whose intervals become too short, or too many, are left to the exact stage.
 
 #include <array>
 #include <cstddef>
@@ -72,7 +72,8 @@ struct Moving {
 };
 
 template <class Lanes, bool separated, Kind kind, class Source>
-void load_moving(const KernelInput& input, const Indices& indices, Moving<Lanes, kind>& moving) {
+inline void load_moving(const KernelInput& input, const Indices& indices,
+                        Moving<Lanes, kind>& moving) {
   moving.indices = &indices;
   for (std::size_t first = 0; first < indices.count; first += Lanes::width) {
     const std::size_t count = taken<Lanes>(first, indices.count);
@@ -106,17 +107,17 @@ class Bisection {
   using Mask = typename Lanes::Mask;
   static constexpr std::size_t width = Lanes::width;
 
-  /// Intervals are not halved below this length, nor more of them examined than this. Where neither has
-  /// led to an answer, the exact stage takes less time.
+  /// Intervals are not halved below `least_length`, and at most `most_steps` of them are examined:
+  /// beyond that the exact stage takes less time.
   static constexpr double least_length = 0x1p-12;
-  /// The same where the sign of det is not clear at an end of the interval, so that no part at this end
-  /// can be decided.
+  /// The same where the sign of det is not clear at an end of the interval, so that no part at this
+  /// end can be decided.
   static constexpr double least_length_at_zero = 0x1p-1;
   static constexpr double most_steps = 150;
 
   // ---- Lanes ----
 
-  /// The next query, if there is one, to the lane.
+  /// Gives the lane the next query, if there is one.
   void take(std::size_t lane) {
     active_ &= ~(1U << lane);
     if (next_ == moving_.indices->count) return;

@@ -1,17 +1,19 @@
 #pragma once
 
 /// \file
-/// The point of a polygon that is closest to the origin, and the direction that separates them best,
-/// in lanes. Nothing is proved here: the users of a direction or a point bound their own errors.
+/// The point of a polygon that is closest to the origin, and the direction that separates them
+/// best, in lanes. Nothing is proved here: the users of a direction or a point bound their own
+/// errors.
 ///
-/// In L2 the nearest point x is inside the polygon, on a side or at a corner, and its direction is N or
-/// x itself. (x − (x·e) e/|e|² for a side e: where x is short, rounding would tilt it against the side,
-/// and the far end would seem much nearer.)
+/// In L2 the nearest point x is inside the polygon, on a side or at a corner, and its direction is
+/// N or x itself. (x − (x·e) e/|e|² for a side e: where x is short, rounding would tilt it against
+/// the side, and the far end would seem much nearer.)
 ///
 /// In L∞ the directions are the facet normals of the Minkowski sum of the cube and the mirrored
-/// polygon: coordinate axes, N, and e_k × e for the axes e_k and sides e. That of the greatest distance
-/// is taken. It shows where the polygon touches a cube around the origin: a corner of the polygon touches
-/// a face of the cube, its inside touches a corner of the cube, or one of its sides an edge of the cube.
+/// polygon: coordinate axes, N, and e_k × e for the axes e_k and sides e. That of the greatest
+/// distance is taken. It shows where the polygon touches a cube around the origin: a corner of the
+/// polygon touches a face of the cube, its inside touches a corner of the cube, or one of its sides
+/// an edge of the cube.
 
 #include <array>
 #include <cstddef>
@@ -24,7 +26,8 @@
 
 namespace touchstone::fast::kernel {
 
-/// Directions are scaled to a dual norm of at most this: 1, with room for the rounding of the scaling.
+/// Directions are scaled to a dual norm of at most this: 1, with room for the rounding of the
+/// scaling.
 inline constexpr double unit_length = 1.0 + 0x1p-50;
 
 template <class Lanes, Kind kind, Norm norm>

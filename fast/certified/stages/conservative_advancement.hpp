@@ -1,14 +1,14 @@
 #pragma once
 
 /// \file
-/// Stage 8, conservative advancement (docs/theory.md, section 6.10), for a minimum separation D > 0 that
-/// is large compared with rounding: it follows the moving polygon from t=0 on, in lanes.
+/// Stage 8, conservative advancement (docs/theory.md, section 6.10), for a minimum separation D > 0
+/// that is large compared with rounding: it follows the moving polygon from t=0 on, in lanes.
 ///
-/// [0,begin] has no contact. An interval [begin,end] is examined by the theorem of moving_polygon.hpp,
-/// with the directions of the polygon's closest points at both ends. If it has no contact either, it is
-/// left behind; if nothing is proved, it is halved. Newton's method predicts the contact from the closest
-/// point's velocity, so that steps can be nearly as long as the way to it. Near the contact,
-/// distance_enclosure.hpp encloses the time of impact.
+/// [0,begin] has no contact. An interval [begin,end] is examined by the theorem of
+/// moving_polygon.hpp, with the directions of the polygon's closest points at both ends. If it has
+/// no contact either, it is left behind; if nothing is proved, it is halved. Newton's method
+/// predicts the contact from the closest point's velocity, so that steps can be nearly as long as
+/// the way to it. Near the contact, distance_enclosure.hpp encloses the time of impact.
 
 #include <array>
 #include <cstddef>
@@ -57,8 +57,8 @@ struct PolygonRows {
 template <class Lanes>
 using PolygonLanes = std::array<PolygonRows<Lanes>, groups_of_block<Lanes>>;
 
-/// Follows `width` queries at a time, each up to where it has come; a lane that is done takes the
-/// next query.
+/// Follows `width` queries at a time, each at a time of its own; a lane that is done takes the next
+/// query.
 template <class Lanes, Kind kind, Norm norm>
 class Advance {
  public:
@@ -194,7 +194,7 @@ class Advance {
 };
 
 template <class Lanes, Kind kind, Norm norm, class Source>
-void advancement_stage(const KernelInput& input, const Indices& far, KernelOutput& output) {
+inline void advancement_stage(const KernelInput& input, const Indices& far, KernelOutput& output) {
   PolygonLanes<Lanes> polygons;
   for (std::size_t first = 0; first < far.count; first += Lanes::width) {
     const std::size_t count = taken<Lanes>(first, far.count);

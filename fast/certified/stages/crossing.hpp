@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// Zeros of the determinant that are known to be the only one in an interval of times, and how they are
-/// approximated. Nothing is proved of the approximation.
+/// Zeros of the determinant that are known to be the only one in an interval of times, and how they
+/// are approximated. Nothing is proved of the approximation.
 
 #include <array>
 #include <cstddef>
@@ -70,8 +70,8 @@ struct Cubic {
     return max(max(abs(c[0]), abs(c[1])), max(abs(c[2]), abs(c[3])));
   }
 
-  /// Its zero, by Newton's method, bisection where that leads away. A lane stops when it has moved
-  /// by no more than `enough`, whatever the others do: its result is its own.
+  /// Its zero by Newton's method, with bisection where a step would leave the interval. A lane
+  /// stops when its last step was at most `enough`: its result does not depend on the other lanes.
   [[nodiscard]] Value zero(double enough) const {
     using Mask = MaskOf<Value>;
     constexpr int most_steps = 8;

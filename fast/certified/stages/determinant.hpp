@@ -3,13 +3,13 @@
 /// \file
 /// Stage 3, determinant (docs/theory.md, section 6.4).
 ///
-/// **Theorem.** det = r·(p×q) vanishes at each contact. On an interval of times it stays in the hull of
-/// its Bernstein coefficients there. So there is no contact if all of them are beyond their error bound on
-/// one side of 0. If they change sign once, certainly, det has exactly one zero in the interval
-/// (Descartes' rule of signs).
+/// **Theorem.** det = r·(p×q) vanishes at each contact. On an interval of times it stays in the
+/// hull of its Bernstein coefficients there. So there is no contact if all of them are beyond their
+/// error bound on one side of 0. If they change sign once, certainly, det has exactly one zero in
+/// the interval (Descartes' rule of signs).
 ///
-/// This stage looks at [0,1], in one pass with the stage direction. Later stages use the test on parts of
-/// it.
+/// This stage looks at [0,1], in one pass with the stage direction. Later stages use the test on
+/// parts of it.
 
 #include <array>
 #include <cstddef>
@@ -28,23 +28,24 @@ inline constexpr double determinant_underflow =
 static_assert(filters::measured_determinant_end_double.rounding() <=
               filters::measured_determinant_middle_double.rounding());
 
-/// By the magnitudes of r, p and q: of coefficients or of a value, as `shift` says.
+/// The error bound of det by the magnitudes of r, p and q: `shift` is that of a value or of
+/// coefficients.
 template <bool separated, class Value>
-Value determinant_bound(const std::array<Value, 3>& magnitudes, double rounding, double underflow,
-                        const Value& distance, double shift) {
+inline Value determinant_bound(const std::array<Value, 3>& magnitudes, double rounding,
+                               double underflow, const Value& distance, double shift) {
   return widened<separated>(magnitudes[0], rounding, distance, shift) * magnitudes[1] *
              magnitudes[2] * Value(rounding) +
          Value(underflow);
 }
 template <bool separated, class Value>
-Value determinant_bound(const std::array<Value, 3>& magnitudes, const Value& distance,
-                        double shift) {
+inline Value determinant_bound(const std::array<Value, 3>& magnitudes, const Value& distance,
+                               double shift) {
   return determinant_bound<separated>(magnitudes,
                                       filters::measured_determinant_middle_double.rounding(),
                                       determinant_underflow, distance, shift);
 }
 template <bool separated, class Value>
-Value determinant_bound(const Ends<Value>& unit, const Value& distance) {
+inline Value determinant_bound(const Ends<Value>& unit, const Value& distance) {
   return determinant_bound<separated>(
       std::array<Value, 3>{magnitude(unit[r]), magnitude(unit[p]), magnitude(unit[q])}, distance,
       shift_of_coefficients);
@@ -68,7 +69,8 @@ struct Normals {
 
 /// d0, 3 d1, 3 d2, d3 of the Bernstein coefficients of det.
 template <class Value>
-std::array<Value, 4> determinant_coefficients(const Ends<Value>& at, const Normals<Value>& n) {
+inline std::array<Value, 4> determinant_coefficients(const Ends<Value>& at,
+                                                     const Normals<Value>& n) {
   return {filters::dot(at[r][0], n.a),
           filters::determinant_middle(at[r][0], at[r][1], n.a, n.twice_ab),
           filters::determinant_middle(at[r][1], at[r][0], n.b, n.twice_ab),
@@ -95,8 +97,8 @@ struct DeterminantTest {
 
 /// The stages direction and determinant. \param mixed The queries that neither ends.
 template <class Lanes, bool separated, Kind kind, class Source>
-void direction_and_determinant_stage(const KernelInput& input, const Indices& open, Indices& mixed,
-                                     KernelOutput& output) {
+inline void direction_and_determinant_stage(const KernelInput& input, const Indices& open,
+                                            Indices& mixed, KernelOutput& output) {
   using Value = typename Lanes::Value;
   Marks<Lanes> unbounded, of_direction, of_determinant, of_neither;
   const Value distance(input.separation.distance);

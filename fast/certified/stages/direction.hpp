@@ -3,12 +3,12 @@
 /// \file
 /// Stage 2, direction (docs/theory.md, section 6.3).
 ///
-/// **Theorem.** Let d be a fixed direction and n ≥ ‖d‖*, its dual norm. If d·w_i > D n for all corners
-/// w_i at t=0 and at t=1, where D is the minimum separation or 0, there is no contact: each d·w_i is
-/// linear in t, so it is greater than D n all the time.
+/// **Theorem.** Let d be a fixed direction and n ≥ ‖d‖*, its dual norm. If d·w_i > D n for all
+/// corners w_i at t=0 and at t=1, where D is the minimum separation or 0, there is no contact: each
+/// d·w_i is linear in t, so it is greater than D n all the time.
 ///
-/// d is the sum of the corners. The computed values have to exceed the error bound of their expression
-/// (filters::ProjectedGap, filters::AdvancedGap).
+/// d is the sum of the corners. The computed values have to exceed the error bound of their
+/// expression (filters::ProjectedGap, filters::AdvancedGap).
 
 #include <array>
 #include <cstddef>
@@ -26,8 +26,8 @@ inline constexpr double advanced_gap_underflow =
 static_assert(greatest_direction <= filters::measured_projected_gap_double.greatest_x);
 static_assert(greatest_direction <= filters::measured_advanced_gap_double.greatest_x);
 
-/// A query's points as differences from one of them, at t=0 and t=1. The corners are all a − b for a of
-/// the first and b of the second list.
+/// A query's points as differences from one of them, at t=0 and t=1. The corners are all a − b for
+/// a of the first and b of the second list.
 template <class Value, Kind kind>
 struct Differences {
   static constexpr std::size_t firsts = kind == Kind::vertex_face ? 1 : 2;

@@ -1,13 +1,14 @@
 #pragma once
 
 /// \file
-/// The enclosure of the time of impact with a minimum separation D > 0 (docs/theory.md, section 6.10),
-/// for queries that the stages refinement and conservative advancement have followed up to just before
-/// the contact.
+/// The enclosure of the time of impact with a minimum separation D > 0 (docs/theory.md, section
+/// 6.10), for queries that the stages refinement and conservative advancement have followed up to
+/// just before the contact.
 ///
-/// **Theorem.** The time of impact is in [lower,upper] if there is no contact in [0,lower] (the theorem of
-/// moving_polygon.hpp, on the interval from the time up to which this is known) and contact at `upper`:
-/// some (u,v) of the domain with ‖F(upper,u,v)‖ ≤ D. The closest point's parameters are tried.
+/// **Theorem.** The time of impact is in [lower,upper] if there is no contact in [0,lower] (the
+/// theorem of moving_polygon.hpp, on the interval from the time up to which this is known) and
+/// contact at `upper`: some (u,v) of the domain with ‖F(upper,u,v)‖ ≤ D. The closest point's
+/// parameters are tried.
 ///
 /// The two times are so near to each other that the last coefficient and F need double-double.
 
@@ -34,7 +35,7 @@ using Approaches = List<Approach>;
 
 /// Calls the function with the norm as its template argument.
 template <class Function>
-void with_norm(Norm norm, const Function& function) {
+inline void with_norm(Norm norm, const Function& function) {
   if (norm == Norm::linf) {
     function.template operator()<Norm::linf>();
   } else {
@@ -42,7 +43,7 @@ void with_norm(Norm norm, const Function& function) {
   }
 }
 
-/// What is proved in double-double, of the points themselves.
+/// Proofs in double-double, from the points themselves.
 template <class Lanes, Kind kind, Norm norm>
 class PreciseProof {
  public:
@@ -97,7 +98,7 @@ class PreciseProof {
       const Precise zero = exact(Value(0.0)), mirrored = zero - component;
       const Precise size{select(is_negative, mirrored.high, component.high),
                          select(is_negative, mirrored.low, component.low)};
-      // The sum of pairs is as right as its own size asks.
+      // The error of this difference is small relative to the difference itself.
       result = result & ((exact(Value(distance_)) - size).high > error);
     }
     return result;
@@ -137,8 +138,9 @@ class PreciseProof {
     return x;
   }
 
-  /// x is wrong by at most `error` on each axis, y the truth. If D² − |x|² ≥ 4 D error + 4 error², then
-  /// |x| ≤ D and |y| ≤ |x| + √3 error, so that |y|² ≤ |x|² + 2√3 D error + 3 error² ≤ D².
+  /// Let y be the exact vector, from which x differs by at most `error` on each axis. If
+  /// D² − |x|² ≥ 4 D error + 4 error², then |x| ≤ D and |y| ≤ |x| + √3 error, so that
+  /// |y|² ≤ |x|² + 2√3 D error + 3 error² ≤ D².
   [[nodiscard]] Mask is_short(const std::array<Precise, 3>& x, const Value& error) const {
     const Value size =
         max(max(abs(x[0].high), abs(x[1].high)), max(abs(x[2].high), Value(distance_)));
@@ -156,16 +158,17 @@ class PreciseProof {
   double distance_;
 };
 
-/// Parameters in F's domain, exactly: multiples of 2^-52, so that 1 − u is exact.
+/// The closest parameters that are exactly in F's domain: multiples of 2^-52, so that 1 − u is
+/// exact.
 template <Kind kind, class Value>
-std::array<Value, 2> in_domain(const Value& u, const Value& v) {
+inline std::array<Value, 2> in_domain(const Value& u, const Value& v) {
   const Value zero(0.0), one(1.0);
   const Value inside_u = to_exact(max(min(u, one), zero));
   const Value inside_v = to_exact(max(min(v, one), zero));
   return {inside_u, kind == Kind::vertex_face ? min(inside_v, one - inside_u) : inside_v};
 }
 
-/// The enclosure of a time of impact, as it is searched for in the lanes.
+/// Searches the enclosures of the times of impact of `width` queries.
 template <class Lanes, Kind kind, Norm norm>
 class Arrival {
  public:
@@ -182,7 +185,7 @@ class Arrival {
     Value corrected;  ///< where the time of impact seems to be, by the proof's own values
     Mask proved;
 
-    /// This where it is proved, the other elsewhere.
+    /// This in the lanes where it is proved, the other elsewhere.
     [[nodiscard]] Found or_else(const Found& other) const {
       return {select(proved, lower, other.lower),
               select(proved, upper, other.upper),
@@ -222,7 +225,7 @@ class Arrival {
     const Value start = Polygon::Projections::at_point(of_lower.start, at_lower.u, at_lower.v);
     const Value end = Polygon::Projections::at_point(of_lower.end, at_lower.u, at_lower.v);
     const Value rate = start - end;
-    // Contact may be over again within the margin: half a distance farther it is not.
+    // The contact may end within the margin, but not before the polygon has moved on by D/2.
     const Value through = precise_.distance() * Value(0.5) / rate;
     const Value upper =
         min(time + select(rate > Value(0.0), min(margin, through), margin), Value(1.0));
@@ -281,7 +284,7 @@ class DistanceEnclosure {
         Value::load(rows[0].data()), Value(0.4 * input.toi_tolerance));
     auto found = arrival.template around<norm>(arrival.corrected(Value::load(rows[1].data())));
     if (valid_bits(found.proved, count) != first_lanes<Lanes>(count)) {
-      // In L∞ other points may be as near as the nearest one, and easier to find.
+      // In L∞ other points may be as close, and easier to find by their distance in L2.
       found = found.or_else(arrival.template around<Norm::l2>(found.corrected));
     }
     const unsigned proved = valid_bits(found.proved, count);

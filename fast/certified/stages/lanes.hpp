@@ -7,11 +7,12 @@
 /// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has
 /// - Value and Mask: a number and a truth value in each of its `width` lanes, one query a lane;
 /// - Row and RowMask: the same for the three coordinates of one point;
-/// - load and load_backwards: the points at `width` addresses, without reading in front of their
-///   coordinates, and without reading behind them.
+/// - load and load_backwards: the points at `width` addresses. load may read one number behind a
+///   point, load_backwards one before it.
 ///
-/// Templates on Lanes or its Value are local to that file too. So is everything in the stages that is
-/// more than an expression: code for an instruction set must not be what other files link.
+/// Templates on Lanes or its Value are local to that file too. So is everything in the stages that
+/// is more than an expression: code for an instruction set must not be what other files link.
+/// Function templates are `inline` because GCC then copies more of them into their callers.
 
 #include <array>
 #include <cstddef>
@@ -26,8 +27,8 @@ namespace touchstone::fast::kernel {
 /// Points of a query may be this far from one of them on each axis: squares and cubes of their
 /// differences are far from overflow. The kernel does not decide queries that are larger.
 inline constexpr double greatest_distance = 0x1p100;
-/// Upper bounds of the differences of any two points, and of sums of differences or of products of two:
-/// with room for rounding.
+/// Upper bounds of the differences of any two points, and of sums of differences or of products of
+/// two: with room for rounding.
 inline constexpr double greatest_difference = 0x1p102;
 inline constexpr double greatest_direction = 0x1p210;
 
@@ -39,8 +40,8 @@ using List = KernelOutput::List<Item>;
 /// Queries of the block, by their indices.
 using Indices = List<std::uint32_t>;
 
-/// Marks of places in a list. Lists are written from these marks at the end of a stage: a store whose
-/// address depends on a comparison delays the loads of all queries behind it.
+/// Marks of places in a list. Lists are written from these marks at the end of a stage: a store
+/// whose address depends on a comparison delays the loads of all queries behind it.
 template <class Lanes>
 class Marks {
  public:
@@ -66,18 +67,18 @@ class Marks {
 };
 
 template <class Lanes, class Item>
-void append(List<Item>& list, const Item& item) {
+inline void append(List<Item>& list, const Item& item) {
   list.items[list.count++] = item;
 }
 
 template <class Lanes>
-void append_marked(Indices& list, const Indices& from, const Marks<Lanes>& marks) {
+inline void append_marked(Indices& list, const Indices& from, const Marks<Lanes>& marks) {
   marks.for_each([&](std::size_t place) { append<Lanes>(list, from.items[place]); });
 }
 
 /// How many of `count` items the lanes take from `first` on.
 template <class Lanes>
-std::size_t taken(std::size_t first, std::size_t count) {
+inline std::size_t taken(std::size_t first, std::size_t count) {
   return count - first < Lanes::width ? count - first : Lanes::width;
 }
 
@@ -93,12 +94,12 @@ using Numbers = std::array<double, Lanes::width>;
 
 /// The first `count` lanes.
 template <class Lanes>
-unsigned first_lanes(std::size_t count) {
+inline unsigned first_lanes(std::size_t count) {
   return (1U << count) - 1U;
 }
 
 template <class Function>
-void for_each_lane(unsigned lanes, const Function& function) {
+inline void for_each_lane(unsigned lanes, const Function& function) {
   for (unsigned rest = lanes; rest != 0; rest &= rest - 1) {
     function(static_cast<std::size_t>(__builtin_ctz(rest)));
   }
@@ -106,20 +107,20 @@ void for_each_lane(unsigned lanes, const Function& function) {
 
 /// Those of the first `count` lanes that are in the mask.
 template <class Mask>
-unsigned valid_bits(const Mask& mask, std::size_t count) {
+inline unsigned valid_bits(const Mask& mask, std::size_t count) {
   return mask.bits() & ((1U << count) - 1U);
 }
 
 template <class Lanes>
-void append_lanes(Indices& list, const std::array<std::uint32_t, Lanes::width>& indices,
-                  unsigned lanes) {
+inline void append_lanes(Indices& list, const std::array<std::uint32_t, Lanes::width>& indices,
+                         unsigned lanes) {
   for_each_lane(lanes, [&](std::size_t lane) { append<Lanes>(list, indices[lane]); });
 }
 
 template <class Lanes>
-void store_hits(KernelOutput& output, const std::array<std::uint32_t, Lanes::width>& indices,
-                unsigned lanes, const std::array<typename Lanes::Value, 2>& enclosure,
-                const std::array<typename Lanes::Value, 2>& uv) {
+inline void store_hits(KernelOutput& output, const std::array<std::uint32_t, Lanes::width>& indices,
+                       unsigned lanes, const std::array<typename Lanes::Value, 2>& enclosure,
+                       const std::array<typename Lanes::Value, 2>& uv) {
   alignas(64) std::array<Numbers<Lanes>, 4> rows;
   enclosure[0].store(rows[0].data());
   enclosure[1].store(rows[1].data());
@@ -140,25 +141,25 @@ template <class Value>
 using Vector = filters::Vector3<Value>;
 
 template <class Value>
-Vector<Value> minus(const Vector<Value>& a, const Vector<Value>& b) {
+inline Vector<Value> minus(const Vector<Value>& a, const Vector<Value>& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
 /// The greatest magnitude of a component.
 template <class Value>
-Value greatest(const Vector<Value>& a) {
+inline Value greatest(const Vector<Value>& a) {
   return max(max(abs(a[0]), abs(a[1])), abs(a[2]));
 }
 
 /// The same of a vector that moves between two.
 template <class Value>
-Value magnitude(const std::array<Vector<Value>, 2>& moving) {
+inline Value magnitude(const std::array<Vector<Value>, 2>& moving) {
   return max(greatest(moving[0]), greatest(moving[1]));
 }
 
 /// A time in [0,1] rounded to a multiple of 2^-52, so that 1 minus it is exact.
 template <class Value>
-Value to_exact(const Value& time) {
+inline Value to_exact(const Value& time) {
   return (time + Value(1.0)) - Value(1.0);
 }
 
@@ -176,7 +177,7 @@ struct FromArray {
     for (std::size_t k = 0; k < query_points; ++k) result[k] = first + 3 * k;
     return result;
   }
-  /// What is behind a query's last point may be another's memory.
+  /// The memory behind a query's last point may belong to others.
   static constexpr bool may_read_behind = false;
   /// Memory is faster when read at several places at once.
   static constexpr std::size_t places_at_once = 4;
@@ -211,9 +212,9 @@ struct FromPairs {
 
 /// The points of `width` queries, lane by lane. Lanes beyond `count` repeat the last.
 template <class Lanes, class Source>
-std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
-                                                             const std::uint32_t* indices,
-                                                             std::size_t count) {
+inline std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
+                                                                    const std::uint32_t* indices,
+                                                                    std::size_t count) {
   std::array<std::array<const double*, Lanes::width>, query_points> rows;
   for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
     const Points points = Source::points(input, indices[lane < count ? lane : count - 1]);

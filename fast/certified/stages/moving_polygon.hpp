@@ -1,20 +1,20 @@
 #pragma once
 
 /// \file
-/// The moving polygon P(t) = conv{w_i(t)} of a query with a minimum separation D > 0, in lanes, and when
-/// it has no contact (docs/theory.md, section 6.10).
+/// The moving polygon P(t) = conv{w_i(t)} of a query with a minimum separation D > 0, in lanes, and
+/// when it has no contact (docs/theory.md, section 6.10).
 ///
 /// **Theorem.** Let c_a and c_b be directions of dual norm at most n. For s from 0 at a to 1 at b,
-/// c = (1−s) c_a + s c_b has a dual norm of at most n, and c·w_i − D n is quadratic with the Bernstein
-/// coefficients
+/// c = (1−s) c_a + s c_b has a dual norm of at most n, and c·w_i − D n is quadratic with the
+/// Bernstein coefficients
 ///
 ///     c_a·w_i(a) − D n,    ½ ((c_a·w_i(b) − D n) + (c_b·w_i(a) − D n)),    c_b·w_i(b) − D n.
 ///
-/// If they are positive for all corners, each point of P is farther away than D, all the time: no contact
-/// in [a,b].
+/// If they are positive for all corners, each point of P is farther away than D, all the time: no
+/// contact in [a,b].
 ///
-/// With the directions that are best at a and at b, little is lost: the middle coefficient takes account
-/// of the turn in between.
+/// With the directions that are best at a and at b, little is lost: the middle coefficient takes
+/// account of the turn in between.
 
 #include <array>
 #include <cstddef>
@@ -117,12 +117,13 @@ class MovingPolygon {
     return filters::blend(c.start[corner], c.end[corner], Value(1.0) - time, time) - gap_;
   }
 
-  /// What the error of gap() stays below if 1 − time is exact; twice it also covers its rounding, by
-  /// at most 2^-54 of the start, which is itself at most 6 times the product of the magnitudes.
+  /// An upper bound of the error of gap() if 1 − time is exact. Twice the bound also covers the
+  /// rounding of 1 − time: at most 2^-54 of the start, which is at most 6 times the product of the
+  /// magnitudes.
   [[nodiscard]] const Value& bound() const { return bound_; }
 
-  /// Are the first two coefficients on [a,b] positive, for all corners? `weight` is 1 if 1−b is exact,
-  /// else 2.
+  /// Are the first two coefficients on [a,b] positive, for all corners? `weight` is 1 if 1−b is
+  /// exact, else 2.
   [[nodiscard]] Mask begins_apart(const Projections& c_a, const Projections& c_b, const Value& a,
                                   const Value& b, double weight) const {
     const Value enough = bound_ * Value(2.001 * weight);
@@ -133,14 +134,14 @@ class MovingPolygon {
     return result;
   }
 
-  /// And the last?
+  /// Is the last coefficient on [a,b] positive, for all corners?
   [[nodiscard]] Mask ends_apart(const Projections& c_b, const Value& b) const {
     Mask result = Mask::all();
     for (std::size_t k = 0; k < corners; ++k) result = result & (gap(c_b, k, b) > bound_);
     return result;
   }
 
-  /// Where Newton's method sees the contact from a time, by the nearest point there.
+  /// The contact as Newton's method predicts it from the closest point at a time.
   struct Prediction {
     Value gap;     ///< to the distance D, at the time
     Value time;    ///< of contact
@@ -160,7 +161,8 @@ class MovingPolygon {
   static constexpr double greatest_size = 0x1p102;
 
  private:
-  /// The differences whose difference a corner is; the second may be none.
+  /// The places of the two differences whose difference is the corner; the second is `differences`
+  /// if the corner is the first itself.
   static constexpr std::array<std::size_t, 2> points_of(std::size_t corner) {
     if constexpr (kind == Kind::vertex_face) {
       constexpr std::array<std::array<std::size_t, 2>, 3> all{{{0, 3}, {0, 1}, {0, 2}}};

@@ -1,19 +1,19 @@
 #pragma once
 
 /// \file
-/// The vectors that determinant and orientations are made of, in lanes, and how their bounds cover a
-/// minimum separation.
+/// The vectors that determinant and orientations are made of, in lanes, and how their bounds cover
+/// a minimum separation.
 ///
-/// F = r − u p − v q (filters/polynomial_expressions.hpp): r, p, q and, for the orientations of corners,
-/// two more. They move linearly, and so they do on each interval of times.
+/// F = r − u p − v q (filters/polynomial_expressions.hpp): r, p, q and, for the orientations of
+/// corners, two more. They move linearly, and so they do on each interval of times.
 ///
-/// **With a minimum separation** D, "no contact" has to be proved of the polygon shifted by any x with
-/// ‖x‖ ≤ D: r becomes r − x, and so does the vector in its place in an orientation. Let |·| be the
-/// greatest magnitude of a component. A determinant of three vectors with components ±1 is at most 4, so
-/// the shift changes det by at most D ‖N‖₁ ≤ 4 D |p| |q|, and an orientation x·(d × y) by at most
-/// 4 D |d| |y|. The middle coefficients, as they are computed, are three times the Bernstein
-/// coefficients of det and twice those of an orientation, and so is their change. `widened` adds these to
-/// the bounds, 12 for all coefficients (docs/theory.md, section 6.9).
+/// **With a minimum separation** D, "no contact" has to be proved of the polygon shifted by any x
+/// with ‖x‖ ≤ D: r becomes r − x, and so does the vector in its place in an orientation. Let |·| be
+/// the greatest magnitude of a component. A determinant of three vectors with components ±1 is at
+/// most 4, so the shift changes det by at most D ‖N‖₁ ≤ 4 D |p| |q|, and an orientation x·(d × y)
+/// by at most 4 D |d| |y|. The middle coefficients, as they are computed, are three times the
+/// Bernstein coefficients of det and twice those of an orientation, and so is their change.
+/// `widened` adds these to the bounds, 12 for all coefficients (docs/theory.md, section 6.9).
 
 #include <array>
 #include <cstddef>
@@ -40,7 +40,7 @@ using Ends = std::array<std::array<Vector<Value>, 2>, vector_count>;
 
 /// The moving vectors of queries at t=0 and t=1, from their points.
 template <Kind kind, class Value>
-Ends<Value> vectors_of(const std::array<Vector<Value>, query_points>& x) {
+inline Ends<Value> vectors_of(const std::array<Vector<Value>, query_points>& x) {
   constexpr auto ends = ends_of_vectors<kind>();
   Ends<Value> at;
   for (std::size_t i = 0; i < vector_count; ++i) {
@@ -53,7 +53,7 @@ Ends<Value> vectors_of(const std::array<Vector<Value>, query_points>& x) {
 
 /// Vectors that move from their first value at 0 to their second at 1, at the ends of [begin, end].
 template <class Value>
-Ends<Value> between(const Ends<Value>& unit, const Value& begin, const Value& end) {
+inline Ends<Value> between(const Ends<Value>& unit, const Value& begin, const Value& end) {
   const Value one(1.0), before_begin = one - begin, before_end = one - end;
   Ends<Value> at;
   for (std::size_t i = 0; i < vector_count; ++i) {
@@ -63,11 +63,11 @@ Ends<Value> between(const Ends<Value>& unit, const Value& begin, const Value& en
   return at;
 }
 
-/// The magnitude of r, or of the vector in its place, that makes a polynomial's bound cover the shift by
-/// the distance too. `rounding` is the factor of the magnitudes in the bound, `shift` that of the
-/// distance.
+/// The magnitude of r, or of the vector in its place, that makes a polynomial's bound cover the
+/// shift by the distance too. `rounding` is the factor of the magnitudes in the bound, `shift` that
+/// of the distance.
 template <bool separated, class Value>
-Value widened(const Value& magnitude, double rounding, const Value& distance, double shift) {
+inline Value widened(const Value& magnitude, double rounding, const Value& distance, double shift) {
   if constexpr (separated) return magnitude + distance * Value(shift / rounding);
   return magnitude;
 }

@@ -3,17 +3,18 @@
 /// \file
 /// Stage 4, orientation (docs/theory.md, section 6.5).
 ///
-/// **Theorem.** Let d be a fixed direction and o_i = d·(w_i × w_{i+1}) the orientations of consecutive
-/// corners. If 0 = Σ λ_i w_i with barycentric λ ≥ 0, each o_i is d·N times a number ≥ 0, so that in a
-/// contact they all have one sign:
+/// **Theorem.** Let d be a fixed direction and o_i = d·(w_i × w_{i+1}) the orientations of
+/// consecutive corners. If 0 = Σ λ_i w_i with barycentric λ ≥ 0, each o_i is a nonnegative multiple
+/// of d·N, so that in a contact they all have one sign:
 ///
 /// 1. If two of them keep opposite signs on an interval of times, there is no contact in it.
-/// 2. If all of them keep one sign (not 0), so does d·N, the sum of three of them or of two opposite
-///    ones. Hence N ≠ 0, and each zero of det in the interval is a contact, in the inside of the
-///    primitives.
+/// 2. If all of them keep one sign (not 0), so does d·N, the sum of three of them or of two
+///    opposite ones. Hence N ≠ 0, and each zero of det in the interval is a contact, in the inside
+///    of the primitives.
 ///
-/// They are quadratic in t and stay in the hull of their Bernstein coefficients. d is the normal in the
-/// middle of the interval. This stage looks at [0,1]; only_zero.hpp and bisection.hpp look at parts of it.
+/// They are quadratic in t and stay in the hull of their Bernstein coefficients. d is the normal in
+/// the middle of the interval. This stage looks at [0,1]; only_zero.hpp and bisection.hpp look at
+/// parts of it.
 
 #include <array>
 #include <cstddef>
@@ -51,8 +52,8 @@ consteval auto orientations() {
   }
 }
 
-/// What the bounds of queries need: that of det, and for each orientation the product of its vectors'
-/// magnitudes.
+/// What the bounds of queries need: that of det, and for each orientation the product of its
+/// vectors' magnitudes.
 template <class Value, Kind kind>
 struct Bounds {
   Value determinant;
@@ -60,7 +61,7 @@ struct Bounds {
 };
 
 template <Kind kind, bool separated, class Value>
-Bounds<Value, kind> bounds_of(const Ends<Value>& unit, const Value& distance) {
+inline Bounds<Value, kind> bounds_of(const Ends<Value>& unit, const Value& distance) {
   constexpr auto all_orientations = orientations<kind>();
   constexpr double rounding = filters::measured_orientation_middle_double.rounding();
   Bounds<Value, kind> bounds{determinant_bound<separated>(unit, distance), {}};
@@ -81,8 +82,8 @@ struct OrientationTest {
 };
 
 template <Kind kind, class Value>
-OrientationTest<Value> test_orientations(const Vector<Value>& d, const Ends<Value>& at,
-                                         const Bounds<Value, kind>& bounds) {
+inline OrientationTest<Value> test_orientations(const Vector<Value>& d, const Ends<Value>& at,
+                                                const Bounds<Value, kind>& bounds) {
   using Mask = MaskOf<Value>;
   constexpr auto all_orientations = orientations<kind>();
   const Value scale = greatest(d) * Value(filters::measured_orientation_middle_double.rounding());
@@ -123,7 +124,7 @@ struct Examination {
 
 /// \param at The vectors at the ends of the interval.
 template <Kind kind, class Value>
-Examination<Value> examine(const Ends<Value>& at, const Bounds<Value, kind>& bounds) {
+inline Examination<Value> examine(const Ends<Value>& at, const Bounds<Value, kind>& bounds) {
   const Normals<Value> normals(at);
   const std::array<Value, 4> coefficients = determinant_coefficients(at, normals);
   return {coefficients,
@@ -131,13 +132,13 @@ Examination<Value> examine(const Ends<Value>& at, const Bounds<Value, kind>& bou
           test_orientations<kind>(normals.middle(), at, bounds)};
 }
 
-/// Where the distance times this exceeds the size of a query, a shift by it is too large for the widened
-/// bounds to prove much.
+/// Where the distance times this exceeds the size of a query, a shift by it is too large for the
+/// widened bounds to prove much.
 inline constexpr double greatest_shift = 0x1p16;
 
 /// The lanes whose distance is too large a shift.
 template <bool separated, class Value>
-unsigned far_lanes(const KernelInput& input, const Ends<Value>& unit) {
+inline unsigned far_lanes(const KernelInput& input, const Ends<Value>& unit) {
   if constexpr (!separated) return 0;
   const Value size = max(max(magnitude(unit[r]), magnitude(unit[p])), magnitude(unit[q]));
   return (Value(input.separation.distance * greatest_shift) > size).bits();
@@ -148,8 +149,9 @@ unsigned far_lanes(const KernelInput& input, const Ends<Value>& unit) {
 /// \param undecided Those of which nothing is known.
 /// \param far Those whose distance is too large a shift.
 template <class Lanes, bool separated, Kind kind, class Source>
-void orientation_stage(const KernelInput& input, const Indices& mixed, Crossings& contacts,
-                       Crossings& zeros, Indices& undecided, Indices& far, KernelOutput& output) {
+inline void orientation_stage(const KernelInput& input, const Indices& mixed, Crossings& contacts,
+                              Crossings& zeros, Indices& undecided, Indices& far,
+                              KernelOutput& output) {
   using Value = typename Lanes::Value;
   Marks<Lanes> of_contacts, of_rejected, of_zeros, of_rest, of_far;
   Intervals<Lanes> intervals;

@@ -3,18 +3,19 @@
 /// \file
 /// Stage 7, refinement: the enclosure of the time of impact (docs/theory.md, section 6.8).
 ///
-/// The time of impact is the only zero of det in an interval (crossing.hpp). Newton's method approximates
-/// it. An enclosure of the requested width around it, clipped to the interval, is right if det, in
-/// double-double, has at its ends the signs that it has at the ends of the interval, beyond the error
-/// bound. If not, the line through these two values tells where a second try is better.
+/// The time of impact is the only zero of det in an interval (crossing.hpp). Newton's method
+/// approximates it. An enclosure of the requested width around it, clipped to the interval, is
+/// right if det, in double-double, has at its ends the signs that it has at the ends of the
+/// interval, beyond the error bound. If not, the line through these two values tells where a second
+/// try is better.
 ///
 /// **With a minimum separation** D, let b be the most that a shift by D changes det by
 /// (moving_vectors.hpp). det, det + b and det − b cross zero once each on an interval on which the
-/// coefficients of det, with widened bounds, change sign once. So there is no contact up to a time at
-/// which det is still more than b away from 0, and the zero of det is a contact, at distance 0. If the
-/// enclosure holds with bounds widened by b, it has the time of impact too. If not, the time of impact is
-/// earlier by more than the enclosure is wide: det only proves a time up to which there is no contact,
-/// and distance_enclosure.hpp continues from there.
+/// coefficients of det, with widened bounds, change sign once. So there is no contact up to a time
+/// at which det is still more than b away from 0, and the zero of det is a contact, at distance 0.
+/// If the enclosure holds with bounds widened by b, it has the time of impact too. If not, the time
+/// of impact is earlier by more than the enclosure is wide: det only proves a time up to which
+/// there is no contact, and distance_enclosure.hpp continues from there.
 
 #include <array>
 #include <cstddef>
@@ -67,7 +68,7 @@ class PreciseDeterminant {
   }
 
   [[nodiscard]] const Value& bound() const { return bound_; }
-  /// Of det from the coefficients in double, on any interval.
+  /// The bound of det if computed in double, from its coefficients on any interval.
   [[nodiscard]] Value rough_bound() const {
     return determinant_bound<separated>(magnitudes_, distance_, shift_of_value);
   }
@@ -84,7 +85,8 @@ class PreciseDeterminant {
 /// u and v of the contact at a time, from the orientations, which are proportional to the
 /// barycentric coordinates.
 template <Kind kind, class Value>
-std::array<Value, 2> contact(const std::array<Vector<Value>, query_points>& x, const Value& time) {
+inline std::array<Value, 2> contact(const std::array<Vector<Value>, query_points>& x,
+                                    const Value& time) {
   constexpr auto ends = ends_of_vectors<kind>();
   constexpr auto all_orientations = orientations<kind>();
   std::array<Vector<Value>, vector_count> at;
@@ -163,10 +165,10 @@ class Refinement {
     }
   }
 
-  /// Up to where det proves that there is no contact, as its value there is less than −b: by more than
-  /// the bound of its coefficients and the error of their sum. The weights of the sum add up to 1, of
-  /// 12 u of which rounding takes less than 2^-48; and the time is wrong by up to 3 · 2^-53, over which
-  /// det moves by 18 · 2^-53 coefficients for an interval of length 1.
+  /// Up to where det proves that there is no contact, as its value there is less than −b: by more
+  /// than the bound of its coefficients and the error of their sum. The weights of the sum add up
+  /// to 1, of 12 u of which rounding takes less than 2^-48; and the time is wrong by up to 3 ·
+  /// 2^-53, over which det moves by 18 · 2^-53 coefficients for an interval of length 1.
   static void keep_approaches(const CrossingLanes<Lanes>& lanes, const Determinant& determinant,
                               const Value& zero, unsigned bits, Approaches& approaches) {
     const Value bound = determinant.rough_bound() +
@@ -182,7 +184,7 @@ class Refinement {
     });
   }
 
-  /// Around what should be the zero, with the signs of det at its ends.
+  /// An interval around an approximation of the zero, with det at its ends.
   struct Enclosure {
     Value toi;
     Value lower;
@@ -207,7 +209,7 @@ class Refinement {
       return select(rise > Value(0.0), lower - at_lower * (upper - lower) / rise, toi);
     }
 
-    /// This where it is proved, the other elsewhere.
+    /// This in the lanes where it is proved, the other elsewhere.
     [[nodiscard]] Enclosure or_else(const Enclosure& other) const {
       Enclosure result = other;
       result.toi = select(proved, toi, other.toi);
