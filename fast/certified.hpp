@@ -9,7 +9,7 @@
 /// these signs, in stages from cheap to dear; a query that a stage cannot decide goes on to the next,
 /// and the last one is exact (docs/theory.md, section 6):
 ///
-///     axis, direction, determinant, bisection    fast/certified/kernel_on_lanes.hpp
+///     axis, direction, determinant, bisection    fast/certified/kernel_on_lanes.hpp, stages/
 ///     exact                                      fast/certified/exact/exact_stage.hpp
 ///
 /// With a minimum separation, contact is to be within a distance, in L∞ or L2, and all of this holds of

@@ -13,23 +13,39 @@ function(is_planted variable name)
   endif()
 endfunction()
 
-# with_fault(VARIABLE FILE NAME ORIGINAL FAULT [ORIGINAL FAULT]…): writes FILE so altered, every place of each ORIGINAL, under
-# a folder of that fault's own, which VARIABLE gets. (No semicolon within these: CMake takes it for the end of an
-# argument.)
-function(with_fault variable file name)
+# with_fault(VARIABLE FILES NAME ORIGINAL FAULT [ORIGINAL FAULT]…): writes FILES so altered, every place of each ORIGINAL in
+# any of them, under a folder of that fault's own, which VARIABLE gets. (No semicolon within these: CMake takes it for the
+# end of an argument.)
+function(with_fault variable files name)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${name})
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
-  file(READ ${PROJECT_SOURCE_DIR}/${file} text)
+  # Headers that an earlier version of the fault altered would hide the true ones.
+  file(GLOB_RECURSE stale RELATIVE ${folder} ${folder}/*.hpp)
+  list(REMOVE_ITEM stale ${files})
+  foreach(file ${stale})
+    file(REMOVE ${folder}/${file})
+  endforeach()
+  set(found)
+  foreach(file ${files})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${file})
+    file(READ ${PROJECT_SOURCE_DIR}/${file} text)
+    set(replacements ${ARGN})
+    while(replacements)
+      list(POP_FRONT replacements original fault)
+      string(FIND "${text}" "${original}" place)
+      if(NOT place EQUAL -1)
+        list(APPEND found "${original}")
+        string(REPLACE "${original}" "${fault}" text "${text}")
+      endif()
+    endwhile()
+    file(CONFIGURE OUTPUT ${folder}/${file} CONTENT "${text}" @ONLY)
+  endforeach()
   set(replacements ${ARGN})
   while(replacements)
     list(POP_FRONT replacements original fault)
-    string(FIND "${text}" "${original}" place)
-    if(place EQUAL -1)
-      message(FATAL_ERROR "${name}: nothing to replace in ${file}: ${original}")
+    if(NOT original IN_LIST found)
+      message(FATAL_ERROR "${name}: nothing to replace in ${files}: ${original}")
     endif()
-    string(REPLACE "${original}" "${fault}" text "${text}")
   endwhile()
-  file(CONFIGURE OUTPUT ${folder}/${file} CONTENT "${text}" @ONLY)
   set(${variable} ${folder} PARENT_SCOPE)
 endfunction()
 
@@ -46,14 +62,14 @@ function(object_with_names name source)
   target_link_libraries(${name} PRIVATE touchstone::query)
 endfunction()
 
-# faulty(SOURCE SYMBOLS FILE NAME …): SOURCE with a fault in it or in a header that it includes, FILE; the first of its
+# faulty(SOURCE SYMBOLS FILES NAME …): SOURCE with a fault in it or in headers that it includes, FILES; the first of its
 # SYMBOLS is called NAME, any other NAME_SYMBOL.
-function(faulty source symbols file name)
+function(faulty source symbols files name)
   is_planted(planted ${name})
   if(NOT planted)
     return()
   endif()
-  with_fault(folder ${file} ${name} ${ARGN})
+  with_fault(folder "${files}" ${name} ${ARGN})
   list(POP_FRONT symbols symbol)
   set(renamed "#define ${symbol} ${name}\n")
   foreach(other ${symbols})
@@ -64,10 +80,10 @@ function(faulty source symbols file name)
   target_link_libraries(touchstone_planted_faults INTERFACE $<TARGET_OBJECTS:${name}>)
 endfunction()
 
-# faulty_kernel(FILE NAME ORIGINAL FAULT [ORIGINAL FAULT]…): fast::NAME, the certified solver's scalar kernel with a
-# fault in one of its files.
-function(faulty_kernel file name)
-  faulty(fast/certified/kernel_scalar.cpp scalar_certified_kernel ${file} ${name} ${ARGN})
+# faulty_kernel(FILES NAME ORIGINAL FAULT [ORIGINAL FAULT]…): fast::NAME, the certified solver's scalar kernel with a
+# fault in some of its files.
+function(faulty_kernel files name)
+  faulty(fast/certified/kernel_scalar.cpp scalar_certified_kernel "${files}" ${name} ${ARGN})
 endfunction()
 
 # faulty_box_kernel(FILE NAME …): fast::NAME, Tight-Inclusion's scalar kernel with a fault in one of its files.

@@ -1,29 +1,33 @@
 #pragma once
 
 /// \file
-/// The point of a polygon that is nearest to the origin, and the direction that separates them best,
-/// in lanes. Nothing here is proved: whoever uses a direction or a point bounds its own errors.
+/// The point of a polygon that is closest to the origin, and the direction that separates them
+/// best, in lanes. Nothing is proved here: the users of a direction or a point bound their own
+/// errors.
 ///
-/// In L2 the nearest point x is inside the polygon, on a side or at a corner, and its direction is N or
-/// x itself. (x − (x·e) e/|e|² for a side e: where x is short, rounding would tilt it against the side,
-/// and the far end would seem much nearer.)
+/// In L2 the nearest point x is inside the polygon, on a side or at a corner, and its direction is
+/// N or x itself. (x − (x·e) e/|e|² for a side e: where x is short, rounding would tilt it against
+/// the side, and the far end would seem much nearer.)
 ///
 /// In L∞ the directions are the facet normals of the Minkowski sum of the cube and the mirrored
-/// polygon: coordinate axes, N, and e_k × e for the axes e_k and sides e. That of the greatest distance
-/// wins, and tells where the polygon touches a cube around the origin: with a corner a face of the cube;
-/// inside, a corner of the cube; on a side, an edge of the cube.
+/// polygon: coordinate axes, N, and e_k × e for the axes e_k and sides e. That of the greatest
+/// distance is taken. It shows where the polygon touches a cube around the origin: a corner of the
+/// polygon touches a face of the cube, its inside touches a corner of the cube, or one of its sides
+/// an edge of the cube.
 
 #include <array>
 #include <cstddef>
 
 #include "exact/query.hpp"
+#include "fast/certified/stages/lanes.hpp"
 #include "filters/error_bounds.hpp"
 #include "filters/polynomial_expressions.hpp"
 #include "filters/separation_expressions.hpp"
 
-namespace touchstone::fast {
+namespace touchstone::fast::kernel {
 
-/// Directions are scaled to a dual norm of at most this: 1, with room for the rounding of the scaling.
+/// Directions are scaled to a dual norm of at most this: 1, with room for the rounding of the
+/// scaling.
 inline constexpr double unit_length = 1.0 + 0x1p-50;
 
 template <class Lanes, Kind kind, Norm norm>
@@ -54,9 +58,6 @@ class NearestPoint {
  private:
   static constexpr std::size_t last = corners - 1;
 
-  static Vector minus(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  }
   static Vector plus_multiple(const Vector& a, const Vector& b, const Value& factor) {
     return {a[0] + b[0] * factor, a[1] + b[1] * factor, a[2] + b[2] * factor};
   }
@@ -70,8 +71,13 @@ class NearestPoint {
 
   /// (u,v) of a corner.
   static constexpr std::array<double, 2> parameters(std::size_t corner) {
-    const Corner& place = touchstone::corners(kind)[corner];
-    return {static_cast<double>(place.u), static_cast<double>(place.v)};
+    if constexpr (kind == Kind::vertex_face) {
+      constexpr std::array<std::array<double, 2>, 3> all{{{0, 0}, {1, 0}, {0, 1}}};
+      return all[corner];
+    } else {
+      constexpr std::array<std::array<double, 2>, 4> all{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+      return all[corner];
+    }
   }
 
   /// Takes a point of the side i, j where `is_better`.
@@ -83,22 +89,22 @@ class NearestPoint {
 
   /// Divides the direction by an upper bound of its dual norm.
   void scale() {
-    const Value greatest = max(max(abs(direction[0]), abs(direction[1])), abs(direction[2]));
+    const Value most = greatest(direction);
     Value length(0.0);
     if constexpr (norm == Norm::l2) {
       constexpr auto bound = filters::squared_length_double;
       const auto square = filters::SquaredLength::evaluate<Value>(direction, {});
-      length = sqrt(square + (greatest * greatest * Value(bound.rounding()) +
+      length = sqrt(square + (most * most * Value(bound.rounding()) +
                               Value(bound.underflow(greatest_length))));
     } else {
       constexpr auto bound = filters::component_sum_double;
       const auto sum = filters::ComponentSum::evaluate<Value>(
           {abs(direction[0]), abs(direction[1]), abs(direction[2])}, {});
-      length = sum + (greatest * Value(bound.rounding()) + Value(bound.underflow(greatest_length)));
+      length = sum + (most * Value(bound.rounding()) + Value(bound.underflow(greatest_length)));
     }
-    // What is too long for the bound, too short to divide by, or no number, becomes 0, and separates
-    // nothing.
-    const Mask is_sound = (greatest <= Value(greatest_length)) & (length >= Value(least_length));
+    // A direction that is too long for the bound, too short to divide by, or NaN becomes 0, which
+    // separates nothing.
+    const Mask is_sound = (most <= Value(greatest_length)) & (length >= Value(least_length));
     const Value factor = select(is_sound, Value(1.0) / length, Value(0.0));
     for (Value& x : direction) x = x * factor;
   }
@@ -243,4 +249,4 @@ class NearestPoint {
   }
 };
 
-}  // namespace touchstone::fast
+}  // namespace touchstone::fast::kernel

@@ -9,7 +9,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::fast::closest_point_test {
+namespace touchstone::fast::kernel::closest_point_test {
 namespace {
 
 /// One lane, as plain as can be.
@@ -201,4 +201,4 @@ TEST(NearestPoint, WhatIsNoDirectionSeparatesNothing) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::closest_point_test
+}  // namespace touchstone::fast::kernel::closest_point_test

@@ -1,0 +1,126 @@
+#pragma once
+
+/// \file
+/// Stage 3, determinant (docs/theory.md, section 6.4).
+///
+/// **Theorem.** det = r·(p×q) vanishes at each contact. On an interval of times it stays in the
+/// hull of its Bernstein coefficients there. So there is no contact if all of them are beyond their
+/// error bound on one side of 0. If they change sign once, certainly, det has exactly one zero in
+/// the interval (Descartes' rule of signs).
+///
+/// This stage looks at [0,1], in one pass with the stage direction. Later stages use the test on
+/// parts of it.
+
+#include <array>
+#include <cstddef>
+
+#include "fast/certified/stages/direction.hpp"
+#include "fast/certified/stages/lanes.hpp"
+#include "fast/certified/stages/moving_vectors.hpp"
+#include "filters/error_bounds.hpp"
+
+namespace touchstone::fast::kernel {
+
+/// An upper bound of what underflow adds to an error: too small to matter in any scene.
+inline constexpr double determinant_underflow =
+    filters::measured_determinant_middle_double.underflow(greatest_difference);
+// One bound serves all Bernstein coefficients: that of the middle ones is greater.
+static_assert(filters::measured_determinant_end_double.rounding() <=
+              filters::measured_determinant_middle_double.rounding());
+
+/// The error bound of det by the magnitudes of r, p and q: `shift` is that of a value or of
+/// coefficients.
+template <bool separated, class Value>
+inline Value determinant_bound(const std::array<Value, 3>& magnitudes, double rounding,
+                               double underflow, const Value& distance, double shift) {
+  return widened<separated>(magnitudes[0], rounding, distance, shift) * magnitudes[1] *
+             magnitudes[2] * Value(rounding) +
+         Value(underflow);
+}
+template <bool separated, class Value>
+inline Value determinant_bound(const std::array<Value, 3>& magnitudes, const Value& distance,
+                               double shift) {
+  return determinant_bound<separated>(magnitudes,
+                                      filters::measured_determinant_middle_double.rounding(),
+                                      determinant_underflow, distance, shift);
+}
+template <bool separated, class Value>
+inline Value determinant_bound(const Ends<Value>& unit, const Value& distance) {
+  return determinant_bound<separated>(
+      std::array<Value, 3>{magnitude(unit[r]), magnitude(unit[p]), magnitude(unit[q])}, distance,
+      shift_of_coefficients);
+}
+
+/// N = p × q at both ends, and twice its middle Bernstein coefficient.
+template <class Value>
+struct Normals {
+  Vector<Value> a;
+  Vector<Value> b;
+  Vector<Value> twice_ab;
+
+  explicit Normals(const Ends<Value>& at)
+      : a(filters::cross(at[p][0], at[q][0])),
+        b(filters::cross(at[p][1], at[q][1])),
+        twice_ab(filters::normal_middle(at[p][0], at[p][1], at[q][0], at[q][1])) {}
+
+  /// The normal in the middle of the interval, up to a factor.
+  [[nodiscard]] Vector<Value> middle() const { return filters::add(filters::add(a, b), twice_ab); }
+};
+
+/// d0, 3 d1, 3 d2, d3 of the Bernstein coefficients of det.
+template <class Value>
+inline std::array<Value, 4> determinant_coefficients(const Ends<Value>& at,
+                                                     const Normals<Value>& n) {
+  return {filters::dot(at[r][0], n.a),
+          filters::determinant_middle(at[r][0], at[r][1], n.a, n.twice_ab),
+          filters::determinant_middle(at[r][1], at[r][0], n.b, n.twice_ab),
+          filters::dot(at[r][1], n.b)};
+}
+
+/// What is proved of det on an interval.
+template <class Value>
+struct DeterminantTest {
+  MaskOf<Value> one_sided;     ///< no zero
+  MaskOf<Value> crosses_once;  ///< one zero
+
+  DeterminantTest(const std::array<Value, 4>& c, const Value& bound) {
+    const Value minus_bound = Value(0.0) - bound;
+    one_sided = (min(min(c[0], c[1]), min(c[2], c[3])) > bound) |
+                (max(max(c[0], c[1]), max(c[2], c[3])) < minus_bound);
+    const MaskOf<Value> rises =
+        (c[0] < minus_bound) & (c[3] > bound) & ((c[1] < minus_bound) | (c[2] > bound));
+    const MaskOf<Value> falls =
+        (c[0] > bound) & (c[3] < minus_bound) & ((c[1] > bound) | (c[2] < minus_bound));
+    crosses_once = rises | falls;
+  }
+};
+
+/// The stages direction and determinant. \param mixed The queries that neither ends.
+template <class Lanes, bool separated, Kind kind, class Source>
+inline void direction_and_determinant_stage(const KernelInput& input, const Indices& open,
+                                            Indices& mixed, KernelOutput& output) {
+  using Value = typename Lanes::Value;
+  Marks<Lanes> unbounded, of_direction, of_determinant, of_neither;
+  const Value distance(input.separation.distance);
+  for (std::size_t first = 0; first < open.count; first += Lanes::width) {
+    const std::size_t count = taken<Lanes>(first, open.count);
+    const auto points = load<Lanes, Source>(input, open.items.data() + first, count);
+    const DirectionTest<Value, separated, kind> direction(points, distance);
+    const Ends<Value> at = vectors_of<kind>(points);
+    const DeterminantTest<Value> determinant(determinant_coefficients(at, Normals(at)),
+                                             determinant_bound<separated>(at, distance));
+    const unsigned bits = valid_bits(direction.bounded, count);
+    const unsigned apart = direction.apart.bits(), one_sided = determinant.one_sided.bits();
+    unbounded.add(first, first_lanes<Lanes>(count) & ~bits);
+    of_direction.add(first, bits & apart);
+    of_determinant.add(first, bits & ~apart & one_sided);
+    of_neither.add(first, bits & ~apart & ~one_sided);
+  }
+  append_marked(output.undecided, open, unbounded);
+  append_marked(output.separated_in_direction, open, of_direction);
+  append_marked(output.one_sided, open, of_determinant);
+  mixed.count = 0;
+  append_marked(mixed, open, of_neither);
+}
+
+}  // namespace touchstone::fast::kernel

@@ -1,0 +1,134 @@
+#pragma once
+
+/// \file
+/// Stage 2, direction (docs/theory.md, section 6.3).
+///
+/// **Theorem.** Let d be a fixed direction and n ≥ ‖d‖*, its dual norm. If d·w_i > D n for all
+/// corners w_i at t=0 and at t=1, where D is the minimum separation or 0, there is no contact: each
+/// d·w_i is linear in t, so it is greater than D n all the time.
+///
+/// d is the sum of the corners. The computed values have to exceed the error bound of their
+/// expression (filters::ProjectedGap, filters::AdvancedGap).
+
+#include <array>
+#include <cstddef>
+
+#include "fast/certified/stages/lanes.hpp"
+#include "filters/error_bounds.hpp"
+
+namespace touchstone::fast::kernel {
+
+// Upper bounds of what underflow adds to an error: too small to matter in any scene.
+inline constexpr double gap_underflow =
+    filters::measured_projected_gap_double.underflow(greatest_direction);
+inline constexpr double advanced_gap_underflow =
+    filters::measured_advanced_gap_double.underflow(greatest_direction);
+static_assert(greatest_direction <= filters::measured_projected_gap_double.greatest_x);
+static_assert(greatest_direction <= filters::measured_advanced_gap_double.greatest_x);
+
+/// A query's points as differences from one of them, at t=0 and t=1. The corners are all a − b for
+/// a of the first and b of the second list.
+template <class Value, Kind kind>
+struct Differences {
+  static constexpr std::size_t firsts = kind == Kind::vertex_face ? 1 : 2;
+  static constexpr std::size_t seconds = kind == Kind::vertex_face ? 2 : 1;
+
+  std::array<std::array<Vector<Value>, 2>, firsts> a;
+  std::array<std::array<Vector<Value>, 2>, seconds> b;  ///< and the origin, which is a b too
+
+  explicit Differences(const std::array<Vector<Value>, query_points>& x) {
+    constexpr std::size_t origin = kind == Kind::vertex_face ? 1 : 2;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Vector<Value>& from = x[4 * end + origin];
+      for (std::size_t i = 0; i < firsts; ++i) a[i][end] = minus(x[4 * end + i], from);
+      for (std::size_t i = 0; i < seconds; ++i) {
+        b[i][end] = minus(x[4 * end + origin + 1 + i], from);
+      }
+    }
+  }
+
+  /// The sum of the corners, up to a factor.
+  [[nodiscard]] Vector<Value> sum_of_corners() const {
+    Vector<Value> sum;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if constexpr (kind == Kind::vertex_face) {
+        const Value of_a = a[0][0][k] + a[0][1][k];
+        sum[k] = ((of_a + of_a) + of_a) - ((b[0][0][k] + b[0][1][k]) + (b[1][0][k] + b[1][1][k]));
+      } else {
+        sum[k] =
+            ((a[0][0][k] + a[0][1][k]) + (a[1][0][k] + a[1][1][k])) - (b[0][0][k] + b[0][1][k]);
+      }
+    }
+    return sum;
+  }
+
+  /// The greatest magnitude of a coordinate.
+  [[nodiscard]] Value magnitude() const {
+    Value result = kernel::magnitude(a[0]);
+    for (std::size_t i = 1; i < firsts; ++i) result = max(result, kernel::magnitude(a[i]));
+    for (std::size_t i = 0; i < seconds; ++i) result = max(result, kernel::magnitude(b[i]));
+    return result;
+  }
+
+  /// The least d·a − d·b, at both ends.
+  [[nodiscard]] Value gap(const Vector<Value>& d) const {
+    std::array<Value, 2> least;
+    for (std::size_t end = 0; end < 2; ++end) {
+      Value least_a = filters::dot(d, a[0][end]);
+      for (std::size_t i = 1; i < firsts; ++i) least_a = min(least_a, filters::dot(d, a[i][end]));
+      Value greatest_b(0.0);
+      for (std::size_t i = 0; i < seconds; ++i) {
+        greatest_b = max(greatest_b, filters::dot(d, b[i][end]));
+      }
+      least[end] = least_a - greatest_b;
+    }
+    return min(least[0], least[1]);
+  }
+};
+
+template <class Value, bool separated, Kind kind>
+class DirectionTest {
+ public:
+  MaskOf<Value> bounded;  ///< the query is small enough for all bounds, and finite
+  MaskOf<Value> apart;    ///< no contact, if it is bounded
+
+  DirectionTest(const std::array<Vector<Value>, query_points>& points, const Value& distance) {
+    const Differences<Value, kind> differences(points);
+    const Value magnitude = differences.magnitude();
+    const Vector<Value> d = differences.sum_of_corners();
+    bounded = (max(magnitude, distance) <= Value(greatest_distance)) & is_number(d);
+    apart = separates(d, differences.gap(d), magnitude, distance);
+  }
+
+ private:
+  /// \param gap The least d·w, at both ends.
+  static MaskOf<Value> separates(const Vector<Value>& d, const Value& gap, const Value& magnitude,
+                                 const Value& distance) {
+    if constexpr (separated) return separates_by(d, gap, magnitude, distance);
+    const Value bound =
+        greatest(d) * magnitude * Value(filters::measured_projected_gap_double.rounding()) +
+        Value(gap_underflow);
+    return gap > bound;
+  }
+
+  /// By more than the distance: d·w − D n as filters::AdvancedGap, with the sum of d's components,
+  /// rounded up, for n: it is an upper bound of each norm.
+  static MaskOf<Value> separates_by(const Vector<Value>& d, const Value& gap,
+                                    const Value& magnitude, const Value& distance) {
+    constexpr double above_rounding = 1.0 + 0x1p-50;
+    const Value n = (abs(d[0]) + abs(d[1]) + abs(d[2])) * Value(above_rounding);
+    const Value bound =
+        n * max(magnitude, distance) * Value(filters::measured_advanced_gap_double.rounding()) +
+        Value(advanced_gap_underflow);
+    return gap - n * distance > bound;
+  }
+
+  /// Every coordinate is in the sum of the corners, which is not finite if one of them is not.
+  static MaskOf<Value> is_number(const Vector<Value>& sum) {
+    const Value zero(0.0);
+    const Value difference = ((sum[0] - sum[0]) + (sum[1] - sum[1])) + (sum[2] - sum[2]);
+    return difference <= zero;
+  }
+};
+
+}  // namespace touchstone::fast::kernel

@@ -1,0 +1,229 @@
+#pragma once
+
+/// \file
+/// What the stages of the kernel share: lists of queries, marks of places in them, and loading the
+/// queries' points into lanes.
+///
+/// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has
+/// - Value and Mask: a number and a truth value in each of its `width` lanes, one query a lane;
+/// - Row and RowMask: the same for the three coordinates of one point;
+/// - load and load_backwards: the points at `width` addresses. load may read one number behind a
+///   point, load_backwards one before it.
+///
+/// Templates on Lanes or its Value are local to that file too. So is everything in the stages that
+/// is more than an expression: code for an instruction set must not be what other files link.
+/// Function templates are `inline` because GCC then copies more of them into their callers.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "fast/certified/kernel.hpp"
+#include "filters/polynomial_expressions.hpp"
+
+namespace touchstone::fast::kernel {
+
+/// Points of a query may be this far from one of them on each axis: squares and cubes of their
+/// differences are far from overflow. The kernel does not decide queries that are larger.
+inline constexpr double greatest_distance = 0x1p100;
+/// Upper bounds of the differences of any two points, and of sums of differences or of products of
+/// two: with room for rounding.
+inline constexpr double greatest_difference = 0x1p102;
+inline constexpr double greatest_direction = 0x1p210;
+
+// ---- Lists of queries ---------------------------------------------------------------------------
+
+/// Items of the block.
+template <class Item>
+using List = KernelOutput::List<Item>;
+/// Queries of the block, by their indices.
+using Indices = List<std::uint32_t>;
+
+/// Marks of places in a list. Lists are written from these marks at the end of a stage: a store
+/// whose address depends on a comparison delays the loads of all queries behind it.
+template <class Lanes>
+class Marks {
+ public:
+  static constexpr std::size_t word_size = 64;
+
+  void set_word(std::size_t first, std::uint64_t word) { words_[first / word_size] = word; }
+  /// Adds places from `first` on, no more than are left in its word.
+  void add(std::size_t first, unsigned bits) {
+    words_[first / word_size] |= std::uint64_t{bits} << (first % word_size);
+  }
+
+  template <class Function>
+  void for_each(const Function& function) const {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      for (std::uint64_t rest = words_[i]; rest != 0; rest &= rest - 1) {
+        function(word_size * i + static_cast<std::size_t>(__builtin_ctzll(rest)));
+      }
+    }
+  }
+
+ private:
+  std::array<std::uint64_t, kernel_block / word_size> words_{};
+};
+
+template <class Lanes, class Item>
+inline void append(List<Item>& list, const Item& item) {
+  list.items[list.count++] = item;
+}
+
+template <class Lanes>
+inline void append_marked(Indices& list, const Indices& from, const Marks<Lanes>& marks) {
+  marks.for_each([&](std::size_t place) { append<Lanes>(list, from.items[place]); });
+}
+
+/// How many of `count` items the lanes take from `first` on.
+template <class Lanes>
+inline std::size_t taken(std::size_t first, std::size_t count) {
+  return count - first < Lanes::width ? count - first : Lanes::width;
+}
+
+/// How many times the lanes have to be filled for a block.
+template <class Lanes>
+inline constexpr std::size_t groups_of_block = (kernel_block + Lanes::width - 1) / Lanes::width;
+
+// ---- Lanes --------------------------------------------------------------------------------------
+
+/// A number for each lane, in memory.
+template <class Lanes>
+using Numbers = std::array<double, Lanes::width>;
+
+/// The first `count` lanes.
+template <class Lanes>
+inline unsigned first_lanes(std::size_t count) {
+  return (1U << count) - 1U;
+}
+
+template <class Function>
+inline void for_each_lane(unsigned lanes, const Function& function) {
+  for (unsigned rest = lanes; rest != 0; rest &= rest - 1) {
+    function(static_cast<std::size_t>(__builtin_ctz(rest)));
+  }
+}
+
+/// Those of the first `count` lanes that are in the mask.
+template <class Mask>
+inline unsigned valid_bits(const Mask& mask, std::size_t count) {
+  return mask.bits() & ((1U << count) - 1U);
+}
+
+template <class Lanes>
+inline void append_lanes(Indices& list, const std::array<std::uint32_t, Lanes::width>& indices,
+                         unsigned lanes) {
+  for_each_lane(lanes, [&](std::size_t lane) { append<Lanes>(list, indices[lane]); });
+}
+
+template <class Lanes>
+inline void store_hits(KernelOutput& output, const std::array<std::uint32_t, Lanes::width>& indices,
+                       unsigned lanes, const std::array<typename Lanes::Value, 2>& enclosure,
+                       const std::array<typename Lanes::Value, 2>& uv) {
+  alignas(64) std::array<Numbers<Lanes>, 4> rows;
+  enclosure[0].store(rows[0].data());
+  enclosure[1].store(rows[1].data());
+  uv[0].store(rows[2].data());
+  uv[1].store(rows[3].data());
+  for_each_lane(lanes, [&](std::size_t lane) {
+    append<Lanes>(output.hits, KernelHit{indices[lane], rows[0][lane], rows[1][lane], rows[2][lane],
+                                         rows[3][lane]});
+  });
+}
+
+// ---- Numbers and vectors of lanes ---------------------------------------------------------------
+
+template <class Value>
+using MaskOf = decltype(std::declval<Value>() < std::declval<Value>());
+
+template <class Value>
+using Vector = filters::Vector3<Value>;
+
+template <class Value>
+inline Vector<Value> minus(const Vector<Value>& a, const Vector<Value>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// The greatest magnitude of a component.
+template <class Value>
+inline Value greatest(const Vector<Value>& a) {
+  return max(max(abs(a[0]), abs(a[1])), abs(a[2]));
+}
+
+/// The same of a vector that moves between two.
+template <class Value>
+inline Value magnitude(const std::array<Vector<Value>, 2>& moving) {
+  return max(greatest(moving[0]), greatest(moving[1]));
+}
+
+/// A time in [0,1] rounded to a multiple of 2^-52, so that 1 minus it is exact.
+template <class Value>
+inline Value to_exact(const Value& time) {
+  return (time + Value(1.0)) - Value(1.0);
+}
+
+// ---- Where queries come from --------------------------------------------------------------------
+
+/// The points of a query: at t=0, then at t=1.
+using Points = std::array<const double*, query_points>;
+
+/// An array of queries.
+template <class Lanes>
+struct FromArray {
+  static Points points(const KernelInput& input, std::size_t i) {
+    const double* const first = input.queries[i].coordinates.data();
+    Points result;
+    for (std::size_t k = 0; k < query_points; ++k) result[k] = first + 3 * k;
+    return result;
+  }
+  /// The memory behind a query's last point may belong to others.
+  static constexpr bool may_read_behind = false;
+  /// Memory is faster when read at several places at once.
+  static constexpr std::size_t places_at_once = 4;
+};
+
+/// Pairs of primitives of a mesh.
+template <class Lanes, Kind kind>
+struct FromPairs {
+  static Points points(const KernelInput& input, std::size_t i) {
+    const auto [first, second] = input.pairs[i];
+    std::array<std::int32_t, 4> indices;
+    if constexpr (kind == Kind::vertex_face) {
+      const Face& face = input.faces[static_cast<std::size_t>(second)];
+      indices = {first, face[0], face[1], face[2]};
+    } else {
+      const Edge& a = input.edges[static_cast<std::size_t>(first)];
+      const Edge& b = input.edges[static_cast<std::size_t>(second)];
+      indices = {a[0], a[1], b[0], b[1]};
+    }
+    Points result;
+    for (std::size_t k = 0; k < moving_points; ++k) {
+      const MovingVertex& vertex = input.vertices[static_cast<std::size_t>(indices[k])];
+      result[k] = vertex.start.data();
+      result[moving_points + k] = vertex.end.data();
+    }
+    return result;
+  }
+  static constexpr bool may_read_behind = true;
+  /// Neighbours share vertices, and these come from the cache.
+  static constexpr std::size_t places_at_once = 1;
+};
+
+/// The points of `width` queries, lane by lane. Lanes beyond `count` repeat the last.
+template <class Lanes, class Source>
+inline std::array<Vector<typename Lanes::Value>, query_points> load(const KernelInput& input,
+                                                                    const std::uint32_t* indices,
+                                                                    std::size_t count) {
+  std::array<std::array<const double*, Lanes::width>, query_points> rows;
+  for (std::size_t lane = 0; lane < Lanes::width; ++lane) {
+    const Points points = Source::points(input, indices[lane < count ? lane : count - 1]);
+    for (std::size_t k = 0; k < query_points; ++k) rows[k][lane] = points[k];
+  }
+  std::array<Vector<typename Lanes::Value>, query_points> result;
+  for (std::size_t k = 0; k + 1 < query_points; ++k) result[k] = Lanes::load(rows[k]);
+  result[7] = Source::may_read_behind ? Lanes::load(rows[7]) : Lanes::load_backwards(rows[7]);
+  return result;
+}
+
+}  // namespace touchstone::fast::kernel

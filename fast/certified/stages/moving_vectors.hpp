@@ -1,0 +1,77 @@
+#pragma once
+
+/// \file
+/// The vectors that determinant and orientations are made of, in lanes, and how their bounds cover
+/// a minimum separation.
+///
+/// F = r − u p − v q (filters/polynomial_expressions.hpp): r, p, q and, for the orientations of
+/// corners, two more. They move linearly, and so they do on each interval of times.
+///
+/// **With a minimum separation** D, "no contact" has to be proved of the polygon shifted by any x
+/// with ‖x‖ ≤ D: r becomes r − x, and so does the vector in its place in an orientation. Let |·| be
+/// the greatest magnitude of a component. A determinant of three vectors with components ±1 is at
+/// most 4, so the shift changes det by at most D ‖N‖₁ ≤ 4 D |p| |q|, and an orientation x·(d × y)
+/// by at most 4 D |d| |y|. The middle coefficients, as they are computed, are three times the
+/// Bernstein coefficients of det and twice those of an orientation, and so is their change.
+/// `widened` adds these to the bounds, 12 for all coefficients (docs/theory.md, section 6.9).
+
+#include <array>
+#include <cstddef>
+
+#include "fast/certified/stages/lanes.hpp"
+
+namespace touchstone::fast::kernel {
+
+/// The moving vectors of a query, by their places: r, p, q, and for the orientations
+/// vertex_face: a = f1 − v, e = f2 − f1; edge_edge: a = eb0 − ea1, e = eb1 − ea0.
+enum Place : std::size_t { r, p, q, a, e };
+inline constexpr std::size_t vector_count = 5;
+
+/// The points whose differences they are.
+template <Kind kind>
+consteval std::array<std::array<std::size_t, 2>, vector_count> ends_of_vectors() {
+  if constexpr (kind == Kind::vertex_face) return {{{0, 1}, {2, 1}, {3, 1}, {2, 0}, {3, 2}}};
+  return {{{0, 2}, {0, 1}, {3, 2}, {2, 1}, {3, 0}}};
+}
+
+/// The moving vectors at both ends of an interval.
+template <class Value>
+using Ends = std::array<std::array<Vector<Value>, 2>, vector_count>;
+
+/// The moving vectors of queries at t=0 and t=1, from their points.
+template <Kind kind, class Value>
+inline Ends<Value> vectors_of(const std::array<Vector<Value>, query_points>& x) {
+  constexpr auto ends = ends_of_vectors<kind>();
+  Ends<Value> at;
+  for (std::size_t i = 0; i < vector_count; ++i) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      at[i][end] = minus(x[4 * end + ends[i][0]], x[4 * end + ends[i][1]]);
+    }
+  }
+  return at;
+}
+
+/// Vectors that move from their first value at 0 to their second at 1, at the ends of [begin, end].
+template <class Value>
+inline Ends<Value> between(const Ends<Value>& unit, const Value& begin, const Value& end) {
+  const Value one(1.0), before_begin = one - begin, before_end = one - end;
+  Ends<Value> at;
+  for (std::size_t i = 0; i < vector_count; ++i) {
+    at[i] = {filters::at_time(unit[i][0], unit[i][1], before_begin, begin),
+             filters::at_time(unit[i][0], unit[i][1], before_end, end)};
+  }
+  return at;
+}
+
+/// The magnitude of r, or of the vector in its place, that makes a polynomial's bound cover the
+/// shift by the distance too. `rounding` is the factor of the magnitudes in the bound, `shift` that
+/// of the distance.
+template <bool separated, class Value>
+inline Value widened(const Value& magnitude, double rounding, const Value& distance, double shift) {
+  if constexpr (separated) return magnitude + distance * Value(shift / rounding);
+  return magnitude;
+}
+inline constexpr double shift_of_value = 4.001;
+inline constexpr double shift_of_coefficients = 12.001;
+
+}  // namespace touchstone::fast::kernel

@@ -1,0 +1,224 @@
+#pragma once
+
+/// \file
+/// Stage 7, refinement: the enclosure of the time of impact (docs/theory.md, section 6.8).
+///
+/// The time of impact is the only zero of det in an interval (crossing.hpp). Newton's method
+/// approximates it. An enclosure of the requested width around it, clipped to the interval, is
+/// right if det, in double-double, has at its ends the signs that it has at the ends of the
+/// interval, beyond the error bound. If not, the line through these two values tells where a second
+/// try is better.
+///
+/// **With a minimum separation** D, let b be the most that a shift by D changes det by
+/// (moving_vectors.hpp). det, det + b and det − b cross zero once each on an interval on which the
+/// coefficients of det, with widened bounds, change sign once. So there is no contact up to a time
+/// at which det is still more than b away from 0, and the zero of det is a contact, at distance 0.
+/// If the enclosure holds with bounds widened by b, it has the time of impact too. If not, the time
+/// of impact is earlier by more than the enclosure is wide: det only proves a time up to which
+/// there is no contact, and distance_enclosure.hpp continues from there.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "fast/certified/stages/crossing.hpp"
+#include "fast/certified/stages/determinant.hpp"
+#include "fast/certified/stages/distance_enclosure.hpp"
+#include "fast/certified/stages/lanes.hpp"
+#include "fast/certified/stages/moving_vectors.hpp"
+#include "fast/certified/stages/orientation.hpp"
+#include "filters/double_double.hpp"
+#include "filters/error_bounds.hpp"
+
+namespace touchstone::fast::kernel {
+
+/// An upper bound of what underflow adds to an error: too small to matter in any scene.
+inline constexpr double double_double_underflow =
+    filters::determinant_end_double_double.underflow(greatest_difference);
+static_assert(greatest_difference <= filters::determinant_end_double_double.greatest_x);
+
+/// det in double-double, at any time.
+template <class Value, bool separated, Kind kind>
+class PreciseDeterminant {
+ public:
+  PreciseDeterminant(const std::array<Vector<Value>, query_points>& x, const Value& distance)
+      : distance_(distance) {
+    constexpr auto ends = ends_of_vectors<kind>();
+    for (std::size_t end = 0; end < 2; ++end) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Precise difference =
+              filters::exact_difference(x[4 * end + ends[i][0]][k], x[4 * end + ends[i][1]][k]);
+          coordinates_[9 * end + 3 * i + k] = difference;
+          magnitudes_[i] = max(magnitudes_[i], abs(difference.high));
+        }
+      }
+    }
+    bound_ =
+        determinant_bound<separated>(magnitudes_, filters::determinant_end_double_double.rounding(),
+                                     double_double_underflow, distance, shift_of_value);
+  }
+
+  [[nodiscard]] Value at(const Value& time) const {
+    const Precise end{time, Value(0.0)};
+    const Precise start = filters::exact_difference(Value(1.0), time);
+    return filters::DeterminantEnd::evaluate<Precise>(coordinates_,
+                                                      {start, end, start, end, start, end})
+        .high;
+  }
+
+  [[nodiscard]] const Value& bound() const { return bound_; }
+  /// The bound of det if computed in double, from its coefficients on any interval.
+  [[nodiscard]] Value rough_bound() const {
+    return determinant_bound<separated>(magnitudes_, distance_, shift_of_value);
+  }
+
+ private:
+  using Precise = filters::DoubleDouble<Value>;
+
+  std::array<Precise, filters::DeterminantEnd::coordinates> coordinates_;
+  std::array<Value, 3> magnitudes_{Value(0.0), Value(0.0), Value(0.0)};
+  Value distance_;
+  Value bound_;
+};
+
+/// u and v of the contact at a time, from the orientations, which are proportional to the
+/// barycentric coordinates.
+template <Kind kind, class Value>
+inline std::array<Value, 2> contact(const std::array<Vector<Value>, query_points>& x,
+                                    const Value& time) {
+  constexpr auto ends = ends_of_vectors<kind>();
+  constexpr auto all_orientations = orientations<kind>();
+  std::array<Vector<Value>, vector_count> at;
+  for (std::size_t i = 0; i < vector_count; ++i) {
+    at[i] = filters::at_time(minus(x[ends[i][0]], x[ends[i][1]]),
+                             minus(x[4 + ends[i][0]], x[4 + ends[i][1]]), Value(1.0) - time, time);
+  }
+  const Vector<Value> d = filters::cross(at[p], at[q]);
+  std::array<Value, all_orientations.size()> o;
+  for (std::size_t i = 0; i < o.size(); ++i) {
+    const auto [first, second, is_negative] = all_orientations[i];
+    const Value value = filters::dot(at[first], filters::cross(d, at[second]));
+    o[i] = max(is_negative ? Value(0.0) - value : value, Value(0.0));
+  }
+  const Value one(1.0);
+  if constexpr (kind == Kind::vertex_face) {
+    const Value sum = o[0] + o[1] + o[2];
+    const Value u = min(o[1] / sum, one);
+    return {u, min(o[0] / sum, one - u)};
+  } else {
+    return {min(o[1] / (o[1] + o[2]), one), min(o[0] / (o[0] + o[3]), one)};
+  }
+}
+
+template <class Lanes, bool separated, Kind kind, class Source>
+class Refinement {
+ public:
+  /// \param unproved The queries without an enclosure.
+  static void run(const KernelInput& input, const Crossings& crossings, Indices& unproved,
+                  KernelOutput& output) {
+    Approaches approaches;
+    approaches.count = 0;
+    for (std::size_t first = 0; first < crossings.count; first += Lanes::width) {
+      refine_lanes(input, crossings.items.data() + first, taken<Lanes>(first, crossings.count),
+                   approaches, unproved, output);
+    }
+    if constexpr (separated) {
+      with_norm(input.separation.norm, [&]<Norm norm>() {
+        DistanceEnclosure<Lanes, kind, norm, Source>::run(input, approaches, unproved, output);
+      });
+    }
+  }
+
+ private:
+  using Value = typename Lanes::Value;
+  using Mask = typename Lanes::Mask;
+  using Determinant = PreciseDeterminant<Value, separated, kind>;
+
+  static void refine_lanes(const KernelInput& input, const Crossing* crossings, std::size_t count,
+                           Approaches& approaches, Indices& unproved, KernelOutput& output) {
+    const CrossingLanes<Lanes> lanes(crossings, count);
+    const auto points = load<Lanes, Source>(input, lanes.indices.data(), Lanes::width);
+    const Determinant determinant(points, Value(input.separation.distance));
+    const Value half_width(0.4 * input.toi_tolerance);
+    const Value zero = lanes.cubic.zero(0x1p-26);
+    const Value newton = lanes.begin + lanes.length * zero;
+    if constexpr (separated) {
+      const Mask can_do =
+          lanes.cubic.slope(zero) * newton * half_width > determinant.bound() * lanes.length;
+      if (valid_bits(can_do, count) == 0) {
+        keep_approaches(lanes, determinant, zero, first_lanes<Lanes>(count), approaches);
+        return;
+      }
+    }
+    Enclosure found(determinant, lanes, newton, half_width);
+    if (valid_bits(found.proved, count) != first_lanes<Lanes>(count)) {
+      found = found.or_else(Enclosure(determinant, lanes, found.corrected(), half_width));
+    }
+    const unsigned proved = valid_bits(found.proved, count);
+    store_hits<Lanes>(output, lanes.indices, proved, {found.lower, found.upper},
+                      contact<kind>(points, found.toi));
+    if constexpr (separated) {
+      keep_approaches(lanes, determinant, zero, first_lanes<Lanes>(count) & ~proved, approaches);
+    } else {
+      append_lanes<Lanes>(unproved, lanes.indices, first_lanes<Lanes>(count) & ~proved);
+    }
+  }
+
+  /// Up to where det proves that there is no contact, as its value there is less than −b: by more
+  /// than the bound of its coefficients and the error of their sum. The weights of the sum add up
+  /// to 1, of 12 u of which rounding takes less than 2^-48; and the time is wrong by up to 3 ·
+  /// 2^-53, over which det moves by 18 · 2^-53 coefficients for an interval of length 1.
+  static void keep_approaches(const CrossingLanes<Lanes>& lanes, const Determinant& determinant,
+                              const Value& zero, unsigned bits, Approaches& approaches) {
+    const Value bound = determinant.rough_bound() +
+                        lanes.cubic.magnitude() * (Value(0x1p-48) + Value(0x1p-48) / lanes.length);
+    const Value s = zero - Value(2.0) * bound / lanes.cubic.slope(zero);
+    const Mask proved =
+        (s > Value(0.0)) & (s <= Value(1.0)) & (lanes.cubic.at(s) < Value(0.0) - bound);
+    const Value begin = select(proved, to_exact(lanes.begin + lanes.length * s), lanes.begin);
+    alignas(sizeof(Numbers<Lanes>)) Numbers<Lanes> begins;
+    begin.store(begins.data());
+    for_each_lane(bits, [&](std::size_t lane) {
+      append<Lanes>(approaches, Approach{lanes.indices[lane], begins[lane], begins[lane]});
+    });
+  }
+
+  /// An interval around an approximation of the zero, with det at its ends.
+  struct Enclosure {
+    Value toi;
+    Value lower;
+    Value upper;
+    Value at_lower;  ///< det there, made rising
+    Value at_upper;
+    Mask proved;  ///< it has the zero
+
+    Enclosure(const Determinant& determinant, const CrossingLanes<Lanes>& lanes,
+              const Value& around, const Value& half_width)
+        : toi(around),
+          lower(max(around - around * half_width, lanes.begin)),
+          upper(min(around + around * half_width, lanes.begin + lanes.length)),
+          at_lower(lanes.sign * determinant.at(lower)),
+          at_upper(lanes.sign * determinant.at(upper)),
+          proved((at_lower < Value(0.0) - determinant.bound()) & (at_upper > determinant.bound())) {
+    }
+
+    /// Where the line through det's values at the ends is zero.
+    [[nodiscard]] Value corrected() const {
+      const Value rise = at_upper - at_lower;
+      return select(rise > Value(0.0), lower - at_lower * (upper - lower) / rise, toi);
+    }
+
+    /// This in the lanes where it is proved, the other elsewhere.
+    [[nodiscard]] Enclosure or_else(const Enclosure& other) const {
+      Enclosure result = other;
+      result.toi = select(proved, toi, other.toi);
+      result.lower = select(proved, lower, other.lower);
+      result.upper = select(proved, upper, other.upper);
+      result.proved = proved | other.proved;
+      return result;
+    }
+  };
+};
+
+}  // namespace touchstone::fast::kernel
