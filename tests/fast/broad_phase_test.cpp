@@ -491,7 +491,7 @@ TEST(BroadPhase, CountsCandidatesThatAreTooMany) {
   EXPECT_TRUE(edge_edge_candidates(vertices, {}, {.max_candidates = 0}).empty());
 }
 
-#ifndef __SANITIZE_ADDRESS__
+#ifndef TOUCHSTONE_SANITIZED
 /// Bytes of address space that this process has.
 std::uint64_t address_space() {
   std::uint64_t pages = 0;
