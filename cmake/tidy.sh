@@ -26,6 +26,6 @@ key=$({
   eval "$command -E -C -P"
 } | sha256sum | cut -d ' ' -f 1)
 [ -e "$cache/$key" ] && exit 0
-clang-tidy --quiet -p "$build" "${checks[@]}" --extra-arg=-Wno-unknown-warning-option "$file" \
+clang-tidy --quiet -p "$build" "${checks[@]}" --extra-arg=-Wno-unknown-warning-option --extra-arg=-Qunused-arguments "$file" \
   2> >(grep -v 'warnings generated' >&2)
 touch "$cache/$key"

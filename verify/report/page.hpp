@@ -18,7 +18,7 @@
 namespace touchstone::verify {
 
 /// The page as HTML.
-[[nodiscard]] std::string report_page(const Measurements& measurements);
+[[nodiscard]] std::string report_page(const Measurements& measured);
 
 /// The map of stability as HTML: who keeps their promise, the worst of each hardness as a table, and as
 /// figures the worst outcome, the errors of the time of impact, time and checks of every cell.

@@ -1,5 +1,4 @@
 #include "verify/report/tables.hpp"
-#include "fast/certified.hpp"
 
 #include <fmt/format.h>
 
