@@ -8,7 +8,7 @@
 namespace touchstone::baselines {
 namespace {
 
-using Vector = Eigen::Vector3d;
+using Vector3 = Eigen::Vector3d;
 
 constexpr double parallel_squared_sine = 2.5e-16;
 
@@ -22,10 +22,10 @@ struct Nearest {
 };
 
 /// By the Voronoi regions of the triangle's features: first the vertices', then the edges'.
-Nearest nearest_in_triangle(const Vector& p, const Triangle& triangle) {
+Nearest nearest_in_triangle(const Vector3& p, const Triangle& triangle) {
   const auto& [a, b, c] = triangle;
-  const Vector ab = b - a;
-  const Vector ac = c - a;
+  const Vector3 ab = b - a;
+  const Vector3 ac = c - a;
   const double d1 = ab.dot(p - a);
   const double d2 = ac.dot(p - a);
   if (d1 <= 0.0 && d2 <= 0.0) return {Region::a, 0.0, 0.0};
@@ -51,21 +51,21 @@ Nearest nearest_in_triangle(const Vector& p, const Triangle& triangle) {
 double clamp01(double x) { return std::clamp(x, 0.0, 1.0); }
 
 /// The squared distance of p and the line through a segment; of a segment of no length, its point.
-double line_squared_distance(const Vector& p, const Segment& segment) {
-  const Vector along = segment.b - segment.a;
+double line_squared_distance(const Vector3& p, const Segment& segment) {
+  const Vector3 along = segment.b - segment.a;
   const double length = along.squaredNorm();
   if (length == 0.0) return (p - segment.a).squaredNorm();
   return along.cross(p - segment.a).squaredNorm() / length;
 }
 
 /// The squared distance of p and a plane through a with this normal.
-double plane_squared_distance(const Vector& p, const Vector& a, const Vector& normal) {
+double plane_squared_distance(const Vector3& p, const Vector3& a, const Vector3& normal) {
   const double height = normal.dot(p - a);
   return height * height / normal.squaredNorm();
 }
 
-double segment_squared_distance(const Vector& p, const Segment& segment) {
-  const Vector along = segment.b - segment.a;
+double segment_squared_distance(const Vector3& p, const Segment& segment) {
+  const Vector3 along = segment.b - segment.a;
   if (along.dot(p - segment.a) <= 0.0) return (p - segment.a).squaredNorm();
   if (along.dot(p - segment.b) >= 0.0) return (p - segment.b).squaredNorm();
   return line_squared_distance(p, segment);
@@ -80,17 +80,17 @@ double end_squared_distance(const Segment& first, const Segment& second) {
 
 }  // namespace
 
-double closest_point_squared_distance(const Vector& p, const Triangle& triangle) {
+double closest_point_squared_distance(const Vector3& p, const Triangle& triangle) {
   const auto& [a, b, c] = triangle;
   const Nearest nearest = nearest_in_triangle(p, triangle);
-  const Vector point = a + nearest.b * (b - a) + nearest.c * (c - a);
+  const Vector3 point = a + nearest.b * (b - a) + nearest.c * (c - a);
   return (p - point).squaredNorm();
 }
 
 double closest_points_squared_distance(const Segment& first, const Segment& second) {
-  const Vector u = first.b - first.a;
-  const Vector v = second.b - second.a;
-  const Vector r = first.a - second.a;
+  const Vector3 u = first.b - first.a;
+  const Vector3 v = second.b - second.a;
+  const Vector3 r = first.a - second.a;
   const double uu = u.squaredNorm();
   const double vv = v.squaredNorm();
   const double vr = v.dot(r);
@@ -116,7 +116,7 @@ double closest_points_squared_distance(const Segment& first, const Segment& seco
   return (r + s * u - t * v).squaredNorm();
 }
 
-double feature_squared_distance(const Vector& p, const Triangle& triangle) {
+double feature_squared_distance(const Vector3& p, const Triangle& triangle) {
   const auto& [a, b, c] = triangle;
   switch (nearest_in_triangle(p, triangle).region) {
     case Region::a:
@@ -137,10 +137,10 @@ double feature_squared_distance(const Vector& p, const Triangle& triangle) {
 }
 
 double feature_squared_distance(const Segment& first, const Segment& second) {
-  const Vector u = first.b - first.a;
-  const Vector v = second.b - second.a;
-  const Vector r = first.a - second.a;
-  const Vector normal = u.cross(v);
+  const Vector3 u = first.b - first.a;
+  const Vector3 v = second.b - second.a;
+  const Vector3 r = first.a - second.a;
+  const Vector3 normal = u.cross(v);
   const bool is_parallel =
       normal.squaredNorm() < parallel_squared_sine * u.squaredNorm() * v.squaredNorm();
   if (!is_parallel) {
