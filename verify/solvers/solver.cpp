@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "verify/run/thread_clock.hpp"
@@ -116,12 +117,14 @@ class InChildren final : public Solver {
   }
 
  private:
-  /// A query by its bits.
-  using QueryBits =
-      std::pair<Kind, std::array<std::uint64_t, std::tuple_size_v<decltype(Query::coordinates)>>>;
+  /// A query by its bits, with what it is asked for.
+  using Coordinates = std::array<std::uint64_t, std::tuple_size_v<decltype(Query::coordinates)>>;
+  using QueryBits = std::tuple<Kind, Norm, std::uint64_t, Coordinates>;
 
-  static QueryBits bits_of(Kind kind, const Query& query) {
-    return {kind, std::bit_cast<QueryBits::second_type>(query.coordinates)};
+  static QueryBits bits_of(const SolveRequest& request, std::size_t i) {
+    return {request.kind, request.separation.norm,
+            std::bit_cast<std::uint64_t>(request.separation.distance),
+            std::bit_cast<Coordinates>(request.queries[i].coordinates)};
   }
 
   /// Asks for the answers from number `first` to before `last`.
@@ -139,7 +142,7 @@ class InChildren final : public Solver {
     for (QueryFailure& failure : run.failures) {
       failure.position += first;
       if (failure.failure.kind != FailureKind::exception) {
-        remember(request.kind, request.queries[failure.position], failure.failure);
+        remember(bits_of(request, failure.position), failure.failure);
       }
       reply.failures.push_back(std::move(failure));
     }
@@ -147,16 +150,16 @@ class InChildren final : public Solver {
 
   // ---- Queries that ended a process or took too long
 
-  void remember(Kind kind, const Query& query, const Failure& failure) const {
+  void remember(const QueryBits& query, const Failure& failure) const {
     const std::scoped_lock lock(mutex_);
-    lost_.emplace(bits_of(kind, query), failure);
+    lost_.emplace(query, failure);
   }
 
   [[nodiscard]] std::vector<QueryFailure> lost_among(const SolveRequest& request) const {
     const std::scoped_lock lock(mutex_);
     std::vector<QueryFailure> found;
     for (std::size_t i = 0; i < request.queries.size() && !lost_.empty(); ++i) {
-      const auto lost = lost_.find(bits_of(request.kind, request.queries[i]));
+      const auto lost = lost_.find(bits_of(request, i));
       if (lost != lost_.end()) found.push_back({.position = i, .failure = lost->second});
     }
     return found;

@@ -311,6 +311,12 @@ TEST(Solver, AsksNoQueryAgainThatEndedItsProcess) {
     if (round == 0) ends = std::filesystem::file_size(log);
   }
   EXPECT_EQ(std::filesystem::file_size(log), ends);
+  // About another distance it is another query.
+  const SolveReply other = solver->solve(
+      {.kind = vf, .queries = queries, .separation = {.distance = 0.25, .norm = Norm::l2}},
+      answers);
+  EXPECT_EQ(other.failures.size(), 2U);
+  EXPECT_GT(std::filesystem::file_size(log), ends);
 }
 
 /// The whole benchmark survives it.
