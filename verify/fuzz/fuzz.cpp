@@ -20,6 +20,7 @@
 #include "verify/fuzz/symmetry.hpp"
 #include "verify/fuzz/triage.hpp"
 #include "verify/judge/ground_truth.hpp"
+#include "verify/run/deadline.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify {
@@ -206,9 +207,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool is_stopped() const {
-    return options_.stop != nullptr && options_.stop->load();
-  }
+  [[nodiscard]] bool is_stopped() const { return verify::is_stopped(options_.stop); }
 
   /// Wall-clock time of the run so far.
   [[nodiscard]] double seconds() const { return options_.clock() - start_; }

@@ -9,6 +9,7 @@
 #include "exact/certificate/certificate_text.hpp"
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/shrink.hpp"
+#include "verify/run/deadline.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -135,9 +136,7 @@ void simplify(const fast::Method& method, const FuzzOptions& options, const Dead
   const bool is_hang = finding.what == FindingKind::hang;
   if (is_hang && deadline.seconds_left() <= options.query_limit_seconds) return;
   Recheck recheck(method, finding, options);
-  const auto must_end = [&] {
-    return deadline.is_over() || (options.stop != nullptr && options.stop->load());
-  };
+  const auto must_end = [&] { return deadline.is_over() || is_stopped(options.stop); };
   const auto fails = [&](const Query& query) {
     std::optional<FailingCase> evidence = recheck.ask(query, deadline);
     if (evidence) finding.simplest = std::move(*evidence);

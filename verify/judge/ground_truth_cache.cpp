@@ -9,6 +9,7 @@
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/run/cores.hpp"
+#include "verify/run/deadline.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -41,7 +42,7 @@ void Truths::decide(const Separation& separation, std::span<const std::size_t> p
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         // The hardest take a quarter of a second each.
-        if (stop != nullptr && *stop) return;
+        if (is_stopped(stop)) return;
         const std::size_t position = positions[first + i];
         const Query& query = group_.queries().at(position);
         found[i] = truth_of(position, exact::decide(group_.kind(), query, separation));

@@ -14,6 +14,7 @@
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measure.hpp"
 #include "verify/report/stability_report.hpp"
+#include "verify/run/deadline.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/stability/stability.hpp"
@@ -151,7 +152,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return options_.stop != nullptr && *options_.stop; }
+  [[nodiscard]] bool stopped() const { return is_stopped(options_.stop); }
 
   void tell(double fraction) const {
     if (options_.on_progress) options_.on_progress(fraction);

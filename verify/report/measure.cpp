@@ -12,6 +12,7 @@
 
 #include "verify/judge/judge.hpp"
 #include "verify/report/judgement_report.hpp"
+#include "verify/run/deadline.hpp"
 #include "verify/run/statistics.hpp"
 #include "verify/run/timing.hpp"
 
@@ -97,7 +98,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return options_.stop != nullptr && *options_.stop; }
+  [[nodiscard]] bool stopped() const { return is_stopped(options_.stop); }
 
   void tell(double fraction) const {
     if (options_.on_progress) options_.on_progress(fraction);

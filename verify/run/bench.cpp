@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "verify/judge/ground_truth_cache.hpp"
+#include "verify/run/deadline.hpp"
 #include "verify/run/memory_pass.hpp"
 #include "verify/run/statistics.hpp"
 
@@ -65,7 +66,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return options_.stop != nullptr && options_.stop->load(); }
+  [[nodiscard]] bool stopped() const { return is_stopped(options_.stop); }
 
   void repeat(std::size_t repetition) {
     for (const std::size_t item : order_of_repetition(timed_.size() + 1, repetition)) {

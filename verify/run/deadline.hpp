@@ -1,15 +1,21 @@
 #pragma once
 
 /// \file
-/// Until when work may go on, by a clock that a test can replace.
+/// Until when work may go on: by a clock that a test can replace, or until somebody stops it.
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <limits>
 #include <utility>
 
 namespace touchstone::verify {
+
+/// Is the work to stop? Null: nobody can stop it.
+[[nodiscard]] inline bool is_stopped(const std::atomic<bool>* stop) {
+  return stop != nullptr && stop->load();
+}
 
 /// Seconds since some moment; never runs backwards.
 using SecondsClock = std::function<double()>;

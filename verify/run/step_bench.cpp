@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "verify/run/cores.hpp"
+#include "verify/run/deadline.hpp"
 #include "verify/run/statistics.hpp"
 #include "verify/run/thread_clock.hpp"
 
@@ -100,7 +101,7 @@ class StepRun {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return options_.stop != nullptr && options_.stop->load(); }
+  [[nodiscard]] bool stopped() const { return is_stopped(options_.stop); }
 
   void repeat(Series& series) {
     fast::CertifiedOptions certified = options_.certified;

@@ -11,6 +11,7 @@
 
 #include "verify/io/terminal.hpp"
 #include "verify/run/cores.hpp"
+#include "verify/run/deadline.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -57,7 +58,7 @@ class Stream {
 
  private:
   void read_query(Block& block) {
-    if (options_.stop != nullptr && options_.stop->load()) {
+    if (is_stopped(options_.stop)) {
       ended_ = result_.interrupted = true;
       return;
     }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <limits>
 
+#include "verify/run/deadline.hpp"
 #include "verify/run/statistics.hpp"
 
 namespace touchstone::verify {
@@ -26,8 +27,6 @@ constexpr int clock_readings = 10'000;
 double nanoseconds_since(WallClock::time_point start) {
   return std::chrono::duration<double, std::nano>(WallClock::now() - start).count();
 }
-
-bool is_set(const std::atomic<bool>* stop) { return stop != nullptr && stop->load(); }
 
 }  // namespace
 
@@ -59,10 +58,10 @@ void TimedSolver::choose_sample(const SampleLimits& limits) {
   for (;;) {
     take(count);
     double growth = possible_growth(limits);
-    if (count == most || is_set(limits.stop)) return;
+    if (count == most || is_stopped(limits.stop)) return;
     // The first time a sample is solved its memory is touched for the first time too.
     if (growth < 2.0) growth = possible_growth(limits);
-    if (growth < 2.0 || is_set(limits.stop)) return;
+    if (growth < 2.0 || is_stopped(limits.stop)) return;
     count = std::min(count * std::bit_floor(static_cast<std::size_t>(growth)), most);
   }
 }
@@ -105,7 +104,7 @@ std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, 
   const WallClock::time_point start = WallClock::now();
   for (int sweep = 0; sweep < sweeps && nanoseconds_since(start) <= 1e9 * seconds; ++sweep) {
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      if (is_set(stop)) return std::nullopt;
+      if (is_stopped(stop)) return std::nullopt;
       const SolveRequest request{.kind = group_->kind(),
                                  .queries = queries_.subspan(chosen[i], 1),
                                  .separation = separation_};

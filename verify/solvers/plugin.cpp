@@ -17,6 +17,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/plugin.h"
+#include "verify/run/deadline.hpp"
 
 namespace touchstone::verify {
 namespace {
@@ -208,7 +209,7 @@ class Loading {
       if (event == Event::message) {
         if (auto name = read(message)) return std::move(*name);
       }
-      if (options_.stop != nullptr && *options_.stop) throw Interrupted();
+      if (is_stopped(options_.stop)) throw Interrupted();
       const ChildProcess::Seconds passed = Clock::now() - start;
       if (passed.count() > options_.load_seconds) fail({.kind = FailureKind::hang});
     }

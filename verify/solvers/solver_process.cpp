@@ -18,6 +18,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "verify/run/deadline.hpp"
+
 namespace touchstone::verify {
 namespace {
 
@@ -246,7 +248,7 @@ class SolverProcess::Impl {
   };
 
   [[nodiscard]] bool is_stopped() const {
-    return (options_.stop != nullptr && options_.stop->load()) || deadline_.is_over();
+    return verify::is_stopped(options_.stop) || deadline_.is_over();
   }
 
   [[nodiscard]] bool has_failed_enough() const {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "verify/run/deadline.hpp"
+
 namespace touchstone::verify {
 namespace {
 
@@ -55,7 +57,7 @@ StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
                          .total = {},
                          .cells = cells_of(sorts)};
   result.total.name = "total";
-  const auto stopped = [&] { return options.stop != nullptr && *options.stop; };
+  const auto stopped = [&] { return is_stopped(options.stop); };
   std::size_t done = 0;
   for (; done < result.cells.size() && !stopped(); ++done) {
     const auto on_progress = [&](double fraction) {

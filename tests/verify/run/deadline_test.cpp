@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 namespace touchstone::verify::deadline_test {
@@ -40,6 +41,14 @@ TEST(Deadline, IsMovedFromNowOn) {
   now = 20.0;
   EXPECT_TRUE(deadline.at_most(4.0).is_over());
   EXPECT_EQ(deadline.at_least(1.0).seconds_left(), 1.0);
+}
+
+TEST(Stop, IsObeyedWhereThereIsOne) {
+  EXPECT_FALSE(is_stopped(nullptr));
+  std::atomic<bool> stop = false;
+  EXPECT_FALSE(is_stopped(&stop));
+  stop = true;
+  EXPECT_TRUE(is_stopped(&stop));
 }
 
 TEST(SteadySeconds, NeverRunBackwards) {
