@@ -5,10 +5,23 @@
 #   - a header's time says nothing in a fresh clone, its text is compared;
 #   - without the mode "depend" a precompiled header of other definitions would be taken for this one;
 #   - a precompiled header stands for the text that it was made of (in a file beside it, ending in .sum): its own bytes
-#     differ from one compilation to the next.
+#     differ from one compilation to the next;
+#   - a unit of several sources names them by absolute paths: a copy that names them relative to SOURCE_FOLDER, which is
+#     among the include folders, is compiled instead.
 export CCACHE_BASEDIR="$1" CCACHE_NOHASHDIR=true CCACHE_DEPEND=true CCACHE_PCH_EXTSUM=true CCACHE_MAXSIZE=10G
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 shift
+
+for argument; do
+  shift
+  case $argument in
+    */Unity/unity_*.cxx)
+      sed "s|#include \"$CCACHE_BASEDIR/|#include \"|" "$argument" >"${argument%.cxx}.relative.cxx"
+      argument=${argument%.cxx}.relative.cxx
+      ;;
+  esac
+  set -- "$@" "$argument"
+done
 
 # hash_of_text COMPILER ARGUMENT…: of what the command would compile, whatever it writes.
 hash_of_text() {
