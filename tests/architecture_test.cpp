@@ -1,6 +1,6 @@
 /// \file
 /// The rules of the project that a compiler does not check: which module may include which, that every
-/// header has a test, and how a header begins. Each rule is a function of paths and texts, so that
+/// header has a test, how a header begins, and that a folder of verify is a namespace. Each rule is a function of paths and texts, so that
 /// the same function that reads the source tree is shown to find planted faults.
 
 #include <gtest/gtest.h>
@@ -305,6 +305,30 @@ Violations foreign_extensions(const Tree& tree) {
   return result;
 }
 
+/// The namespace of a source of verify: that of its folder; empty for other files, and for the program itself.
+std::string namespace_of(std::string_view path) {
+  if (!path.starts_with("verify/") || path == "verify/cli/main.cpp") return "";
+  if (!is_header(path) && !path.ends_with(".cpp")) return "";
+  const std::string_view inside = path.substr(std::string_view("verify/").size());
+  const std::size_t slash = inside.find('/');
+  if (slash == std::string_view::npos) return "";
+  const std::string folder(inside.substr(0, slash));
+  return folder == "baselines" ? "touchstone::baselines" : "touchstone::verify::" + folder;
+}
+
+/// The sources of verify that are not in the namespace of their folder, or in one inside it.
+Violations foreign_namespaces(const Tree& tree) {
+  Violations result;
+  for (const auto& [path, text] : tree) {
+    const std::string expected = namespace_of(path);
+    if (expected.empty()) continue;
+    const bool is_there = text.find("\nnamespace " + expected + " {\n") != std::string::npos ||
+                          text.find("\nnamespace " + expected + "::") != std::string::npos;
+    if (!is_there) result.push_back(path);
+  }
+  return result;
+}
+
 // ---- The source tree ----------------------------------------------------------------------------
 
 std::string read(const std::filesystem::path& path) {
@@ -366,6 +390,10 @@ TEST(SourceTree, ExceptionsAreNeeded) {
 
 TEST(SourceTree, EveryHeaderBeginsWithPragmaOnceAndItsIdea) {
   EXPECT_EQ(malformed_headers(source_tree()), Violations{});
+}
+
+TEST(SourceTree, EveryFolderOfVerifyIsANamespace) {
+  EXPECT_EQ(foreign_namespaces(source_tree()), Violations{});
 }
 
 TEST(SourceTree, HasNoSourceOfAnotherExtension) {
@@ -466,7 +494,7 @@ TEST(PlantedFault, PermittedIncludesAreNone) {
       {"filters/derivation/model.cpp",
        "#include \"filters/derivation/model.hpp\"\n#include <gmpxx.h>\n#include <mpfr.h>\n"},
       {"exact/checker/proof.cpp", "#include \"exact/checker/proof.hpp\"\n#include <gmpxx.h>\n"},
-      {"verify/run/prove.cpp", "#include \"exact/checker/checker.hpp\"\n"},
+      {"verify/jobs/prove.cpp", "#include \"exact/checker/checker.hpp\"\n"},
       {"verify/cli/derive.cpp", "#include \"filters/derivation/model.hpp\"\n"},
       {"fast/solver.cpp", "#include \"exact/query.hpp\"\n#include <hwy/highway.h>\n"},
       {"fast/solver.cpp", "#include \"filters/bound.hpp\"\n#include <oneapi/tbb/info.h>\n"},
@@ -511,6 +539,18 @@ TEST(PlantedFault, AMalformedHeaderIsFound) {
             (Violations{"fast/late.hpp: no #pragma once", "fast/mute.hpp: no \\file",
                         "tests/support/bare.hpp: no #pragma once",
                         "tests/support/bare.hpp: no \\file", "verify/plugin.h: no #pragma once"}));
+}
+
+TEST(PlantedFault, ASourceInAnotherNamespaceIsFound) {
+  const Tree tree{{"verify/io/a.cpp", "\nnamespace touchstone::verify::io {\n"},
+                  {"verify/io/b.hpp", "\nnamespace touchstone::verify {\n"},
+                  {"verify/data/c.cpp", "\nnamespace touchstone::verify::io {\n"},
+                  {"verify/baselines/d.cpp", "\nnamespace touchstone::baselines {\n"},
+                  {"verify/report/page/page.js", ""},
+                  {"verify/cli/main.cpp", ""},
+                  {"verify/plugin.h", ""},
+                  {"fast/e.cpp", ""}};
+  EXPECT_EQ(foreign_namespaces(tree), (Violations{"verify/data/c.cpp", "verify/io/b.hpp"}));
 }
 
 TEST(PlantedFault, ASourceOfAnotherExtensionIsFound) {

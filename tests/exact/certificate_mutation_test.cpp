@@ -385,10 +385,10 @@ TEST_F(MutationTest, WhatIsAcceptedIsTrue) {
   const unsigned stride = soak ? 2 : 12;
   tests::Random random(23);
   for (std::uint64_t index = 0; judged() < wanted; ++index) {
-    for (const verify::Family& family : verify::families()) {
+    for (const verify::generate::Family& family : verify::generate::families()) {
       const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
-      if (!verify::supports(family, kind)) continue;
-      judge_all({kind, verify::make_query(family, kind, 3, index).query}, {}, stride);
+      if (!verify::generate::supports(family, kind)) continue;
+      judge_all({kind, verify::generate::make_query(family, kind, 3, index).query}, {}, stride);
     }
     for (const tests::Family family : tests::all_families) {
       const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;

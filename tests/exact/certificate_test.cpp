@@ -394,12 +394,12 @@ class RoundTrip {
 
 TEST(RoundTrip, AllFamiliesAreAccepted) {
   const std::uint64_t count = soak() ? 1000U : tests::trials(20U);
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       RoundTrip trip;
       for (std::uint64_t i = 0; i < count; ++i) {
-        trip.add({kind, verify::make_query(family, kind, 7, i).query});
+        trip.add({kind, verify::generate::make_query(family, kind, 7, i).query});
       }
       trip.expect_accepted(std::string(family.name));
     }
@@ -420,14 +420,14 @@ TEST(RoundTrip, RandomQueriesAreAccepted) {
 
 TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
   const std::uint64_t count = soak() ? 100 : 1;
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     // Distances that are as far from the coordinates as those from each other: numbers too long.
     if (family.name == "extreme-range") continue;
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       RoundTrip trip;
       for (std::uint64_t i = 0; i < count; ++i) {
-        const PosedQuery posed{kind, verify::make_query(family, kind, 8, i).query};
+        const PosedQuery posed{kind, verify::generate::make_query(family, kind, 8, i).query};
         for (const Norm norm : {Norm::linf, Norm::l2}) {
           for (const double distance : {0.125, 1e-30}) trip.add(posed, {distance, norm});
           // The two oracles agree at distance 0.
@@ -465,7 +465,7 @@ TEST(RoundTrip, PublicDataAtADistanceAreAccepted) {
   if (files.empty()) GTEST_SKIP() << "public data missing";
   RoundTrip trip;
   for (const auto& file : files) {
-    const auto source = verify::open_dataset(file);
+    const auto source = verify::data::open_dataset(file);
     while (const auto record = source->next()) {
       if (record->index % stride != 0) continue;
       for (const Norm norm : {Norm::linf, Norm::l2}) {
@@ -486,7 +486,7 @@ TEST(RoundTrip, PublicDataAreAccepted) {
   std::uint64_t queries = 0;
   for (const auto& file : files) {
     RoundTrip trip;
-    const auto source = verify::open_dataset(file);
+    const auto source = verify::data::open_dataset(file);
     while (const auto record = source->next()) {
       if (record->index % stride == 0) trip.add({source->kind(), record->query});
     }

@@ -81,7 +81,7 @@ void register_benchmark(const std::string& name, Kind kind, std::vector<Query> q
 }
 
 void register_file(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  const auto source = verify::open_dataset(file, {.round = true, .keep_going = true});
+  const auto source = verify::data::open_dataset(file, {.round = true, .keep_going = true});
   std::vector<Query> queries;
   while (queries.size() < queries_per_file) {
     const auto recorded = source->next();
@@ -96,7 +96,7 @@ void register_file(const std::filesystem::path& folder, const std::filesystem::p
 void register_datasets() {
   const std::filesystem::path folder = tests::public_data_folder();
   if (folder.empty()) return;
-  for (const auto& file : verify::find_datasets({&folder, 1})) register_file(folder, file);
+  for (const auto& file : verify::data::find_datasets({&folder, 1})) register_file(folder, file);
 }
 
 }  // namespace

@@ -217,13 +217,13 @@ TEST(Certified, RefusesOptionsOutOfRange) {
 // ---- Against the oracle -------------------------------------------------------------------------
 
 TEST(Certified, IsRightOnAllFamilies) {
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       SCOPED_TRACE(family.name);
       std::vector<Query> queries;
       for (std::uint64_t i = 0; i < 150; ++i) {
-        queries.push_back(verify::make_query(family, kind, 4, i).query);
+        queries.push_back(verify::generate::make_query(family, kind, 4, i).query);
       }
       expect_truth(kind, queries);
     }
@@ -320,7 +320,7 @@ TEST(Certified, IsRightOnPublicData) {
   std::size_t count = 0;
   for (const auto& file : files) {
     SCOPED_TRACE(file);
-    const auto source = verify::open_dataset(file);
+    const auto source = verify::data::open_dataset(file);
     std::vector<Query> queries;
     while (const auto recorded = source->next()) queries.push_back(recorded->query);
     count += queries.size();

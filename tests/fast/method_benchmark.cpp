@@ -34,7 +34,7 @@ struct QuerySet {
 using QuerySets = std::map<std::string, QuerySet>;
 
 void add(QuerySets& sets, const std::string& name, const std::filesystem::path& path) {
-  const auto source = open_dataset(path);
+  const auto source = data::open_dataset(path);
   QuerySet& set = sets[name + "/" + std::string(to_string(source->kind()))];
   set.kind = source->kind();
   while (const auto query = source->next()) set.queries.push_back(query->query);
@@ -91,7 +91,7 @@ void time_method(benchmark::State& state, const fast::Method& method, const Quer
 
 void register_benchmarks(const QuerySets& sets) {
   for (const auto& [name, set] : sets) {
-    for (const auto& method : methods()) {
+    for (const auto& method : solvers::methods()) {
       const QuerySet& queries = set;
       const fast::Method& solver = *method;
       benchmark::RegisterBenchmark(

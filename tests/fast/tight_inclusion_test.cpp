@@ -60,21 +60,21 @@ TightInclusionOptions with(const std::function<void(TightInclusionOptions&)>& ch
 /// Calls visit(family, kind, known query) for `count` queries of each family and kind.
 template <class Visit>
 void for_each_family_query(std::uint64_t count, const Visit& visit) {
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t index = 0; index < count; ++index) {
-        visit(family, kind, verify::make_query(family, kind, seed, index));
+        visit(family, kind, verify::generate::make_query(family, kind, seed, index));
       }
     }
   }
 }
 
-bool is_missed(const verify::KnownQuery& known, const TightInclusionResult& result) {
+bool is_missed(const verify::generate::KnownQuery& known, const TightInclusionResult& result) {
   return known.collides && result.verdict != Verdict::yes;
 }
 
-bool is_late(const verify::KnownQuery& known, const TightInclusionResult& result) {
+bool is_late(const verify::generate::KnownQuery& known, const TightInclusionResult& result) {
   return known.toi && result.verdict == Verdict::yes && Rational(result.toi) > *known.toi;
 }
 
@@ -110,40 +110,41 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(Conservative, OnAllFamilies) {
   const TightInclusionOptions& options = GetParam().options;
-  for_each_family_query(24, [&](const verify::Family& family, Kind kind, const auto& known) {
-    const TightInclusionResult result = tight_inclusion(kind, known.query, options);
-    EXPECT_FALSE(is_missed(known, result)) << family.name << ' ' << to_string(kind);
-    // Lowering the separation may advance into contact, which is what no_zero_toi asks for.
-    if (!options.no_zero_toi || options.min_separation == 0.0) {
-      EXPECT_FALSE(is_late(known, result)) << family.name << ' ' << to_string(kind);
-    }
-    EXPECT_TRUE(result.error.empty());
-    EXPECT_EQ(result.verdict == Verdict::yes, result.toi >= 0.0 && result.toi <= 1.0);
-    EXPECT_EQ(result.verdict == Verdict::yes,
-              result.tolerance >= options.tolerance || result.refinements > 0);
-  });
+  for_each_family_query(
+      24, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+        const TightInclusionResult result = tight_inclusion(kind, known.query, options);
+        EXPECT_FALSE(is_missed(known, result)) << family.name << ' ' << to_string(kind);
+        // Lowering the separation may advance into contact, which is what no_zero_toi asks for.
+        if (!options.no_zero_toi || options.min_separation == 0.0) {
+          EXPECT_FALSE(is_late(known, result)) << family.name << ' ' << to_string(kind);
+        }
+        EXPECT_TRUE(result.error.empty());
+        EXPECT_EQ(result.verdict == Verdict::yes, result.toi >= 0.0 && result.toi <= 1.0);
+        EXPECT_EQ(result.verdict == Verdict::yes,
+                  result.tolerance >= options.tolerance || result.refinements > 0);
+      });
 }
 
 TEST(TightInclusion, GivesTheSameResultOnAllKernels) {
-  for_each_family_query(
-      tests::trials(12U), [&](const verify::Family& family, Kind kind, const auto& known) {
-        for (const double d : {0.0, 1e-3}) {
-          TightInclusionOptions options;
-          options.max_checks = some_checks;
-          options.min_separation = d;
-          options.kernel = box_kernels().front();
-          const TightInclusionResult expected = tight_inclusion(kind, known.query, options);
-          for (const BoxKernel* const kernel : box_kernels()) {
-            options.kernel = kernel;
-            const TightInclusionResult result = tight_inclusion(kind, known.query, options);
-            EXPECT_EQ(result.verdict, expected.verdict) << family.name;
-            EXPECT_EQ(result.checks, expected.checks) << family.name;
-            if (result.verdict != Verdict::yes) continue;
-            EXPECT_EQ(result.toi, expected.toi) << family.name;
-            EXPECT_EQ(result.tolerance, expected.tolerance) << family.name;
-          }
-        }
-      });
+  for_each_family_query(tests::trials(12U), [&](const verify::generate::Family& family, Kind kind,
+                                                const auto& known) {
+    for (const double d : {0.0, 1e-3}) {
+      TightInclusionOptions options;
+      options.max_checks = some_checks;
+      options.min_separation = d;
+      options.kernel = box_kernels().front();
+      const TightInclusionResult expected = tight_inclusion(kind, known.query, options);
+      for (const BoxKernel* const kernel : box_kernels()) {
+        options.kernel = kernel;
+        const TightInclusionResult result = tight_inclusion(kind, known.query, options);
+        EXPECT_EQ(result.verdict, expected.verdict) << family.name;
+        EXPECT_EQ(result.checks, expected.checks) << family.name;
+        if (result.verdict != Verdict::yes) continue;
+        EXPECT_EQ(result.toi, expected.toi) << family.name;
+        EXPECT_EQ(result.tolerance, expected.tolerance) << family.name;
+      }
+    }
+  });
 }
 
 TEST(TightInclusion, MissesNothingOnThePublicData) {
@@ -151,7 +152,7 @@ TEST(TightInclusion, MissesNothingOnThePublicData) {
   if (files.empty()) GTEST_SKIP() << "public data missing";
   std::map<ErrorModel, int> false_positives;
   for (const auto& file : files) {
-    const auto source = verify::open_dataset(file);
+    const auto source = verify::data::open_dataset(file);
     while (const auto recorded = source->next()) {
       const exact::Verdict truth = exact::decide(source->kind(), recorded->query);
       for (const ErrorModel model : {ErrorModel::derived, ErrorModel::published}) {
@@ -226,32 +227,33 @@ TEST(MinimumSeparation, FindsContactsMovedApartByIt) {
   // If F has a root, then with one primitive moved by a vector of norm d, ‖F‖ = d there.
   Random random(11);
   int moved = 0;
-  for_each_family_query(12, [&](const verify::Family& family, Kind kind, const auto& known) {
-    if (!known.collides || known.full_significands) return;
-    for (const double d : {0x1p-2, 0x1p-12}) {
-      const auto shift = offset(random, d);
-      Query query = known.query;
-      bool exact = true;
-      const std::size_t first = kind == Kind::vertex_face ? 1 : 2;
-      for (std::size_t end = 0; end < 2; ++end) {
-        for (std::size_t point = 0; point < first; ++point) {
-          for (std::size_t axis = 0; axis < 3; ++axis) {
-            double& x = query.at(end, point, axis);
-            exact = exact && Rational(x + shift[axis]) == Rational(x) + Rational(shift[axis]);
-            x += shift[axis];
+  for_each_family_query(
+      12, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+        if (!known.collides || known.full_significands) return;
+        for (const double d : {0x1p-2, 0x1p-12}) {
+          const auto shift = offset(random, d);
+          Query query = known.query;
+          bool exact = true;
+          const std::size_t first = kind == Kind::vertex_face ? 1 : 2;
+          for (std::size_t end = 0; end < 2; ++end) {
+            for (std::size_t point = 0; point < first; ++point) {
+              for (std::size_t axis = 0; axis < 3; ++axis) {
+                double& x = query.at(end, point, axis);
+                exact = exact && Rational(x + shift[axis]) == Rational(x) + Rational(shift[axis]);
+                x += shift[axis];
+              }
+            }
           }
+          if (!exact) continue;
+          ++moved;
+          TightInclusionOptions options;
+          options.max_checks = some_checks;
+          options.min_separation = d;
+          const auto result = tight_inclusion(kind, query, options);
+          EXPECT_FALSE(is_missed(known, result)) << family.name << ' ' << d;
+          EXPECT_FALSE(is_late(known, result)) << family.name << ' ' << d;
         }
-      }
-      if (!exact) continue;
-      ++moved;
-      TightInclusionOptions options;
-      options.max_checks = some_checks;
-      options.min_separation = d;
-      const auto result = tight_inclusion(kind, query, options);
-      EXPECT_FALSE(is_missed(known, result)) << family.name << ' ' << d;
-      EXPECT_FALSE(is_late(known, result)) << family.name << ' ' << d;
-    }
-  });
+      });
   EXPECT_GT(moved, 400);
 }
 
@@ -348,22 +350,23 @@ PlainReading plain_reading(Kind kind, const Query& query, double tolerance) {
 
 TEST(TightInclusion, AgreesWithAPlainReadingOfItsDescription) {
   int hits = 0, misses = 0;
-  for_each_family_query(12, [&](const verify::Family& family, Kind kind, const auto& known) {
-    TightInclusionOptions options;
-    options.tolerance = 1e-5;
-    options.max_checks = some_checks;
-    const auto result = tight_inclusion(kind, known.query, options);
-    if (result.checks > some_checks) return;
-    const PlainReading reading = plain_reading(kind, known.query, options.tolerance);
-    // It knows neither scaling nor a last bit of parameters.
-    if (std::ranges::min(reading.widths_tolerated) < 0x1p-50) return;
-    const auto toi = reading.toi();
-    ASSERT_EQ(result.verdict == Verdict::yes, toi.has_value()) << family.name;
-    if (toi) {
-      EXPECT_EQ(result.toi, *toi) << family.name;
-    }
-    ++(toi ? hits : misses);
-  });
+  for_each_family_query(
+      12, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+        TightInclusionOptions options;
+        options.tolerance = 1e-5;
+        options.max_checks = some_checks;
+        const auto result = tight_inclusion(kind, known.query, options);
+        if (result.checks > some_checks) return;
+        const PlainReading reading = plain_reading(kind, known.query, options.tolerance);
+        // It knows neither scaling nor a last bit of parameters.
+        if (std::ranges::min(reading.widths_tolerated) < 0x1p-50) return;
+        const auto toi = reading.toi();
+        ASSERT_EQ(result.verdict == Verdict::yes, toi.has_value()) << family.name;
+        if (toi) {
+          EXPECT_EQ(result.toi, *toi) << family.name;
+        }
+        ++(toi ? hits : misses);
+      });
   EXPECT_GT(hits, 200);
   EXPECT_GT(misses, 100);
 }
@@ -479,18 +482,19 @@ TEST(TMax, KeepsContactAtItselfAndGivesNoLaterTime) {
 }
 
 TEST(TMax, MissesNothingBeforeIt) {
-  for_each_family_query(8, [&](const verify::Family& family, Kind kind, const auto& known) {
-    if (!known.toi) return;
-    TightInclusionOptions options;
-    options.max_checks = some_checks;
-    // The least double that is not below the time of impact.
-    double t_max = known.toi->get_d();
-    while (Rational(t_max) < *known.toi) t_max = std::nextafter(t_max, 2.0);
-    options.t_max = t_max;
-    const auto result = tight_inclusion(kind, known.query, options);
-    EXPECT_FALSE(is_missed(known, result)) << family.name;
-    EXPECT_FALSE(is_late(known, result)) << family.name;
-  });
+  for_each_family_query(8,
+                        [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+                          if (!known.toi) return;
+                          TightInclusionOptions options;
+                          options.max_checks = some_checks;
+                          // The least double that is not below the time of impact.
+                          double t_max = known.toi->get_d();
+                          while (Rational(t_max) < *known.toi) t_max = std::nextafter(t_max, 2.0);
+                          options.t_max = t_max;
+                          const auto result = tight_inclusion(kind, known.query, options);
+                          EXPECT_FALSE(is_missed(known, result)) << family.name;
+                          EXPECT_FALSE(is_late(known, result)) << family.name;
+                        });
 }
 
 TEST(NoZeroToi, AdvancesWherePossible) {
@@ -537,17 +541,18 @@ TEST(SceneFilter, IsUsedAsItIs) {
 
 TEST(SceneFilter, OfASceneServesForItsQueries) {
   const auto filter = error_filter(Kind::vertex_face, {2000.0, 2000.0, 2000.0}, 0.0);
-  for_each_family_query(8, [&](const verify::Family& family, Kind kind, const auto& known) {
-    if (kind != Kind::vertex_face || std::ranges::any_of(known.query.coordinates, [](double x) {
-          return std::abs(x) > 2000.0;
-        })) {
-      return;
-    }
-    TightInclusionOptions options;
-    options.max_checks = some_checks;
-    options.scene_filter = filter;
-    EXPECT_FALSE(is_missed(known, tight_inclusion(kind, known.query, options))) << family.name;
-  });
+  for_each_family_query(
+      8, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+        if (kind != Kind::vertex_face || std::ranges::any_of(known.query.coordinates, [](double x) {
+              return std::abs(x) > 2000.0;
+            })) {
+          return;
+        }
+        TightInclusionOptions options;
+        options.max_checks = some_checks;
+        options.scene_filter = filter;
+        EXPECT_FALSE(is_missed(known, tight_inclusion(kind, known.query, options))) << family.name;
+      });
 }
 
 // ---- Range --------------------------------------------------------------------------------------
@@ -741,8 +746,8 @@ TEST(Published, TheReleaseDeniesAVertexThatLandsOnATriangle) {
 
 /// How many of the contacts are denied.
 std::size_t denied_at(double scale, bool two_decimals, Kind kind, ErrorModel model) {
-  const verify::QueryGroup contacts =
-      verify::end_contacts(kind, {.scale = scale, .two_decimals = two_decimals, .count = 500});
+  const verify::data::QueryGroup contacts = verify::generate::end_contacts(
+      kind, {.scale = scale, .two_decimals = two_decimals, .count = 500});
   return static_cast<std::size_t>(std::ranges::count_if(
       contacts.queries(),
       [&](const Query& query) { return solve_with(model, kind, query).verdict == Verdict::no; }));
@@ -828,10 +833,12 @@ TightInclusionResult solve_with(Fault fault, Kind kind, const Query& query) {
 /// Which families catch a fault, by a miss or a late time, among `count` queries of each kind.
 std::set<std::string> families_that_catch(Fault fault, std::uint64_t count) {
   std::set<std::string> result;
-  for_each_family_query(count, [&](const verify::Family& family, Kind kind, const auto& known) {
-    const auto answer = solve_with(fault, kind, known.query);
-    if (is_missed(known, answer) || is_late(known, answer)) result.emplace(family.name);
-  });
+  for_each_family_query(count,
+                        [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+                          const auto answer = solve_with(fault, kind, known.query);
+                          if (is_missed(known, answer) || is_late(known, answer))
+                            result.emplace(family.name);
+                        });
   return result;
 }
 

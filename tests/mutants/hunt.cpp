@@ -30,8 +30,8 @@ class Named final : public fast::Method {
   fast::MethodInfo info_;
 };
 
-verify::FuzzOptions fuzz_options(const Mutant& mutant) {
-  verify::FuzzOptions options;
+verify::fuzz::FuzzOptions fuzz_options(const Mutant& mutant) {
+  verify::fuzz::FuzzOptions options;
   options.separation = mutant.separation;
   options.method.max_checks = most_checks;
   options.most_findings = 1;
@@ -42,11 +42,11 @@ verify::FuzzOptions fuzz_options(const Mutant& mutant) {
 
 Hunt hunt(const Mutant& mutant, const HuntOptions& options) {
   const Named method(mutant);
-  verify::FuzzOptions fuzzing = fuzz_options(mutant);
+  verify::fuzz::FuzzOptions fuzzing = fuzz_options(mutant);
   fuzzing.seconds = options.seconds;
   fuzzing.most_queries = options.queries;
   fuzzing.seed = options.seed;
-  verify::FuzzResult result = verify::fuzz(method, fuzzing);
+  verify::fuzz::FuzzResult result = verify::fuzz::fuzz(method, fuzzing);
   Hunt hunt{.finding = {}, .seconds = result.seconds, .queries = result.queries};
   if (!result.findings.empty()) {
     hunt.finding = result.findings.front();
@@ -55,10 +55,10 @@ Hunt hunt(const Mutant& mutant, const HuntOptions& options) {
   return hunt;
 }
 
-Query simplest(const Mutant& mutant, const verify::Finding& finding) {
+Query simplest(const Mutant& mutant, const verify::fuzz::Finding& finding) {
   const Named method(mutant);
-  verify::Finding simpler = finding;
-  verify::simplify(method, fuzz_options(mutant), {}, simpler);
+  verify::fuzz::Finding simpler = finding;
+  verify::fuzz::simplify(method, fuzz_options(mutant), {}, simpler);
   return simpler.simplest.query;
 }
 

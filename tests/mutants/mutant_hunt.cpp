@@ -28,7 +28,8 @@ namespace {
 
 std::string outcome(const Mutant& mutant, const Hunt& hunt) {
   if (hunt.finding) {
-    return fmt::format("{} by {}{}", verify::to_string(hunt.finding->what), hunt.finding->generator,
+    return fmt::format("{} by {}{}", verify::fuzz::to_string(hunt.finding->what),
+                       hunt.finding->generator,
                        mutant.harmless.empty() ? "" : " (SHOULD BE HARMLESS)");
   }
   if (!mutant.rare.empty()) return "not found (rare)";
@@ -49,23 +50,24 @@ bool print(const Mutant& mutant, const Hunt& hunt) {
 /// Findings as datasets: a folder for each separation, in it a file for each kind.
 class Corpus {
  public:
-  void add(const Mutant& mutant, const verify::Finding& finding) {
+  void add(const Mutant& mutant, const verify::fuzz::Finding& finding) {
     const Query query = simplest(mutant, finding);
     const exact::Verdict truth = exact::decide(finding.kind, query, finding.separation);
     auto& queries = queries_[{name_of(finding.separation), finding.kind}];
     const Labelled labelled{query, truth.collides()};
     if (std::ranges::find(queries, labelled) == queries.end()) queries.push_back(labelled);
     separations_[name_of(finding.separation)] = finding.separation;
-    fmt::print("{}", verify::as_points(finding.kind, query));
+    fmt::print("{}", verify::fuzz::as_points(finding.kind, query));
   }
 
   void write(const std::filesystem::path& folder) const {
     for (const auto& [name, separation] : separations_) {
       std::filesystem::create_directories(folder / name);
-      verify::write_separation(folder / name, separation);
+      verify::data::write_separation(folder / name, separation);
     }
     for (const auto& [place, queries] : queries_) {
-      verify::CsvWriter file(folder / place.first / fmt::format("{}.csv", to_string(place.second)));
+      verify::data::CsvWriter file(folder / place.first /
+                                   fmt::format("{}.csv", to_string(place.second)));
       for (const Labelled& labelled : queries) file.write(labelled.query, labelled.collides);
       file.close();
     }

@@ -26,7 +26,7 @@ namespace {
 using fast::Answer;
 using fast::MethodOptions;
 using fast::Verdict;
-using verify::answer_of;
+using verify::fuzz::answer_of;
 
 using Make = std::function<std::unique_ptr<fast::Method>()>;
 
@@ -37,7 +37,7 @@ class AlteredMethod final : public fast::Method {
 
   /// \param of the name of the method that is altered
   AlteredMethod(std::string_view of, Solve solve)
-      : info_(verify::find_method(of).info()), solve_(std::move(solve)) {}
+      : info_(verify::solvers::find_method(of).info()), solve_(std::move(solve)) {}
 
   [[nodiscard]] const fast::MethodInfo& info() const override { return info_; }
   void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
@@ -155,7 +155,7 @@ Make with_exact_stage(fast::DecideDistance* decide) {
     const fast::CertifiedOptions all = certified_options(options);
     const fast::CertifiedResult right = fast::certified(kind, query, all);
     if (right.stage != fast::Stage::exact || right.verdict == Verdict::error) {
-      return answer_of(right);
+      return verify::fuzz::answer_of(right);
     }
     const auto impact = decide(kind, query, all.separation, all.toi_tolerance, all.t_max);
     if (!impact) return Answer{.verdict = Verdict::no};
@@ -172,20 +172,20 @@ Make with_factors(const FilterFactors& factors) {
     filter_factors = factors;
     fast::CertifiedOptions all = certified_options(options);
     all.kernel = &fast::kernel_with_factors;
-    return answer_of(fast::certified(kind, query, all));
+    return verify::fuzz::answer_of(fast::certified(kind, query, all));
   });
 }
 
 Answer without_start(Kind kind, const Query& query, const MethodOptions& options) {
   const auto right = fast::certified(kind, query, certified_options(options));
   if (right.verdict == Verdict::yes && right.toi_upper == 0.0) return {.verdict = Verdict::no};
-  return answer_of(right);
+  return verify::fuzz::answer_of(right);
 }
 
 Answer without_end(Kind kind, const Query& query, const MethodOptions& options) {
   fast::CertifiedOptions all = certified_options(options);
   all.t_max = std::min(all.t_max, std::nextafter(1.0, 0.0));
-  return answer_of(fast::certified(kind, query, all));
+  return verify::fuzz::answer_of(fast::certified(kind, query, all));
 }
 
 Answer of_floats(Kind kind, const Query& query, const MethodOptions& options) {
@@ -193,11 +193,11 @@ Answer of_floats(Kind kind, const Query& query, const MethodOptions& options) {
   for (double& x : rounded.coordinates) {
     if (std::abs(x) < 0x1p126) x = static_cast<double>(static_cast<float>(x));
   }
-  return answer_of(fast::certified(kind, rounded, certified_options(options)));
+  return verify::fuzz::answer_of(fast::certified(kind, rounded, certified_options(options)));
 }
 
 Answer with_upper_for_lower(Kind kind, const Query& query, const MethodOptions& options) {
-  Answer answer = answer_of(fast::certified(kind, query, certified_options(options)));
+  Answer answer = verify::fuzz::answer_of(fast::certified(kind, query, certified_options(options)));
   answer.toi_lower = answer.toi_upper;
   return answer;
 }
@@ -205,7 +205,7 @@ Answer with_upper_for_lower(Kind kind, const Query& query, const MethodOptions& 
 Answer in_the_other_norm(Kind kind, const Query& query, const MethodOptions& options) {
   fast::CertifiedOptions all = certified_options(options);
   all.separation.norm = options.norm == Norm::l2 ? Norm::linf : Norm::l2;
-  return answer_of(fast::certified(kind, query, all));
+  return verify::fuzz::answer_of(fast::certified(kind, query, all));
 }
 
 // ---- The list -----------------------------------------------------------------------------------

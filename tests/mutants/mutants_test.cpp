@@ -25,7 +25,8 @@ TEST(Mutants, are_many_and_each_is_of_a_method) {
   std::size_t faulty = 0;
   for (const Mutant& mutant : mutants()) {
     EXPECT_TRUE(names.insert(mutant.name).second) << mutant.name;
-    EXPECT_EQ(mutant.make()->promise(), verify::find_method(mutant.of).promise()) << mutant.name;
+    EXPECT_EQ(mutant.make()->promise(), verify::solvers::find_method(mutant.of).promise())
+        << mutant.name;
     EXPECT_EQ(&find_mutant(mutant.name), &mutant);
     if (mutant.harmless.empty()) ++faulty;
   }
@@ -103,13 +104,14 @@ TEST(Mutants, become_simple_queries) {
 
 /// The public Tight-Inclusion's filter and order of operations, without a time limit.
 TEST(Released, is_found_to_miss_contacts) {
-  const verify::FuzzResult result = verify::fuzz(verify::find_method("tight_inclusion_released"),
-                                                 {.most_queries = 20'000,
-                                                  .seed = 1,
-                                                  .most_findings = 1,
-                                                  .only = {verify::FindingKind::false_negative}});
+  const verify::fuzz::FuzzResult result =
+      verify::fuzz::fuzz(verify::solvers::find_method("tight_inclusion_released"),
+                         {.most_queries = 20'000,
+                          .seed = 1,
+                          .most_findings = 1,
+                          .only = {verify::fuzz::FindingKind::false_negative}});
   ASSERT_FALSE(result.findings.empty());
-  EXPECT_EQ(result.findings.front().what, verify::FindingKind::false_negative);
+  EXPECT_EQ(result.findings.front().what, verify::fuzz::FindingKind::false_negative);
 }
 
 /// In seconds, by the command line as anyone runs it.
@@ -120,9 +122,9 @@ TEST(Plugin, with_min_for_max_in_its_filter_is_found) {
   const int status = std::system((command + " > /dev/null").c_str());  // NOLINT(cert-env33-c)
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 1);
-  const auto plugin = verify::load_plugin(tests::plugin_library("min_for_max"));
-  const verify::FuzzResult result =
-      verify::fuzz(*plugin, {.most_queries = 20'000, .seed = 1, .most_findings = 1});
+  const auto plugin = verify::solvers::load_plugin(tests::plugin_library("min_for_max"));
+  const verify::fuzz::FuzzResult result =
+      verify::fuzz::fuzz(*plugin, {.most_queries = 20'000, .seed = 1, .most_findings = 1});
   ASSERT_FALSE(result.findings.empty());
   EXPECT_TRUE(result.findings.front().original.collides);
 }

@@ -28,7 +28,8 @@ namespace touchstone::tests {
 
 /// A query printed in the appendices of [wang2021], by the name of its family.
 [[nodiscard]] inline PosedQuery printed_query(std::string_view family) {
-  const auto known = verify::make_query(verify::family_from_name(family), Kind::vertex_face, 1, 0);
+  const auto known = verify::generate::make_query(verify::generate::family_from_name(family),
+                                                  Kind::vertex_face, 1, 0);
   return {Kind::vertex_face, known.query};
 }
 
@@ -135,11 +136,11 @@ struct Score {
                                              std::uint64_t count) {
   constexpr std::uint64_t seed = 5;
   Score score;
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t index = 0; index < count; ++index) {
-        const Query query = verify::make_query(family, kind, seed, index).query;
+        const Query query = verify::generate::make_query(family, kind, seed, index).query;
         score.add(exact::decide(kind, query), answer_to(method, {kind, query}, options));
       }
     }
@@ -172,7 +173,7 @@ struct Score {
   Score score;
   for (const auto& file : public_datasets()) {
     if (file.string().find("/" + folder + "/") == std::string::npos) continue;
-    const auto source = verify::open_dataset(file);
+    const auto source = verify::data::open_dataset(file);
     if (source->kind() != kind) continue;
     while (const auto recorded = source->next()) {
       if (recorded->index % stride != 0) continue;

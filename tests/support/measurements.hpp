@@ -11,11 +11,12 @@
 namespace touchstone::tests {
 
 /// A method that was asked 100 of 200 queries, of which 20 collide.
-[[nodiscard]] inline verify::Measurement measured(const std::string& group,
-                                                  const std::string& method, double nanoseconds,
-                                                  std::uint64_t false_positives = 0,
-                                                  std::uint64_t false_negatives = 0) {
-  verify::Measurement m;
+[[nodiscard]] inline verify::report::Measurement measured(const std::string& group,
+                                                          const std::string& method,
+                                                          double nanoseconds,
+                                                          std::uint64_t false_positives = 0,
+                                                          std::uint64_t false_negatives = 0) {
+  verify::report::Measurement m;
   m.group = group;
   m.method = method;
   m.tolerance = 1e-6;
@@ -34,10 +35,10 @@ namespace touchstone::tests {
 }
 
 /// The same over a parameter of an experiment.
-[[nodiscard]] inline verify::Measurement measured_in(verify::Experiment experiment,
-                                                     const std::string& method,
-                                                     double nanoseconds) {
-  verify::Measurement m = measured("handcrafted", method, nanoseconds);
+[[nodiscard]] inline verify::report::Measurement measured_in(verify::report::Experiment experiment,
+                                                             const std::string& method,
+                                                             double nanoseconds) {
+  verify::report::Measurement m = measured("handcrafted", method, nanoseconds);
   m.experiment = experiment;
   return m;
 }
@@ -45,40 +46,41 @@ namespace touchstone::tests {
 /// A report with something of everything: on "handcrafted", vertex-face, certified, tight_inclusion and
 /// msrf; certified is exact, tight_inclusion has 8 false positives, msrf 1 and 2 false negatives. Of the
 /// filters of Tight-Inclusion, the released one misses 2 of 20 contacts at t=1, and of a family's.
-[[nodiscard]] inline verify::Measurements small_report() {
-  using verify::Experiment;
-  verify::Measurements report;
+[[nodiscard]] inline verify::report::Measurements small_report() {
+  using verify::report::Experiment;
+  verify::report::Measurements report;
   report.command = "touchstone report handcrafted --out 'a <page>.html'";
   report.machine = "a machine";
-  verify::Measurement certified = measured("handcrafted", "certified", 10.0);
-  certified.toi_error = verify::Spread{.count = 20, .median = 0.0, .max = 1e-13};
+  verify::report::Measurement certified = measured("handcrafted", "certified", 10.0);
+  certified.toi_error = verify::report::Spread{.count = 20, .median = 0.0, .max = 1e-13};
   certified.stages = {{"axis", 75}, {"exact", 25}};
-  verify::Measurement inclusion = measured("handcrafted", "tight_inclusion", 2500.0, 8);
-  inclusion.toi_error = verify::Spread{.count = 20, .median = 1e-7, .max = 0.5};
+  verify::report::Measurement inclusion = measured("handcrafted", "tight_inclusion", 2500.0, 8);
+  inclusion.toi_error = verify::report::Spread{.count = 20, .median = 1e-7, .max = 0.5};
   report.all = {certified, inclusion, measured("handcrafted", "msrf", 400.0, 1, 2)};
   for (const double tolerance : {1e-8, 1.0}) {
-    verify::Measurement m = measured_in(Experiment::tolerance, "tight_inclusion", 1.0 / tolerance);
+    verify::report::Measurement m =
+        measured_in(Experiment::tolerance, "tight_inclusion", 1.0 / tolerance);
     m.tolerance = tolerance;
     m.false_positives = tolerance == 1.0 ? 40 : 0;
     report.all.push_back(m);
   }
   for (const char* const method : {"certified", "tight_inclusion", "msrf"}) {
-    verify::Measurement m = measured_in(Experiment::separation, method, 30.0);
+    verify::report::Measurement m = measured_in(Experiment::separation, method, 30.0);
     m.separation = {.distance = 1e-8,
                     .norm = std::string(method) == "msrf" ? Norm::l2 : Norm::linf};
     report.all.push_back(m);
   }
-  verify::Measurement limited = measured_in(Experiment::checks, "tight_inclusion", 50.0);
+  verify::report::Measurement limited = measured_in(Experiment::checks, "tight_inclusion", 50.0);
   limited.max_checks = 10;
   limited.at_limit = 25;
-  limited.achieved_tolerance = verify::Spread{.count = 45, .median = 0.25, .max = 0.5};
+  limited.achieved_tolerance = verify::report::Spread{.count = 45, .median = 0.25, .max = 0.5};
   report.all.push_back(limited);
   for (const char* const method : {"tight_inclusion", "tight_inclusion_released"}) {
     for (const double scale : {0.0, 0.01}) {
       const std::string group = scale == 0.0 ? "a-family" : "contact at t=1, two decimals";
       const bool is_released = std::string(method) == "tight_inclusion_released";
-      verify::Measurement m =
-          measured(group, method, verify::Measurement::unknown, 0, is_released ? 2 : 0);
+      verify::report::Measurement m =
+          measured(group, method, verify::report::Measurement::unknown, 0, is_released ? 2 : 0);
       m.experiment = Experiment::filter;
       if (scale != 0.0) m.scale = scale;
       report.all.push_back(m);

@@ -14,9 +14,9 @@
 
 namespace touchstone::tests {
 
-class MemorySource final : public verify::QuerySource {
+class MemorySource final : public verify::data::QuerySource {
  public:
-  MemorySource(Kind kind, std::vector<verify::RecordedQuery> queries)
+  MemorySource(Kind kind, std::vector<verify::data::RecordedQuery> queries)
       : kind_(kind), queries_(std::move(queries)) {}
 
   /// next() throws std::runtime_error(message) instead of giving query number `index`.
@@ -27,7 +27,7 @@ class MemorySource final : public verify::QuerySource {
 
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] Kind kind() const override { return kind_; }
-  [[nodiscard]] std::optional<verify::RecordedQuery> next() override {
+  [[nodiscard]] std::optional<verify::data::RecordedQuery> next() override {
     if (position_ == failure_) throw std::runtime_error(message_);
     if (position_ == queries_.size()) return std::nullopt;
     return queries_[position_++];
@@ -41,7 +41,7 @@ class MemorySource final : public verify::QuerySource {
  private:
   std::string name_ = "memory";
   Kind kind_;
-  std::vector<verify::RecordedQuery> queries_;
+  std::vector<verify::data::RecordedQuery> queries_;
   std::size_t position_ = 0;
   std::optional<std::size_t> failure_;
   std::string message_;

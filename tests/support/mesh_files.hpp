@@ -40,8 +40,8 @@ class MeshFolder {
   }
 
   /// The mesh in a file of those bytes.
-  [[nodiscard]] verify::Mesh mesh(const std::string& name, std::string_view bytes) const {
-    return verify::read_mesh(file(name, bytes));
+  [[nodiscard]] verify::mesh::Mesh mesh(const std::string& name, std::string_view bytes) const {
+    return verify::mesh::read_mesh(file(name, bytes));
   }
 
   /// The error of reading such a file, without the folder; "" if there is none.
@@ -51,8 +51,8 @@ class MeshFolder {
 
   [[nodiscard]] std::string error_of(const std::filesystem::path& path) const {
     try {
-      (void)verify::read_mesh(path);
-    } catch (const verify::DatasetError& error) {
+      (void)verify::mesh::read_mesh(path);
+    } catch (const verify::data::DatasetError& error) {
       const std::string folder = path_.string() + "/", text = error.what();
       return text.starts_with(folder) ? text.substr(folder.size()) : text;
     }
@@ -66,7 +66,7 @@ class MeshFolder {
 };
 
 /// The coordinates of a mesh's vertices, row by row.
-[[nodiscard]] inline std::vector<double> coordinates(const verify::Mesh& mesh) {
+[[nodiscard]] inline std::vector<double> coordinates(const verify::mesh::Mesh& mesh) {
   return {mesh.vertices.data(), mesh.vertices.data() + mesh.vertices.size()};
 }
 

@@ -31,7 +31,7 @@ namespace touchstone::tests {
   const std::filesystem::path folder = public_data_folder();
   if (folder.empty()) return {};
   const std::array paths{folder / "handcrafted", folder / "simulation"};
-  return verify::find_datasets(paths);
+  return verify::data::find_datasets(paths);
 }
 
 }  // namespace touchstone::tests

@@ -15,9 +15,9 @@
 namespace touchstone::tests {
 
 /// The product's generator, with what tests draw.
-class Random : public verify::builtin::Random {
+class Random : public verify::generate::Random {
  public:
-  using verify::builtin::Random::Random;
+  using verify::generate::Random::Random;
 
   /// One of least, …, greatest. \pre least ≤ greatest, and their difference is below 2^31.
   [[nodiscard]] int between(int least, int greatest) {

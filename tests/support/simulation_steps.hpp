@@ -106,8 +106,8 @@ inline constexpr std::array<std::string_view, 3> simulation_scenes{
                                                          std::string_view scene_name) {
   const std::filesystem::path scene = folder / scene_name;
   const auto frames = files_ending(scene / "frames", ".ply");
-  verify::Mesh before = verify::read_mesh(frames.at(0));
-  const verify::Mesh after = verify::read_mesh(frames.at(1));
+  verify::mesh::Mesh before = verify::mesh::read_mesh(frames.at(0));
+  const verify::mesh::Mesh after = verify::mesh::read_mesh(frames.at(1));
   if (before.faces != after.faces) throw std::runtime_error(scene.string() + ": faces differ");
   const auto vertices = static_cast<std::size_t>(before.vertices.rows());
   const std::size_t first_face = vertices + before.edges.size();

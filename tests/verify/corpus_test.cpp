@@ -11,7 +11,7 @@
 #include "tests/support/built_files.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/separation_file.hpp"
-#include "verify/run/certify.hpp"
+#include "verify/jobs/certify.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 
@@ -19,13 +19,15 @@ namespace touchstone::verify::corpus_test {
 namespace {
 
 std::vector<std::filesystem::path> corpus() {
-  return find_datasets({{std::filesystem::path(tests::source_folder()) / "tests" / "corpus"}});
+  return data::find_datasets(
+      {{std::filesystem::path(tests::source_folder()) / "tests" / "corpus"}});
 }
 
-std::vector<std::unique_ptr<Solver>> solvers() {
-  std::vector<std::unique_ptr<Solver>> result;
-  for (const std::string& name : default_methods()) {
-    result.push_back(solver_in_process(find_method(name), {.max_checks = 20'000}));
+std::vector<std::unique_ptr<solvers::Solver>> solvers() {
+  std::vector<std::unique_ptr<solvers::Solver>> result;
+  for (const std::string& name : solvers::default_methods()) {
+    result.push_back(
+        solvers::solver_in_process(solvers::find_method(name), {.max_checks = 20'000}));
   }
   return result;
 }
@@ -35,15 +37,15 @@ TEST(Corpus, is_answered_rightly_by_the_oracle_and_by_every_solver) {
   ASSERT_GE(asked.size(), 2U);
   std::uint64_t queries = 0;
   for (const std::filesystem::path& path : corpus()) {
-    const auto source = open_dataset(path);
-    CertifyOptions options{.separation = recorded_separation(path), .threads = 1};
+    const auto source = data::open_dataset(path);
+    jobs::CertifyOptions options{.separation = data::recorded_separation(path), .threads = 1};
     for (const auto& solver : asked) options.solvers.push_back(solver.get());
-    const CertifyResult result = certify(*source, options);
+    const jobs::CertifyResult result = jobs::certify(*source, options);
     EXPECT_FALSE(result.error) << *result.error;
     EXPECT_EQ(result.labels, result.queries) << path;
     EXPECT_EQ(result.label_mismatches, 0U) << path;
-    for (const MethodResult& method : result.methods) {
-      EXPECT_TRUE(keeps(method.judgement, method.promise)) << path << ' ' << method.name;
+    for (const jobs::MethodResult& method : result.methods) {
+      EXPECT_TRUE(judge::keeps(method.judgement, method.promise)) << path << ' ' << method.name;
       EXPECT_EQ(method.judgement.queries, result.queries);
     }
     queries += result.queries;
@@ -54,10 +56,10 @@ TEST(Corpus, is_answered_rightly_by_the_oracle_and_by_every_solver) {
 TEST(Corpus, has_both_kinds_and_a_separation) {
   bool has_faces = false, has_edges = false, is_separated = false;
   for (const std::filesystem::path& path : corpus()) {
-    const Kind kind = open_dataset(path)->kind();
+    const Kind kind = data::open_dataset(path)->kind();
     has_faces = has_faces || kind == Kind::vertex_face;
     has_edges = has_edges || kind == Kind::edge_edge;
-    is_separated = is_separated || recorded_separation(path).distance > 0.0;
+    is_separated = is_separated || data::recorded_separation(path).distance > 0.0;
   }
   EXPECT_TRUE(has_faces && has_edges && is_separated);
 }

@@ -12,13 +12,13 @@
 
 namespace touchstone::baselines {
 
-using Random = verify::builtin::Random;
+using Random = verify::generate::Random;
 
 /// The stream of a query.
 [[nodiscard]] inline Random random_of(const Query& query) {
   std::uint64_t seed = Random::golden_ratio;
   for (const double x : query.coordinates) {
-    seed = verify::builtin::mix(seed ^ std::bit_cast<std::uint64_t>(x));
+    seed = verify::generate::mix(seed ^ std::bit_cast<std::uint64_t>(x));
   }
   return Random(seed);
 }

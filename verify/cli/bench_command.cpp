@@ -27,11 +27,11 @@
 #include "verify/generate/workload.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/jobs/bench.hpp"
+#include "verify/jobs/step_bench.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 #include "verify/report/bench_report.hpp"
-#include "verify/run/bench.hpp"
-#include "verify/run/step_bench.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 
@@ -49,7 +49,7 @@ struct Arguments {
   /// The two frames of a step, or nothing.
   std::vector<fs::path> step;
   std::string kernel = std::string(best_kernel);
-  BenchOptions bench;
+  jobs::BenchOptions bench;
   std::string json_file;
 
   [[nodiscard]] bool built_in_workload() const { return step.empty() && sources.built_in_set(); }
@@ -85,7 +85,7 @@ class BenchRun {
     }
     report_.options = arguments.bench;
     report_.options.threads = arguments.sources.threads;
-    report_.options.stop = &interrupted();
+    report_.options.stop = &io::interrupted();
   }
 
   Status run() {
@@ -96,58 +96,60 @@ class BenchRun {
     } else {
       for (const fs::path& path : arguments_.sources.paths) bench_path(path);
     }
-    if (json_) json_.write(json_document(to_json(report_)));
+    if (json_) json_.write(io::json_document(report::to_json(report_)));
     json_.close();
-    print(json_.is_standard_output() ? stderr : stdout, to_text(report_));
+    io::print(json_.is_standard_output() ? stderr : stdout, report::to_text(report_));
     return status();
   }
 
  private:
-  void bench_group(const QueryGroup& group, const std::vector<const Solver*>& solvers,
+  void bench_group(const data::QueryGroup& group,
+                   const std::vector<const solvers::Solver*>& solvers,
                    const Separation& separation) {
     if (group.queries().empty() || stopped()) return;
-    ProgressBar bar(fmt::format("bench {} {}", group.name(), to_string(group.kind())));
-    BenchOptions options = report_.options;
+    io::ProgressBar bar(fmt::format("bench {} {}", group.name(), to_string(group.kind())));
+    jobs::BenchOptions options = report_.options;
     options.separation = separation;
     options.on_progress = [&bar](double fraction) { bar.update(fraction); };
-    report_.groups.push_back(bench(group, solvers, options));
+    report_.groups.push_back(jobs::bench(group, solvers, options));
     bar.clear();
     solvers_.report_output(arguments_.solvers.show_output);
   }
 
   /// The candidates of a mesh, from index pairs too.
-  void bench_candidates(const MovingMesh& mesh, Kind kind) {
-    const auto pairs = find_candidates(mesh, kind, 0, separation_.distance);
-    const fast::Candidates candidates = candidates_of(mesh, kind, pairs);
-    const auto with_queries = certified_queries(certified_);
-    const auto with_pairs = certified_pairs(mesh.vertices, candidates, certified_);
-    std::vector<const Solver*> solvers = solvers_.all();
+  void bench_candidates(const mesh::MovingMesh& mesh, Kind kind) {
+    const auto pairs = mesh::find_candidates(mesh, kind, 0, separation_.distance);
+    const fast::Candidates candidates = mesh::candidates_of(mesh, kind, pairs);
+    const auto with_queries = solvers::certified_queries(certified_);
+    const auto with_pairs = solvers::certified_pairs(mesh.vertices, candidates, certified_);
+    std::vector<const solvers::Solver*> solvers = solvers_.all();
     solvers.insert(solvers.end(), {with_queries.get(), with_pairs.get()});
-    bench_group(QueryGroup(mesh.name, kind, queries_of(mesh, candidates)), solvers, separation_);
+    bench_group(data::QueryGroup(mesh.name, kind, mesh::queries_of(mesh, candidates)), solvers,
+                separation_);
   }
 
   void bench_built_in() {
     const SourceArguments& sources = arguments_.sources;
-    const MovingMesh patches = moving_patches({.seed = sources.seed});
+    const mesh::MovingMesh patches = generate::moving_patches({.seed = sources.seed});
     for (const Kind kind : chosen_kinds()) bench_candidates(patches, kind);
     for (const Kind kind : chosen_kinds()) {
       if (stopped()) return;
-      bench_group(hard_set(kind, sources.seed, sources.count, separation_), solvers_.all(),
-                  separation_);
+      bench_group(generate::hard_set(kind, sources.seed, sources.count, separation_),
+                  solvers_.all(), separation_);
     }
   }
 
   void bench_given_step() {
-    const MovingMesh mesh = read_step(arguments_.step.at(0), arguments_.step.at(1));
+    const mesh::MovingMesh mesh = mesh::read_step(arguments_.step.at(0), arguments_.step.at(1));
     for (const Kind kind : chosen_kinds()) bench_candidates(mesh, kind);
     if (stopped()) return;
-    ProgressBar bar("bench " + mesh.name);
+    io::ProgressBar bar("bench " + mesh.name);
     report_.step =
-        bench_step(mesh, {.repetitions = report_.options.repetitions,
-                          .threads = arguments_.sources.threads,
-                          .certified = certified_,
-                          .on_progress = [&bar](double fraction) { bar.update(fraction); },
-                          .stop = &interrupted()});
+        jobs::bench_step(mesh, {.repetitions = report_.options.repetitions,
+                                .threads = arguments_.sources.threads,
+                                .certified = certified_,
+                                .on_progress = [&bar](double fraction) { bar.update(fraction); },
+                                .stop = &io::interrupted()});
   }
 
   /// The queries below a path, of one kind at a time: both may not fit into memory.
@@ -155,19 +157,19 @@ class BenchRun {
     SourceArguments sources = arguments_.sources;
     sources.paths = {path};
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      QueryGroup group(path.string(), kind);
+      data::QueryGroup group(path.string(), kind);
       std::optional<Separation> separation;
       for_each_source(
           sources,
           {.title = "reading " + path.string(),
            .use =
-               [&](QuerySource& source, const Progress& progress) {
+               [&](data::QuerySource& source, const Progress& progress) {
                  if (source.kind() != kind) return;
                  require_one_separation(source, separation);
                  group.read(source, progress, [this] { return stopped(); });
                  skipped_ += source.skipped();
                },
-           .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
+           .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
            .stopped = [this] { return stopped(); },
            .is_output = [this](const fs::path& file) { return json_.is(file); }});
       const Separation asked = separation.value_or(separation_);
@@ -176,12 +178,13 @@ class BenchRun {
   }
 
   /// \throws DatasetError if the source is about another separation than those before it.
-  void require_one_separation(const QuerySource& source, std::optional<Separation>& so_far) const {
+  void require_one_separation(const data::QuerySource& source,
+                              std::optional<Separation>& so_far) const {
     const Separation separation = separation_for(arguments_.sources, source);
-    if (so_far && !same_question(*so_far, separation)) {
-      throw DatasetError(source.name(), {},
-                         "is about a minimum separation of " + to_text(separation) +
-                             ", the files before it about " + to_text(*so_far));
+    if (so_far && !judge::same_question(*so_far, separation)) {
+      throw data::DatasetError(source.name(), {},
+                               "is about a minimum separation of " + judge::to_text(separation) +
+                                   ", the files before it about " + judge::to_text(*so_far));
     }
     so_far = separation;
   }
@@ -197,13 +200,13 @@ class BenchRun {
   }
 
   [[nodiscard]] bool stopped() const {
-    return interrupted() || (!errors_.empty() && !arguments_.sources.keep_going);
+    return io::interrupted() || (!errors_.empty() && !arguments_.sources.keep_going);
   }
 
   [[nodiscard]] Status status() const {
-    if (has_wrong_answers(report_)) return Status::wrong_answers;
+    if (report::has_wrong_answers(report_)) return Status::wrong_answers;
     if (json_.failed() || !errors_.empty() || skipped_ != 0) return Status::bad_input;
-    return interrupted() ? Status::interrupted : Status::all_well;
+    return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
   const Arguments& arguments_;
@@ -211,7 +214,7 @@ class BenchRun {
   ReportedOutput json_;
   Solvers solvers_;
   fast::CertifiedOptions certified_;
-  BenchReport report_;
+  report::BenchReport report_;
   std::set<std::string> errors_;
   std::uint64_t skipped_ = 0;
 };
@@ -245,7 +248,7 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
 
 /// Where the user names no solver, the default methods are timed.
 void settle(const CLI::App& command, Arguments& arguments) {
-  if (arguments.solvers.empty()) arguments.solvers.methods = default_methods();
+  if (arguments.solvers.empty()) arguments.solvers.methods = solvers::default_methods();
   arguments.solvers.kernel = kernel_of(arguments.kernel);
   settle_solver_options(command, arguments.built_in_workload(), arguments.solvers);
 }

@@ -95,7 +95,7 @@ std::uint64_t candidates_in_free_memory() {
 }
 
 /// \throws std::runtime_error saying how many candidates there are, and what to do, if they are too many.
-std::vector<fast::IndexPair> find_pairs(const MovingMesh& mesh, Kind kind,
+std::vector<fast::IndexPair> find_pairs(const mesh::MovingMesh& mesh, Kind kind,
                                         const fast::BroadPhaseOptions& options) {
   try {
     return kind == Kind::vertex_face
@@ -110,7 +110,7 @@ std::vector<fast::IndexPair> find_pairs(const MovingMesh& mesh, Kind kind,
   }
 }
 
-Found find(const MovingMesh& mesh, Kind kind, fast::BroadPhaseOptions options) {
+Found find(const mesh::MovingMesh& mesh, Kind kind, fast::BroadPhaseOptions options) {
   const auto start = std::chrono::steady_clock::now();
   if (options.max_candidates == 0) options.max_candidates = candidates_in_free_memory();
   std::vector<fast::IndexPair> pairs = find_pairs(mesh, kind, options);
@@ -120,26 +120,26 @@ Found find(const MovingMesh& mesh, Kind kind, fast::BroadPhaseOptions options) {
 
 /// Writes the candidates as queries, one after the other: they would take much more memory than the
 /// pairs. Nothing remains if the user interrupts it.
-void write_queries(const fs::path& path, const MovingMesh& mesh, const Found& found) {
+void write_queries(const fs::path& path, const mesh::MovingMesh& mesh, const Found& found) {
   static constexpr std::size_t pairs_of_update = 1U << 14U;
-  const fast::Candidates candidates = candidates_of(mesh, found.kind, found.pairs);
-  ProgressBar progress("write " + path.filename().string());
-  NpyWriter writer(path);
-  for (std::size_t i = 0; i < found.pairs.size() && !interrupted(); ++i) {
+  const fast::Candidates candidates = mesh::candidates_of(mesh, found.kind, found.pairs);
+  io::ProgressBar progress("write " + path.filename().string());
+  data::NpyWriter writer(path);
+  for (std::size_t i = 0; i < found.pairs.size() && !io::interrupted(); ++i) {
     writer.write(fast::query_of(mesh.vertices, candidates, found.pairs[i]));
     if (i % pairs_of_update == 0) {
       progress.update(static_cast<double>(i) / static_cast<double>(found.pairs.size()));
     }
   }
-  if (!interrupted()) writer.close();
+  if (!io::interrupted()) writer.close();
 }
 
-nlohmann::json summary(const MovingMesh& mesh, const std::vector<Found>& all) {
+nlohmann::json summary(const mesh::MovingMesh& mesh, const std::vector<Found>& all) {
   nlohmann::json result{{"vertices", mesh.vertices.size()},
                         {"edges", mesh.edges.size()},
                         {"faces", mesh.faces.size()},
                         {"candidates", nlohmann::json::object()},
-                        {"interrupted", interrupted().load()}};
+                        {"interrupted", io::interrupted().load()}};
   for (const Found& found : all) {
     result["candidates"][std::string(to_string(found.kind))] = {{"count", found.pairs.size()},
                                                                 {"seconds", found.seconds}};
@@ -147,15 +147,15 @@ nlohmann::json summary(const MovingMesh& mesh, const std::vector<Found>& all) {
   return result;
 }
 
-std::string table_of(const MovingMesh& mesh, const std::vector<Found>& all) {
-  TextTable sizes({word_column("mesh", 12), {"count", 10}});
+std::string table_of(const mesh::MovingMesh& mesh, const std::vector<Found>& all) {
+  io::TextTable sizes({io::word_column("mesh", 12), {"count", 10}});
   sizes.add({"vertices", std::to_string(mesh.vertices.size())});
   sizes.add({"edges", std::to_string(mesh.edges.size())});
   sizes.add({"faces", std::to_string(mesh.faces.size())});
-  TextTable candidates({word_column("candidates", 12), {"count", 10}, {"seconds", 8}});
+  io::TextTable candidates({io::word_column("candidates", 12), {"count", 10}, {"seconds", 8}});
   for (const Found& found : all) {
     candidates.add({std::string(to_string(found.kind)), std::to_string(found.pairs.size()),
-                    number_text(found.seconds, "{:.3f}")});
+                    io::number_text(found.seconds, "{:.3f}")});
   }
   return sizes.text() + '\n' + candidates.text();
 }
@@ -165,20 +165,20 @@ Status candidates(const Arguments& arguments) {
   OptionalOutput json(arguments.json_file);
   const Files files(arguments.prefix);
   require_separate_files(arguments, files, json);
-  const MovingMesh mesh = read_step(arguments.before, arguments.after);
+  const mesh::MovingMesh mesh = mesh::read_step(arguments.before, arguments.after);
   const std::vector<Found> all{find(mesh, Kind::vertex_face, arguments.broad_phase),
                                find(mesh, Kind::edge_edge, arguments.broad_phase)};
   const fs::path folder = files.edges.parent_path();
   if (!folder.empty()) fs::create_directories(folder);
-  write_index_pairs(files.edges, mesh.edges);
-  write_index_pairs(files.vertex_face_pairs, all[0].pairs);
-  write_index_pairs(files.edge_edge_pairs, all[1].pairs);
+  mesh::write_index_pairs(files.edges, mesh.edges);
+  mesh::write_index_pairs(files.vertex_face_pairs, all[0].pairs);
+  mesh::write_index_pairs(files.edge_edge_pairs, all[1].pairs);
   write_queries(files.vertex_face, mesh, all[0]);
   write_queries(files.edge_edge, mesh, all[1]);
-  if (json) json.write(json_document(summary(mesh, all)));
+  if (json) json.write(io::json_document(summary(mesh, all)));
   json.close();
-  print(json.is_standard_output() ? stderr : stdout, table_of(mesh, all));
-  return interrupted() ? Status::interrupted : Status::all_well;
+  io::print(json.is_standard_output() ? stderr : stdout, table_of(mesh, all));
+  return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 
 void add_options(CLI::App& command, Arguments& arguments) {

@@ -29,7 +29,7 @@ void CertificatesFile::put(std::string_view bytes) {
   bytes_ += bytes.size();
 }
 
-void report_beyond_limits(const ProofCounts& counts) {
+void report_beyond_limits(const jobs::ProofCounts& counts) {
   for (const std::string& reason : counts.beyond_limits) report_error(reason);
 }
 

@@ -11,7 +11,7 @@
 
 #include "verify/cli/options.hpp"
 #include "verify/io/compressor.hpp"
-#include "verify/run/prove.hpp"
+#include "verify/jobs/prove.hpp"
 
 namespace touchstone::verify::cli {
 
@@ -41,11 +41,11 @@ class CertificatesFile {
   void put(std::string_view bytes);
 
   ReportedOutput output_;
-  std::optional<Compressor> compressor_;
+  std::optional<io::Compressor> compressor_;
   std::uint64_t bytes_ = 0;
 };
 
 /// Says on standard error which queries have no certificate, and why.
-void report_beyond_limits(const ProofCounts& counts);
+void report_beyond_limits(const jobs::ProofCounts& counts);
 
 }  // namespace touchstone::verify::cli

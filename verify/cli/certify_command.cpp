@@ -21,8 +21,8 @@
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/jobs/certify.hpp"
 #include "verify/report/certify_report.hpp"
-#include "verify/run/certify.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli {
@@ -43,7 +43,7 @@ struct Arguments {
 SolverArguments judged_by(const Arguments& arguments) {
   SolverArguments judged = arguments.judged;
   if (judged.empty() && arguments.sources.built_in_set()) {
-    judged.methods = default_methods();
+    judged.methods = solvers::default_methods();
   }
   return judged;
 }
@@ -63,24 +63,24 @@ class CertifyRun {
     for (const fs::path& file : arguments.judged.files()) {
       if (is_output(file)) throw std::runtime_error(file.string() + ": named for input and output");
     }
-    if (truth_) truth_.write(truth_header());
+    if (truth_) truth_.write(report::truth_header());
   }
 
   Status run() {
-    for_each_source(
-        arguments_.sources,
-        {.title = "certify",
-         .use = [this](QuerySource& source,
-                       const Progress& progress) { certify_source(source, progress); },
-         .fail = [this](const fs::path& path, const DatasetError& error) { fail(path, error); },
-         .stopped = [this] { return stopped(); },
-         .is_output = [this](const fs::path& path) { return is_output(path); }});
+    for_each_source(arguments_.sources,
+                    {.title = "certify",
+                     .use = [this](data::QuerySource& source,
+                                   const Progress& progress) { certify_source(source, progress); },
+                     .fail = [this](const fs::path& path,
+                                    const data::DatasetError& error) { fail(path, error); },
+                     .stopped = [this] { return stopped(); },
+                     .is_output = [this](const fs::path& path) { return is_output(path); }});
     report_answers();
     solvers_.report_output(arguments_.judged.show_output);
     // Files first: a closed standard output must not cost them.
     truth_.close();
     proof_.close(sum_.proofs.certificates());
-    if (json_) json_.write(json_document(to_json(results_)));
+    if (json_) json_.write(io::json_document(report::to_json(results_)));
     json_.close();
     print_summary();
     return status();
@@ -99,47 +99,47 @@ class CertifyRun {
     const bool is_standard_output =
         json_.is_standard_output() || truth_.is_standard_output() || proof_.is_standard_output();
     std::FILE* const stream = is_standard_output ? stderr : stdout;
-    print(stream, to_text(results_));
-    if (proof_) print(stream, fmt::format("\n{}", to_text(sum_.proofs)));
+    io::print(stream, report::to_text(results_));
+    if (proof_) io::print(stream, fmt::format("\n{}", jobs::to_text(sum_.proofs)));
     report_beyond_limits(sum_.proofs);
   }
 
-  void certify_source(QuerySource& source, const Progress& progress) {
-    CertifyOptions options;
+  void certify_source(data::QuerySource& source, const Progress& progress) {
+    jobs::CertifyOptions options;
     options.separation = separation_for(arguments_.sources, source);
     // The truth of the families is exact.
     if (arguments_.sources.built_in_set()) options.toi_tolerance = 0;
     options.threads = arguments_.sources.threads;
-    options.stop = &interrupted();
+    options.stop = &io::interrupted();
     options.solvers = solvers_.all();
     options.on_progress = progress;
     if (truth_) {
-      options.on_truth = [&](const Truth& truth) {
-        truth_.write(truth_row(source.name(), source.kind(), truth));
+      options.on_truth = [&](const judge::Truth& truth) {
+        truth_.write(report::truth_row(source.name(), source.kind(), truth));
       };
     }
     if (proof_) {
       options.on_certificates = [this](std::string_view text) { proof_.write(text); };
     }
-    add(certify(source, options));
+    add(jobs::certify(source, options));
     if (results_.back().error) report_error(*results_.back().error);
   }
 
   /// A path or file that could not be opened: a result without queries.
-  void fail(const fs::path& path, const DatasetError& error) {
+  void fail(const fs::path& path, const data::DatasetError& error) {
     report_error(error.what());
-    CertifyResult result;
+    jobs::CertifyResult result;
     result.name = path.string();
     result.separation = arguments_.sources.separation.given();
     result.fail(error.what());
-    for (const Solver* solver : solvers_.all()) {
+    for (const solvers::Solver* solver : solvers_.all()) {
       result.methods.push_back(
-          {solver->name(), solver->promise(), solver->is_timed(), Judgement{}});
+          {solver->name(), solver->promise(), solver->is_timed(), judge::Judgement{}});
     }
     add(std::move(result));
   }
 
-  void add(CertifyResult result) {
+  void add(jobs::CertifyResult result) {
     sum_ += result;
     results_.push_back(std::move(result));
   }
@@ -147,10 +147,10 @@ class CertifyRun {
   /// Says which queries have no recorded answer, and which answers have no query.
   void report_answers() const {
     for (std::size_t i = 0; i < sum_.methods.size(); ++i) {
-      const MethodResult& method = sum_.methods[i];
+      const jobs::MethodResult& method = sum_.methods[i];
       report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
       if (method.judgement.missing == 0) continue;
-      const auto first = std::ranges::find_if(results_, [i](const CertifyResult& result) {
+      const auto first = std::ranges::find_if(results_, [i](const jobs::CertifyResult& result) {
         return i < result.methods.size() && result.methods[i].judgement.first_missing;
       });
       report_error(fmt::format("{}: no answer to {} queries, first to {} query {} of {}",
@@ -164,14 +164,14 @@ class CertifyRun {
   }
 
   [[nodiscard]] bool stopped() const {
-    return interrupted() || (sum_.errors != 0 && !arguments_.sources.keep_going);
+    return io::interrupted() || (sum_.errors != 0 && !arguments_.sources.keep_going);
   }
 
   [[nodiscard]] Status status() const {
-    const auto is_wrong = [](const MethodResult& method) {
-      return !keeps(method.judgement, method.promise);
+    const auto is_wrong = [](const jobs::MethodResult& method) {
+      return !judge::keeps(method.judgement, method.promise);
     };
-    const auto is_incomplete = [](const MethodResult& method) {
+    const auto is_incomplete = [](const jobs::MethodResult& method) {
       return method.judgement.missing != 0;
     };
     if (sum_.label_mismatches + sum_.toi_mismatches != 0 ||
@@ -182,7 +182,7 @@ class CertifyRun {
         !sum_.proofs.beyond_limits.empty() || std::ranges::any_of(sum_.methods, is_incomplete)) {
       return Status::bad_input;
     }
-    return interrupted() ? Status::interrupted : Status::all_well;
+    return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
   const Arguments& arguments_;
@@ -190,8 +190,8 @@ class CertifyRun {
   ReportedOutput json_;
   ReportedOutput truth_;
   CertificatesFile proof_;
-  std::vector<CertifyResult> results_;
-  CertifyResult sum_;
+  std::vector<jobs::CertifyResult> results_;
+  jobs::CertifyResult sum_;
 };
 
 void add_judged_options(CLI::App& command, SolverArguments& judged) {

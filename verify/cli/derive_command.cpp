@@ -52,16 +52,16 @@ DeriveOptions to_options(const Arguments& arguments) {
   }
   options.search = {.seed = arguments.seed, .evaluations = arguments.evaluations};
   options.threads = arguments.threads;
-  options.stop = [] { return interrupted().load(); };
+  options.stop = [] { return io::interrupted().load(); };
   return options;
 }
 
 /// A bound as a multiple of u and as the constant itself.
 void add_bound(nlohmann::json& row, const std::string& name, const std::optional<double>& units,
                const filters::Format& format) {
-  row[name + "_units"] = number_to_json(units);
+  row[name + "_units"] = io::number_to_json(units);
   row[name] =
-      number_to_json(units ? std::optional(*units * format.unit_roundoff().get_d()) : units);
+      io::number_to_json(units ? std::optional(*units * format.unit_roundoff().get_d()) : units);
 }
 
 std::optional<double> to_double(const std::optional<mpq_class>& number) {
@@ -71,7 +71,7 @@ std::optional<double> to_double(const std::optional<mpq_class>& number) {
 
 nlohmann::json to_json(const DeriveRow& row) {
   nlohmann::json json{{"expression", row.expression}, {"precision", row.format.name}};
-  json["published_constant"] = text_or_null(row.published_constant);
+  json["published_constant"] = io::text_or_null(row.published_constant);
   add_bound(json, "published", to_double(row.published), row.format);
   add_bound(json, "rigorous", to_double(row.rigorous), row.format);
   add_bound(json, "gappa", to_double(row.gappa), row.format);
@@ -81,7 +81,7 @@ nlohmann::json to_json(const DeriveRow& row) {
     json["worst_input"] = {{"coordinates", row.observed->inputs.coordinates},
                            {"weights", row.observed->inputs.weights}};
   }
-  json["tightness"] = number_to_json(row.tightness());
+  json["tightness"] = io::number_to_json(row.tightness());
   return json;
 }
 
@@ -112,15 +112,15 @@ Status derive(const Arguments& arguments) {
   DeriveOptions options = to_options(arguments);
   DeriveResult result;
   {
-    ProgressBar progress("derive");
+    io::ProgressBar progress("derive");
     options.progress = [&progress](double fraction) { progress.update(fraction); };
     result = filters::derive(options);
   }
   if (header) header.write(filters::error_bounds_header());
-  if (json) json.write(json_document(to_json(arguments, result)));
+  if (json) json.write(io::json_document(to_json(arguments, result)));
   header.close();
   json.close();
-  print(stdout, to_table(result));
+  io::print(stdout, to_table(result));
   return status_of(arguments, result);
 }
 

@@ -58,9 +58,10 @@ struct Arguments {
     return {kind_from_string(kind)};
   }
 
-  [[nodiscard]] std::vector<FindingKind> sought() const {
-    std::vector<FindingKind> result;
-    for (const std::string& name : only) result.push_back(finding_kind_from_string(name).value());
+  [[nodiscard]] std::vector<fuzz::FindingKind> sought() const {
+    std::vector<fuzz::FindingKind> result;
+    for (const std::string& name : only)
+      result.push_back(fuzz::finding_kind_from_string(name).value());
     return result;
   }
 };
@@ -70,20 +71,20 @@ struct Arguments {
 /// The kind of a file: what its path says, or else the only one that is asked for.
 Kind kind_of(const fs::path& file, const Arguments& arguments) {
   try {
-    return kind_from_path(file);
-  } catch (const DatasetError&) {
+    return data::kind_from_path(file);
+  } catch (const data::DatasetError&) {
     if (arguments.kind.empty()) throw;
     return kind_from_string(arguments.kind);
   }
 }
 
-std::vector<CorpusQuery> read_corpus(const Arguments& arguments) {
-  std::vector<CorpusQuery> corpus;
+std::vector<fuzz::CorpusQuery> read_corpus(const Arguments& arguments) {
+  std::vector<fuzz::CorpusQuery> corpus;
   if (arguments.corpus.empty()) return corpus;
-  for (const fs::path& file : find_datasets(arguments.corpus)) {
+  for (const fs::path& file : data::find_datasets(arguments.corpus)) {
     const Kind kind = kind_of(file, arguments);
-    const auto source = open_dataset(file, {.kind = kind});
-    for (auto query = source->next(); query && !interrupted(); query = source->next()) {
+    const auto source = data::open_dataset(file, {.kind = kind});
+    for (auto query = source->next(); query && !io::interrupted(); query = source->next()) {
       corpus.push_back({kind, query->query});
     }
   }
@@ -95,8 +96,8 @@ std::vector<CorpusQuery> read_corpus(const Arguments& arguments) {
 /// FILE itself where its path says the kind, else with the kind in its name.
 fs::path dataset_path(const fs::path& file, Kind kind) {
   try {
-    if (kind_from_path(file) == kind) return file;
-  } catch (const DatasetError&) {
+    if (data::kind_from_path(file) == kind) return file;
+  } catch (const data::DatasetError&) {
     fs::path result = file;
     result.replace_filename(
         fmt::format("{}-{}.csv", file.stem().string(), std::string(to_string(kind))));
@@ -138,7 +139,7 @@ class FoundQueries {
       written.push_back(file->path);
     }
     if (!written.empty() && !is_contact(separation_)) {
-      write_separation(folder_.empty() ? "." : folder_, separation_);
+      data::write_separation(folder_.empty() ? "." : folder_, separation_);
     }
     return written;
   }
@@ -147,18 +148,18 @@ class FoundQueries {
   struct File {
     explicit File(const fs::path& name) : path(name), writer(name) {}
     fs::path path;
-    CsvWriter writer;
+    data::CsvWriter writer;
     std::uint64_t queries = 0;
   };
 
   /// \throws std::runtime_error if a folder has queries about another separation.
   void require_same_separation(const fs::path& file) const {
-    const Separation recorded = recorded_separation(file);
-    if (same_question(recorded, separation_)) return;
+    const Separation recorded = data::recorded_separation(file);
+    if (judge::same_question(recorded, separation_)) return;
     if (is_contact(recorded) && is_without_datasets()) return;
     throw std::runtime_error(
         fmt::format("{}: its folder is about a minimum separation of {}, not {}; choose another",
-                    file.string(), to_text(recorded), to_text(separation_)));
+                    file.string(), judge::to_text(recorded), judge::to_text(separation_)));
   }
 
   [[nodiscard]] bool is_without_datasets() const {
@@ -200,33 +201,33 @@ class FuzzRun {
     options_.only = arguments.sought();
     options_.corpus = read_corpus(arguments);
     options_.kinds = arguments.kinds();
-    options_.stop = &interrupted();
-    options_.on_progress = [this](const FuzzProgress& progress) { show(progress); };
-    options_.on_finding = [this](const Finding& finding) { add(finding); };
+    options_.stop = &io::interrupted();
+    options_.on_progress = [this](const fuzz::FuzzProgress& progress) { show(progress); };
+    options_.on_finding = [this](const fuzz::Finding& finding) { add(finding); };
     asked_ = {.method = std::string(method_->name()),
               .plugin = plugin_ ? fs::absolute(arguments.solver.plugins.front()) : fs::path(),
               .promise = options_.promise.value_or(method_->promise()),
-              .options = method_options(options_),
+              .options = fuzz::method_options(options_),
               .query_limit_seconds = options_.query_limit_seconds,
               .limits = options_.limits};
   }
 
   Status run() {
-    const FuzzReport report{.solver = asked_,
-                            .seed = options_.seed,
-                            .seconds = options_.seconds,
-                            .queries = options_.most_queries,
-                            .only = options_.only,
-                            .result = fuzz(*method_, options_)};
+    const fuzz::FuzzReport report{.solver = asked_,
+                                  .seed = options_.seed,
+                                  .seconds = options_.seconds,
+                                  .queries = options_.most_queries,
+                                  .only = options_.only,
+                                  .result = fuzz::fuzz(*method_, options_)};
     bar_.clear();
     report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
     report_output(asked_.method, report.result.output, arguments_.solver.show_output);
     const std::vector<fs::path> written = found_.close();
-    if (json_) json_.write(json_document(to_json(report)));
+    if (json_) json_.write(io::json_document(fuzz::to_json(report)));
     json_.close();
-    print(out(), to_text(report));
+    io::print(out(), fuzz::to_text(report));
     for (const fs::path& file : written)
-      print(out(), fmt::format("written: {}\n", printable(file.string())));
+      io::print(out(), fmt::format("written: {}\n", io::printable(file.string())));
     return status(report.result);
   }
 
@@ -237,7 +238,7 @@ class FuzzRun {
       throw std::invalid_argument("fuzz asks one solver: name one with --method or --plugin");
     }
     if (!solver.methods.empty()) {
-      method_ = &find_method(solver.methods.front());
+      method_ = &solvers::find_method(solver.methods.front());
       return;
     }
     plugin_ = solver.load(solver.plugins.front());
@@ -246,7 +247,7 @@ class FuzzRun {
 
   [[nodiscard]] std::FILE* out() const { return json_.is_standard_output() ? stderr : stdout; }
 
-  void show(const FuzzProgress& progress) {
+  void show(const fuzz::FuzzProgress& progress) {
     double fraction = 0.0;
     if (options_.seconds > 0.0) fraction = progress.seconds / options_.seconds;
     if (options_.most_queries != 0) {
@@ -256,25 +257,25 @@ class FuzzRun {
     bar_.update(fraction);
   }
 
-  void add(const Finding& finding) {
+  void add(const fuzz::Finding& finding) {
     bar_.clear();
-    print(out(), to_text(finding, asked_));
-    const FailingCase& simplest = finding.simplest;
-    const FailingCase& original = finding.original;
+    io::print(out(), fuzz::to_text(finding, asked_));
+    const fuzz::FailingCase& simplest = finding.simplest;
+    const fuzz::FailingCase& original = finding.original;
     found_.write(finding.kind, simplest.query, simplest.collides);
     if (simplest.query != original.query) {
       found_.write(finding.kind, original.query, original.collides);
     }
   }
 
-  [[nodiscard]] Status status(const FuzzResult& result) const {
-    const bool seeks_ends =
-        seeks(options_, FindingKind::crash) || seeks(options_, FindingKind::exit);
+  [[nodiscard]] Status status(const fuzz::FuzzResult& result) const {
+    const bool seeks_ends = fuzz::seeks(options_, fuzz::FindingKind::crash) ||
+                            fuzz::seeks(options_, fuzz::FindingKind::exit);
     if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
       return Status::wrong_answers;
     }
     if (json_.failed()) return Status::bad_input;
-    if (result.ended_by == FuzzEnd::interrupt) return Status::interrupted;
+    if (result.ended_by == fuzz::FuzzEnd::interrupt) return Status::interrupted;
     if (result.queries != 0) return Status::all_well;
     report_error(fmt::format(
         "nothing was judged: {} answered no query in {} s; give it more --seconds, or a "
@@ -286,17 +287,17 @@ class FuzzRun {
   const Arguments& arguments_;
   ReportedOutput json_;
   FoundQueries found_;
-  ProgressBar bar_;
+  io::ProgressBar bar_;
   std::unique_ptr<fast::Method> plugin_;
   const fast::Method* method_ = nullptr;
-  FuzzOptions options_;
-  SolverCall asked_;
+  fuzz::FuzzOptions options_;
+  fuzz::SolverCall asked_;
 };
 
 std::vector<std::string> finding_kind_names() {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < finding_kinds; ++i) {
-    names.emplace_back(to_string(static_cast<FindingKind>(i)));
+  for (std::size_t i = 0; i < fuzz::finding_kinds; ++i) {
+    names.emplace_back(fuzz::to_string(static_cast<fuzz::FindingKind>(i)));
   }
   return names;
 }

@@ -45,33 +45,34 @@ struct Written {
   bool is_known = true;  ///< Is the truth known by construction?
 };
 
-std::vector<Family> chosen(const std::vector<std::string>& names, const Separation& separation) {
-  if (names.empty()) return families(separation);
-  std::vector<Family> result;
+std::vector<generate::Family> chosen(const std::vector<std::string>& names,
+                                     const Separation& separation) {
+  if (names.empty()) return generate::families(separation);
+  std::vector<generate::Family> result;
   result.reserve(names.size());
-  for (const std::string& name : names) result.push_back(family_from_name(name));
+  for (const std::string& name : names) result.push_back(generate::family_from_name(name));
   return result;
 }
 
-void list_families(const std::vector<Family>& chosen_families) {
-  for (const Family& family : chosen_families)
-    print(stdout, fmt::format("{}\n    {}\n", family.name, family.reason));
+void list_families(const std::vector<generate::Family>& chosen_families) {
+  for (const generate::Family& family : chosen_families)
+    io::print(stdout, fmt::format("{}\n    {}\n", family.name, family.reason));
 }
 
 /// The query without what is known of it at another separation.
-void keep_claims_about(const Separation& separation, const QuerySource& source,
-                       std::optional<RecordedQuery>& query) {
-  if (!query || same_question(source.recorded_separation(), separation)) return;
+void keep_claims_about(const Separation& separation, const data::QuerySource& source,
+                       std::optional<data::RecordedQuery>& query) {
+  if (!query || judge::same_question(source.recorded_separation(), separation)) return;
   query->collides.reset();
   query->toi.reset();
 }
 
 /// Every query of a source, with what is known of it at the separation; counted.
 template <class Use>
-Written for_each_query(QuerySource& source, const Separation& separation, const fs::path& file,
-                       const Use& use) {
+Written for_each_query(data::QuerySource& source, const Separation& separation,
+                       const fs::path& file, const Use& use) {
   Written written{.file = file};
-  for (auto query = source.next(); query && !interrupted(); query = source.next()) {
+  for (auto query = source.next(); query && !io::interrupted(); query = source.next()) {
     keep_claims_about(separation, source, query);
     use(*query);
     ++written.queries;
@@ -82,12 +83,12 @@ Written for_each_query(QuerySource& source, const Separation& separation, const 
 }
 
 /// FOLDER/KIND/FAMILY.csv with its times of impact in FOLDER/KIND/toi/FAMILY_toi.csv.
-Written write_csv(QuerySource& source, const Separation& separation, const fs::path& folder) {
+Written write_csv(data::QuerySource& source, const Separation& separation, const fs::path& folder) {
   const fs::path file = folder / (source.name() + ".csv");
   fs::create_directories(folder / "toi");
-  CsvWriter queries(file);
-  ToiWriter tois(folder / "toi" / (source.name() + "_toi.csv"));
-  Written written = for_each_query(source, separation, file, [&](const RecordedQuery& query) {
+  data::CsvWriter queries(file);
+  data::ToiWriter tois(folder / "toi" / (source.name() + "_toi.csv"));
+  Written written = for_each_query(source, separation, file, [&](const data::RecordedQuery& query) {
     queries.write(query.query, query.collides);
     if (query.toi) tois.write(query.index, *query.toi);
   });
@@ -97,7 +98,7 @@ Written write_csv(QuerySource& source, const Separation& separation, const fs::p
 }
 
 /// FOLDER/KIND/FAMILY.npy, without the truth.
-Written write_npy(QuerySource& source, const Separation& separation, const fs::path& folder) {
+Written write_npy(data::QuerySource& source, const Separation& separation, const fs::path& folder) {
   const fs::path file = folder / (source.name() + ".npy");
   const fs::path companion = folder / "toi" / (source.name() + "_toi.csv");
   if (fs::exists(companion)) {
@@ -105,9 +106,10 @@ Written write_npy(QuerySource& source, const Separation& separation, const fs::p
                              ": would be taken for the array's; choose another folder");
   }
   fs::create_directories(folder);
-  NpyWriter queries(file);
-  Written written = for_each_query(source, separation, file,
-                                   [&](const RecordedQuery& query) { queries.write(query.query); });
+  data::NpyWriter queries(file);
+  Written written = for_each_query(source, separation, file, [&](const data::RecordedQuery& query) {
+    queries.write(query.query);
+  });
   queries.close();
   return written;
 }
@@ -116,28 +118,28 @@ Written write_npy(QuerySource& source, const Separation& separation, const fs::p
 void require_same_separation(const fs::path& folder, const Separation& separation) {
   const bool has_queries = fs::exists(folder / to_string(Kind::vertex_face)) ||
                            fs::exists(folder / to_string(Kind::edge_edge));
-  const Separation recorded = recorded_separation(folder / "any");
-  if ((!has_queries && is_contact(recorded)) || same_question(recorded, separation)) return;
+  const Separation recorded = data::recorded_separation(folder / "any");
+  if ((!has_queries && is_contact(recorded)) || judge::same_question(recorded, separation)) return;
   throw std::runtime_error(
       fmt::format("{}: is about a minimum separation of {}, not {}; choose another folder",
-                  folder.string(), to_text(recorded), to_text(separation)));
+                  folder.string(), judge::to_text(recorded), judge::to_text(separation)));
 }
 
 std::vector<Written> write_families(const Arguments& arguments) {
   std::vector<Written> result;
   const Separation separation = arguments.separation.given();
   require_same_separation(arguments.folder, separation);
-  const std::vector<Family> chosen_families = chosen(arguments.names, separation);
+  const std::vector<generate::Family> chosen_families = chosen(arguments.names, separation);
   if (!is_contact(separation)) {
     fs::create_directories(arguments.folder);
-    write_separation(arguments.folder, separation);
+    data::write_separation(arguments.folder, separation);
   }
-  ProgressBar progress("generate");
+  io::ProgressBar progress("generate");
   for (std::size_t i = 0; i < chosen_families.size(); ++i) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (interrupted() || !supports(chosen_families[i], kind)) continue;
-      const auto source =
-          open_family(chosen_families[i], kind, arguments.seed, arguments.count, separation);
+      if (io::interrupted() || !generate::supports(chosen_families[i], kind)) continue;
+      const auto source = generate::open_family(chosen_families[i], kind, arguments.seed,
+                                                arguments.count, separation);
       const fs::path folder = fs::path(arguments.folder) / to_string(kind);
       result.push_back(arguments.npy ? write_npy(*source, separation, folder)
                                      : write_csv(*source, separation, folder));
@@ -164,17 +166,18 @@ Status generate(const Arguments& arguments) {
     json.push_back({{"file", written.file.string()}, {"queries", written.queries}});
     json.back()["collisions"] =
         written.is_known ? nlohmann::json(written.collisions) : nlohmann::json();
-    if (!is_contact(separation)) json.back()["separation"] = to_json(separation);
+    if (!is_contact(separation)) json.back()["separation"] = judge::to_json(separation);
   }
-  if (json_output) json_output.write(json_document(json));
+  if (json_output) json_output.write(io::json_document(json));
   json_output.close();
-  print(stdout, fmt::format("{} queries, {} of them collisions{}, in {} files below {}\n", queries,
-                            collisions,
-                            is_contact(separation) ? ""
-                                                   : " at minimum separation " +
-                                                         to_text(separation) + " by construction",
-                            files.size(), printable(arguments.folder)));
-  return interrupted() ? Status::interrupted : Status::all_well;
+  io::print(stdout,
+            fmt::format(
+                "{} queries, {} of them collisions{}, in {} files below {}\n", queries, collisions,
+                is_contact(separation)
+                    ? ""
+                    : " at minimum separation " + judge::to_text(separation) + " by construction",
+                files.size(), io::printable(arguments.folder)));
+  return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 
 }  // namespace

@@ -16,8 +16,8 @@
 
 namespace {
 
-using touchstone::verify::print;
 using touchstone::verify::cli::Status;
+using touchstone::verify::io::print;
 
 /// No file that is opened later may become a standard stream that was closed when the program began, and
 /// take what is printed. Writing to what stands in fails, as it would have.
@@ -38,7 +38,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", TOUCHSTONE_VERSION);
   // What was on the command line stands in the message.
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return touchstone::verify::printable(error.what()) +
+    return touchstone::verify::io::printable(error.what()) +
            "\nRun with --help for more information.\n";
   });
   app.require_subcommand(1);
@@ -75,9 +75,9 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     touchstone::fast::require_strict_arithmetic();
     const int status = run(argc, argv);
-    touchstone::verify::finish_printing();
+    touchstone::verify::io::finish_printing();
     return status;
-  } catch (const touchstone::verify::Interrupted& interrupt) {
+  } catch (const touchstone::verify::io::Interrupted& interrupt) {
     touchstone::verify::cli::report_error(interrupt.what());
     return static_cast<int>(Status::interrupted);
   } catch (const std::exception& error) {

@@ -72,7 +72,7 @@ CLI::Validator real_number(double least, double greatest) {
 
 CLI::Validator distance_number() {
   const auto check = [](const std::string& text) -> std::string {
-    if (distance_from_text(text)) return {};
+    if (data::distance_from_text(text)) return {};
     return fmt::format("{} is no finite number from 0 on", text);
   };
   return {check, ""};
@@ -86,10 +86,10 @@ Separation SeparationArguments::settle(const Separation& recorded) const {
   if (is_contact(recorded)) return given();
   const Separation asked{.distance = distance.value_or(recorded.distance),
                          .norm = norm.value_or(recorded.norm)};
-  if (same_question(asked, recorded)) return asked;
+  if (judge::same_question(asked, recorded)) return asked;
   throw std::invalid_argument(
       fmt::format("asked for a minimum separation of {}, but its separation.json says {}",
-                  to_text(asked), to_text(recorded)));
+                  judge::to_text(asked), judge::to_text(recorded)));
 }
 
 CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& distance,
@@ -98,7 +98,7 @@ CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& dista
   return command
       .add_option_function<std::string>(
           "--min-separation",
-          [&distance](const std::string& text) { distance = distance_from_text(text); },
+          [&distance](const std::string& text) { distance = data::distance_from_text(text); },
           description)
       ->type_name("D")
       ->check(distance_number());
@@ -121,18 +121,18 @@ void add_separation_options(CLI::App& command, SeparationArguments& arguments) {
 }
 
 void report_error(std::string_view message) {
-  print(stderr, fmt::format("touchstone: error: {}\n", printable(message)));
+  io::print(stderr, fmt::format("touchstone: error: {}\n", io::printable(message)));
 }
 
 void report_warning(std::string_view message) {
-  print(stderr, fmt::format("touchstone: warning: {}\n", printable(message)));
+  io::print(stderr, fmt::format("touchstone: warning: {}\n", io::printable(message)));
 }
 
 std::string command_line() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
   std::string command;
   for (std::string word; std::getline(file, word, '\0');) {
-    command += command.empty() ? "touchstone" : " " + shell_word(word);
+    command += command.empty() ? "touchstone" : " " + io::shell_word(word);
   }
   return command;
 }
@@ -141,11 +141,11 @@ OptionalOutput::OptionalOutput(const std::string& name) : name_(name) {
   if (name.empty()) return;
   if (is_device(name)) {
     // Never truncates: standard output may be a file that others have written to.
-    const int descriptor = open_for_appending(name);
+    const int descriptor = io::open_for_appending(name);
     if (descriptor >= 0) device_.reset(::fdopen(descriptor, "a"));
     if (!device_) throw failure("cannot be opened for writing");
   } else {
-    file_ = std::make_unique<OutputFile>(behind_links(name));
+    file_ = std::make_unique<io::OutputFile>(behind_links(name));
   }
 }
 

@@ -92,7 +92,7 @@ class OptionalOutput {
   [[nodiscard]] std::runtime_error failure(const std::string& what) const;
 
   std::string name_;
-  std::unique_ptr<OutputFile> file_;
+  std::unique_ptr<io::OutputFile> file_;
   std::unique_ptr<std::FILE, CloseFile> device_;
 };
 

@@ -19,9 +19,9 @@
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/jobs/prove.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/report/judgement_report.hpp"
-#include "verify/run/prove.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -64,13 +64,13 @@ class ProveRun {
     for_each_source(
         arguments_.sources,
         {.title = "prove",
-         .use = [this](QuerySource& source,
+         .use = [this](data::QuerySource& source,
                        const Progress& progress) { prove_source(source, progress); },
-         .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
+         .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); },
          .is_output = [this](const fs::path& path) { return out_.is(path) || json_.is(path); }});
     out_.close(sum_.counts.certificates());
-    if (json_) json_.write(json_document(summary()));
+    if (json_) json_.write(io::json_document(summary()));
     json_.close();
     report_beyond_limits(sum_.counts);
     print_summary();
@@ -83,20 +83,20 @@ class ProveRun {
     return name;
   }
 
-  void prove_source(QuerySource& source, const Progress& progress) {
-    SourceProofOptions options;
+  void prove_source(data::QuerySource& source, const Progress& progress) {
+    jobs::SourceProofOptions options;
     options.separation = separation_for(arguments_.sources, source);
     separations_.push_back(options.separation);
     options.threads = arguments_.sources.threads;
     options.proof = options_;
-    options.stop = &interrupted();
+    options.stop = &io::interrupted();
     options.on_progress = progress;
     options.on_certificates = [this](std::string_view certificates) {
       out_.write(certificates);
       // An exception ends the proving at once; the failure itself is reported already.
       if (out_.failed()) throw std::runtime_error("certificates cannot be written");
     };
-    const SourceProof proof = prove(source, options);
+    const jobs::SourceProof proof = jobs::prove(source, options);
     sum_ += proof;
     if (proof.reading_error && !out_.failed()) fail(*proof.reading_error);
   }
@@ -107,7 +107,7 @@ class ProveRun {
   }
 
   [[nodiscard]] bool stopped() const {
-    return interrupted() || out_.failed() ||
+    return io::interrupted() || out_.failed() ||
            (reading_errors_ != 0 && !arguments_.sources.keep_going);
   }
 
@@ -117,15 +117,15 @@ class ProveRun {
   }
 
   [[nodiscard]] nlohmann::json summary() const {
-    nlohmann::json result = to_json(sum_.counts);
+    nlohmann::json result = jobs::to_json(sum_.counts);
     result.update({{"file_bytes", out_.bytes()},
                    {"oracle_us_per_query", oracle_microseconds()},
                    {"skipped", sum_.skipped},
                    {"rounded", sum_.rounded},
                    {"reading_errors", reading_errors_},
                    {"interrupted", sum_.interrupted}});
-    if (const auto separation = common_separation(separations_)) {
-      result["separation"] = to_json(*separation);
+    if (const auto separation = judge::common_separation(separations_)) {
+      result["separation"] = judge::to_json(*separation);
     }
     return result;
   }
@@ -133,13 +133,13 @@ class ProveRun {
   void print_summary() const {
     std::FILE* const stream =
         out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
-    if (const auto separation = common_separation(separations_)) {
-      print(stream, fmt::format("minimum separation {}\n", to_text(*separation)));
+    if (const auto separation = judge::common_separation(separations_)) {
+      io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
     }
-    print(stream, to_text(sum_.counts));
-    print(stream, fmt::format("oracle {:.2f} µs/query, file {} bytes\n", oracle_microseconds(),
-                              out_.bytes()));
-    print(stream, reading_text(sum_.skipped, sum_.rounded));
+    io::print(stream, jobs::to_text(sum_.counts));
+    io::print(stream, fmt::format("oracle {:.2f} µs/query, file {} bytes\n", oracle_microseconds(),
+                                  out_.bytes()));
+    io::print(stream, report::reading_text(sum_.skipped, sum_.rounded));
   }
 
   [[nodiscard]] Status status() const {
@@ -147,14 +147,14 @@ class ProveRun {
         !sum_.counts.beyond_limits.empty()) {
       return Status::bad_input;
     }
-    return interrupted() ? Status::interrupted : Status::all_well;
+    return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
   const Arguments& arguments_;
   exact::ProveOptions options_;
   CertificatesFile out_;
   ReportedOutput json_;
-  SourceProof sum_;
+  jobs::SourceProof sum_;
   std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;
 };

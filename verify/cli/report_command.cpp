@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   SourceArguments sources;
-  SurveyOptions survey;
+  report::SurveyOptions survey;
   std::string from_file;
   std::string page_file;
   std::string json_file;
@@ -76,9 +76,9 @@ class ReportRun {
   }
 
   Status run() {
-    Measurements measurements;
+    report::Measurements measurements;
     if (arguments_.from_file.empty()) {
-      const std::vector<QueryGroup> groups =
+      const std::vector<data::QueryGroup> groups =
           arguments_.sources.built_in_set() ? built_in() : given();
       if (!errors_.empty() && !arguments_.sources.keep_going) return Status::bad_input;
       measurements = measured(groups);
@@ -87,10 +87,10 @@ class ReportRun {
     }
     write(measurements);
     report_broken_promises(measurements);
-    if (has_wrong_answers(measurements)) return Status::wrong_answers;
+    if (report::has_wrong_answers(measurements)) return Status::wrong_answers;
     const bool failed = page_.failed() || json_.failed() || results_.failed();
     if (failed || !errors_.empty() || skipped_ != 0) return Status::bad_input;
-    return interrupted() ? Status::interrupted : Status::all_well;
+    return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
  private:
@@ -98,25 +98,25 @@ class ReportRun {
     return page_.is(file) || json_.is(file) || results_.is(file);
   }
 
-  [[nodiscard]] Measurements read() const {
+  [[nodiscard]] report::Measurements read() const {
     static constexpr std::size_t most_bytes = std::size_t{1} << 30U;
     const nlohmann::json json =
-        nlohmann::json::parse(read_file(arguments_.from_file, most_bytes), nullptr, false);
+        nlohmann::json::parse(io::read_file(arguments_.from_file, most_bytes), nullptr, false);
     try {
-      return measurements_from_json(json);
+      return report::measurements_from_json(json);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(arguments_.from_file + ": " + error.what());
     }
   }
 
-  [[nodiscard]] Measurements measured(const std::vector<QueryGroup>& groups) const {
-    ProgressBar bar("report");
-    SurveyOptions options = arguments_.survey;
+  [[nodiscard]] report::Measurements measured(const std::vector<data::QueryGroup>& groups) const {
+    io::ProgressBar bar("report");
+    report::SurveyOptions options = arguments_.survey;
     options.seed = arguments_.sources.seed;
     options.threads = arguments_.sources.threads;
     options.on_progress = [&bar](double fraction) { bar.update(fraction); };
-    options.stop = &interrupted();
-    Measurements measurements = survey(groups, options);
+    options.stop = &io::interrupted();
+    report::Measurements measurements = report::survey(groups, options);
     measurements.command = command_line();
     return measurements;
   }
@@ -129,23 +129,23 @@ class ReportRun {
   }
 
   /// The two moving patches, and the hard set with about as many queries as are asked.
-  [[nodiscard]] std::vector<QueryGroup> built_in() const {
+  [[nodiscard]] std::vector<data::QueryGroup> built_in() const {
     const std::uint64_t seed = arguments_.sources.seed;
     const std::uint64_t a_family =
-        std::max<std::uint64_t>(1, arguments_.survey.count / families().size());
-    const MovingMesh patches = moving_patches({.seed = seed});
-    std::vector<QueryGroup> groups;
+        std::max<std::uint64_t>(1, arguments_.survey.count / generate::families().size());
+    const mesh::MovingMesh patches = generate::moving_patches({.seed = seed});
+    std::vector<data::QueryGroup> groups;
     for (const Kind kind : kinds()) {
-      const auto pairs = find_candidates(patches, kind);
+      const auto pairs = mesh::find_candidates(patches, kind);
       groups.emplace_back(patches.name, kind,
-                          queries_of(patches, candidates_of(patches, kind, pairs)));
+                          mesh::queries_of(patches, mesh::candidates_of(patches, kind, pairs)));
     }
-    for (const Kind kind : kinds()) groups.push_back(hard_set(kind, seed, a_family));
+    for (const Kind kind : kinds()) groups.push_back(generate::hard_set(kind, seed, a_family));
     return groups;
   }
 
-  [[nodiscard]] std::vector<QueryGroup> given() {
-    std::vector<QueryGroup> groups;
+  [[nodiscard]] std::vector<data::QueryGroup> given() {
+    std::vector<data::QueryGroup> groups;
     std::set<std::string> names;
     for (const fs::path& path : arguments_.sources.paths) {
       const std::string name = short_name(path);
@@ -154,25 +154,26 @@ class ReportRun {
     return groups;
   }
 
-  void read_path(const fs::path& path, const std::string& name, std::vector<QueryGroup>& groups) {
-    std::array<QueryGroup, 2> of_path{QueryGroup(name, Kind::vertex_face),
-                                      QueryGroup(name, Kind::edge_edge)};
+  void read_path(const fs::path& path, const std::string& name,
+                 std::vector<data::QueryGroup>& groups) {
+    std::array<data::QueryGroup, 2> of_path{data::QueryGroup(name, Kind::vertex_face),
+                                            data::QueryGroup(name, Kind::edge_edge)};
     SourceArguments sources = arguments_.sources;
     sources.paths = {path};
     for_each_source(
         sources,
         {.title = "reading " + path.string(),
          .use =
-             [&](QuerySource& source, const std::function<void(double)>& progress) {
+             [&](data::QuerySource& source, const std::function<void(double)>& progress) {
                of_path.at(static_cast<std::size_t>(source.kind())).read(source, progress, [this] {
                  return stopped();
                });
                skipped_ += source.skipped();
              },
-         .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
+         .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); },
          .is_output = [this](const fs::path& file) { return is_output(file); }});
-    for (QueryGroup& group : of_path) {
+    for (data::QueryGroup& group : of_path) {
       if (!group.queries().empty()) groups.push_back(std::move(group));
     }
   }
@@ -182,33 +183,34 @@ class ReportRun {
   }
 
   [[nodiscard]] bool stopped() const {
-    return interrupted() || (!errors_.empty() && !arguments_.sources.keep_going);
+    return io::interrupted() || (!errors_.empty() && !arguments_.sources.keep_going);
   }
 
   // ---- Output -----------------------------------------------------------------------------------
 
-  void write(const Measurements& measurements) {
+  void write(const report::Measurements& measurements) {
     // The measurements first: all else can be made from them.
-    if (json_) json_.write(json_document(to_json(measurements)));
+    if (json_) json_.write(io::json_document(report::to_json(measurements)));
     json_.close();
-    if (page_) page_.write(report_page(measurements));
+    if (page_) page_.write(report::report_page(measurements));
     page_.close();
-    if (results_) results_.write(results_document(measurements));
+    if (results_) results_.write(report::results_document(measurements));
     results_.close();
     if (page_ && !page_.failed()) {
-      print(page_.is_standard_output() ? stderr : stdout,
-            fmt::format("{}\n", printable(fs::absolute(arguments_.page_file).string())));
+      io::print(page_.is_standard_output() ? stderr : stdout,
+                fmt::format("{}\n", io::printable(fs::absolute(arguments_.page_file).string())));
     }
   }
 
-  static void report_broken_promises(const Measurements& measurements) {
-    for (const Measurement& m : measurements.all) {
+  static void report_broken_promises(const report::Measurements& measurements) {
+    for (const report::Measurement& m : measurements.all) {
       if (m.keeps_promise) continue;
       report_error(fmt::format(
           "{} ({}) breaks its promise on {} {}, {}: false negatives {}, late toi {}, early "
           "toi_upper {}, errors {}, false positives {}",
-          m.method, to_string(m.promise), m.group, to_string(m.kind), to_string(m.experiment),
-          m.false_negatives, m.late_tois, m.early_upper_tois, m.errors, m.false_positives));
+          m.method, solvers::to_string(m.promise), m.group, to_string(m.kind),
+          report::to_string(m.experiment), m.false_negatives, m.late_tois, m.early_upper_tois,
+          m.errors, m.false_positives));
     }
   }
 
@@ -225,7 +227,8 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
   for (const std::string name : {"--min-separation", "--norm", "--count"}) {
     command.remove_option(command.get_option(name));
   }
-  command.add_option("--method", arguments.survey.methods, "Only these of " + method_names())
+  command
+      .add_option("--method", arguments.survey.methods, "Only these of " + solvers::method_names())
       ->type_name("NAME")
       ->allow_extra_args(false);
   command
@@ -250,7 +253,7 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
           "--experiment",
           [&arguments](const std::vector<std::string>& chosen) {
             for (const std::string& name : chosen) {
-              arguments.survey.experiments.push_back(experiment_from_string(name));
+              arguments.survey.experiments.push_back(report::experiment_from_string(name));
             }
           },
           "Only these: all methods (field), over the distance, over δ, over m_I, what "

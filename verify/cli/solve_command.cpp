@@ -19,9 +19,9 @@
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/jobs/solve.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/report/judgement_report.hpp"
-#include "verify/run/solve.hpp"
 #include "verify/solvers/answers.hpp"
 
 namespace touchstone::verify::cli {
@@ -62,20 +62,20 @@ class SolveRun {
     for (const fs::path& file : arguments.solver.files()) {
       if (is_output(file)) throw std::runtime_error(file.string() + ": named for input and output");
     }
-    out_.write(answers_header());
+    out_.write(solvers::answers_header());
   }
 
   Status run() {
     for_each_source(
         arguments_.sources,
         {.title = "solve",
-         .use = [this](QuerySource& source,
+         .use = [this](data::QuerySource& source,
                        const Progress& progress) { solve_source(source, progress); },
-         .fail = [this](const fs::path&, const DatasetError& error) { fail(error.what()); },
+         .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); },
          .is_output = [this](const fs::path& path) { return is_output(path); }});
     out_.close();
-    if (json_) json_.write(json_document(summary()));
+    if (json_) json_.write(io::json_document(summary()));
     json_.close();
     report_unplaced_crashes(solver_.name(), sum_.unplaced_crashes);
     solvers_.report_output(arguments_.solver.show_output);
@@ -92,31 +92,32 @@ class SolveRun {
     std::FILE* const stream =
         out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
     if (const auto separation = the_separation()) {
-      print(stream, fmt::format("minimum separation {}\n", to_text(*separation)));
+      io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
     }
-    print(stream,
-          fmt::format("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
-                      solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
-                      sum_.nanoseconds_per_query()));
-    const std::string failures = to_text(sum_.failures);
-    if (!failures.empty()) print(stream, fmt::format("no answer: {}\n", failures));
-    print(stream, reading_text(sum_.skipped, sum_.rounded));
+    io::print(
+        stream,
+        fmt::format("{}: {} queries, {} yes, {} no, {} undecided, {} errors, {:.1f} ns/query\n",
+                    solver_.name(), sum_.queries, sum_.yes, sum_.no, sum_.undecided, sum_.errors,
+                    sum_.nanoseconds_per_query()));
+    const std::string failures = report::to_text(sum_.failures);
+    if (!failures.empty()) io::print(stream, fmt::format("no answer: {}\n", failures));
+    io::print(stream, report::reading_text(sum_.skipped, sum_.rounded));
   }
 
-  void solve_source(QuerySource& source, const Progress& progress) {
-    SolveOptions options;
+  void solve_source(data::QuerySource& source, const Progress& progress) {
+    jobs::SolveOptions options;
     options.separation = separation_for(arguments_.sources, source);
     separations_.push_back(options.separation);
     options.threads = arguments_.sources.threads;
-    options.stop = &interrupted();
+    options.stop = &io::interrupted();
     options.on_progress = progress;
     options.on_answer = [&](std::uint64_t index, const fast::Answer& answer,
-                            const Failure* failure) {
-      out_.write(answer_row(source.name(), index, source.kind(), answer, failure));
+                            const solvers::Failure* failure) {
+      out_.write(solvers::answer_row(source.name(), index, source.kind(), answer, failure));
       // An exception ends the solving at once; the failure itself is reported already.
       if (out_.failed()) throw std::runtime_error("answers cannot be written");
     };
-    const SolveResult result = solve(source, solver_, options);
+    const jobs::SolveResult result = jobs::solve(source, solver_, options);
     sum_ += result;
     if (result.reading_error && !out_.failed()) fail(*result.reading_error);
   }
@@ -127,7 +128,7 @@ class SolveRun {
   }
 
   [[nodiscard]] bool stopped() const {
-    return interrupted() || out_.failed() ||
+    return io::interrupted() || out_.failed() ||
            (reading_errors_ != 0 && !arguments_.sources.keep_going);
   }
 
@@ -144,29 +145,29 @@ class SolveRun {
                         {"rounded", sum_.rounded},
                         {"reading_errors", reading_errors_},
                         {"interrupted", sum_.interrupted}};
-    json["failures"] = to_json(sum_.failures);
-    if (const auto separation = the_separation()) json["separation"] = to_json(*separation);
+    json["failures"] = report::to_json(sum_.failures);
+    if (const auto separation = the_separation()) json["separation"] = judge::to_json(*separation);
     return json;
   }
 
   /// The one of all sources, if it is one and more than contact.
   [[nodiscard]] std::optional<Separation> the_separation() const {
-    return common_separation(separations_);
+    return judge::common_separation(separations_);
   }
 
   [[nodiscard]] Status status() const {
     if (out_.failed() || json_.failed() || reading_errors_ + sum_.skipped != 0) {
       return Status::bad_input;
     }
-    return interrupted() ? Status::interrupted : Status::all_well;
+    return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
   const Arguments& arguments_;
   Solvers solvers_;
-  const Solver& solver_;
+  const solvers::Solver& solver_;
   ReportedOutput out_;
   ReportedOutput json_;
-  SolveResult sum_;
+  jobs::SolveResult sum_;
   std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;
 };

@@ -39,7 +39,8 @@ std::vector<std::string> named_methods(const SolverArguments& arguments) {
 }  // namespace
 
 void add_solver_options(CLI::App& command, SolverArguments& arguments) {
-  command.add_option("--method", arguments.methods, "A built-in solver: " + method_names())
+  command
+      .add_option("--method", arguments.methods, "A built-in solver: " + solvers::method_names())
       ->type_name("NAME")
       ->allow_extra_args(false);
   command
@@ -87,16 +88,16 @@ std::vector<std::filesystem::path> SolverArguments::files() const {
   return all;
 }
 
-ChildLimits SolverArguments::limits() const {
+solvers::ChildLimits SolverArguments::limits() const {
   return {.memory_bytes = memory_limit, .may_fork = allow_processes};
 }
 
 std::unique_ptr<fast::Method> SolverArguments::load(const std::filesystem::path& plugin) const {
-  return load_plugin(plugin, {.limits = limits(), .stop = &interrupted()});
+  return solvers::load_plugin(plugin, {.limits = limits(), .stop = &io::interrupted()});
 }
 
-SolverProcessOptions SolverArguments::process() const {
-  return {.query_limit_seconds = query_limit, .stop = &interrupted(), .limits = limits()};
+solvers::SolverProcessOptions SolverArguments::process() const {
+  return {.query_limit_seconds = query_limit, .stop = &io::interrupted(), .limits = limits()};
 }
 
 void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArguments& arguments) {
@@ -116,7 +117,7 @@ void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArg
   }
 }
 
-void report_output(std::string_view solver, const CapturedOutput& output, bool show) {
+void report_output(std::string_view solver, const solvers::CapturedOutput& output, bool show) {
   if (output.text.empty()) return;
   const std::uint64_t bytes = output.text.size() + output.dropped;
   if (!show) {
@@ -126,11 +127,11 @@ void report_output(std::string_view solver, const CapturedOutput& output, bool s
   std::string_view rest = output.text;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    print(stderr, fmt::format("{}: {}\n", solver, printable(rest.substr(0, end))));
+    io::print(stderr, fmt::format("{}: {}\n", solver, io::printable(rest.substr(0, end))));
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   if (output.dropped != 0) {
-    print(stderr, fmt::format("{}: and {} bytes more\n", solver, output.dropped));
+    io::print(stderr, fmt::format("{}: and {} bytes more\n", solver, output.dropped));
   }
 }
 
@@ -141,32 +142,32 @@ void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
 }
 
 Solvers::Solvers(const SolverArguments& arguments, MethodHost host) {
-  const SolverProcessOptions process = arguments.process();
+  const solvers::SolverProcessOptions process = arguments.process();
   const bool in_children = host == MethodHost::children_with_limit && arguments.query_limit > 0.0;
   for (const std::string& name : named_methods(arguments)) {
     const fast::Method& method = method_named(name, arguments);
-    add(in_children ? solver_in_children(method, arguments.options, process)
-                    : solver_in_process(method, arguments.options),
+    add(in_children ? solvers::solver_in_children(method, arguments.options, process)
+                    : solvers::solver_in_process(method, arguments.options),
         arguments.exact);
   }
   for (const std::filesystem::path& path : arguments.plugins) {
     methods_.push_back(arguments.load(path));
-    add(solver_in_children(*methods_.back(), arguments.options, process), arguments.exact);
+    add(solvers::solver_in_children(*methods_.back(), arguments.options, process), arguments.exact);
   }
   for (const std::filesystem::path& path : arguments.results) {
-    results_.push_back({path, load_answers(path)});
-    add(recorded_solver(path.string(), results_.back().answers), arguments.exact);
+    results_.push_back({path, solvers::load_answers(path)});
+    add(solvers::recorded_solver(path.string(), results_.back().answers), arguments.exact);
   }
 }
 
 const fast::Method& Solvers::method_named(std::string_view name, const SolverArguments& arguments) {
-  const fast::Method& method = find_method(name);
+  const fast::Method& method = solvers::find_method(name);
   if (arguments.kernel == nullptr || name != fast::certified_info().name) return method;
   methods_.push_back(fast::certified_method({.kernel = arguments.kernel}));
   return *methods_.back();
 }
 
-void Solvers::add(std::unique_ptr<Solver> solver, bool exact) {
+void Solvers::add(std::unique_ptr<solvers::Solver> solver, bool exact) {
   if (exact) solver->hold_to(fast::Promise::exact);
   const std::string name = solver->name();
   const auto is_taken = [&](const auto& other) { return other->name() == solver->name(); };
@@ -176,8 +177,8 @@ void Solvers::add(std::unique_ptr<Solver> solver, bool exact) {
   solvers_.push_back(std::move(solver));
 }
 
-std::vector<const Solver*> Solvers::all() const {
-  std::vector<const Solver*> result;
+std::vector<const solvers::Solver*> Solvers::all() const {
+  std::vector<const solvers::Solver*> result;
   result.reserve(solvers_.size());
   for (const auto& solver : solvers_) result.push_back(solver.get());
   return result;

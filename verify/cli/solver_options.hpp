@@ -26,10 +26,10 @@ struct SolverArguments {
   std::vector<std::filesystem::path> plugins;
   std::vector<std::filesystem::path> results;
   /// Wall-clock seconds a query; 0: no limit.
-  double query_limit = FuzzOptions{}.query_limit_seconds;
+  double query_limit = fuzz::FuzzOptions{}.query_limit_seconds;
   bool exact = false;
   /// Bytes of memory that a solver's process may take; 0: no limit.
-  std::uint64_t memory_limit = ChildLimits{}.memory_bytes;
+  std::uint64_t memory_limit = solvers::ChildLimits{}.memory_bytes;
   bool allow_processes = false;
   bool show_output = false;
   fast::MethodOptions options;
@@ -40,13 +40,13 @@ struct SolverArguments {
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
   /// What the process of a solver may take.
-  [[nodiscard]] ChildLimits limits() const;
+  [[nodiscard]] solvers::ChildLimits limits() const;
 
   /// The plugin at a path, loaded in a child process. \throws DatasetError as load_plugin does.
   [[nodiscard]] std::unique_ptr<fast::Method> load(const std::filesystem::path& plugin) const;
 
   /// How the process of a solver is to be used: until interrupted.
-  [[nodiscard]] SolverProcessOptions process() const;
+  [[nodiscard]] solvers::SolverProcessOptions process() const;
 
   [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
 };
@@ -63,7 +63,7 @@ void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArg
 
 /// Prints on standard error what a solver printed if that is asked for, line by line behind its name,
 /// printable (verify/io/printable.hpp); else how to see it. Nothing if it printed nothing.
-void report_output(std::string_view solver, const CapturedOutput& output, bool show);
+void report_output(std::string_view solver, const solvers::CapturedOutput& output, bool show);
 
 /// Says on standard error that a solver ended its process so often, unless that is never.
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes);
@@ -85,7 +85,7 @@ class Solvers {
   explicit Solvers(const SolverArguments& arguments,
                    MethodHost host = MethodHost::children_with_limit);
 
-  [[nodiscard]] std::vector<const Solver*> all() const;
+  [[nodiscard]] std::vector<const solvers::Solver*> all() const;
 
   /// What they printed since the last call of this. Not to be called while one of them is asked.
   void report_output(bool show) const;
@@ -96,17 +96,17 @@ class Solvers {
  private:
   struct Results {
     std::filesystem::path path;
-    RecordedAnswers answers;
+    solvers::RecordedAnswers answers;
   };
 
-  void add(std::unique_ptr<Solver> solver, bool exact);
+  void add(std::unique_ptr<solvers::Solver> solver, bool exact);
   [[nodiscard]] const fast::Method& method_named(std::string_view name,
                                                  const SolverArguments& arguments);
 
   /// Methods that are not in the registry.
   std::vector<std::unique_ptr<fast::Method>> methods_;
   std::deque<Results> results_;  // its elements stay where they are
-  std::vector<std::unique_ptr<Solver>> solvers_;
+  std::vector<std::unique_ptr<solvers::Solver>> solvers_;
 };
 
 }  // namespace touchstone::verify::cli

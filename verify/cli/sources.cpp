@@ -32,29 +32,29 @@ class TotalProgress {
   }
 
  private:
-  ProgressBar bar_;
+  io::ProgressBar bar_;
   double sources_;
 };
 
 void for_each_family(const SourceArguments& arguments, const SourceHandlers& handlers) {
   const Separation separation = arguments.separation.given();
-  std::vector<std::pair<Family, Kind>> sources;
-  for (const Family& family : families(separation)) {
+  std::vector<std::pair<generate::Family, Kind>> sources;
+  for (const generate::Family& family : generate::families(separation)) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (supports(family, kind)) sources.emplace_back(family, kind);
+      if (generate::supports(family, kind)) sources.emplace_back(family, kind);
     }
   }
   TotalProgress progress(handlers.title, sources.size());
   for (std::size_t i = 0; i < sources.size() && !handlers.stopped(); ++i) {
     const auto& [family, kind] = sources[i];
-    handlers.use(*open_family(family, kind, arguments.seed, arguments.count, separation),
+    handlers.use(*generate::open_family(family, kind, arguments.seed, arguments.count, separation),
                  progress.of(i));
   }
 }
 
 /// \throws std::runtime_error if a dataset file or what accompanies it is an output.
 void check_outputs(const fs::path& file, const SourceHandlers& handlers) {
-  std::vector<fs::path> inputs = find_companions(file);
+  std::vector<fs::path> inputs = data::find_companions(file);
   inputs.push_back(file);
   for (const fs::path& input : inputs) {
     if (handlers.is_output(input)) {
@@ -66,7 +66,7 @@ void check_outputs(const fs::path& file, const SourceHandlers& handlers) {
 /// Names what a search leaves out, not all of it where there is much.
 class LeftOutReport {
  public:
-  void add(const DatasetError& left_out) {
+  void add(const data::DatasetError& left_out) {
     if (++count_ <= most_named) report_warning(left_out.what());
   }
 
@@ -83,16 +83,16 @@ class LeftOutReport {
 /// The dataset files of all paths, each once; empty if stopped.
 std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceHandlers& handlers) {
   LeftOutReport left_out;
-  const LeftOut on_left_out = [&](const DatasetError& error) { left_out.add(error); };
+  const data::LeftOut on_left_out = [&](const data::DatasetError& error) { left_out.add(error); };
   std::vector<fs::path> files;
   std::set<fs::path> seen;
   for (const fs::path& path : arguments.paths) {
     try {
-      for (const fs::path& file : find_datasets({&path, 1}, on_left_out)) {
+      for (const fs::path& file : data::find_datasets({&path, 1}, on_left_out)) {
         check_outputs(file, handlers);
         if (seen.insert(fs::weakly_canonical(file)).second) files.push_back(file);
       }
-    } catch (const DatasetError& error) {
+    } catch (const data::DatasetError& error) {
       handlers.fail(path, error);
       if (handlers.stopped()) return {};
     }
@@ -102,17 +102,17 @@ std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceH
 }
 
 void for_each_file(const SourceArguments& arguments, const SourceHandlers& handlers) {
-  DatasetOptions options;
+  data::DatasetOptions options;
   if (!arguments.kind.empty()) options.kind = kind_from_string(arguments.kind);
   options.round = arguments.round;
   options.keep_going = arguments.keep_going;
-  options.on_skip = [](const DatasetError& error) { report_error(error.what()); };
+  options.on_skip = [](const data::DatasetError& error) { report_error(error.what()); };
   const std::vector<fs::path> files = find_files(arguments, handlers);
   TotalProgress progress(handlers.title, files.size());
   for (std::size_t i = 0; i < files.size() && !handlers.stopped(); ++i) {
     try {
-      handlers.use(*open_dataset(files[i], options), progress.of(i));
-    } catch (const DatasetError& error) {
+      handlers.use(*data::open_dataset(files[i], options), progress.of(i));
+    } catch (const data::DatasetError& error) {
       handlers.fail(files[i], error);
     }
   }
@@ -145,11 +145,11 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
   add_separation_options(command, arguments.separation);
 }
 
-Separation separation_for(const SourceArguments& arguments, const QuerySource& source) {
+Separation separation_for(const SourceArguments& arguments, const data::QuerySource& source) {
   try {
     return arguments.separation.settle(source.recorded_separation());
   } catch (const std::invalid_argument& error) {
-    throw DatasetError(source.name(), {}, error.what());
+    throw data::DatasetError(source.name(), {}, error.what());
   }
 }
 
@@ -160,7 +160,7 @@ void for_each_source(const SourceArguments& arguments, const SourceHandlers& han
     } else {
       for_each_file(arguments, handlers);
     }
-  } catch (const Interrupted&) {
+  } catch (const io::Interrupted&) {
     // The command goes on with what it has, as after an interrupt between two queries.
   }
 }

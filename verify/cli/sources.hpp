@@ -39,9 +39,9 @@ struct SourceHandlers {
   /// Of the progress bar over all sources.
   std::string title;
   /// Called with a source and with what to tell the fraction of it that is done.
-  std::function<void(QuerySource&, const std::function<void(double)>&)> use;
+  std::function<void(data::QuerySource&, const std::function<void(double)>&)> use;
   /// A path or file that could not be opened.
-  std::function<void(const std::filesystem::path&, const DatasetError&)> fail;
+  std::function<void(const std::filesystem::path&, const data::DatasetError&)> fail;
   /// Is the rest to be left alone? Asked before each source and after each failure.
   std::function<bool()> stopped;
   /// Is a file written to by this command?
@@ -51,7 +51,7 @@ struct SourceHandlers {
 /// What counts as contact in a source: what the user said, or what is recorded with the source.
 /// \throws DatasetError naming both if they contradict each other.
 [[nodiscard]] Separation separation_for(const SourceArguments& arguments,
-                                        const QuerySource& source);
+                                        const data::QuerySource& source);
 
 /// Opens and hands over the sources one after the other: the families of the built-in set (of
 /// that with a separation, if one is asked for), or the dataset files of all paths, each once.

@@ -31,17 +31,17 @@ struct Arguments {
   SeparationArguments separation;
   std::vector<std::string> hardnesses;
   std::uint64_t seed = default_seed;
-  std::uint64_t count = StabilityOptions{}.count;
+  std::uint64_t count = stability::StabilityOptions{}.count;
   unsigned threads = 0;
   std::string json_file;
   std::string picture_file;
 };
 
 /// Those that are named, in their own order; all if none is.
-std::vector<const Hardness*> chosen(const std::vector<std::string>& names) {
-  std::vector<const Hardness*> result;
-  for (const std::string& name : names) static_cast<void>(hardness_from_name(name));
-  for (const Hardness& hardness : hardnesses()) {
+std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& names) {
+  std::vector<const stability::Hardness*> result;
+  for (const std::string& name : names) static_cast<void>(stability::hardness_from_name(name));
+  for (const stability::Hardness& hardness : stability::hardnesses()) {
     const auto is_it = [&](const std::string& name) { return name == hardness.name; };
     if (names.empty() || std::ranges::any_of(names, is_it)) result.push_back(&hardness);
   }
@@ -52,7 +52,7 @@ std::vector<const Hardness*> chosen(const std::vector<std::string>& names) {
 SolverArguments judged_by(const Arguments& arguments) {
   SolverArguments judged = arguments.judged;
   if (!judged.empty()) return judged;
-  for (const auto& method : methods()) {
+  for (const auto& method : solvers::methods()) {
     if (!method->info().is_baseline) judged.methods.emplace_back(method->name());
   }
   return judged;
@@ -71,16 +71,17 @@ void check_names(const Arguments& arguments, const ReportedOutput& json,
   }
 }
 
-StabilityResult measure(const Arguments& arguments, const Solvers& solvers) {
-  ProgressBar bar("stability");
-  return measure_stability(chosen(arguments.hardnesses),
-                           {.separation = arguments.separation.given(),
-                            .seed = arguments.seed,
-                            .count = arguments.count,
-                            .threads = arguments.threads,
-                            .solvers = solvers.all(),
-                            .on_progress = [&bar](double fraction) { bar.update(fraction); },
-                            .stop = &interrupted()});
+stability::StabilityResult measure(const Arguments& arguments, const Solvers& solvers) {
+  io::ProgressBar bar("stability");
+  return stability::measure_stability(
+      chosen(arguments.hardnesses),
+      {.separation = arguments.separation.given(),
+       .seed = arguments.seed,
+       .count = arguments.count,
+       .threads = arguments.threads,
+       .solvers = solvers.all(),
+       .on_progress = [&bar](double fraction) { bar.update(fraction); },
+       .stop = &io::interrupted()});
 }
 
 Status run(const Arguments& arguments) {
@@ -88,21 +89,21 @@ Status run(const Arguments& arguments) {
   ReportedOutput json(arguments.json_file);
   ReportedOutput picture(arguments.picture_file);
   check_names(arguments, json, picture);
-  const StabilityResult result = measure(arguments, solvers);
-  for (const MethodResult& method : result.total.methods) {
+  const stability::StabilityResult result = measure(arguments, solvers);
+  for (const jobs::MethodResult& method : result.total.methods) {
     report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
   }
   solvers.report_output(arguments.judged.show_output);
   // Files first: a closed standard output must not cost them.
-  if (json) json.write(json_document(to_json(result)));
+  if (json) json.write(io::json_document(report::to_json(result)));
   json.close();
-  if (picture) picture.write(stability_page(result, command_line()));
+  if (picture) picture.write(report::stability_page(result, command_line()));
   picture.close();
   const bool is_standard_output = json.is_standard_output() || picture.is_standard_output();
-  print(is_standard_output ? stderr : stdout, to_text(result));
-  if (has_wrong_answers(result)) return Status::wrong_answers;
+  io::print(is_standard_output ? stderr : stdout, report::to_text(result));
+  if (stability::has_wrong_answers(result)) return Status::wrong_answers;
   if (json.failed() || picture.failed()) return Status::bad_input;
-  return interrupted() ? Status::interrupted : Status::all_well;
+  return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 
 void add_options(CLI::App& command, Arguments& arguments) {
@@ -110,7 +111,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command.add_flag("--exact", arguments.judged.exact,
                    "Hold every solver to exactness: false positives are wrong answers too");
   std::string names;
-  for (const Hardness& hardness : hardnesses()) {
+  for (const stability::Hardness& hardness : stability::hardnesses()) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", hardness.name);
   }
   command.add_option("--hardness", arguments.hardnesses, "Only these of " + names)
@@ -140,7 +141,7 @@ void add_stability_command(CLI::App& app, Status& status) {
       "stability", "Map what solvers get wrong, and how long they take, as queries get harder");
   add_options(*command, *arguments);
   std::string list;
-  for (const Hardness& hardness : hardnesses()) {
+  for (const stability::Hardness& hardness : stability::hardnesses()) {
     list += fmt::format("  {:<9} {}: 2^{} to 2^{}\n", hardness.name, hardness.measure,
                         hardness.exponents.front(), hardness.exponents.back());
   }

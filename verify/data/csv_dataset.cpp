@@ -10,7 +10,7 @@
 #include "verify/io/coordinate_text.hpp"
 #include "verify/io/csv.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 namespace {
 
 bool is_format(std::size_t columns) {
@@ -19,7 +19,7 @@ bool is_format(std::size_t columns) {
 
 /// Can it be the name of a column?
 bool is_name(std::string_view text) {
-  if (text.empty() || is_numeric(text)) return false;
+  if (text.empty() || io::is_numeric(text)) return false;
   const auto first = static_cast<unsigned char>(text.front());
   return std::isalpha(first) != 0 || first == '_' || first == '#' || first >= 0x80U;
 }
@@ -37,16 +37,16 @@ bool CsvDataset::at_end() {
     ahead_ = lines_.next();
     if (!ahead_) return true;
     if (ahead_->too_long) break;
-    if (trimmed(ahead_->text).empty() || is_header(ahead_->text)) ahead_.reset();
+    if (io::trimmed(ahead_->text).empty() || is_header(ahead_->text)) ahead_.reset();
   }
   return false;
 }
 
 /// Is the line, which stands between two queries or before the first, the file's header?
 bool CsvDataset::is_header(std::string_view line) {
-  if (columns_ || is_numeric(trimmed(line))) return !header_.empty() && line == header_;
-  const CsvSplit split = split_csv(line, fields_);
-  if (split.fault != CsvSplit::Fault::none || !is_format(split.count)) return false;
+  if (columns_ || io::is_numeric(io::trimmed(line))) return !header_.empty() && line == header_;
+  const io::CsvSplit split = io::split_csv(line, fields_);
+  if (split.fault != io::CsvSplit::Fault::none || !is_format(split.count)) return false;
   for (std::size_t column = 0; column < split.count; ++column) {
     if (!is_name(field(column))) return false;
   }
@@ -60,7 +60,8 @@ DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
   std::optional<DatasetError> fault;
   std::uint64_t last_line = 0;
   for (std::size_t row = 0; row < query_points; ++row) {
-    const std::optional<Line> line = ahead_ ? std::exchange(ahead_, std::nullopt) : lines_.next();
+    const std::optional<io::Line> line =
+        ahead_ ? std::exchange(ahead_, std::nullopt) : lines_.next();
     if (!line) {
       if (fault) break;
       throw DatasetError(path(), {.line = last_line},
@@ -81,11 +82,11 @@ DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
 }
 
 /// Splits the line into fields_, or gives up if it is no row.
-void CsvDataset::split_row(const Line& line) {
+void CsvDataset::split_row(const io::Line& line) {
   if (line.too_long) lose_count(line, 0, "line longer than 1 MiB");
-  if (trimmed(line.text).empty()) lose_count(line, 0, "blank line inside a query");
-  const CsvSplit split = split_csv(line.text, fields_);
-  if (split.fault != CsvSplit::Fault::none) {
+  if (io::trimmed(line.text).empty()) lose_count(line, 0, "blank line inside a query");
+  const io::CsvSplit split = io::split_csv(line.text, fields_);
+  if (split.fault != io::CsvSplit::Fault::none) {
     lose_count(line, split.count, "malformed quoted field");
   }
   if (!columns_ && !is_format(split.count)) {
@@ -96,13 +97,13 @@ void CsvDataset::split_row(const Line& line) {
   }
   const auto first = fields_.begin(), last = first + static_cast<std::ptrdiff_t>(split.count);
   if (std::none_of(first, last,
-                   [](const std::string& text) { return is_numeric(trimmed(text)); })) {
+                   [](const std::string& text) { return io::is_numeric(io::trimmed(text)); })) {
     lose_count(line, 0, "no number in the line");
   }
   columns_ = split.count;
 }
 
-std::optional<DatasetError> CsvDataset::read_label(const Line& line, Rows& rows) {
+std::optional<DatasetError> CsvDataset::read_label(const io::Line& line, Rows& rows) {
   if (columns_ != 4 && columns_ != 7) return std::nullopt;
   const std::size_t column = columns_.value();
   const std::string_view text = field(column - 1);
@@ -120,35 +121,37 @@ std::optional<DatasetError> CsvDataset::read_label(const Line& line, Rows& rows)
   return std::nullopt;
 }
 
-std::optional<DatasetError> CsvDataset::read_point(const Line& line, std::size_t row,
+std::optional<DatasetError> CsvDataset::read_point(const io::Line& line, std::size_t row,
                                                    Rows& rows) const {
   const bool is_fraction = columns_ >= 6;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t column = is_fraction ? 2 * axis : axis;
     try {
-      const ParsedCoordinate coordinate =
-          parse_coordinate(field(column), is_fraction ? field(column + 1) : "1");
+      const io::ParsedCoordinate coordinate =
+          io::parse_coordinate(field(column), is_fraction ? field(column + 1) : "1");
       if (!coordinate.exact && !options().round) {
         return error(line, column + 1, "not exactly a double (--round takes the nearest)");
       }
       if (!coordinate.exact) ++rows.rounded;
       rows.query.query.at(row / moving_points, row % moving_points, axis) = coordinate.value;
-    } catch (const CoordinateError& fault) {
-      const bool numerator = fault.part() == CoordinateError::Part::numerator;
+    } catch (const io::CoordinateError& fault) {
+      const bool numerator = fault.part() == io::CoordinateError::Part::numerator;
       return error(line, column + (numerator ? 1 : 2), fault.what());
     }
   }
   return std::nullopt;
 }
 
-std::string_view CsvDataset::field(std::size_t column) const { return trimmed(fields_.at(column)); }
+std::string_view CsvDataset::field(std::size_t column) const {
+  return io::trimmed(fields_.at(column));
+}
 
-DatasetError CsvDataset::error(const Line& line, std::size_t column,
+DatasetError CsvDataset::error(const io::Line& line, std::size_t column,
                                const std::string& reason) const {
   return {path(), {.line = line.number, .column = column}, reason};
 }
 
-void CsvDataset::lose_count(const Line& line, std::size_t column, const std::string& reason) {
+void CsvDataset::lose_count(const io::Line& line, std::size_t column, const std::string& reason) {
   give_up(error(line, column,
                 reason +
                     "; the rest of the file is left out, since it is unknown from here on which "
@@ -161,7 +164,7 @@ std::string csv_rows(const Query& query, std::optional<bool> collides) {
   for (std::size_t row = 0; row < query_points; ++row) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (axis != 0) text += ',';
-      append_coordinate(text, query.at(row / moving_points, row % moving_points, axis));
+      io::append_coordinate(text, query.at(row / moving_points, row % moving_points, axis));
     }
     text += label;
     text += '\n';
@@ -175,4 +178,4 @@ void CsvWriter::write(const Query& query, std::optional<bool> collides) {
   file_.write(csv_rows(query, collides));
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

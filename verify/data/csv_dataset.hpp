@@ -34,7 +34,7 @@
 #include "verify/io/input_file.hpp"
 #include "verify/io/output_file.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// The queries of a CSV file as a stream.
 class CsvDataset final : public DatasetSource {
@@ -58,21 +58,21 @@ class CsvDataset final : public DatasetSource {
   [[nodiscard]] StoredQuery read(std::uint64_t index) override;
 
   [[nodiscard]] bool is_header(std::string_view line);
-  void split_row(const Line& line);
+  void split_row(const io::Line& line);
   /// Return the fault of a row that costs its query, if there is one.
-  [[nodiscard]] std::optional<DatasetError> read_label(const Line& line, Rows& rows);
-  [[nodiscard]] std::optional<DatasetError> read_point(const Line& line, std::size_t row,
+  [[nodiscard]] std::optional<DatasetError> read_label(const io::Line& line, Rows& rows);
+  [[nodiscard]] std::optional<DatasetError> read_point(const io::Line& line, std::size_t row,
                                                        Rows& rows) const;
   /// Counted from 0; without the spaces around it.
   [[nodiscard]] std::string_view field(std::size_t column) const;
-  [[nodiscard]] DatasetError error(const Line& line, std::size_t column,
+  [[nodiscard]] DatasetError error(const io::Line& line, std::size_t column,
                                    const std::string& reason) const;
   /// Gives up at a line behind which rows cannot be counted.
-  [[noreturn]] void lose_count(const Line& line, std::size_t column, const std::string& reason);
+  [[noreturn]] void lose_count(const io::Line& line, std::size_t column, const std::string& reason);
 
-  LineReader lines_;
+  io::LineReader lines_;
   /// The first line of the next query, if at_end() has come upon it.
-  std::optional<Line> ahead_;
+  std::optional<io::Line> ahead_;
   /// The file's, empty if it has none.
   std::string header_;
   std::optional<std::size_t> columns_;
@@ -103,7 +103,7 @@ class CsvWriter {
   void close() { file_.close(); }
 
  private:
-  OutputFile file_;
+  io::OutputFile file_;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

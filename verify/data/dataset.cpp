@@ -14,7 +14,7 @@
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy_dataset.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 namespace {
 
 namespace fs = std::filesystem;
@@ -201,4 +201,4 @@ std::unique_ptr<QuerySource> open_dataset(const fs::path& path, const DatasetOpt
   throw DatasetError(path, {}, "unknown format: only .csv and .npy are datasets");
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

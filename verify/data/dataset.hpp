@@ -18,7 +18,7 @@
 #include "verify/data/dataset_error.hpp"
 #include "verify/data/query_source.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// How to read a dataset.
 struct DatasetOptions {
@@ -61,4 +61,4 @@ using LeftOut = std::function<void(const DatasetError&)>;
 [[nodiscard]] std::unique_ptr<QuerySource> open_dataset(const std::filesystem::path& path,
                                                         const DatasetOptions& options = {});
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

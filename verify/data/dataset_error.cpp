@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 namespace {
 
 /// The text, or its beginning and "...".
@@ -43,4 +43,4 @@ std::string quote(std::string_view text) {
   return result + (text.size() > longest ? "...\"" : "\"");
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -4,7 +4,7 @@
 
 #include "verify/data/separation_file.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions options)
     : path_(path),
@@ -12,7 +12,7 @@ DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions o
       options_(std::move(options)),
       kind_(options_.kind ? *options_.kind : kind_from_path(path)),
       companions_(path),
-      separation_(verify::recorded_separation(path)) {}
+      separation_(data::recorded_separation(path)) {}
 
 std::optional<RecordedQuery> DatasetSource::next() {
   while (!ended_) {
@@ -64,4 +64,4 @@ void DatasetSource::skip(const DatasetError& fault) {
   if (options_.on_skip) options_.on_skip(fault);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

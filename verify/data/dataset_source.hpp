@@ -18,7 +18,7 @@
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/query_source.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// Base of the streams of all formats.
 class DatasetSource : public QuerySource {
@@ -69,4 +69,4 @@ class DatasetSource : public QuerySource {
   bool ended_ = false;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -11,7 +11,7 @@
 #include "verify/data/separation_file.hpp"
 #include "verify/io/csv.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 namespace {
 
 constexpr int end_of_file = -1;
@@ -23,8 +23,8 @@ bool is_word_character(int c) {
 
 /// Splits a line of two columns; false if it is none.
 bool split_fields(std::string_view line, std::array<std::string, 2>& fields) {
-  const CsvSplit split = split_csv(line, fields);
-  return split.count == fields.size() && split.fault == CsvSplit::Fault::none;
+  const io::CsvSplit split = io::split_csv(line, fields);
+  return split.count == fields.size() && split.fault == io::CsvSplit::Fault::none;
 }
 
 std::optional<std::uint64_t> parse_number(std::string_view text) {
@@ -158,11 +158,11 @@ void LabelReader::fail(const std::string& reason) {
 }
 
 ToiReader::ToiReader(std::filesystem::path path) : lines_(std::move(path)) {
-  const std::optional<Line> header = lines_.next();
+  const std::optional<io::Line> header = lines_.next();
   if (!header) throw DatasetError(lines_.path(), {}, "expected the header query,toi");
   std::array<std::string, 2> fields;
-  if (!split_fields(header->text, fields) || trimmed(fields[0]) != "query" ||
-      trimmed(fields[1]) != "toi") {
+  if (!split_fields(header->text, fields) || io::trimmed(fields[0]) != "query" ||
+      io::trimmed(fields[1]) != "toi") {
     throw DatasetError(lines_.path(), {.line = 1}, "expected the header query,toi");
   }
 }
@@ -205,19 +205,20 @@ void ToiReader::seek(std::uint64_t index) {
 }
 
 std::optional<ToiReader::Entry> ToiReader::next_entry() {
-  const std::optional<Line> line = lines_.next();
+  const std::optional<io::Line> line = lines_.next();
   if (!line) return std::nullopt;
   if (line->too_long) fail({.line = line->number}, "line longer than 1 MiB");
   std::array<std::string, 2> fields;
   if (!split_fields(line->text, fields)) {
     fail({.line = line->number}, "expected two columns, query and toi");
   }
-  const std::string_view query_text = trimmed(fields[0]);
+  const std::string_view query_text = io::trimmed(fields[0]);
   const std::optional<std::uint64_t> query = parse_number(query_text);
   const FilePosition position{.line = line->number, .column = 1};
   if (!query) fail(position, "not a query number: " + quote(query_text));
   if (entry_ && *query <= entry_->query) fail(position, "query numbers do not ascend");
-  return Entry{.query = *query, .decimal = std::string(trimmed(fields[1])), .line = line->number};
+  return Entry{
+      .query = *query, .decimal = std::string(io::trimmed(fields[1])), .line = line->number};
 }
 
 void ToiReader::fail(FilePosition position, const std::string& reason) const {
@@ -260,4 +261,4 @@ std::filesystem::path Companions::label_path() const {
   return labels_ ? labels_->path() : std::filesystem::path();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -21,7 +21,7 @@
 #include "verify/data/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// Labels from a flat JSON array of true, false, 1 and 0, one a query. Columns of errors count the
 /// bytes of a line. The JSON library's parser ends at the first word that is no JSON, and does not read
@@ -55,7 +55,7 @@ class LabelReader {
   void take();
   [[noreturn]] void fail(const std::string& reason);
 
-  InputFile file_;
+  io::InputFile file_;
   std::array<char, 4096> buffer_{};
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
@@ -92,7 +92,7 @@ class ToiReader {
   [[nodiscard]] std::optional<Entry> next_entry();
   [[noreturn]] void fail(FilePosition position, const std::string& reason) const;
 
-  LineReader lines_;
+  io::LineReader lines_;
   std::optional<Entry> entry_;
   bool ended_ = false;
   std::optional<DatasetError> broken_;
@@ -131,4 +131,4 @@ class Companions {
   std::optional<ToiReader> tois_;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

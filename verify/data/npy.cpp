@@ -16,7 +16,7 @@
 
 #include "verify/data/dataset_error.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "queries are read as they are stored");
@@ -166,7 +166,7 @@ std::size_t little_endian(std::string_view bytes) {
 }
 
 /// As many bytes as there are, up to the size of the buffer.
-std::size_t read_bytes(InputFile& file, std::span<char> buffer) {
+std::size_t read_bytes(io::InputFile& file, std::span<char> buffer) {
   std::size_t done = 0;
   while (done < buffer.size()) {
     const std::size_t count = file.read(buffer.subspan(done));
@@ -177,14 +177,14 @@ std::size_t read_bytes(InputFile& file, std::span<char> buffer) {
 }
 
 /// The next `size` bytes of the header.
-std::string read_header_bytes(InputFile& file, std::size_t size) {
+std::string read_header_bytes(io::InputFile& file, std::size_t size) {
   std::string bytes(size, '\0');
   if (read_bytes(file, bytes) < size) throw HeaderError{"truncated header"};
   return bytes;
 }
 
 /// Reads all that stands before the data and returns the number of queries.
-std::uint64_t read_header(InputFile& file) {
+std::uint64_t read_header(io::InputFile& file) {
   static constexpr std::size_t longest_header = std::size_t{1} << 20U;
   if (file.size() < version_1_prefix) throw HeaderError{"not a NumPy file"};
   std::string prefix = read_header_bytes(file, version_1_prefix);
@@ -268,4 +268,4 @@ void NpyWriter::close() {
   file_.close();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -17,7 +17,7 @@
 #include "verify/io/input_file.hpp"
 #include "verify/io/output_file.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// Reads such a file front to back, a block of queries at a time. The file is not mapped into
 /// memory: the system ends a process that reads mapped pages of a file that has become shorter.
@@ -42,7 +42,7 @@ class NpyReader {
  private:
   void fill();
 
-  InputFile file_;
+  io::InputFile file_;
   std::uint64_t count_ = 0;
   std::uint64_t position_ = 0;
   std::vector<Query> block_;
@@ -65,8 +65,8 @@ class NpyWriter {
   void close();
 
  private:
-  OutputFile file_;
+  io::OutputFile file_;
   std::uint64_t count_ = 0;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

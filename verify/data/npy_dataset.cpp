@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 NpyDataset::NpyDataset(const std::filesystem::path& path, const DatasetOptions& options)
     : DatasetSource(path, options), file_(path) {}
 
@@ -35,4 +35,4 @@ const Query& NpyDataset::read_query() {
   }
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -10,7 +10,7 @@
 #include "verify/data/dataset_source.hpp"
 #include "verify/data/npy.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// The queries of a .npy file as a stream.
 class NpyDataset final : public DatasetSource {
@@ -28,4 +28,4 @@ class NpyDataset final : public DatasetSource {
   NpyReader file_;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

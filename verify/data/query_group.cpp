@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 namespace {
 
 /// Queries between two calls of `progress`.
@@ -43,4 +43,4 @@ QueryPlace QueryGroup::place_of(std::size_t position) const {
   return {run.place.source, run.place.index + (position - run.position)};
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -12,7 +12,7 @@
 #include "exact/query.hpp"
 #include "verify/data/query_source.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// Where a query comes from.
 struct QueryPlace {
@@ -54,4 +54,4 @@ class QueryGroup {
   std::vector<Run> runs_;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

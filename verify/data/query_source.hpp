@@ -11,7 +11,7 @@
 #include "exact/algebra/number.hpp"
 #include "exact/query.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// A query with what its source claims to be true of it.
 struct RecordedQuery {
@@ -55,4 +55,4 @@ class QuerySource {
   [[nodiscard]] virtual std::uint64_t rounded() const { return 0; }
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -13,7 +13,7 @@
 #include "verify/io/input_file.hpp"
 #include "verify/io/output_file.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,7 +45,7 @@ nlohmann::json parse(const fs::path& path) {
     if (!seen.insert(key).second) throw DatasetError(path, {}, "repeated key " + quote(key));
     return true;
   };
-  return nlohmann::json::parse(read_file(path, most_bytes), check_key);
+  return nlohmann::json::parse(io::read_file(path, most_bytes), check_key);
 }
 
 }  // namespace
@@ -90,10 +90,10 @@ Separation recorded_separation(const fs::path& dataset) {
 }
 
 void write_separation(const fs::path& folder, const Separation& separation) {
-  OutputFile file(folder / file_name);
+  io::OutputFile file(folder / file_name);
   file.write(fmt::format("{{\"min_separation\": \"{:a}\", \"norm\": \"{}\"}}\n",
                          separation.distance, to_string(separation.norm)));
   file.close();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

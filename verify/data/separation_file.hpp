@@ -12,7 +12,7 @@
 
 #include "exact/query.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// The finite double ≥ 0 that the text stands for, decimal or hexadecimal as strtod takes it;
 /// nothing if it is none, or so small that it would become 0.
@@ -33,4 +33,4 @@ namespace touchstone::verify {
 /// Writes the file into the folder. \throws DatasetError if it cannot be written.
 void write_separation(const std::filesystem::path& folder, const Separation& separation);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 namespace {
 
 exact::Integer power_of_ten(long exponent) {
@@ -81,4 +81,4 @@ void ToiWriter::write(std::uint64_t query, const exact::Rational& toi) {
   last_query_ = query;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -12,7 +12,7 @@
 #include "exact/algebra/number.hpp"
 #include "verify/io/output_file.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::data {
 
 /// A rational as a decimal such as "2.5E-1", rounded to the nearest of `significant_digits` > 0 digits,
 /// ties away from zero.
@@ -40,8 +40,8 @@ class ToiWriter {
   void close() { file_.close(); }
 
  private:
-  OutputFile file_;
+  io::OutputFile file_;
   std::optional<std::uint64_t> last_query_;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::data

@@ -7,10 +7,10 @@
 
 #include "verify/fuzz/draws.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
-using builtin::Random;
+using generate::Random;
 
 /// Coordinates of the axis are in [1,2), as whole numbers of their unit in the last place; the time
 /// is n/64, and what is exact then is a whole number of 64ths of that unit.
@@ -153,4 +153,4 @@ Query aligned_contact(Random& random) {
   return query;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -11,11 +11,11 @@
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// Two edges that meet at a time just after c, one of 33/64 and 31/64, and on one axis are computed
 /// to be apart by some 4 u x at c (u: 2^-53, x: the greatest coordinate there), before u and v are
 /// looked at.
-[[nodiscard]] Query aligned_contact(builtin::Random& random);
+[[nodiscard]] Query aligned_contact(generate::Random& random);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -9,12 +9,12 @@
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/symmetry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
-using builtin::Random;
 using draws::below;
 using draws::one_in;
+using generate::Random;
 
 using Vector = std::array<double, 3>;
 
@@ -435,4 +435,4 @@ Query sliding(Kind kind, Random& random) {
   return turned(kind, query, random);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

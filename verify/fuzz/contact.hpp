@@ -18,36 +18,37 @@
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// A query on a grid that collides.
-[[nodiscard]] Query grid_contact(Kind kind, builtin::Random& random);
+[[nodiscard]] Query grid_contact(Kind kind, generate::Random& random);
 
 /// The centres of two edges, or of a triangle and a vertex, meet at an end of the step, exactly, and
 /// move along the normal, exactly too: what a direction's products tell apart is rounding alone.
-[[nodiscard]] Query central_contact(Kind kind, builtin::Random& random);
+[[nodiscard]] Query central_contact(Kind kind, generate::Random& random);
 
 /// A level query that collides.
-[[nodiscard]] Query level_contact(Kind kind, builtin::Random& random);
+[[nodiscard]] Query level_contact(Kind kind, generate::Random& random);
 
 /// A query with full significands, one point of which is put where F = 0 and rounded: a hit or a
 /// miss by a hair.
-[[nodiscard]] Query rounded_contact(Kind kind, builtin::Random& random);
+[[nodiscard]] Query rounded_contact(Kind kind, generate::Random& random);
 
 /// Level primitives whose nearest heights differ by the distance of the separation, rounded; or a
 /// contact as above, one primitive of which is moved by as much, in a direction that is often one of
 /// few bits. \pre distance > 0
-[[nodiscard]] Query contact_apart(Kind kind, const Separation& separation, builtin::Random& random);
+[[nodiscard]] Query contact_apart(Kind kind, const Separation& separation,
+                                  generate::Random& random);
 
 /// A polygon r − u p − v q that tilts: it begins and ends some distances d from the origin, and comes
 /// nearest in the middle of the step, to a point inside; or not so near. Its normal is about as long
 /// as its sides allow. So bounds of what a shift by d changes, by the sides' coordinates, have no slack,
 /// and the determinant's Bernstein coefficients in the middle are far below its values.
 /// \pre distance > 0
-[[nodiscard]] Query tilting(Kind kind, const Separation& separation, builtin::Random& random);
+[[nodiscard]] Query tilting(Kind kind, const Separation& separation, generate::Random& random);
 
 /// Primitives that slide along each other, nearly parallel, in a common plane but for 2^-10 to
 /// 2^-50 of their size, which may change its sign.
-[[nodiscard]] Query sliding(Kind kind, builtin::Random& random);
+[[nodiscard]] Query sliding(Kind kind, generate::Random& random);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -6,7 +6,7 @@
 
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
 /// The exponent field of a double, 0 (zeros, subnormals) to 2047 (infinities, NaN).
@@ -34,7 +34,7 @@ std::uint64_t boundary_place(Kind kind, double u, double v) {
 
 class Hash {
  public:
-  void add(std::uint64_t value) { state_ = builtin::mix(state_ + value + 0x9e3779b97f4a7c15ULL); }
+  void add(std::uint64_t value) { state_ = generate::mix(state_ + value + 0x9e3779b97f4a7c15ULL); }
   [[nodiscard]] std::uint64_t value() const { return state_; }
 
  private:
@@ -64,4 +64,4 @@ std::uint64_t signature(Kind kind, const Query& query, const fast::CertifiedResu
   return hash.value();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -9,7 +9,7 @@
 #include "fast/certified.hpp"
 #include "fast/method.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// Two queries have the same signature if these agree: the kind; the stage and verdict of the judge;
 /// the verdict of the answer; to a factor of 256 the time of impact, or its distance from 1 if that is
@@ -20,4 +20,4 @@ namespace touchstone::verify {
                                       const fast::CertifiedResult& judged,
                                       const fast::Answer& answer);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -11,9 +11,9 @@
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::draws {
+namespace touchstone::verify::fuzz::draws {
 
-using builtin::Random;
+using generate::Random;
 
 /// Uniform among 0 … count − 1. \pre count > 0
 [[nodiscard]] inline std::size_t below(Random& random, std::size_t count) {
@@ -60,4 +60,4 @@ inline void multiply(Query& query, const std::array<double, 3>& factors) {
   }
 }
 
-}  // namespace touchstone::verify::draws
+}  // namespace touchstone::verify::fuzz::draws

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 std::string_view to_string(FindingKind what) {
   switch (what) {
@@ -19,19 +19,19 @@ std::string_view to_string(FindingKind what) {
     case FindingKind::asymmetry:
       return "asymmetry";
     case FindingKind::crash:
-      return to_string(FailureKind::crash);
+      return solvers::to_string(solvers::FailureKind::crash);
     case FindingKind::exit:
-      return to_string(FailureKind::exit);
+      return solvers::to_string(solvers::FailureKind::exit);
     case FindingKind::exception:
-      return to_string(FailureKind::exception);
+      return solvers::to_string(solvers::FailureKind::exception);
     case FindingKind::no_verdict:
-      return to_string(FailureKind::no_verdict);
+      return solvers::to_string(solvers::FailureKind::no_verdict);
     case FindingKind::not_finite:
-      return to_string(FailureKind::not_finite);
+      return solvers::to_string(solvers::FailureKind::not_finite);
     case FindingKind::hang:
-      return to_string(FailureKind::hang);
+      return solvers::to_string(solvers::FailureKind::hang);
     case FindingKind::undecided:
-      return to_string(FailureKind::undecided);
+      return solvers::to_string(solvers::FailureKind::undecided);
   }
   throw std::invalid_argument("no kind of finding");
 }
@@ -44,21 +44,21 @@ std::optional<FindingKind> finding_kind_from_string(std::string_view name) {
   return std::nullopt;
 }
 
-FindingKind finding_kind_of(FailureKind kind) {
+FindingKind finding_kind_of(solvers::FailureKind kind) {
   switch (kind) {
-    case FailureKind::crash:
+    case solvers::FailureKind::crash:
       return FindingKind::crash;
-    case FailureKind::exit:
+    case solvers::FailureKind::exit:
       return FindingKind::exit;
-    case FailureKind::exception:
+    case solvers::FailureKind::exception:
       return FindingKind::exception;
-    case FailureKind::no_verdict:
+    case solvers::FailureKind::no_verdict:
       return FindingKind::no_verdict;
-    case FailureKind::not_finite:
+    case solvers::FailureKind::not_finite:
       return FindingKind::not_finite;
-    case FailureKind::hang:
+    case solvers::FailureKind::hang:
       return FindingKind::hang;
-    case FailureKind::undecided:
+    case solvers::FailureKind::undecided:
       return FindingKind::undecided;
   }
   throw std::invalid_argument("no kind of failure");
@@ -77,4 +77,4 @@ std::string_view to_string(Shrinking shrinking) {
   }
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

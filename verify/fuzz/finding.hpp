@@ -13,7 +13,7 @@
 #include "fast/method.hpp"
 #include "verify/solvers/failure.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// What is wrong: an answer, or that there is none.
 enum class FindingKind : std::uint8_t {
@@ -41,7 +41,7 @@ inline constexpr std::size_t finding_kinds = 13;
 [[nodiscard]] std::optional<FindingKind> finding_kind_from_string(std::string_view name);
 
 /// A failure as a finding.
-[[nodiscard]] FindingKind finding_kind_of(FailureKind kind);
+[[nodiscard]] FindingKind finding_kind_of(solvers::FailureKind kind);
 
 /// A query that a solver answers wrongly, its answer, and the truth: all of the same query.
 struct FailingCase {
@@ -91,4 +91,4 @@ struct Finding {
   std::string generator;      ///< that made the query
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

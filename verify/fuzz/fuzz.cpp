@@ -19,18 +19,18 @@
 #include "verify/fuzz/scheduler.hpp"
 #include "verify/fuzz/symmetry.hpp"
 #include "verify/fuzz/triage.hpp"
+#include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
-#include "verify/run/deadline.hpp"
 #include "verify/solvers/solver_process.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
-using builtin::Random;
 using draws::one_in;
 using fast::Answer;
 using fast::CertifiedResult;
 using fast::Verdict;
+using generate::Random;
 
 /// Queries of a block before the images: little enough that slow solvers end in time and are
 /// steered early.
@@ -100,8 +100,8 @@ class BlockMaker {
       : kinds_(options.kinds),
         generators_(generators),
         context_(options.separation),
-        steering_(generators.size(), builtin::mix(options.seed) + 1),
-        random_(builtin::mix(options.seed)) {
+        steering_(generators.size(), generate::mix(options.seed) + 1),
+        random_(generate::mix(options.seed)) {
     for (const CorpusQuery& query : options.corpus) context_.pool(query.kind).keep(query.query);
   }
 
@@ -191,7 +191,7 @@ class Run {
         maker_(options, generators_),
         solver_(method, process_options(options)),
         method_options_(method_options(options)),
-        random_(builtin::mix(options.seed) + 2) {
+        random_(generate::mix(options.seed) + 2) {
     for (const Generator& generator : generators_) {
       result_.generators.push_back({.name = std::string(generator.name)});
     }
@@ -207,7 +207,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool is_stopped() const { return verify::is_stopped(options_.stop); }
+  [[nodiscard]] bool is_stopped() const { return verify::jobs::is_stopped(options_.stop); }
 
   /// Wall-clock time of the run so far.
   [[nodiscard]] double seconds() const { return options_.clock() - start_; }
@@ -239,8 +239,8 @@ class Run {
     answers_.assign(block_.queries.size(), Answer{});
     const double asked = seconds();
     // A block of a slow method may take minutes.
-    const SolverRun run = solver_.solve(block_.kind, block_.queries, answers_, method_options_,
-                                        solver_deadline(end_));
+    const solvers::SolverRun run = solver_.solve(block_.kind, block_.queries, answers_,
+                                                 method_options_, solver_deadline(end_));
     result_.method_seconds += seconds() - asked;
     result_.unplaced_crashes += run.unplaced_crashes;
     if (end_.is_over() || is_stopped()) result_.unanswered = block_.queries.size() - run.answered;
@@ -253,7 +253,7 @@ class Run {
 
   /// Judges what is answered, and all of it unless the run must end: however late the answers come,
   /// there is time to judge some, and what ended or held up the solver is reported in any case.
-  void judge(const SolverRun& run) {
+  void judge(const solvers::SolverRun& run) {
     judged_.assign(run.answered, CertifiedResult{});
     failures_ = run.failures;
     judging_end_ = end_.at_least(seconds_to_judge);
@@ -294,12 +294,12 @@ class Run {
   }
 
   /// What happened at a query, or null.
-  [[nodiscard]] const Failure* failure_at(std::size_t i) const {
-    const auto found = std::ranges::lower_bound(failures_, i, {}, &QueryFailure::position);
+  [[nodiscard]] const solvers::Failure* failure_at(std::size_t i) const {
+    const auto found = std::ranges::lower_bound(failures_, i, {}, &solvers::QueryFailure::position);
     return found != failures_.end() && found->position == i ? &found->failure : nullptr;
   }
 
-  void judge_query(std::size_t i, const Failure* failure) {
+  void judge_query(std::size_t i, const solvers::Failure* failure) {
     GeneratorStatistics& statistics = result_.generators[block_.arms[i]];
     ++result_.queries;
     ++statistics.queries;
@@ -338,7 +338,7 @@ class Run {
     work += oracle_work;
     ++result_.judged_by_oracle;
     const exact::Verdict verdict = exact::decide(block_.kind, query, options_.separation);
-    const Truth truth = truth_of(result_.queries, verdict);
+    const judge::Truth truth = judge::truth_of(result_.queries, verdict);
     double reward = 0.0;
     if (name_ != judge_name()) {
       const auto of_judge = accuse_judge(truth, judged_[i]);
@@ -375,7 +375,7 @@ class Run {
                                      to_text(image->symmetry), to_text(other));
   }
 
-  double report_failure(std::size_t i, const Failure& failure) {
+  double report_failure(std::size_t i, const solvers::Failure& failure) {
     ++result_.judged_by_oracle;
     return report(i, {accuse_failure(failure, options_.query_limit_seconds), name_},
                   exact::decide(block_.kind, block_.queries[i], options_.separation));
@@ -442,12 +442,13 @@ class Run {
   double oracle_share_;
   std::vector<Generator> generators_;
   BlockMaker maker_;
-  SolverProcess solver_;
+  solvers::SolverProcess solver_;
   fast::MethodOptions method_options_;
   Random random_;
   double start_ = options_.clock();
-  Deadline end_{options_.seconds > 0.0 ? options_.seconds : std::numeric_limits<double>::infinity(),
-                options_.clock};
+  jobs::Deadline end_{
+      options_.seconds > 0.0 ? options_.seconds : std::numeric_limits<double>::infinity(),
+      options_.clock};
   SignatureTable signatures_;
   BoundHabit lower_habit_;
   BoundHabit upper_habit_;
@@ -457,8 +458,8 @@ class Run {
   Block block_;
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
-  std::vector<QueryFailure> failures_;
-  Deadline judging_end_;
+  std::vector<solvers::QueryFailure> failures_;
+  jobs::Deadline judging_end_;
 };
 
 void check(const FuzzOptions& options) {
@@ -520,4 +521,4 @@ FuzzResult fuzz(const fast::Method& method, const FuzzOptions& options) {
   return Run(method, options).run();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -24,10 +24,10 @@
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/fuzz/finding.hpp"
-#include "verify/run/deadline.hpp"
+#include "verify/jobs/deadline.hpp"
 #include "verify/solvers/child_process.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// A query with its kind.
 struct CorpusQuery {
@@ -59,7 +59,7 @@ struct FuzzOptions {
   /// 2^-1074 to 2^1023 meet a distance in L2.
   double query_limit_seconds = 10.0;
   /// What the method's process may take.
-  ChildLimits limits = {};
+  solvers::ChildLimits limits = {};
   /// Findings that are kept (one or a few of a class) after which the run ends; 0: never.
   std::size_t most_findings = 0;
   /// Wall-clock seconds for making the query of a finding simpler, or a tenth of what is left of the
@@ -81,7 +81,7 @@ struct FuzzOptions {
   /// Called with every finding that is kept, when it is found and made simpler.
   std::function<void(const Finding&)> on_finding = nullptr;
   /// The clock of all times above but the query limit's.
-  SecondsClock clock = steady_seconds;
+  jobs::SecondsClock clock = jobs::steady_seconds;
 };
 
 /// Is that kind of findings sought?
@@ -121,7 +121,7 @@ struct FuzzResult {
   std::uint64_t other_findings = 0;    ///< of kinds that were not sought, beside all these
   /// Times the method ended its process at queries none of which does it alone.
   std::uint64_t unplaced_crashes = 0;
-  CapturedOutput output;  ///< what the method printed
+  solvers::CapturedOutput output;  ///< what the method printed
   std::vector<GeneratorStatistics> generators;
   FuzzEnd ended_by = FuzzEnd::time;
 
@@ -137,4 +137,4 @@ struct FuzzResult {
 /// made.
 [[nodiscard]] FuzzResult fuzz(const fast::Method& method, const FuzzOptions& options);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -11,7 +11,7 @@
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
 nlohmann::json coordinates_of(const Query& query) {
@@ -21,11 +21,11 @@ nlohmann::json coordinates_of(const Query& query) {
 }
 
 std::string generator_table(const FuzzResult& result) {
-  TextTable table({word_column("generator", 17),
-                   {"queries", 10},
-                   {"collisions", 10},
-                   {"signatures", 10},
-                   {"findings", 8}});
+  io::TextTable table({io::word_column("generator", 17),
+                       {"queries", 10},
+                       {"collisions", 10},
+                       {"signatures", 10},
+                       {"findings", 8}});
   for (const GeneratorStatistics& generator : result.generators) {
     table.add({std::string(generator.name), std::to_string(generator.queries),
                std::to_string(generator.collisions), std::to_string(generator.signatures),
@@ -71,10 +71,10 @@ std::string end_text(const FuzzReport& report) {
 }
 
 nlohmann::json answer_json(const fast::Answer& answer) {
-  return {{"verdict", to_string(answer.verdict)},
-          {"toi_lower", number_to_json(answer.toi_lower)},
-          {"toi_upper", number_to_json(answer.toi_upper)},
-          {"tolerance", number_to_json(answer.tolerance)}};
+  return {{"verdict", solvers::to_string(answer.verdict)},
+          {"toi_lower", io::number_to_json(answer.toi_lower)},
+          {"toi_upper", io::number_to_json(answer.toi_upper)},
+          {"tolerance", io::number_to_json(answer.tolerance)}};
 }
 
 nlohmann::json case_json(const FailingCase& failing) {
@@ -83,13 +83,13 @@ nlohmann::json case_json(const FailingCase& failing) {
           {"collides", failing.collides},
           {"truth", failing.truth},
           {"detail", failing.detail},
-          {"certificate", text_or_null(failing.certificate)}};
+          {"certificate", io::text_or_null(failing.certificate)}};
 }
 
 nlohmann::json solver_json(const SolverCall& solver) {
   return {{"method", solver.method},
-          {"plugin", text_or_null(solver.plugin.string())},
-          {"promise", to_string(solver.promise)},
+          {"plugin", io::text_or_null(solver.plugin.string())},
+          {"promise", solvers::to_string(solver.promise)},
           {"tolerance", solver.options.tolerance},
           {"max_checks", solver.options.max_checks},
           {"min_separation", solver.options.min_separation},
@@ -109,7 +109,7 @@ Separation separation_of(const SolverCall& solver) {
 std::string to_text(const Finding& finding, const SolverCall& asked) {
   std::string about(to_string(finding.kind));
   if (!is_contact(finding.separation)) {
-    about += " at minimum separation " + to_text(finding.separation);
+    about += " at minimum separation " + judge::to_text(finding.separation);
   }
   std::string text =
       fmt::format("{} of {}, {} ({}, after {:.2f} s and {} queries)\n", to_string(finding.what),
@@ -131,9 +131,9 @@ std::string to_text(const FuzzReport& report) {
   std::string text = fmt::format(
       "{} ({}), seed {}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
       "{:.0f} queries a second, {:.0f} without the method's own time; {} judged by the oracle\n\n",
-      report.solver.method, to_string(report.solver.promise), report.seed,
-      is_contact(separation) ? "" : ", minimum separation " + to_text(separation), result.queries,
-      result.seconds, result.images, result.collisions, result.queries_per_second(),
+      report.solver.method, solvers::to_string(report.solver.promise), report.seed,
+      is_contact(separation) ? "" : ", minimum separation " + judge::to_text(separation),
+      result.queries, result.seconds, result.images, result.collisions, result.queries_per_second(),
       result.judged_per_second(), result.judged_by_oracle);
   text += generator_table(result);
   text += end_text(report);
@@ -151,7 +151,7 @@ nlohmann::json to_json(const Finding& finding, const SolverCall& asked) {
   nlohmann::json json = case_json(finding.simplest);
   json.update({{"what", to_string(finding.what)},
                {"kind", to_string(finding.kind)},
-               {"separation", to_json(finding.separation)},
+               {"separation", judge::to_json(finding.separation)},
                {"method", finding.method},
                {"generator", finding.generator},
                {"seconds", finding.seconds},
@@ -180,9 +180,9 @@ nlohmann::json to_json(const FuzzReport& report) {
   }
   return {{"solver", solver_json(report.solver)},
           {"method", report.solver.method},
-          {"promise", to_string(report.solver.promise)},
+          {"promise", solvers::to_string(report.solver.promise)},
           {"seed", report.seed},
-          {"separation", to_json(separation_of(report.solver))},
+          {"separation", judge::to_json(separation_of(report.solver))},
           {"asked",
            {{"seconds", report.seconds > 0.0 ? nlohmann::json(report.seconds) : nlohmann::json()},
             {"queries", report.queries != 0 ? nlohmann::json(report.queries) : nlohmann::json()},
@@ -208,4 +208,4 @@ nlohmann::json to_json(const FuzzReport& report) {
           {"findings", findings}};
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -13,7 +13,7 @@
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/reproduce.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// A run and what was asked for.
 struct FuzzReport {
@@ -53,4 +53,4 @@ struct FuzzReport {
 /// `collisions`, `signatures`, `findings`) and `findings`, a list as above.
 [[nodiscard]] nlohmann::json to_json(const FuzzReport& report);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

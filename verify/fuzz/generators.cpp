@@ -12,12 +12,12 @@
 #include "verify/fuzz/mutation.hpp"
 #include "verify/judge/separation_inference.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
-using builtin::Random;
 using draws::below;
 using draws::one_in;
+using generate::Random;
 
 // ---- Structured coordinates ---------------------------------------------------------------------
 
@@ -150,10 +150,10 @@ Query slide(Kind kind, const GeneratorContext& /*context*/, Random& random) {
 // ---- From other queries -------------------------------------------------------------------------
 
 Query family(Kind kind, const GeneratorContext& context, Random& random) {
-  const std::vector<Family>& families = context.families(kind);
-  const Family& chosen = families.at(below(random, families.size()));
+  const std::vector<generate::Family>& families = context.families(kind);
+  const generate::Family& chosen = families.at(below(random, families.size()));
   const std::uint64_t seed = random.bits();
-  return make_query(chosen, kind, seed, below(random, 1000), context.separation()).query;
+  return generate::make_query(chosen, kind, seed, below(random, 1000), context.separation()).query;
 }
 
 Query from_pool(Kind kind, const GeneratorContext& context, Random& random) {
@@ -239,9 +239,10 @@ const Query& QueryPool::draw(Random& random) const {
 }
 
 GeneratorContext::GeneratorContext(const Separation& separation) : separation_(separation) {
-  for (const Family& family : verify::families(separation)) {
+  for (const generate::Family& family : verify::generate::families(separation)) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (supports(family, kind)) families_.at(static_cast<std::size_t>(kind)).push_back(family);
+      if (generate::supports(family, kind))
+        families_.at(static_cast<std::size_t>(kind)).push_back(family);
     }
   }
 }
@@ -256,4 +257,4 @@ std::vector<Generator> generators(const Separation& separation) {
   return result;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

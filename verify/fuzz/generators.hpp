@@ -15,7 +15,7 @@
 #include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// Queries of one kind to mutate: some that stay, and the latest of those that were found worth it.
 class QueryPool {
@@ -27,7 +27,7 @@ class QueryPool {
   void add(const Query& query);
 
   /// Any of them; half of the time one that stays, if there is one. \pre not empty
-  [[nodiscard]] const Query& draw(builtin::Random& random) const;
+  [[nodiscard]] const Query& draw(generate::Random& random) const;
 
   [[nodiscard]] bool empty() const { return kept_.empty() && latest_.empty(); }
 
@@ -46,7 +46,7 @@ class GeneratorContext {
 
   [[nodiscard]] const Separation& separation() const { return separation_; }
   /// The families that have queries of the kind for the separation.
-  [[nodiscard]] const std::vector<Family>& families(Kind kind) const {
+  [[nodiscard]] const std::vector<generate::Family>& families(Kind kind) const {
     return families_.at(static_cast<std::size_t>(kind));
   }
   [[nodiscard]] const QueryPool& pool(Kind kind) const {
@@ -56,7 +56,7 @@ class GeneratorContext {
 
  private:
   Separation separation_;
-  std::array<std::vector<Family>, 2> families_;
+  std::array<std::vector<generate::Family>, 2> families_;
   std::array<QueryPool, 2> pools_;
 };
 
@@ -69,7 +69,7 @@ struct Generator {
   /// The work of a query: about the microseconds that making and judging it takes.
   double work;
   /// Makes a query of finite coordinates: a function of the arguments and nothing else.
-  Query (*make)(Kind kind, const GeneratorContext& context, builtin::Random& random);
+  Query (*make)(Kind kind, const GeneratorContext& context, generate::Random& random);
   /// Does it need a separation that is more than contact?
   bool needs_distance = false;
 };
@@ -80,4 +80,4 @@ struct Generator {
 /// Those that have queries for the separation.
 [[nodiscard]] std::vector<Generator> generators(const Separation& separation);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -8,12 +8,12 @@
 
 #include "verify/fuzz/draws.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
-using builtin::Random;
 using draws::below;
 using draws::one_in;
+using generate::Random;
 
 /// Doubles in order as integers in order: ±0 are 0.
 std::int64_t rank(double x) {
@@ -137,4 +137,4 @@ Query mutated(const Query& query, Random& random) {
   return result;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -9,7 +9,7 @@
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// The double that is so many doubles above x (below, if negative), at most the greatest finite one
 /// in magnitude. \pre x is finite
@@ -17,15 +17,15 @@ namespace touchstone::verify {
 
 /// Moves one to three coordinates by some units in the last place: mostly a few, now and then 2^k.
 /// All coordinates stay finite.
-void nudge(Query& query, builtin::Random& random);
+void nudge(Query& query, generate::Random& random);
 
 /// Moves the points at one end by up to 2^-20 of their way, on or back: what happened at that end happens
 /// a moment earlier or not at all. All points, or the first primitive's. All coordinates stay finite.
-void overshoot(Kind kind, Query& query, builtin::Random& random);
+void overshoot(Kind kind, Query& query, generate::Random& random);
 
 /// One to three changes: a bit flipped, coordinates or points copied or exchanged, a sign changed,
 /// a coordinate set to 0, rounded to few bits or multiplied by a power of two, units in the last
 /// place, a point at rest. All coordinates stay finite.
-[[nodiscard]] Query mutated(const Query& query, builtin::Random& random);
+[[nodiscard]] Query mutated(const Query& query, generate::Random& random);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

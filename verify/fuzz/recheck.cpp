@@ -9,9 +9,9 @@
 #include "exact/certificate/certificate_text.hpp"
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/shrink.hpp"
-#include "verify/run/deadline.hpp"
+#include "verify/jobs/deadline.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
 using fast::Answer;
@@ -51,16 +51,16 @@ Standard standard_of(const fast::Method& method, const FuzzOptions& options) {
           .filter = method.info().filter};
 }
 
-SolverProcessOptions process_options(const FuzzOptions& options) {
+solvers::SolverProcessOptions process_options(const FuzzOptions& options) {
   return {.query_limit_seconds = options.query_limit_seconds,
           .most_failures = most_failures,
           .stop = options.stop,
           .limits = options.limits};
 }
 
-Deadline solver_deadline(const Deadline& deadline) {
+jobs::Deadline solver_deadline(const jobs::Deadline& deadline) {
   constexpr double least_seconds = 1e-3;
-  return Deadline(std::max(least_seconds, deadline.seconds_left()));
+  return jobs::Deadline(std::max(least_seconds, deadline.seconds_left()));
 }
 
 Answer answer_of(const CertifiedResult& judged) {
@@ -76,7 +76,7 @@ FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
   return {.query = query,
           .answer = answer,
           .collides = verdict.collides(),
-          .truth = to_text(truth_of(0, verdict)),
+          .truth = judge::to_text(judge::truth_of(0, verdict)),
           .detail = std::move(detail),
           .certificate = certificate(kind, query, verdict, label)};
 }
@@ -89,32 +89,33 @@ Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzO
       solver_(method, process_options(options)),
       method_options_(method_options(options)) {}
 
-std::optional<FailingCase> Recheck::ask(const Query& query, const Deadline& deadline) {
+std::optional<FailingCase> Recheck::ask(const Query& query, const jobs::Deadline& deadline) {
   if (!is_finite(query) || deadline.is_over()) return std::nullopt;
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
   const exact::Verdict verdict = exact::decide(finding_.kind, query, standard_.separation);
-  const auto accusation = accuse_reply(query, truth_of(0, verdict), *reply);
+  const auto accusation = accuse_reply(query, judge::truth_of(0, verdict), *reply);
   if (!accusation || !is_same(*accusation)) return std::nullopt;
   return failing_case(finding_.kind, query, reply->answer, verdict, accusation->detail,
                       finding_.generator);
 }
 
-std::optional<Recheck::Reply> Recheck::reply_to(const Query& query, const Deadline& deadline) {
+std::optional<Recheck::Reply> Recheck::reply_to(const Query& query,
+                                                const jobs::Deadline& deadline) {
   if (of_judge_) {
     return Reply{.answer = answer_of(
                      fast::certified(finding_.kind, query, {.separation = standard_.separation})),
                  .failure = std::nullopt};
   }
   Reply reply;
-  const SolverRun run = solver_.solve(finding_.kind, {&query, 1}, {&reply.answer, 1},
-                                      method_options_, solver_deadline(deadline));
+  const solvers::SolverRun run = solver_.solve(finding_.kind, {&query, 1}, {&reply.answer, 1},
+                                               method_options_, solver_deadline(deadline));
   if (run.answered == 0) return std::nullopt;
   if (!run.failures.empty()) reply.failure = run.failures.front().failure;
   return reply;
 }
 
-std::optional<Accusation> Recheck::accuse_reply(const Query& query, const Truth& truth,
+std::optional<Accusation> Recheck::accuse_reply(const Query& query, const judge::Truth& truth,
                                                 const Reply& reply) const {
   if (reply.failure) return accuse_failure(*reply.failure, query_limit_seconds_);
   if (finding_.missing.any() && reply.answer.verdict == Verdict::yes &&
@@ -130,13 +131,13 @@ bool Recheck::is_same(const Accusation& accusation) const {
   return accusation.what == finding_.what || finding_.what == FindingKind::asymmetry;
 }
 
-void simplify(const fast::Method& method, const FuzzOptions& options, const Deadline& deadline,
-              Finding& finding) {
+void simplify(const fast::Method& method, const FuzzOptions& options,
+              const jobs::Deadline& deadline, Finding& finding) {
   // In less time than that no query can be seen to hang.
   const bool is_hang = finding.what == FindingKind::hang;
   if (is_hang && deadline.seconds_left() <= options.query_limit_seconds) return;
   Recheck recheck(method, finding, options);
-  const auto must_end = [&] { return deadline.is_over() || is_stopped(options.stop); };
+  const auto must_end = [&] { return deadline.is_over() || jobs::is_stopped(options.stop); };
   const auto fails = [&](const Query& query) {
     std::optional<FailingCase> evidence = recheck.ask(query, deadline);
     if (evidence) finding.simplest = std::move(*evidence);
@@ -151,4 +152,4 @@ void simplify(const fast::Method& method, const FuzzOptions& options, const Dead
   finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::complete;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

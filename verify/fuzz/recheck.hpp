@@ -15,11 +15,11 @@
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/triage.hpp"
+#include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
-#include "verify/run/deadline.hpp"
 #include "verify/solvers/solver_process.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// The name of the solver that judges the others.
 [[nodiscard]] inline std::string_view judge_name() { return fast::certified_info().name; }
@@ -28,10 +28,10 @@ namespace touchstone::verify {
 [[nodiscard]] Standard standard_of(const fast::Method& method, const FuzzOptions& options);
 
 /// How a solver's process is used in a run.
-[[nodiscard]] SolverProcessOptions process_options(const FuzzOptions& options);
+[[nodiscard]] solvers::SolverProcessOptions process_options(const FuzzOptions& options);
 
 /// For the solver's process: as many seconds by the system's clock, at least a millisecond.
-[[nodiscard]] Deadline solver_deadline(const Deadline& deadline);
+[[nodiscard]] jobs::Deadline solver_deadline(const jobs::Deadline& deadline);
 
 /// What the judge says, as an answer.
 [[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& judged);
@@ -52,16 +52,18 @@ class Recheck {
 
   /// The evidence, if it does; nothing if it does not, or has not answered at the deadline, or the
   /// query is not finite.
-  [[nodiscard]] std::optional<FailingCase> ask(const Query& query, const Deadline& deadline = {});
+  [[nodiscard]] std::optional<FailingCase> ask(const Query& query,
+                                               const jobs::Deadline& deadline = {});
 
  private:
   /// What the solver answers alone, or why it does not.
   struct Reply {
     fast::Answer answer;
-    std::optional<Failure> failure;
+    std::optional<solvers::Failure> failure;
   };
-  [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const Deadline& deadline);
-  [[nodiscard]] std::optional<Accusation> accuse_reply(const Query& query, const Truth& truth,
+  [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const jobs::Deadline& deadline);
+  [[nodiscard]] std::optional<Accusation> accuse_reply(const Query& query,
+                                                       const judge::Truth& truth,
                                                        const Reply& reply) const;
   [[nodiscard]] bool is_same(const Accusation& accusation) const;
 
@@ -69,13 +71,13 @@ class Recheck {
   Standard standard_;
   double query_limit_seconds_;
   bool of_judge_;
-  SolverProcess solver_;
+  solvers::SolverProcess solver_;
   fast::MethodOptions method_options_;
 };
 
 /// Makes the finding's query simpler as long as the solver does the same wrong to it (shrink.hpp),
 /// until the deadline or the options' stop. A hang is left alone if it takes longer.
-void simplify(const fast::Method& method, const FuzzOptions& options, const Deadline& deadline,
-              Finding& finding);
+void simplify(const fast::Method& method, const FuzzOptions& options,
+              const jobs::Deadline& deadline, Finding& finding);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -17,7 +17,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
 std::string_view point_name(Kind kind, std::size_t point) {
@@ -47,7 +47,7 @@ std::string identifier(std::string_view text) {
 std::string fingerprint(const Reproduction& found) {
   auto hash = static_cast<std::uint64_t>(found.kind);
   const auto add = [&](std::uint64_t bits) {
-    hash = builtin::mix(hash + bits + 0x9e3779b97f4a7c15ULL);
+    hash = generate::mix(hash + bits + 0x9e3779b97f4a7c15ULL);
   };
   for (const double x : found.failing.query.coordinates) add(std::bit_cast<std::uint64_t>(x));
   add(std::bit_cast<std::uint64_t>(found.solver.options.min_separation));
@@ -85,10 +85,11 @@ std::string options_as_code(const fast::MethodOptions& options) {
 /// The test itself: whom it asks.
 std::string call_as_code(const SolverCall& solver) {
   if (solver.plugin.empty()) {
-    return fmt::format("expect_no_fault(verify::find_method({}));", cpp_literal(solver.method));
+    return fmt::format("expect_no_fault(verify::solvers::find_method({}));",
+                       io::cpp_literal(solver.method));
   }
-  return fmt::format("expect_no_fault(*verify::load_plugin({}));",
-                     cpp_literal(solver.plugin.string()));
+  return fmt::format("expect_no_fault(*verify::solvers::load_plugin({}));",
+                     io::cpp_literal(solver.plugin.string()));
 }
 
 /// Of a yes, numbers that it must have: those without which it was found to be wrong.
@@ -105,7 +106,7 @@ std::string numbers_as_code(const Reproduction& found) {
   return result;
 }
 
-double gibibytes(const ChildLimits& limits) {
+double gibibytes(const solvers::ChildLimits& limits) {
   constexpr int bits = 30;
   return std::ldexp(static_cast<double>(limits.memory_bytes), -bits);
 }
@@ -115,12 +116,12 @@ std::string options_as_words(const SolverCall& solver) {
   const fast::MethodOptions& options = solver.options;
   std::string words = solver.plugin.empty()
                           ? fmt::format("--method {}", solver.method)
-                          : fmt::format("--plugin {}", shell_word(solver.plugin.string()));
+                          : fmt::format("--plugin {}", io::shell_word(solver.plugin.string()));
   words += fmt::format(" --tolerance {} --max-checks {} --min-separation {} --norm {}",
                        options.tolerance, std::max<std::int64_t>(options.max_checks, 0),
                        options.min_separation, to_string(options.norm));
   words += fmt::format(" --query-limit {}", solver.query_limit_seconds);
-  if (solver.limits.memory_bytes != ChildLimits{}.memory_bytes) {
+  if (solver.limits.memory_bytes != solvers::ChildLimits{}.memory_bytes) {
     words += fmt::format(" --memory-limit {}", gibibytes(solver.limits));
   }
   if (solver.limits.may_fork) words += " --allow-processes";
@@ -149,16 +150,16 @@ void expect_no_fault(const fast::Method& method) {
   method.solve(kind, {&query, 1}, {&answer, 1}, options);
   const exact::Verdict truth = exact::decide(kind, query, separation);
   EXPECT_EQ(truth.collides(), collides);
-  verify::Judgement judgement;
-  judgement.add(verify::truth_of(0, truth), answer);
+  verify::judge::Judgement judgement;
+  judgement.add(verify::judge::truth_of(0, truth), answer);
   if (answer.verdict == fast::Verdict::yes) {
     const Separation near =
-        verify::claimed_distance(method.info().filter, kind, query, answer, separation);
+        verify::judge::claimed_distance(method.info().filter, kind, query, answer, separation);
     EXPECT_TRUE(!is_valid(near) || exact::decide(kind, query, near).collides());
   }
-  for (const verify::WrongAnswer& wrong : judgement.wrong_answers) {
-    EXPECT_FALSE(verify::breaks(wrong.fault, promise))
-        << verify::to_string(wrong.fault) << ": " << wrong.answer << ", but " << wrong.truth;
+  for (const verify::judge::WrongAnswer& wrong : judgement.wrong_answers) {
+    EXPECT_FALSE(verify::judge::breaks(wrong.fault, promise))
+        << verify::judge::to_string(wrong.fault) << ": " << wrong.answer << ", but " << wrong.truth;
   }
 )";
 
@@ -178,7 +179,7 @@ std::string as_points(Kind kind, const Query& query) {
 }
 
 std::string as_csv(const Query& query, std::optional<bool> collides) {
-  return csv_rows(query, collides);
+  return data::csv_rows(query, collides);
 }
 
 Reproduction reproduction_of(const Finding& finding, const SolverCall& asked) {
@@ -202,7 +203,7 @@ std::string as_cpp_test(const Reproduction& found) {
   std::string result(includes);
   const std::string space = fmt::format("touchstone::reproduction_{}", fingerprint(found));
   result += fmt::format("\nnamespace {} {{\n\n", space);
-  result += fmt::format("// {}: {}. The primitives {}.\n", printable(found.solver.method), what,
+  result += fmt::format("// {}: {}. The primitives {}.\n", io::printable(found.solver.method), what,
                         found.failing.collides ? "collide" : "do not collide");
   if (found.what == FindingKind::hang) result += "// Run it with a limit of time.\n";
   result += fmt::format("constexpr Kind kind = {};\n", enumerator(found.kind));
@@ -212,7 +213,7 @@ std::string as_cpp_test(const Reproduction& found) {
       "constexpr Separation separation{.distance = options.min_separation, .norm = "
       "options.norm};\n";
   result += fmt::format("constexpr fast::Promise promise = fast::Promise::{};\n",
-                        to_string(found.solver.promise));
+                        solvers::to_string(found.solver.promise));
   result += fmt::format("constexpr bool collides = {};\n", found.failing.collides);
   result += fmt::format("constexpr Query query{{{{\n{}}}}};\n",
                         coordinates_as_code(found.kind, found.failing.query));
@@ -233,4 +234,4 @@ std::string as_command(const Reproduction& found) {
                      as_csv(found.failing.query, label), options_as_words(found.solver));
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -13,7 +13,7 @@
 #include "verify/fuzz/finding.hpp"
 #include "verify/solvers/child_process.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// A line a point, at t=0 and then at t=1: its name in the kind, and its coordinates in decimal and in
 /// hexadecimal. Both give the very doubles.
@@ -36,7 +36,7 @@ struct SolverCall {
   /// Wall-clock seconds that a query may take; 0: no limit.
   double query_limit_seconds = 0.0;
   /// What its process may take.
-  ChildLimits limits = {};
+  solvers::ChildLimits limits = {};
 };
 
 /// What a solver answered wrongly.
@@ -64,4 +64,4 @@ struct Reproduction {
 /// \pre all coordinates are finite.
 [[nodiscard]] std::string as_command(const Reproduction& found);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
 constexpr unsigned table_bits = 16;
@@ -19,7 +19,7 @@ constexpr double first_work = 100.0;
 SignatureTable::SignatureTable() : counts_(std::size_t{1} << table_bits) {}
 
 std::uint32_t SignatureTable::add(std::uint64_t signature) {
-  std::uint32_t& count = counts_[builtin::mix(signature) >> (64U - table_bits)];
+  std::uint32_t& count = counts_[generate::mix(signature) >> (64U - table_bits)];
   size_ += count == 0 ? 1U : 0U;
   const std::uint32_t before = count;
   if (count != std::numeric_limits<std::uint32_t>::max()) ++count;
@@ -27,7 +27,7 @@ std::uint32_t SignatureTable::add(std::uint64_t signature) {
 }
 
 Steering::Steering(std::size_t arms, std::uint64_t seed, const SteeringOptions& options)
-    : random_(builtin::mix(seed)), options_(options), arms_(arms) {}
+    : random_(generate::mix(seed)), options_(options), arms_(arms) {}
 
 double Steering::rate(const Arm& arm) {
   return (arm.reward + first_reward) / (arm.work + first_work);
@@ -63,4 +63,4 @@ void Steering::learn(std::size_t arm, double reward, double work) {
   arms_.at(arm).work += work;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

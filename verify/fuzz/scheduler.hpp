@@ -15,7 +15,7 @@
 
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// How often each signature was seen.
 class SignatureTable {
@@ -65,9 +65,9 @@ class Steering {
 
   [[nodiscard]] static double rate(const Arm& arm);
 
-  builtin::Random random_;
+  generate::Random random_;
   SteeringOptions options_;
   std::vector<Arm> arms_;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -13,7 +13,7 @@
 
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
 constexpr std::size_t axes = 3;
@@ -79,7 +79,7 @@ bool is_greater(const Query& query, const PointPair& pair) {
 std::uint64_t hash_of(const Query& query) {
   std::uint64_t result = 0;
   for (const double x : query.coordinates) {
-    result = builtin::mix(result + std::bit_cast<std::uint64_t>(x) + 0x9e3779b97f4a7c15ULL);
+    result = generate::mix(result + std::bit_cast<std::uint64_t>(x) + 0x9e3779b97f4a7c15ULL);
   }
   return result;
 }
@@ -399,4 +399,4 @@ Query shrink(Kind kind, const Query& query, const std::function<bool(const Query
   return Shrinker(kind, query, still_fails, options).run();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

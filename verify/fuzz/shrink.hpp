@@ -27,7 +27,7 @@
 
 #include "exact/query.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// How far a query is from simple: less is simpler. Two queries may be equally simple.
 struct Complexity {
@@ -62,4 +62,4 @@ struct ShrinkOptions {
                            const std::function<bool(const Query&)>& still_fails,
                            const ShrinkOptions& options = {});
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

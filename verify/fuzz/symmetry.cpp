@@ -9,12 +9,12 @@
 #include "verify/fuzz/draws.hpp"
 #include "verify/judge/separation_inference.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
-using builtin::Random;
 using draws::below;
 using draws::one_in;
+using generate::Random;
 
 constexpr int greatest_exponent = 60;
 
@@ -136,4 +136,4 @@ std::string to_text(const Symmetry& symmetry) {
   return text.empty() ? "none" : text;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -10,7 +10,7 @@
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/answers.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 namespace {
 
 using fast::Answer;
@@ -27,7 +27,7 @@ bool has_bad_number(const Answer& answer) {
 std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& answer,
                                    const Standard& standard) {
   const Separation claimed =
-      claimed_distance(standard.filter, kind, query, answer, standard.separation);
+      judge::claimed_distance(standard.filter, kind, query, answer, standard.separation);
   return is_valid(claimed) ? std::optional(claimed) : std::nullopt;
 }
 
@@ -38,10 +38,10 @@ std::optional<Accusation> accuse_tolerance(Kind kind, const Query& query, const 
   if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
   return Accusation{FindingKind::beyond_tolerance,
                     fmt::format("{}, but they never come within {}, as that claims",
-                                to_text(answer), to_text(*claimed))};
+                                to_text(answer), judge::to_text(*claimed))};
 }
 
-std::optional<Accusation> accuse_toi(const Truth& truth, const Answer& answer) {
+std::optional<Accusation> accuse_toi(const judge::Truth& truth, const Answer& answer) {
   const auto [lower, upper] = truth.toi.value();
   // The enclosure's ends are neighbouring doubles, or one: these comparisons are exact.
   if (answer.toi_lower > lower) {
@@ -68,7 +68,7 @@ bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judge
     const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
     return !claimed ||
            (claimed->norm == Norm::linf &&
-            is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
+            judge::is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
            fast::certified(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
   }
   if (answer.verdict == Verdict::no) return false;
@@ -77,9 +77,10 @@ bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judge
   return !(answer.toi_lower > judged.toi_lower) && !(answer.toi_upper < judged.toi_upper);
 }
 
-std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& truth,
+std::optional<Accusation> accuse(Kind kind, const Query& query, const judge::Truth& truth,
                                  const Answer& answer, const Standard& standard) {
-  if (answer.verdict == Verdict::error) return accuse_failure(failure_of(answer).value(), 0.0);
+  if (answer.verdict == Verdict::error)
+    return accuse_failure(solvers::failure_of(answer).value(), 0.0);
   if (answer.verdict == Verdict::yes && has_bad_number(answer)) {
     return Accusation{FindingKind::not_finite, to_text(answer)};
   }
@@ -99,19 +100,19 @@ std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& tru
                                         : std::nullopt;
 }
 
-Accusation accuse_failure(const Failure& failure, double limit_seconds) {
+Accusation accuse_failure(const solvers::Failure& failure, double limit_seconds) {
   const FindingKind what = finding_kind_of(failure.kind);
   switch (failure.kind) {
-    case FailureKind::hang:
+    case solvers::FailureKind::hang:
       return {what, fmt::format("takes more than {} s", limit_seconds)};
-    case FailureKind::no_verdict:
+    case solvers::FailureKind::no_verdict:
       return {what, "error or no verdict, of a valid query"};
     default:
-      return {what, to_text(failure)};
+      return {what, solvers::to_text(failure)};
   }
 }
 
-std::optional<Accusation> accuse_judge(const Truth& truth, const CertifiedResult& judged) {
+std::optional<Accusation> accuse_judge(const judge::Truth& truth, const CertifiedResult& judged) {
   const Answer answer{.verdict = judged.verdict,
                       .toi_lower = judged.toi_lower,
                       .toi_upper = judged.toi_upper,
@@ -120,7 +121,7 @@ std::optional<Accusation> accuse_judge(const Truth& truth, const CertifiedResult
 }
 
 std::string to_text(const Answer& answer) {
-  std::string text(to_string(answer.verdict));
+  std::string text(solvers::to_string(answer.verdict));
   const auto add = [&text](std::string_view name, double value) {
     if (!std::isnan(value)) text += fmt::format(", {} {}", name, value);
   };
@@ -130,4 +131,4 @@ std::string to_text(const Answer& answer) {
   return text;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -18,7 +18,7 @@
 #include "verify/judge/judge.hpp"
 #include "verify/solvers/failure.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::fuzz {
 
 /// What a solver is held to.
 struct Standard {
@@ -48,19 +48,20 @@ struct Accusation {
 /// - beyond_tolerance: yes, but they never come as near as its tolerance claims;
 /// - late_toi, early_toi_upper: yes with a bound on the wrong side of the exact time of impact.
 /// \param truth of the query at the standard's separation
-[[nodiscard]] std::optional<Accusation> accuse(Kind kind, const Query& query, const Truth& truth,
+[[nodiscard]] std::optional<Accusation> accuse(Kind kind, const Query& query,
+                                               const judge::Truth& truth,
                                                const fast::Answer& answer,
                                                const Standard& standard);
 
 /// What is wrong with a solver that gave no answer, or none that can be.
 /// \param limit_seconds that a query may take
-[[nodiscard]] Accusation accuse_failure(const Failure& failure, double limit_seconds);
+[[nodiscard]] Accusation accuse_failure(const solvers::Failure& failure, double limit_seconds);
 
 /// Does the oracle's truth contradict what the certified solver found?
-[[nodiscard]] std::optional<Accusation> accuse_judge(const Truth& truth,
+[[nodiscard]] std::optional<Accusation> accuse_judge(const judge::Truth& truth,
                                                      const fast::CertifiedResult& judged);
 
 /// "no", "yes, toi_lower 0.5, tolerance 1e-06": the verdict and the fields that are given.
 [[nodiscard]] std::string to_text(const fast::Answer& answer);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::fuzz

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Rational;
 
@@ -85,4 +85,4 @@ Line Sampler::nudged(const Line& line, int steps) const {
   return {nudged(line.start, steps), nudged(line.end, steps)};
 }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

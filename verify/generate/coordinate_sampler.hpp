@@ -18,7 +18,7 @@
 #include "exact/query.hpp"
 #include "verify/generate/family_builder.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 /// One coordinate of a moving point: its values at t=0 and at t=1.
 struct Line {
@@ -79,4 +79,4 @@ class Sampler {
   bool on_grid_ = false;
 };
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -12,7 +12,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/passing_planes.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Rational;
 
@@ -179,4 +179,4 @@ constexpr std::array<Definition, 3> coplanar_list{{
 
 std::span<const Definition> coplanar_definitions() { return coplanar_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -13,7 +13,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Integer;
 using exact::Rational;
@@ -233,4 +233,4 @@ constexpr std::array<Definition, 6> degenerate_list{{
 
 std::span<const Definition> degenerate_definitions() { return degenerate_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

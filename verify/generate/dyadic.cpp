@@ -13,7 +13,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Integer;
 using exact::Rational;
@@ -218,4 +218,4 @@ constexpr std::array<Definition, 6> dyadic_list{{
 
 std::span<const Definition> dyadic_definitions() { return dyadic_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -10,7 +10,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/passing_planes.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Rational;
 
@@ -158,4 +158,4 @@ constexpr std::array<Definition, 3> endpoint_list{{
 
 std::span<const Definition> endpoint_definitions() { return endpoint_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -9,9 +9,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
-
-namespace builtin {
+namespace touchstone::verify::generate {
 
 namespace {
 
@@ -105,7 +103,7 @@ KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, st
 }
 
 /// The stream of queries behind open_family.
-class FamilySource final : public QuerySource {
+class FamilySource final : public data::QuerySource {
  public:
   FamilySource(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t count,
                const Separation& separation)
@@ -120,10 +118,10 @@ class FamilySource final : public QuerySource {
   [[nodiscard]] Kind kind() const override { return kind_; }
   [[nodiscard]] Separation recorded_separation() const override { return separation_; }
 
-  [[nodiscard]] std::optional<RecordedQuery> next() override {
+  [[nodiscard]] std::optional<data::RecordedQuery> next() override {
     if (index_ == count_) return std::nullopt;
     KnownQuery known = build(definition_, kind_, seed_, index_, separation_);
-    return RecordedQuery{known.query, index_++, known.collides, std::move(known.toi)};
+    return data::RecordedQuery{known.query, index_++, known.collides, std::move(known.toi)};
   }
 
   [[nodiscard]] double progress() const override {
@@ -147,15 +145,13 @@ std::span<const Definition> base_definitions() {
   return base;
 }
 
-}  // namespace builtin
-
 std::span<const Family> families() {
-  static const std::vector<Family> all = builtin::families_of(builtin::all_definitions());
+  static const std::vector<Family> all = families_of(all_definitions());
   return all;
 }
 
 std::span<const Family> separation_families() {
-  static const std::vector<Family> all = builtin::families_of(builtin::separated_definitions());
+  static const std::vector<Family> all = families_of(separated_definitions());
   return all;
 }
 
@@ -170,25 +166,23 @@ std::vector<Family> families(const Separation& separation) {
   return list;
 }
 
-const Family& family_from_name(std::string_view name) {
-  return builtin::find_definition(name).family;
-}
+const Family& family_from_name(std::string_view name) { return find_definition(name).family; }
 
 bool supports(const Family& family, Kind kind) {
-  const builtin::Definition& definition = builtin::find_definition(family.name);
+  const Definition& definition = find_definition(family.name);
   return kind == Kind::vertex_face ? definition.vertex_face : definition.edge_edge;
 }
 
 KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed, std::uint64_t index,
                       const Separation& separation) {
-  const builtin::Definition& definition = builtin::find_definition(family, kind, separation);
-  return builtin::build(definition, kind, seed, index, separation);
+  const Definition& definition = find_definition(family, kind, separation);
+  return build(definition, kind, seed, index, separation);
 }
 
-std::unique_ptr<QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,
-                                         std::uint64_t count, const Separation& separation) {
-  const builtin::Definition& definition = builtin::find_definition(family, kind, separation);
-  return std::make_unique<builtin::FamilySource>(definition, kind, seed, count, separation);
+std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind, std::uint64_t seed,
+                                               std::uint64_t count, const Separation& separation) {
+  const Definition& definition = find_definition(family, kind, separation);
+  return std::make_unique<FamilySource>(definition, kind, seed, count, separation);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::generate

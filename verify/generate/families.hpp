@@ -31,7 +31,7 @@
 #include "exact/query.hpp"
 #include "verify/data/query_source.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::generate {
 
 /// Which verdicts occur in a family.
 enum class Verdicts : std::uint8_t { collisions, misses, both };
@@ -89,8 +89,9 @@ struct KnownQuery {
 
 /// The queries 0 to count−1 of one family and kind as a stream; its name is the family's name.
 /// \throws std::invalid_argument as make_query does.
-[[nodiscard]] std::unique_ptr<QuerySource> open_family(const Family& family, Kind kind,
-                                                       std::uint64_t seed, std::uint64_t count,
-                                                       const Separation& separation = {});
+[[nodiscard]] std::unique_ptr<data::QuerySource> open_family(const Family& family, Kind kind,
+                                                             std::uint64_t seed,
+                                                             std::uint64_t count,
+                                                             const Separation& separation = {});
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::generate

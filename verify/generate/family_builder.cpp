@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Rational;
 
@@ -179,4 +179,4 @@ void scale_axes(const std::array<int, 3>& exponents, KnownQuery& known) {
   }
 }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -14,7 +14,7 @@
 #include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 /// What a builder is asked for.
 struct Recipe {
@@ -96,4 +96,4 @@ void apply_random_symmetry(Kind kind, Random& random, KnownQuery& known);
 /// of full rank maps F to F; an exponent that would not be exact is replaced by its negative.
 void scale_axes(const std::array<int, 3>& exponents, KnownQuery& known);
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

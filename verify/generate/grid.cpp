@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Integer;
 using exact::Rational;
@@ -120,4 +120,4 @@ Query to_query(Recipe& recipe, const Moment& moment) {
   return query;
 }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

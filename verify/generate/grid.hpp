@@ -21,7 +21,7 @@
 #include "exact/query.hpp"
 #include "verify/generate/family_builder.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 /// An integer vector, all magnitudes far below 2^63.
 using Vector = std::array<std::int64_t, 3>;
@@ -86,4 +86,4 @@ void shift_first(Kind kind, const Vector& shift, Moment& moment);
 /// The query of a moment, each axis at a random power of two that brings it near 1.
 [[nodiscard]] Query to_query(Recipe& recipe, const Moment& moment);
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Integer;
 using exact::Rational;
@@ -61,4 +61,4 @@ Arrival arrival(const Offset3& offset, const Separation& separation) {
   return separation.norm == Norm::linf ? arrival_linf(offset, d) : arrival_l2(offset, d);
 }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -15,7 +15,7 @@
 #include "exact/algebra/number.hpp"
 #include "exact/query.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 /// A point at t=0 and at t=1.
 struct Offset3 {
@@ -33,4 +33,4 @@ struct Arrival {
 /// When the point first comes within the separation of the origin, t in [0,1].
 [[nodiscard]] Arrival arrival(const Offset3& offset, const Separation& separation);
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

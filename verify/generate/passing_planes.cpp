@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 namespace {
 
@@ -102,4 +102,4 @@ KnownQuery level_outcome(Kind kind, Offset offset, const Line& first, const Line
   return miss_along(query, 2, first.start < second.start ? -1.0 : 1.0);
 }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

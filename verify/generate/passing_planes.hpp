@@ -15,7 +15,7 @@
 #include "verify/generate/coordinate_sampler.hpp"
 #include "verify/generate/family_builder.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 /// Where the projections meet: inside both; the vertex on a side of the face (the end of edge a
 /// inside edge b); the vertex on a vertex (end on end). The last two are on the silhouette in x.
@@ -44,4 +44,4 @@ void set_heights(Kind kind, const Line& first, const Line& second, Query& query)
 [[nodiscard]] KnownQuery level_outcome(Kind kind, Offset offset, const Line& first,
                                        const Line& second, const Query& query);
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -21,7 +21,7 @@
 #include "verify/generate/coordinate_sampler.hpp"
 #include "verify/generate/family_builder.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Rational;
 
@@ -255,4 +255,4 @@ constexpr std::array<Definition, 4> product_list{{
 
 std::span<const Definition> product_definitions() { return product_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

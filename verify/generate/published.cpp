@@ -8,7 +8,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/passing_planes.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Rational;
 
@@ -195,4 +195,4 @@ constexpr std::array<Definition, 3> published_list{{
 
 std::span<const Definition> published_definitions() { return published_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 /// Bijective mixing of 64 bits: the output function of splitmix64 [steele2014].
 [[nodiscard]] constexpr std::uint64_t mix(std::uint64_t x) {
@@ -66,4 +66,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

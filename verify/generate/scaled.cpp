@@ -9,7 +9,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/passing_planes.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 namespace {
 
@@ -93,4 +93,4 @@ constexpr std::array<Definition, 3> scaled_list{{
 
 std::span<const Definition> scaled_definitions() { return scaled_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -30,7 +30,7 @@
 #include "verify/generate/offset.hpp"
 #include "verify/generate/passing_planes.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Integer;
 using exact::Rational;
@@ -452,4 +452,4 @@ constexpr std::array<Definition, 7> separated_list{{
 
 std::span<const Definition> separated_definitions() { return separated_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

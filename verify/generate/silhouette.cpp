@@ -8,7 +8,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/passing_planes.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 namespace {
 
@@ -108,4 +108,4 @@ constexpr std::array<Definition, 4> silhouette_list{{
 
 std::span<const Definition> silhouette_definitions() { return silhouette_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -22,7 +22,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
 
-namespace touchstone::verify::builtin {
+namespace touchstone::verify::generate {
 
 using exact::Integer;
 
@@ -124,4 +124,4 @@ constexpr std::array<Definition, 1> tangential_list{{
 
 std::span<const Definition> tangential_definitions() { return tangential_list; }
 
-}  // namespace touchstone::verify::builtin
+}  // namespace touchstone::verify::generate

@@ -12,10 +12,9 @@
 #include "verify/generate/families.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::generate {
 namespace {
 
-using builtin::Random;
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 // Lengths in units of a cell's side.
@@ -96,10 +95,10 @@ double coordinate(const EndContactOptions& options, Random& random) {
 
 }  // namespace
 
-MovingMesh moving_patches(const PatchOptions& options) {
+mesh::MovingMesh moving_patches(const PatchOptions& options) {
   if (options.cells < 1) throw std::invalid_argument("a patch must have a cell");
   const int row = options.cells + 1;
-  Random random(builtin::mix(options.seed ^ builtin::hash("moving patches")));
+  Random random(mix(options.seed ^ hash("moving patches")));
   Points start(2 * row * row, 3), end(2 * row * row, 3);
   std::vector<fast::Face> faces;
   int vertex = 0;
@@ -119,9 +118,9 @@ MovingMesh moving_patches(const PatchOptions& options) {
           .edges = fast::edges_of(faces)};
 }
 
-QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
-                    const Separation& separation) {
-  QueryGroup group("hard set", kind);
+data::QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
+                          const Separation& separation) {
+  data::QueryGroup group("hard set", kind);
   for (const Family& family : families(separation)) {
     if (!supports(family, kind)) continue;
     group.read(
@@ -130,8 +129,8 @@ QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
   return group;
 }
 
-QueryGroup end_contacts(Kind kind, const EndContactOptions& options) {
-  Random random(builtin::mix(options.seed ^ builtin::hash("end contacts")));
+data::QueryGroup end_contacts(Kind kind, const EndContactOptions& options) {
+  Random random(mix(options.seed ^ hash("end contacts")));
   const bool has_face = kind == Kind::vertex_face;
   std::vector<Query> queries(options.count);
   for (Query& query : queries) {
@@ -148,4 +147,4 @@ QueryGroup end_contacts(Kind kind, const EndContactOptions& options) {
       kind, std::move(queries)};
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::generate

@@ -18,7 +18,7 @@
 #include "verify/data/query_group.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::generate {
 
 struct PatchOptions {
   std::uint64_t seed = 2021;
@@ -29,12 +29,12 @@ struct PatchOptions {
 
 /// The two patches: a function of the options, the same on every machine.
 /// \throws std::invalid_argument if there is no cell.
-[[nodiscard]] MovingMesh moving_patches(const PatchOptions& options = {});
+[[nodiscard]] mesh::MovingMesh moving_patches(const PatchOptions& options = {});
 
 /// All queries of one kind of the generated hard set for a separation (verify/generate/families.hpp),
 /// `count` a family.
-[[nodiscard]] QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
-                                  const Separation& separation = {});
+[[nodiscard]] data::QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
+                                        const Separation& separation = {});
 
 struct EndContactOptions {
   /// No coordinate is greater in magnitude; positive and finite.
@@ -48,6 +48,6 @@ struct EndContactOptions {
 
 /// Contacts at t=1 at the latest, exact by equality: there a vertex of one primitive has, double for
 /// double, the place of a vertex of the other. All other coordinates are uniform.
-[[nodiscard]] QueryGroup end_contacts(Kind kind, const EndContactOptions& options);
+[[nodiscard]] data::QueryGroup end_contacts(Kind kind, const EndContactOptions& options);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::generate

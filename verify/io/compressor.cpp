@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 namespace {
 
 ZSTD_CCtx* as_context(void* pointer) { return static_cast<ZSTD_CCtx*>(pointer); }
@@ -43,4 +43,4 @@ std::string Compressor::run(std::string_view bytes, bool last) {
   return result;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

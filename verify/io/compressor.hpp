@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 
 /// One frame, with a checksum. What compress() and finish() return, in order, is the compressed
 /// stream.
@@ -33,4 +33,4 @@ class Compressor {
   std::unique_ptr<void, Free> context_;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

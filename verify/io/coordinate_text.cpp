@@ -11,7 +11,7 @@
 #include "exact/algebra/number.hpp"
 #include "verify/data/dataset_error.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 namespace {
 
 using Part = CoordinateError::Part;
@@ -71,7 +71,7 @@ exact::Rational any_number(std::string_view text, Part part) {
   } catch (const std::invalid_argument&) {
     const std::string_view reason =
         is_not_finite(text) ? "not a finite number: " : "not a number: ";
-    throw CoordinateError(part, std::string(reason) + quote(text));
+    throw CoordinateError(part, std::string(reason) + data::quote(text));
   }
 }
 
@@ -128,4 +128,4 @@ void append_coordinate(std::string& text, double value) {
   text += exact_value.get_den().get_str();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 
 /// A coordinate and whether the double is the number that was written.
 struct ParsedCoordinate {
@@ -53,4 +53,4 @@ class CoordinateError : public std::invalid_argument {
 /// \throws std::invalid_argument if the value is not finite.
 void append_coordinate(std::string& text, double value);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

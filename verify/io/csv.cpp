@@ -9,7 +9,7 @@
 
 #include "verify/io/printable.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 namespace {
 
 constexpr char apostrophe = '\'';
@@ -99,4 +99,4 @@ CsvSplit split_csv(std::string_view record, std::span<std::string> fields) {
   }
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

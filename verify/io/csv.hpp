@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 
 /// The text as one field: printable, no formula, in quotes where it needs them.
 [[nodiscard]] std::string csv_field(std::string_view text);
@@ -48,4 +48,4 @@ struct CsvSplit {
 /// into `fields`. Spaces belong to the fields. Even an empty record has one field.
 [[nodiscard]] CsvSplit split_csv(std::string_view record, std::span<std::string> fields);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -13,7 +13,7 @@
 #include "verify/data/dataset_error.hpp"
 #include "verify/io/terminal.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 namespace {
 
 constexpr std::size_t chunk = std::size_t{1} << 16U;
@@ -28,13 +28,13 @@ InputFile::InputFile(std::filesystem::path path)
     : path_(std::move(path)),
       // The open of a pipe does not wait for its writer: read() does, where an interrupt ends it.
       descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-  if (descriptor_ < 0) throw DatasetError(path_, {}, "cannot open: " + last_system_error());
+  if (descriptor_ < 0) throw data::DatasetError(path_, {}, "cannot open: " + last_system_error());
   struct stat status {};
   const bool known = ::fstat(descriptor_, &status) == 0;
   if (!known || S_ISDIR(status.st_mode)) {
     const std::string reason = known ? "is a folder" : "cannot open: " + last_system_error();
     ::close(descriptor_);
-    throw DatasetError(path_, {}, reason);
+    throw data::DatasetError(path_, {}, reason);
   }
   size_ = static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0));
 }
@@ -52,7 +52,7 @@ std::size_t InputFile::read(std::span<char> buffer) {
     }
     if (errno == EINTR || errno == EAGAIN) continue;
     failed_ = true;
-    throw DatasetError(path_, {}, "cannot read: " + last_system_error());
+    throw data::DatasetError(path_, {}, "cannot read: " + last_system_error());
   }
 }
 
@@ -124,8 +124,8 @@ void LineReader::pass_over_line() {
     }
     length += end_ - begin_;
     if (length > longest_passed_line) {
-      throw DatasetError(path(), {.line = line_number_ + 1},
-                         "no line end within 64 MiB: not a text file");
+      throw data::DatasetError(path(), {.line = line_number_ + 1},
+                               "no line end within 64 MiB: not a text file");
     }
     begin_ = end_;
   } while (fill());
@@ -151,7 +151,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit) {
     count = file.read({bytes.data() + before, chunk});
     bytes.resize(before + count);
     if (bytes.size() > limit) {
-      throw DatasetError(path, {}, "has more than " + std::to_string(limit) + " bytes");
+      throw data::DatasetError(path, {}, "has more than " + std::to_string(limit) + " bytes");
     }
   }
   return bytes;
@@ -163,4 +163,4 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 
 /// A file open for reading. Owns its descriptor.
 class InputFile {
@@ -110,4 +110,4 @@ class LineReader {
 /// The text without spaces and tabs at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 namespace {
 
 constexpr const char* infinity_name = "Infinity";
@@ -34,4 +34,4 @@ std::string json_document(const nlohmann::json& json) {
   return json.dump(2, ' ', only_ascii, replace) + "\n";
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

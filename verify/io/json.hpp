@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 
 /// A number as JSON, which has finite ones only: null for nothing and for NaN, and the words "Infinity"
 /// and "-Infinity".
@@ -25,4 +25,4 @@ namespace touchstone::verify {
 /// becomes U+FFFD.
 [[nodiscard]] std::string json_document(const nlohmann::json& json);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

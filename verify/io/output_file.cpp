@@ -12,7 +12,7 @@
 
 #include "verify/data/dataset_error.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,7 +27,8 @@ fs::path temporary_name(const fs::path& target, unsigned attempt) {
       std::string(temporary_extension) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
   const std::string name = target.filename().string();
   // Some file systems refuse half a character of UTF-8.
-  return target.parent_path() / (std::string(beginning(name, longest - ending.size())) + ending);
+  return target.parent_path() /
+         (std::string(data::beginning(name, longest - ending.size())) + ending);
 }
 
 /// Does it have the form of the names above?
@@ -139,7 +140,7 @@ void OutputFile::flush() {
 }
 
 void OutputFile::fail() const {
-  throw DatasetError(path_, {}, "cannot write: " + std::generic_category().message(errno));
+  throw data::DatasetError(path_, {}, "cannot write: " + std::generic_category().message(errno));
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 
 /// A file open for writing, buffered. Without close() nothing remains of it.
 class OutputFile {
@@ -57,4 +57,4 @@ class OutputFile {
   std::string buffer_;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <iterator>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 namespace {
 
 /// Code points from the first to the last.
@@ -195,4 +195,4 @@ std::string shell_word(std::string_view text) {
 
 std::string cpp_literal(std::string_view text) { return '"' + escaped_within('"', text) + '"'; }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -20,7 +20,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 
 /// A character in front of a text.
 struct Character {
@@ -60,4 +60,4 @@ struct Character {
 /// The bytes as a string literal of C++; printable.
 [[nodiscard]] std::string cpp_literal(std::string_view text);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -17,7 +17,7 @@
 
 #include "verify/io/printable.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 namespace {
 
 /// Why standard output failed; 0: it has not.
@@ -168,4 +168,4 @@ int open_for_appending(const std::string& path) {
   return descriptor;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 
 /// Prints on standard output or standard error. Never throws: whoever reads the output may have gone,
 /// and the files of the run matter more. Once standard output has failed, no more is printed there.
@@ -80,4 +80,4 @@ void wait_for_input(int descriptor);
 /// \throws Interrupted if interrupted() becomes true while a pipe has no reader yet.
 [[nodiscard]] int open_for_appending(const std::string& path);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

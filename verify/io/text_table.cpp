@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 namespace {
 
 using Align = TextColumn::Align;
@@ -62,4 +62,4 @@ std::string number_text(std::optional<double> number, std::string_view format) {
 
 std::string error_text(double error) { return number_text(error, "{:.2e}"); }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace touchstone::verify {
+namespace touchstone::verify::io {
 
 struct TextColumn {
   enum class Align : std::uint8_t { left, right };
@@ -59,4 +59,4 @@ template <class Element>
 /// An error of a time of impact: "2.50e-01", "-" where it is unknown.
 [[nodiscard]] std::string error_text(double error);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::io

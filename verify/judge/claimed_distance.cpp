@@ -8,7 +8,7 @@
 #include "fast/certified/exact/closest_point_parameters.hpp"
 #include "filters/expressions.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -87,4 +87,4 @@ bool is_seen_within(Kind kind, const Query& query, double t, double distance) {
   return is_within(Norm::l2) || is_within(Norm::linf);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

@@ -21,7 +21,7 @@
 #include "fast/filter.hpp"
 #include "fast/method.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 
 /// How near, in units of the coordinates and in which norm, the primitives come at some time by what
 /// a yes to the query claims, rounded up. Infinite, hence no valid separation, where it claims
@@ -37,4 +37,4 @@ namespace touchstone::verify {
 /// distance in L∞ at time t? False says nothing.
 [[nodiscard]] bool is_seen_within(Kind kind, const Query& query, double t, double distance);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

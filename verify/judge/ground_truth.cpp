@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 
 Truth truth_of(std::uint64_t index, const exact::Verdict& verdict) {
   Truth truth{.index = index, .collides = verdict.collides(), .toi = std::nullopt};
@@ -17,4 +17,4 @@ std::string to_text(const Truth& truth) {
                         : fmt::format("collision after {} and before {}", lower, upper);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

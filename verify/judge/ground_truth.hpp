@@ -11,7 +11,7 @@
 #include "exact/algebra/number.hpp"
 #include "exact/oracle.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 
 /// The truth about one query.
 struct Truth {
@@ -28,4 +28,4 @@ struct Truth {
 /// time of impact that differs from the exact one by less than a spacing of doubles is seen to be wrong.
 [[nodiscard]] std::string to_text(const Truth& truth);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

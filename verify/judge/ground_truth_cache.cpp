@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <optional>
 
+#include "verify/jobs/cores.hpp"
+#include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/separation_inference.hpp"
-#include "verify/run/cores.hpp"
-#include "verify/run/deadline.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 namespace {
 
 namespace tbb = oneapi::tbb;
@@ -21,8 +21,8 @@ constexpr std::size_t step = 4096;
 
 }  // namespace
 
-Truths::Truths(const QueryGroup& group, unsigned threads)
-    : group_(group), threads_(cores_for(threads)) {}
+Truths::Truths(const data::QueryGroup& group, unsigned threads)
+    : group_(group), threads_(jobs::cores_for(threads)) {}
 
 Truths::Known& Truths::known_at(const Separation& separation) {
   const auto found = std::ranges::find_if(
@@ -42,7 +42,7 @@ void Truths::decide(const Separation& separation, std::span<const std::size_t> p
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         // The hardest take a quarter of a second each.
-        if (is_stopped(stop)) return;
+        if (jobs::is_stopped(stop)) return;
         const std::size_t position = positions[first + i];
         const Query& query = group_.queries().at(position);
         found[i] = truth_of(position, exact::decide(group_.kind(), query, separation));
@@ -79,4 +79,4 @@ std::vector<Truth> Truths::of(const Separation& separation, std::span<const std:
   return truths;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

@@ -15,14 +15,14 @@
 #include "verify/data/query_group.hpp"
 #include "verify/judge/judge.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 
 /// A memory of verdicts: of one group, at any number of separations. For one thread at a time; the
 /// oracle works on all cores.
 class Truths {
  public:
   /// The group must live as long as this. \param threads cores to use; 0: all of them
-  explicit Truths(const QueryGroup& group, unsigned threads = 0);
+  explicit Truths(const data::QueryGroup& group, unsigned threads = 0);
 
   /// The truth of the queries at these positions, in their order; `index` is the position. Those that
   /// are not known yet are decided; once *stop is true (it may be null) no more of them, and then only
@@ -45,10 +45,10 @@ class Truths {
   void decide(const Separation& separation, std::span<const std::size_t> positions, Known& known,
               const std::atomic<bool>* stop, const std::function<void(double)>& on_progress);
 
-  const QueryGroup& group_;
+  const data::QueryGroup& group_;
   int threads_;
   std::vector<std::pair<Separation, Known>> known_;
   std::size_t decided_ = 0;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

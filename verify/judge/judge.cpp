@@ -9,7 +9,7 @@
 
 #include "verify/solvers/answers.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 namespace {
 
 /// A bucket holds the doubles ≥ 0 whose patterns agree but for these low bits; the largest of them
@@ -31,7 +31,7 @@ std::string answer_text(Fault fault, const fast::Answer& answer) {
   if (fault == Fault::late_toi) return fmt::format("toi_lower {}", answer.toi_lower);
   if (fault == Fault::early_toi_upper) return fmt::format("toi_upper {}", answer.toi_upper);
   if (fault == Fault::beyond_tolerance) return fmt::format("yes, tolerance {}", answer.tolerance);
-  return std::string(to_string(answer.verdict));
+  return std::string(solvers::to_string(answer.verdict));
 }
 
 }  // namespace
@@ -85,14 +85,15 @@ double Judgement::nanoseconds_per_query() const {
   return queries == 0 ? 0.0 : nanoseconds / static_cast<double>(queries);
 }
 
-void Judgement::add(const Truth& truth, const fast::Answer& answer, const Failure* failure) {
+void Judgement::add(const Truth& truth, const fast::Answer& answer,
+                    const solvers::Failure* failure) {
   using fast::Verdict;
   ++queries;
   checks += answer.checks;
   Verdict verdict = answer.verdict;
-  if (const auto why = failure != nullptr ? std::optional(*failure) : failure_of(answer)) {
+  if (const auto why = failure != nullptr ? std::optional(*failure) : solvers::failure_of(answer)) {
     ++failures[static_cast<std::size_t>(why->kind)];
-    verdict = verdict_of(why->kind);
+    verdict = solvers::verdict_of(why->kind);
     if (verdict == Verdict::error) {
       add_fault(Fault::error, truth, answer, *why);
       return;
@@ -118,12 +119,13 @@ void Judgement::add_toi(const Truth& truth, const fast::Answer& answer) {
 }
 
 void Judgement::add_fault(Fault fault, const Truth& truth, const fast::Answer& answer,
-                          const Failure& failure) {
+                          const solvers::Failure& failure) {
   auto& count = faults[static_cast<std::size_t>(fault)];
   if (++count > most_kept) return;
-  wrong_answers.push_back({fault, truth.index,
-                           fault == Fault::error ? to_text(failure) : answer_text(fault, answer),
-                           to_text(truth)});
+  wrong_answers.push_back(
+      {fault, truth.index,
+       fault == Fault::error ? solvers::to_text(failure) : answer_text(fault, answer),
+       to_text(truth)});
 }
 
 void Judgement::add_beyond_tolerance(const Truth& truth, const fast::Answer& answer) {
@@ -171,4 +173,4 @@ bool keeps(const Judgement& judgement, fast::Promise promise) {
   return true;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

@@ -28,7 +28,7 @@
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/failure.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 
 /// What an answer can be wrong in.
 enum class Fault : std::uint8_t {
@@ -87,7 +87,7 @@ struct Judgement {
   std::optional<std::uint64_t> first_missing;  ///< index of the first of these
   std::array<std::uint64_t, fault_count> faults{};
   /// Queries without an answer, by FailureKind.
-  std::array<std::uint64_t, failure_kinds> failures{};
+  std::array<std::uint64_t, solvers::failure_kinds> failures{};
   /// Of the errors, processes that the method ended at no particular query: see solver_process.hpp.
   std::uint64_t unplaced_crashes = 0;
   std::uint64_t undecided = 0;  ///< by itself, or for the limit of time
@@ -100,7 +100,7 @@ struct Judgement {
   [[nodiscard]] std::uint64_t count(Fault fault) const {
     return faults[static_cast<std::size_t>(fault)];
   }
-  [[nodiscard]] std::uint64_t count(FailureKind kind) const {
+  [[nodiscard]] std::uint64_t count(solvers::FailureKind kind) const {
     return failures[static_cast<std::size_t>(kind)];
   }
 
@@ -109,7 +109,8 @@ struct Judgement {
 
   /// Judges an answer. \pre truth.toi is there if it collides.
   /// \param failure why there is none; null: as the answer shows
-  void add(const Truth& truth, const fast::Answer& answer, const Failure* failure = nullptr);
+  void add(const Truth& truth, const fast::Answer& answer,
+           const solvers::Failure* failure = nullptr);
 
   /// Notes that a yes claims more nearness than there is.
   void add_beyond_tolerance(const Truth& truth, const fast::Answer& answer);
@@ -125,7 +126,7 @@ struct Judgement {
 
  private:
   void add_fault(Fault fault, const Truth& truth, const fast::Answer& answer,
-                 const Failure& failure = {});
+                 const solvers::Failure& failure = {});
   void add_toi(const Truth& truth, const fast::Answer& answer);
 };
 
@@ -137,4 +138,4 @@ struct Judgement {
 /// Is there no fault that breaks the promise?
 [[nodiscard]] bool keeps(const Judgement& judgement, fast::Promise promise);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

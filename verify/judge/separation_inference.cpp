@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 
 bool same_question(const Separation& a, const Separation& b) {
   return a == b || (is_contact(a) && is_contact(b));
@@ -34,4 +34,4 @@ nlohmann::json to_json(const Separation& separation) {
   return {{"min_separation", separation.distance}, {"norm", to_string(separation.norm)}};
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

@@ -15,7 +15,7 @@
 
 #include "exact/query.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::judge {
 
 /// Do both ask the same?
 [[nodiscard]] bool same_question(const Separation& a, const Separation& b);
@@ -39,4 +39,4 @@ enum class Inference : std::uint8_t {
 /// An object of `min_separation`, a number, and `norm`, "linf" or "l2".
 [[nodiscard]] nlohmann::json to_json(const Separation& separation);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::judge

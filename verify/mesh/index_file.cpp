@@ -7,7 +7,7 @@
 
 #include "verify/io/output_file.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "indices are written as they are stored");
@@ -28,7 +28,7 @@ std::string header_text(std::size_t count) {
 
 void write_index_pairs(const std::filesystem::path& path,
                        std::span<const std::array<std::int32_t, 2>> pairs) {
-  OutputFile file(path);
+  io::OutputFile file(path);
   file.write(header_text(pairs.size()));
   // The writer keeps what it is given at once in a buffer.
   static constexpr std::size_t part = 4096;
@@ -40,4 +40,4 @@ void write_index_pairs(const std::filesystem::path& path,
   file.close();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

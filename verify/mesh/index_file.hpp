@@ -9,11 +9,11 @@
 #include <filesystem>
 #include <span>
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 
 /// Writes such a file; it appears whole or not at all.
 /// \throws DatasetError if it cannot be written.
 void write_index_pairs(const std::filesystem::path& path,
                        std::span<const std::array<std::int32_t, 2>> pairs);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

@@ -9,7 +9,7 @@
 #include "verify/mesh/obj.hpp"
 #include "verify/mesh/ply.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 namespace {
 
 std::string lower_case(std::string text) {
@@ -46,7 +46,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
   if (extension == ".ply") return read_ply(path);
   if (extension == ".obj") return read_obj(path);
-  throw DatasetError(path, {}, "unknown format: only .ply and .obj are meshes");
+  throw data::DatasetError(path, {}, "unknown format: only .ply and .obj are meshes");
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

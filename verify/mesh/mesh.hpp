@@ -12,7 +12,7 @@
 
 #include "fast/mesh.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 
 /// A mesh at rest. Wherever a reader made it, it has a vertex, indices are in range and coordinates
 /// finite.
@@ -36,4 +36,4 @@ struct Mesh {
 /// \throws DatasetError if the extension is another, the file cannot be read or is in error.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

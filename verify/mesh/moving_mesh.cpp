@@ -4,14 +4,14 @@
 #include "verify/data/dataset_error.hpp"
 #include "verify/mesh/mesh.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 
 MovingMesh read_step(const std::filesystem::path& before, const std::filesystem::path& after) {
   Mesh start = read_mesh(before);
   const Mesh end = read_mesh(after);
   if (start.vertices.rows() != end.vertices.rows() || start.faces != end.faces ||
       start.edges != end.edges) {
-    throw DatasetError(after, {}, "is not the same mesh as " + before.string());
+    throw data::DatasetError(after, {}, "is not the same mesh as " + before.string());
   }
   return {.name = before.stem().string() + "-" + after.stem().string(),
           .vertices = fast::MovingVertices(start.vertices, end.vertices),
@@ -42,4 +42,4 @@ std::vector<Query> queries_of(const MovingMesh& mesh, const fast::Candidates& ca
   return queries;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

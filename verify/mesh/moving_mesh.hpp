@@ -12,7 +12,7 @@
 #include "exact/query.hpp"
 #include "fast/mesh.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 
 /// A mesh whose vertices move in a step.
 struct MovingMesh {
@@ -42,4 +42,4 @@ struct MovingMesh {
 [[nodiscard]] std::vector<Query> queries_of(const MovingMesh& mesh,
                                             const fast::Candidates& candidates);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

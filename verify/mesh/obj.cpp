@@ -13,7 +13,7 @@
 #include "verify/io/input_file.hpp"
 #include "verify/mesh/words.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 namespace {
 
 constexpr std::size_t most_vertices = std::numeric_limits<std::int32_t>::max();
@@ -30,8 +30,8 @@ class ObjReader {
       read_line(line->text.substr(0, line->text.find('#')));
     }
     if (vertices_.empty()) {
-      throw DatasetError(path_, {},
-                         "no vertex (a line \"v x y z\"): an empty mesh, or not an OBJ file");
+      throw data::DatasetError(path_, {},
+                               "no vertex (a line \"v x y z\"): an empty mesh, or not an OBJ file");
     }
     require_vertices(faces_, face_lines_);
     require_vertices(edges_, edge_lines_);
@@ -53,7 +53,7 @@ class ObjReader {
       const std::string_view word = take_word(line);
       if (word.empty()) fail("a vertex must have three coordinates");
       const auto value = parse_number<double>(word);
-      if (!value) fail(quote(word) + " is no number, or none that a double holds");
+      if (!value) fail(data::quote(word) + " is no number, or none that a double holds");
       if (!std::isfinite(*value)) fail("a coordinate must be finite");
       coordinate = *value;
     }
@@ -93,11 +93,11 @@ class ObjReader {
   /// The vertex's index, counted from 0; not below 0.
   [[nodiscard]] std::int32_t read_corner(std::string_view word) const {
     const auto number = parse_number<std::int32_t>(word.substr(0, word.find('/')));
-    if (!number) fail(quote(word) + " is no corner");
+    if (!number) fail(data::quote(word) + " is no corner");
     if (*number > 0) return *number - 1;
     const auto index = static_cast<std::int64_t>(vertices_.size()) + *number;
     if (*number == 0 || index < 0) {
-      fail("corner " + quote(word) + ", but there are " + std::to_string(vertices_.size()) +
+      fail("corner " + data::quote(word) + ", but there are " + std::to_string(vertices_.size()) +
            " vertices before it, counted from 1");
     }
     return static_cast<std::int32_t>(index);
@@ -116,11 +116,11 @@ class ObjReader {
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
-    throw DatasetError(path_, {.line = line_}, reason);
+    throw data::DatasetError(path_, {.line = line_}, reason);
   }
 
   std::filesystem::path path_;
-  LineReader lines_;
+  io::LineReader lines_;
   std::uint64_t line_ = 0;
   std::vector<std::array<double, 3>> vertices_;
   std::vector<fast::Face> faces_;
@@ -133,4 +133,4 @@ class ObjReader {
 
 Mesh read_obj(const std::filesystem::path& path) { return ObjReader(path).read(); }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

@@ -11,11 +11,11 @@
 
 #include "verify/mesh/mesh.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 
 /// Reads a mesh.
 /// \throws DatasetError with the line, if the file cannot be read, it has no vertex, a coordinate is
 /// no finite number, a face has not three corners, or a corner is no vertex.
 [[nodiscard]] Mesh read_obj(const std::filesystem::path& path);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

@@ -17,7 +17,7 @@
 #include "verify/io/input_file.hpp"
 #include "verify/mesh/words.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 namespace {
 
 enum class Format : std::uint8_t { ascii, little_endian, big_endian };
@@ -101,7 +101,7 @@ class Input {
       complete = newline != rest.end();
       line_.append(rest.begin(), newline);
       begin_ += static_cast<std::size_t>(newline - rest.begin()) + (complete ? 1 : 0);
-      if (line_.size() > LineReader::longest_line) fail("line too long");
+      if (line_.size() > io::LineReader::longest_line) fail("line too long");
     }
     if (line_.ends_with('\r')) line_.pop_back();
     return line_;
@@ -142,15 +142,15 @@ class Input {
     if (!element_.empty()) place = std::string(element_) + " " + std::to_string(number_);
     if (binary_)
       place += (place.empty() ? "" : " at ") + ("byte " + std::to_string(element_offset_));
-    throw DatasetError(file_.path(), {.line = binary_ ? 0 : line_number_},
-                       place.empty() ? reason : place + ": " + reason);
+    throw data::DatasetError(file_.path(), {.line = binary_ ? 0 : line_number_},
+                             place.empty() ? reason : place + ": " + reason);
   }
   [[noreturn]] void fail_at_end() const { fail("the file ends early"); }
 
  private:
   static constexpr std::size_t buffer_size = std::size_t{1} << 16U;
 
-  InputFile file_;
+  io::InputFile file_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
@@ -237,7 +237,7 @@ class HeaderReader {
   }
 
   [[noreturn]] void fail_at(std::string_view text) const {
-    input_.fail("malformed header at " + quote(text));
+    input_.fail("malformed header at " + data::quote(text));
   }
 
   Input& input_;
@@ -266,7 +266,7 @@ class TextValues {
       if (!parsed) return std::nullopt;
       return static_cast<double>(*parsed);
     });
-    if (!value) input_.fail(quote(word_) + " is no number of the property's type");
+    if (!value) input_.fail(data::quote(word_) + " is no number of the property's type");
     word_ = take_word(rest_);
     return *value;
   }
@@ -484,4 +484,4 @@ Mesh read_ply(const std::filesystem::path& path) {
   return BodyReader(input, header, BinaryValues(input, *header.format)).read();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

@@ -13,7 +13,7 @@
 
 #include "verify/mesh/mesh.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 
 /// Reads a mesh in any of the formats ascii, binary_little_endian and binary_big_endian 1.0.
 /// \throws DatasetError with the line, or with the element and the byte where it begins, if the
@@ -21,4 +21,4 @@ namespace touchstone::verify {
 /// a coordinate is not finite, a face has not three vertices, or an index is no vertex's.
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& path);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 
 std::string_view take_word(std::string_view& line) {
   static constexpr std::string_view blanks = " \t\r";
@@ -12,4 +12,4 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace touchstone::verify {
+namespace touchstone::verify::mesh {
 
 /// Takes the next word from the front of a line; empty at its end. Words are separated by spaces,
 /// tabs and carriage returns.
@@ -27,4 +27,4 @@ template <class Number>
   return value;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::mesh

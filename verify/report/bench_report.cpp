@@ -14,47 +14,47 @@
 #include "verify/report/judgement_report.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
-double passes(const SolverResult& solver, const BenchResult& group) {
+double passes(const jobs::SolverResult& solver, const jobs::BenchResult& group) {
   return solver.times.median() / group.memory_pass.median();
 }
 
 // ---- Text ---------------------------------------------------------------------------------------
 
-std::vector<TextColumn> columns_of_group() {
-  return joined<TextColumn>({{word_column("method", 6),
-                              {"ns/query", 10},
-                              {"passes", 8},
-                              {"p50", 9},
-                              {"p99", 9},
-                              {"max", 11},
-                              {"timed", 8},
-                              {"judged", 8}},
-                             fault_columns(),
-                             toi_error_columns()});
+std::vector<io::TextColumn> columns_of_group() {
+  return io::joined<io::TextColumn>({{io::word_column("method", 6),
+                                      {"ns/query", 10},
+                                      {"passes", 8},
+                                      {"p50", 9},
+                                      {"p99", 9},
+                                      {"max", 11},
+                                      {"timed", 8},
+                                      {"judged", 8}},
+                                     fault_columns(),
+                                     toi_error_columns()});
 }
 
-TextRow row_of(const SolverResult& solver, const BenchResult& group) {
-  const Judgement& judged = solver.judgement;
-  const auto single = [&](double SingleTimes::*time) {
-    return solver.singles ? number_text((*solver.singles).*time, "{:.0f}") : "-";
+io::TextRow row_of(const jobs::SolverResult& solver, const jobs::BenchResult& group) {
+  const judge::Judgement& judged = solver.judgement;
+  const auto single = [&](double jobs::SingleTimes::*time) {
+    return solver.singles ? io::number_text((*solver.singles).*time, "{:.0f}") : "-";
   };
-  return joined<std::string>(
-      {{printable(solver.name), number_text(solver.times.median(), "{:.1f}"),
-        number_text(passes(solver, group), "{:.2f}"), single(&SingleTimes::p50),
-        single(&SingleTimes::p99), single(&SingleTimes::max), std::to_string(solver.queries),
-        std::to_string(judged.queries)},
+  return io::joined<std::string>(
+      {{io::printable(solver.name), io::number_text(solver.times.median(), "{:.1f}"),
+        io::number_text(passes(solver, group), "{:.2f}"), single(&jobs::SingleTimes::p50),
+        single(&jobs::SingleTimes::p99), single(&jobs::SingleTimes::max),
+        std::to_string(solver.queries), std::to_string(judged.queries)},
        fault_cells(judged),
        toi_error_cells(judged.toi_errors)});
 }
 
 /// "  ended by: axis 78.12 %, …"; empty for those without stages.
-std::string stages_text(const SolverResult& solver) {
+std::string stages_text(const jobs::SolverResult& solver) {
   if (solver.queries == 0) return {};
   std::string text;
-  for (const StageCount& count : solver.stages) {
+  for (const solvers::StageCount& count : solver.stages) {
     const double share =
         100.0 * static_cast<double>(count.queries) / static_cast<double>(solver.queries);
     text += fmt::format("{} {} {:.4g} %", text.empty() ? "  ended by:" : ",", count.stage, share);
@@ -65,25 +65,26 @@ std::string stages_text(const SolverResult& solver) {
 /// ", minimum separation 1e-08 (l2)"; nothing at distance 0.
 std::string separation_text(const Separation& separation) {
   if (is_contact(separation)) return "";
-  return ", minimum separation " + to_text(separation);
+  return ", minimum separation " + judge::to_text(separation);
 }
 
-void append_group(std::string& text, const BenchResult& group) {
+void append_group(std::string& text, const jobs::BenchResult& group) {
   const bool judged_all = group.judged == group.queries;
-  text += fmt::format(
-      "{}, {}{}: {} queries, {} collisions{}; memory pass {} ns/query{}\n", printable(group.name),
-      to_string(group.kind), separation_text(group.separation), group.queries, group.collisions,
-      judged_all ? "" : fmt::format(" among {} judged", group.judged),
-      number_text(group.memory_pass.median(), "{:.2f}"), group.interrupted ? " (interrupted)" : "");
-  TextTable table(columns_of_group());
-  for (const SolverResult& solver : group.solvers) {
+  text += fmt::format("{}, {}{}: {} queries, {} collisions{}; memory pass {} ns/query{}\n",
+                      io::printable(group.name), to_string(group.kind),
+                      separation_text(group.separation), group.queries, group.collisions,
+                      judged_all ? "" : fmt::format(" among {} judged", group.judged),
+                      io::number_text(group.memory_pass.median(), "{:.2f}"),
+                      group.interrupted ? " (interrupted)" : "");
+  io::TextTable table(columns_of_group());
+  for (const jobs::SolverResult& solver : group.solvers) {
     table.add(row_of(solver, group));
     const std::string stages = stages_text(solver);
     if (!stages.empty()) table.add_line(stages);
   }
   text += table.text();
-  for (const SolverResult& solver : group.solvers) {
-    if (!broke_promise(solver)) continue;
+  for (const jobs::SolverResult& solver : group.solvers) {
+    if (!jobs::broke_promise(solver)) continue;
     text += wrong_answers_text({.method = solver.name,
                                 .promise = solver.promise,
                                 .judgement = solver.judgement,
@@ -95,9 +96,10 @@ void append_group(std::string& text, const BenchResult& group) {
 }
 
 /// One clock's times of a step.
-TextRow step_row(const StepTimes& times, std::string_view clock, double StepTime::*time) {
+io::TextRow step_row(const jobs::StepTimes& times, std::string_view clock,
+                     double jobs::StepTime::*time) {
   const auto milliseconds = [time](auto... parts) {
-    return number_text(1e3 * (... + (parts.*time)), "{:.1f} ms");
+    return io::number_text(1e3 * (... + (parts.*time)), "{:.1f} ms");
   };
   return {std::to_string(times.threads),
           std::string(clock),
@@ -108,29 +110,30 @@ TextRow step_row(const StepTimes& times, std::string_view clock, double StepTime
           milliseconds(times.broad_phase, times.earliest)};
 }
 
-void append_step(std::string& text, const StepResult& step) {
+void append_step(std::string& text, const jobs::StepResult& step) {
   text += fmt::format(
       "{}{}: {} vertices, {} edges, {} faces; vertex-face {} candidates, {} collisions; edge-edge "
       "{} "
       "candidates, {} collisions{}\n",
-      printable(step.name), separation_text(step.separation), step.vertices, step.edges, step.faces,
-      step.vertex_face.candidates, step.vertex_face.collisions, step.edge_edge.candidates,
-      step.edge_edge.collisions, step.interrupted ? " (interrupted)" : "");
+      io::printable(step.name), separation_text(step.separation), step.vertices, step.edges,
+      step.faces, step.vertex_face.candidates, step.vertex_face.collisions,
+      step.edge_edge.candidates, step.edge_edge.collisions,
+      step.interrupted ? " (interrupted)" : "");
   if (step.earliest) {
     text += fmt::format("earliest impact between {} and {}{}\n", step.earliest->toi_lower,
                         step.earliest->toi_upper,
                         step.earliest_agrees ? "" : ": NOT that of the collisions");
   }
-  TextTable table({{"threads", 7},
-                   word_column("time", 9),
-                   {"broad phase", 11},
-                   {"collisions", 10},
-                   {"earliest", 10},
-                   {"step, all", 13},
-                   {"step, earliest", 15}});
-  for (const StepTimes& times : step.times) {
-    table.add(step_row(times, "wall", &StepTime::wall));
-    table.add(step_row(times, "processor", &StepTime::processor));
+  io::TextTable table({{"threads", 7},
+                       io::word_column("time", 9),
+                       {"broad phase", 11},
+                       {"collisions", 10},
+                       {"earliest", 10},
+                       {"step, all", 13},
+                       {"step, earliest", 15}});
+  for (const jobs::StepTimes& times : step.times) {
+    table.add(step_row(times, "wall", &jobs::StepTime::wall));
+    table.add(step_row(times, "processor", &jobs::StepTime::processor));
   }
   text += table.text() + '\n';
 }
@@ -150,16 +153,17 @@ std::string legend(const BenchReport& report) {
         "to end, processor\n"
         "that of all threads together, which the other tables have.\n";
   }
-  const auto is_sampled = [](const BenchResult& group) {
-    return std::ranges::any_of(
-        group.solvers, [&](const SolverResult& solver) { return solver.queries < group.queries; });
+  const auto is_sampled = [](const jobs::BenchResult& group) {
+    return std::ranges::any_of(group.solvers, [&](const jobs::SolverResult& solver) {
+      return solver.queries < group.queries;
+    });
   };
   if (std::ranges::any_of(report.groups, is_sampled)) {
     text += fmt::format(
         "timed: where not all, an evenly spread sample that takes about {} s a repetition.\n",
         report.options.seconds);
   }
-  const auto is_judged_in_part = [](const BenchResult& group) {
+  const auto is_judged_in_part = [](const jobs::BenchResult& group) {
     return group.judged < group.queries;
   };
   if (std::ranges::any_of(report.groups, is_judged_in_part)) {
@@ -174,13 +178,13 @@ std::string legend(const BenchReport& report) {
 
 // ---- JSON ---------------------------------------------------------------------------------------
 
-nlohmann::json json_of(const Times& times) {
-  return {{"ns_per_query", number_to_json(times.median())},
-          {"min_ns_per_query", number_to_json(times.min())},
+nlohmann::json json_of(const jobs::Times& times) {
+  return {{"ns_per_query", io::number_to_json(times.median())},
+          {"min_ns_per_query", io::number_to_json(times.min())},
           {"repetitions", times.repetitions}};
 }
 
-nlohmann::json json_of(const std::optional<SingleTimes>& singles) {
+nlohmann::json json_of(const std::optional<jobs::SingleTimes>& singles) {
   if (!singles) return {};
   return {{"queries", singles->queries},
           {"p50_ns", singles->p50},
@@ -188,13 +192,13 @@ nlohmann::json json_of(const std::optional<SingleTimes>& singles) {
           {"max_ns", singles->max}};
 }
 
-nlohmann::json json_of(const std::vector<StageCount>& stages) {
+nlohmann::json json_of(const std::vector<solvers::StageCount>& stages) {
   nlohmann::json json;
-  for (const StageCount& count : stages) json[std::string(count.stage)] = count.queries;
+  for (const solvers::StageCount& count : stages) json[std::string(count.stage)] = count.queries;
   return json;
 }
 
-nlohmann::json wrong_answers_of(const SolverResult& solver) {
+nlohmann::json wrong_answers_of(const jobs::SolverResult& solver) {
   nlohmann::json list = nlohmann::json::array();
   for (std::size_t i = 0; i < solver.judgement.wrong_answers.size(); ++i) {
     nlohmann::json& json = list.emplace_back(to_json(solver.judgement.wrong_answers[i]));
@@ -204,25 +208,25 @@ nlohmann::json wrong_answers_of(const SolverResult& solver) {
   return list;
 }
 
-nlohmann::json json_of(const SolverResult& solver, const BenchResult& group) {
-  const Judgement& judged = solver.judgement;
+nlohmann::json json_of(const jobs::SolverResult& solver, const jobs::BenchResult& group) {
+  const judge::Judgement& judged = solver.judgement;
   nlohmann::json json = to_json(judged);
   json.update({{"name", solver.name},
-               {"promise", to_string(solver.promise)},
+               {"promise", solvers::to_string(solver.promise)},
                {"queries", solver.queries},
                {"time", json_of(solver.times)},
-               {"passes", number_to_json(passes(solver, group))},
+               {"passes", io::number_to_json(passes(solver, group))},
                {"single", json_of(solver.singles)},
                {"stages", json_of(solver.stages)},
                {"judged", judged.queries},
-               {"broke_promise", broke_promise(solver)},
+               {"broke_promise", jobs::broke_promise(solver)},
                {"wrong_answers", wrong_answers_of(solver)}});
   return json;
 }
 
-nlohmann::json json_of(const BenchResult& group) {
+nlohmann::json json_of(const jobs::BenchResult& group) {
   nlohmann::json methods = nlohmann::json::array();
-  for (const SolverResult& solver : group.solvers) {
+  for (const jobs::SolverResult& solver : group.solvers) {
     methods.push_back(json_of(solver, group));
   }
   nlohmann::json json{{"name", group.name},
@@ -233,18 +237,18 @@ nlohmann::json json_of(const BenchResult& group) {
                       {"interrupted", group.interrupted},
                       {"memory_pass", json_of(group.memory_pass)},
                       {"methods", std::move(methods)}};
-  if (!is_contact(group.separation)) json["separation"] = to_json(group.separation);
+  if (!is_contact(group.separation)) json["separation"] = judge::to_json(group.separation);
   return json;
 }
 
-nlohmann::json json_of(const StepCounts& counts) {
+nlohmann::json json_of(const jobs::StepCounts& counts) {
   return {{"candidates", counts.candidates}, {"collisions", counts.collisions}};
 }
 
-nlohmann::json json_of(const std::optional<StepResult>& step) {
+nlohmann::json json_of(const std::optional<jobs::StepResult>& step) {
   if (!step) return {};
   nlohmann::json times = nlohmann::json::array();
-  for (const StepTimes& time : step->times) {
+  for (const jobs::StepTimes& time : step->times) {
     times.push_back({{"threads", time.threads},
                      {"broad_phase_s", time.broad_phase.wall},
                      {"collisions_s", time.collisions.wall},
@@ -267,26 +271,26 @@ nlohmann::json json_of(const std::optional<StepResult>& step) {
                       {"earliest_agrees", step->earliest_agrees},
                       {"interrupted", step->interrupted},
                       {"times", std::move(times)}};
-  if (!is_contact(step->separation)) json["separation"] = to_json(step->separation);
+  if (!is_contact(step->separation)) json["separation"] = judge::to_json(step->separation);
   return json;
 }
 
 }  // namespace
 
 bool has_wrong_answers(const BenchReport& report) {
-  return any_broke_promise(report.groups) || (report.step && !report.step->earliest_agrees);
+  return jobs::any_broke_promise(report.groups) || (report.step && !report.step->earliest_agrees);
 }
 
 std::string to_text(const BenchReport& report) {
   std::string text;
-  for (const BenchResult& group : report.groups) append_group(text, group);
+  for (const jobs::BenchResult& group : report.groups) append_group(text, group);
   if (report.step) append_step(text, *report.step);
   return report.groups.empty() && !report.step ? text : text + legend(report);
 }
 
 nlohmann::json to_json(const BenchReport& report) {
   nlohmann::json groups = nlohmann::json::array();
-  for (const BenchResult& group : report.groups) groups.push_back(json_of(group));
+  for (const jobs::BenchResult& group : report.groups) groups.push_back(json_of(group));
   return {{"repetitions", report.options.repetitions},
           {"seconds", report.options.seconds},
           {"judge", report.options.judge},
@@ -294,4 +298,4 @@ nlohmann::json to_json(const BenchReport& report) {
           {"step", json_of(report.step)}};
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -9,17 +9,17 @@
 #include <string>
 #include <vector>
 
-#include "verify/run/bench.hpp"
-#include "verify/run/step_bench.hpp"
+#include "verify/jobs/bench.hpp"
+#include "verify/jobs/step_bench.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// All that a run of `touchstone bench` found.
 struct BenchReport {
-  BenchOptions options;
-  std::vector<BenchResult> groups;
+  jobs::BenchOptions options;
+  std::vector<jobs::BenchResult> groups;
   /// Of a whole step, if one was measured.
-  std::optional<StepResult> step = std::nullopt;
+  std::optional<jobs::StepResult> step = std::nullopt;
 };
 
 /// Is a number that was timed or counted not what was promised: did a solver break its promise on
@@ -53,4 +53,4 @@ struct BenchReport {
 /// `earliest_s` are wall time, `broad_phase_processor_s` and so on processor time of all threads together.
 [[nodiscard]] nlohmann::json to_json(const BenchReport& report);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -15,17 +15,17 @@
 #include "verify/report/judgement_report.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-std::string_view kind_text(const CertifyResult& result) {
+std::string_view kind_text(const jobs::CertifyResult& result) {
   return result.kind ? to_string(*result.kind) : "";
 }
 
-TextRow row_of(const CertifyResult& result) {
-  return {printable(result.name),
+io::TextRow row_of(const jobs::CertifyResult& result) {
+  return {io::printable(result.name),
           std::string(kind_text(result)),
           std::to_string(result.queries),
           std::to_string(result.collisions),
@@ -33,43 +33,45 @@ TextRow row_of(const CertifyResult& result) {
           std::to_string(result.label_mismatches),
           std::to_string(result.tois),
           std::to_string(result.toi_mismatches),
-          number_text(result.microseconds_per_query(), "{:.2f}")};
+          io::number_text(result.microseconds_per_query(), "{:.2f}")};
 }
 
-std::string_view name_of(Mismatch::Of of) { return of == Mismatch::Of::label ? "label" : "toi"; }
+std::string_view name_of(jobs::Mismatch::Of of) {
+  return of == jobs::Mismatch::Of::label ? "label" : "toi";
+}
 
-bool has_separation(const std::vector<CertifyResult>& results) {
+bool has_separation(const std::vector<jobs::CertifyResult>& results) {
   return !std::ranges::all_of(
-      results, [](const CertifyResult& result) { return is_contact(result.separation); });
+      results, [](const jobs::CertifyResult& result) { return is_contact(result.separation); });
 }
 
 /// The separation of all sources, if it is one, and more than contact.
-std::optional<Separation> separation_of(const std::vector<CertifyResult>& results) {
+std::optional<Separation> separation_of(const std::vector<jobs::CertifyResult>& results) {
   std::vector<Separation> all;
   all.reserve(results.size());
-  for (const CertifyResult& result : results) all.push_back(result.separation);
-  return common_separation(all);
+  for (const jobs::CertifyResult& result : results) all.push_back(result.separation);
+  return judge::common_separation(all);
 }
 
-std::string_view name_of(Inference inference) {
-  if (inference == Inference::all) return "all";
-  return inference == Inference::collisions ? "collisions" : "nothing";
+std::string_view name_of(judge::Inference inference) {
+  if (inference == judge::Inference::all) return "all";
+  return inference == judge::Inference::collisions ? "collisions" : "nothing";
 }
 
 /// What the numbers below are about.
-std::string separations_text(const std::vector<CertifyResult>& results) {
+std::string separations_text(const std::vector<jobs::CertifyResult>& results) {
   if (!has_separation(results)) return {};
   std::string text;
   if (const auto separation = separation_of(results)) {
-    text += fmt::format("minimum separation {}\n", to_text(*separation));
+    text += fmt::format("minimum separation {}\n", judge::to_text(*separation));
   } else {
-    for (const CertifyResult& result : results) {
-      text += fmt::format("minimum separation {}: {}\n", to_text(result.separation),
-                          printable(result.name));
+    for (const jobs::CertifyResult& result : results) {
+      text += fmt::format("minimum separation {}: {}\n", judge::to_text(result.separation),
+                          io::printable(result.name));
     }
   }
-  const auto compares_collisions = [](const CertifyResult& result) {
-    return result.compared == Inference::collisions;
+  const auto compares_collisions = [](const jobs::CertifyResult& result) {
+    return result.compared == judge::Inference::collisions;
   };
   if (std::ranges::any_of(results, compares_collisions)) {
     text +=
@@ -79,7 +81,7 @@ std::string separations_text(const std::vector<CertifyResult>& results) {
   return text;
 }
 
-nlohmann::json counts(const CertifyResult& result) {
+nlohmann::json counts(const jobs::CertifyResult& result) {
   return {{"queries", result.queries},
           {"collisions", result.collisions},
           {"labels", result.labels},
@@ -97,102 +99,104 @@ nlohmann::json counts(const CertifyResult& result) {
 /// claims too much.
 enum class Tolerances : std::uint8_t { hidden, shown };
 
-TextRow method_row(const std::string& name, std::string_view kind, const MethodResult& method,
-                   Tolerances tolerances) {
-  const Judgement& judged = method.judgement;
+io::TextRow method_row(const std::string& name, std::string_view kind,
+                       const jobs::MethodResult& method, Tolerances tolerances) {
+  const judge::Judgement& judged = method.judgement;
   std::optional<double> time;
   if (method.timed) time = judged.nanoseconds_per_query();
-  TextRow row = joined<std::string>({{name, std::string(kind), std::to_string(judged.queries)},
-                                     fault_cells(judged),
-                                     {number_text(time, "{:.1f}")},
-                                     toi_error_cells(judged.toi_errors)});
+  io::TextRow row =
+      io::joined<std::string>({{name, std::string(kind), std::to_string(judged.queries)},
+                               fault_cells(judged),
+                               {io::number_text(time, "{:.1f}")},
+                               toi_error_cells(judged.toi_errors)});
   if (tolerances == Tolerances::shown) {
-    row.push_back(std::to_string(judged.count(Fault::beyond_tolerance)));
+    row.push_back(std::to_string(judged.count(judge::Fault::beyond_tolerance)));
   }
   return row;
 }
 
-std::string wrong_answers_of(const CertifyResult& result, const MethodResult& method) {
+std::string wrong_answers_of(const jobs::CertifyResult& result, const jobs::MethodResult& method) {
   return wrong_answers_text({.method = method.name,
                              .promise = method.promise,
                              .judgement = method.judgement,
                              .group = result.name,
                              .kind = kind_text(result)},
-                            [&](std::size_t i) -> QueryPlace {
+                            [&](std::size_t i) -> data::QueryPlace {
                               return {result.name, method.judgement.wrong_answers[i].index};
                             });
 }
 
 /// How often it gave no answer, by kind, if that is for other reasons than its own indecision.
-std::string failures_text(const MethodResult& method) {
-  const Judgement& judged = method.judgement;
-  const auto is_other = [&](FailureKind kind) {
-    return kind != FailureKind::undecided && judged.count(kind) != 0;
+std::string failures_text(const jobs::MethodResult& method) {
+  const judge::Judgement& judged = method.judgement;
+  const auto is_other = [&](solvers::FailureKind kind) {
+    return kind != solvers::FailureKind::undecided && judged.count(kind) != 0;
   };
-  if (std::ranges::none_of(all_failure_kinds, is_other)) return {};
+  if (std::ranges::none_of(solvers::all_failure_kinds, is_other)) return {};
   return fmt::format("no answer: {}: {}\n", method.name, to_text(judged.failures));
 }
 
-bool claims_too_much(const MethodResult& method) {
-  return method.judgement.count(Fault::beyond_tolerance) != 0;
+bool claims_too_much(const jobs::MethodResult& method) {
+  return method.judgement.count(judge::Fault::beyond_tolerance) != 0;
 }
 
-std::string methods_text(std::size_t width, const std::vector<CertifyResult>& results,
-                         const CertifyResult& sum) {
+std::string methods_text(std::size_t width, const std::vector<jobs::CertifyResult>& results,
+                         const jobs::CertifyResult& sum) {
   const bool shows_tolerances =
       has_separation(results) || std::ranges::any_of(sum.methods, claims_too_much);
   const Tolerances tolerances = shows_tolerances ? Tolerances::shown : Tolerances::hidden;
-  for (const MethodResult& method : sum.methods) {
-    width = std::max(width, printable(method.name).size());
+  for (const jobs::MethodResult& method : sum.methods) {
+    width = std::max(width, io::printable(method.name).size());
   }
-  std::vector<TextColumn> columns = joined<TextColumn>(
-      {{word_column("method", width + 2), word_column("kind", 11), {"queries", 9}},
+  std::vector<io::TextColumn> columns = io::joined<io::TextColumn>(
+      {{io::word_column("method", width + 2), io::word_column("kind", 11), {"queries", 9}},
        fault_columns(),
        {{"ns/query", 10}},
        toi_error_columns()});
   if (shows_tolerances) columns.push_back({"beyond tol", 10});
-  TextTable table(columns);
+  io::TextTable table(columns);
   std::string wrong_answers;
   for (std::size_t i = 0; i < sum.methods.size(); ++i) {
-    table.add(method_row(printable(sum.methods[i].name), "", sum.methods[i], tolerances));
-    for (const CertifyResult& result : results) {
+    table.add(method_row(io::printable(sum.methods[i].name), "", sum.methods[i], tolerances));
+    for (const jobs::CertifyResult& result : results) {
       if (i >= result.methods.size()) continue;
-      const MethodResult& method = result.methods[i];
-      if (keeps(method.judgement, method.promise)) continue;
-      table.add(method_row("  " + printable(result.name), kind_text(result), method, tolerances));
+      const jobs::MethodResult& method = result.methods[i];
+      if (judge::keeps(method.judgement, method.promise)) continue;
+      table.add(
+          method_row("  " + io::printable(result.name), kind_text(result), method, tolerances));
       wrong_answers += wrong_answers_of(result, method);
     }
   }
   std::string text = '\n' + table.text();
-  for (const MethodResult& method : sum.methods) text += failures_text(method);
+  for (const jobs::MethodResult& method : sum.methods) text += failures_text(method);
   return text + wrong_answers;
 }
 
-nlohmann::json counts(const MethodResult& method) {
-  const Judgement& judged = method.judgement;
+nlohmann::json counts(const jobs::MethodResult& method) {
+  const judge::Judgement& judged = method.judgement;
   std::optional<double> time;
   if (method.timed && judged.queries != 0) time = judged.nanoseconds_per_query();
   nlohmann::json json = to_json(judged);
   json.update({{"name", method.name},
-               {"promise", to_string(method.promise)},
+               {"promise", solvers::to_string(method.promise)},
                {"queries", judged.queries},
                {"failures", to_json(judged.failures)},
                {"unplaced_crashes", judged.unplaced_crashes},
-               {"beyond_tolerance", judged.count(Fault::beyond_tolerance)},
+               {"beyond_tolerance", judged.count(judge::Fault::beyond_tolerance)},
                {"missing", judged.missing},
-               {"ns_per_query", number_to_json(time)}});
+               {"ns_per_query", io::number_to_json(time)}});
   return json;
 }
 
-nlohmann::json methods_of(const CertifyResult& result) {
+nlohmann::json methods_of(const jobs::CertifyResult& result) {
   nlohmann::json json = nlohmann::json::array();
-  for (const MethodResult& method : result.methods) json.push_back(counts(method));
+  for (const jobs::MethodResult& method : result.methods) json.push_back(counts(method));
   return json;
 }
 
-void append_wrong_answers(nlohmann::json& methods, const CertifyResult& result) {
+void append_wrong_answers(nlohmann::json& methods, const jobs::CertifyResult& result) {
   for (std::size_t i = 0; i < result.methods.size(); ++i) {
-    for (const WrongAnswer& wrong : result.methods[i].judgement.wrong_answers) {
+    for (const judge::WrongAnswer& wrong : result.methods[i].judgement.wrong_answers) {
       nlohmann::json json = to_json(wrong);
       json.update({{"file", result.name}, {"kind", kind_text(result)}});
       methods[i]["wrong_answers"].push_back(std::move(json));
@@ -202,29 +206,29 @@ void append_wrong_answers(nlohmann::json& methods, const CertifyResult& result) 
 
 }  // namespace
 
-std::string to_text(const std::vector<CertifyResult>& results) {
+std::string to_text(const std::vector<jobs::CertifyResult>& results) {
   std::size_t width = 5;
-  for (const CertifyResult& result : results)
-    width = std::max(width, printable(result.name).size());
+  for (const jobs::CertifyResult& result : results)
+    width = std::max(width, io::printable(result.name).size());
 
-  TextTable table({word_column("file", width),
-                   word_column("kind", 11),
-                   {"queries", 9},
-                   {"collisions", 10},
-                   {"labels", 9},
-                   {"mislabelled", 11},
-                   {"tois", 9},
-                   {"wrong tois", 10},
-                   {"µs/query", 8}});
-  for (const CertifyResult& result : results) table.add(row_of(result));
-  const CertifyResult sum = total(results);
+  io::TextTable table({io::word_column("file", width),
+                       io::word_column("kind", 11),
+                       {"queries", 9},
+                       {"collisions", 10},
+                       {"labels", 9},
+                       {"mislabelled", 11},
+                       {"tois", 9},
+                       {"wrong tois", 10},
+                       {"µs/query", 8}});
+  for (const jobs::CertifyResult& result : results) table.add(row_of(result));
+  const jobs::CertifyResult sum = jobs::total(results);
   table.add(row_of(sum));
   std::string text = separations_text(results) + table.text();
   text += reading_text(sum.skipped, sum.rounded);
-  for (const CertifyResult& result : results) {
-    for (const Mismatch& mismatch : result.mismatches) {
+  for (const jobs::CertifyResult& result : results) {
+    for (const jobs::Mismatch& mismatch : result.mismatches) {
       text += fmt::format("mismatch: {}: {} query {}: recorded {} {}, truth {}\n",
-                          printable(result.name), kind_text(result), mismatch.index,
+                          io::printable(result.name), kind_text(result), mismatch.index,
                           name_of(mismatch.of), mismatch.recorded, mismatch.truth);
     }
   }
@@ -232,28 +236,29 @@ std::string to_text(const std::vector<CertifyResult>& results) {
   return text;
 }
 
-nlohmann::json to_json(const std::vector<CertifyResult>& results) {
-  const CertifyResult sum = total(results);
+nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {
+  const jobs::CertifyResult sum = jobs::total(results);
   nlohmann::json json = counts(sum);
-  if (const auto separation = separation_of(results)) json["separation"] = to_json(*separation);
+  if (const auto separation = separation_of(results))
+    json["separation"] = judge::to_json(*separation);
   json["methods"] = methods_of(sum);
-  if (sum.proofs.certificates() != 0) json["proofs"] = to_json(sum.proofs);
+  if (sum.proofs.certificates() != 0) json["proofs"] = jobs::to_json(sum.proofs);
   for (nlohmann::json& method : json["methods"]) method["wrong_answers"] = nlohmann::json::array();
   json["mismatches"] = nlohmann::json::array();
   json["files"] = nlohmann::json::array();
-  for (const CertifyResult& result : results) {
+  for (const jobs::CertifyResult& result : results) {
     nlohmann::json file = counts(result);
     file["file"] = result.name;
     file["kind"] = kind_text(result);
     if (!is_contact(result.separation)) {
-      file["separation"] = to_json(result.separation);
+      file["separation"] = judge::to_json(result.separation);
       file["compared"] = name_of(result.compared);
     }
     file["methods"] = methods_of(result);
     if (result.error) file["error"] = *result.error;
     json["files"].push_back(std::move(file));
     append_wrong_answers(json["methods"], result);
-    for (const Mismatch& mismatch : result.mismatches) {
+    for (const jobs::Mismatch& mismatch : result.mismatches) {
       json["mismatches"].push_back({{"file", result.name},
                                     {"index", mismatch.index},
                                     {"kind", kind_text(result)},
@@ -266,13 +271,13 @@ nlohmann::json to_json(const std::vector<CertifyResult>& results) {
 }
 
 std::string truth_header() {
-  return csv_row({"file", "index", "kind", "collides", "toi_lower", "toi_upper"});
+  return io::csv_row({"file", "index", "kind", "collides", "toi_lower", "toi_upper"});
 }
 
-std::string truth_row(const std::string& file, Kind kind, const Truth& truth) {
+std::string truth_row(const std::string& file, Kind kind, const judge::Truth& truth) {
   const auto [lower, upper] = truth.toi.value_or(exact::DoubleInterval{unknown, unknown});
-  return csv_row({file, std::to_string(truth.index), std::string(to_string(kind)),
-                  truth.collides ? "1" : "0", csv_number(lower), csv_number(upper)});
+  return io::csv_row({file, std::to_string(truth.index), std::string(to_string(kind)),
+                      truth.collides ? "1" : "0", io::csv_number(lower), io::csv_number(upper)});
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "verify/run/certify.hpp"
+#include "verify/jobs/certify.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// With a separation a line that names it (a line for each source where they differ), and one that
 /// says what was compared if the recorded answers are about another one. Then
@@ -18,7 +18,7 @@ namespace touchstone::verify {
 /// for each source where it broke its promise, the number of its failures of each kind (if there are
 /// any but undecided answers of its own), and the answers that broke its promise: the first twenty of
 /// a fault and source, and how many more there are.
-[[nodiscard]] std::string to_text(const std::vector<CertifyResult>& results);
+[[nodiscard]] std::string to_text(const std::vector<jobs::CertifyResult>& results);
 
 /// The total's fields `queries`, `collisions`, `labels`, `label_mismatches`, `tois`,
 /// `toi_mismatches`, `us_per_query`, `skipped`, `rounded`, `errors` (that ended the reading of a
@@ -36,7 +36,7 @@ namespace touchstone::verify {
 /// `unplaced_crashes` (errors at no particular query), `beyond_tolerance` and `ns_per_query` (null where
 /// no time was taken). In the total each has `wrong_answers`, a list of `file`, `index`, `kind`, `fault`,
 /// `answer` and `truth`, of each source and fault the first Judgement::most_kept.
-[[nodiscard]] nlohmann::json to_json(const std::vector<CertifyResult>& results);
+[[nodiscard]] nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results);
 
 /// The header of the truth as CSV: `file,index,kind,collides,toi_lower,toi_upper`.
 [[nodiscard]] std::string truth_header();
@@ -44,6 +44,6 @@ namespace touchstone::verify {
 /// A row of it: collides as 0 or 1, the ends of the enclosure (neighbouring doubles or equal) with as
 /// many digits as give the same double again, empty without collision. The file's name is quoted
 /// where CSV demands it.
-[[nodiscard]] std::string truth_row(const std::string& file, Kind kind, const Truth& truth);
+[[nodiscard]] std::string truth_row(const std::string& file, Kind kind, const judge::Truth& truth);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -11,15 +11,15 @@
 #include "fast/certified.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
+#include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measure.hpp"
 #include "verify/report/stability_report.hpp"
-#include "verify/run/deadline.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/stability/stability.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 using Methods = std::span<const fast::Method* const>;
@@ -105,7 +105,7 @@ Trial checks_trial(Methods methods) {
 
 std::vector<const fast::Method*> find_methods(std::span<const std::string> names) {
   std::vector<const fast::Method*> found;
-  for (const std::string& name : names) found.push_back(&find_method(name));
+  for (const std::string& name : names) found.push_back(&solvers::find_method(name));
   return found;
 }
 
@@ -127,17 +127,17 @@ std::string processor() {
 
 class Run {
  public:
-  Run(std::span<const QueryGroup> groups, const SurveyOptions& options)
+  Run(std::span<const data::QueryGroup> groups, const SurveyOptions& options)
       : groups_(groups), options_(options), methods_(find_methods(options.methods)) {
     if (!methods_.empty()) return;
-    for (const auto& method : methods()) methods_.push_back(method.get());
+    for (const auto& method : solvers::methods()) methods_.push_back(method.get());
   }
 
   [[nodiscard]] Measurements result() {
     result_.machine = processor();
     const std::vector<Trial> trials = chosen_trials();
     for (std::size_t group = 0; group < groups_.size(); ++group) {
-      Truths truths(groups_[group], options_.threads);
+      judge::Truths truths(groups_[group], options_.threads);
       for (std::size_t trial = 0; trial < trials.size() && !stopped(); ++trial) {
         const auto place = static_cast<double>(group * trials.size() + trial);
         const auto all = static_cast<double>(groups_.size() * trials.size());
@@ -152,7 +152,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return is_stopped(options_.stop); }
+  [[nodiscard]] bool stopped() const { return jobs::is_stopped(options_.stop); }
 
   void tell(double fraction) const {
     if (options_.on_progress) options_.on_progress(fraction);
@@ -173,10 +173,10 @@ class Run {
     return trial.experiment == Experiment::separation ? (options_.count + 3) / 4 : options_.count;
   }
 
-  void measure_trial(const QueryGroup& group, Truths& truths, const Trial& trial,
+  void measure_trial(const data::QueryGroup& group, judge::Truths& truths, const Trial& trial,
                      const std::function<void(double)>& on_progress) {
     std::vector<Measurement> measured =
-        measure(group, truths, trial.settings, find_method(fast::certified_info().name),
+        measure(group, truths, trial.settings, solvers::find_method(fast::certified_info().name),
                 {.experiment = trial.experiment,
                  .count = count_of(trial),
                  .seconds = options_.seconds,
@@ -189,13 +189,14 @@ class Run {
 
   // ---- Filters ----------------------------------------------------------------------------------
 
-  [[nodiscard]] std::vector<QueryGroup> groups_for_filters(Kind kind) const {
-    std::vector<QueryGroup> groups;
-    for (const Family& family : families()) {
-      if (!supports(family, kind)) continue;
-      QueryGroup& group = groups.emplace_back(std::string(family.name), kind);
+  [[nodiscard]] std::vector<data::QueryGroup> groups_for_filters(Kind kind) const {
+    std::vector<data::QueryGroup> groups;
+    for (const generate::Family& family : generate::families()) {
+      if (!generate::supports(family, kind)) continue;
+      data::QueryGroup& group = groups.emplace_back(std::string(family.name), kind);
       group.read(
-          *open_family(family, kind, options_.seed, std::min(options_.count, most_of_family)),
+          *generate::open_family(family, kind, options_.seed,
+                                 std::min(options_.count, most_of_family)),
           [](double) {}, [] { return false; });
     }
     return groups;
@@ -207,26 +208,27 @@ class Run {
     std::ranges::copy_if(methods_, std::back_inserter(chosen), has_filter);
     if (chosen.size() < 2 || !is_chosen(Experiment::filter)) return;
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (std::ranges::find(groups_, kind, &QueryGroup::kind) == groups_.end()) continue;
-      for (const QueryGroup& group : groups_for_filters(kind)) judge(chosen, group, std::nullopt);
+      if (std::ranges::find(groups_, kind, &data::QueryGroup::kind) == groups_.end()) continue;
+      for (const data::QueryGroup& group : groups_for_filters(kind))
+        judge(chosen, group, std::nullopt);
       for (const bool two_decimals : {false, true}) {
         for (const double scale : scales) {
           judge(chosen,
-                end_contacts(kind, {.scale = scale,
-                                    .two_decimals = two_decimals,
-                                    .seed = options_.seed,
-                                    .count = std::min(options_.count, most_of_scale)}),
+                generate::end_contacts(kind, {.scale = scale,
+                                              .two_decimals = two_decimals,
+                                              .seed = options_.seed,
+                                              .count = std::min(options_.count, most_of_scale)}),
                 scale);
         }
       }
     }
   }
 
-  void judge(const std::vector<const fast::Method*>& chosen, const QueryGroup& group,
+  void judge(const std::vector<const fast::Method*>& chosen, const data::QueryGroup& group,
              std::optional<double> scale) {
     fast::MethodOptions asked;
     asked.max_checks = filter_limit;
-    Truths truths(group, options_.threads);
+    judge::Truths truths(group, options_.threads);
     std::vector<Measurement> side_by_side;
     for (const fast::Method* const method : chosen) {
       if (stopped()) return;
@@ -239,31 +241,31 @@ class Run {
   }
 
   void map_stability() {
-    std::vector<std::unique_ptr<Solver>> solvers;
-    std::vector<const Solver*> asked;
+    std::vector<std::unique_ptr<solvers::Solver>> solvers;
+    std::vector<const solvers::Solver*> asked;
     for (const auto* method : methods_) {
       fast::MethodOptions method_options;
       method_options.max_checks = stability_limit;
-      solvers.push_back(solver_in_process(*method, method_options));
+      solvers.push_back(solvers::solver_in_process(*method, method_options));
       asked.push_back(solvers.back().get());
     }
-    std::vector<const Hardness*> sorts;
-    for (const Hardness& hardness : hardnesses()) sorts.push_back(&hardness);
-    const StabilityResult map =
-        measure_stability(sorts, {.seed = options_.seed,
-                                  .count = options_.stability_count,
-                                  .threads = options_.threads,
-                                  .solvers = asked,
-                                  .on_progress =
-                                      [&](double fraction) {
-                                        constexpr double before = part_of_trials + part_of_filters;
-                                        tell(before + (1.0 - before) * fraction);
-                                      },
-                                  .stop = options_.stop});
+    std::vector<const stability::Hardness*> sorts;
+    for (const stability::Hardness& hardness : stability::hardnesses()) sorts.push_back(&hardness);
+    const stability::StabilityResult map = stability::measure_stability(
+        sorts, {.seed = options_.seed,
+                .count = options_.stability_count,
+                .threads = options_.threads,
+                .solvers = asked,
+                .on_progress =
+                    [&](double fraction) {
+                      constexpr double before = part_of_trials + part_of_filters;
+                      tell(before + (1.0 - before) * fraction);
+                    },
+                .stop = options_.stop});
     result_.stability = marks_of(map);
   }
 
-  std::span<const QueryGroup> groups_;
+  std::span<const data::QueryGroup> groups_;
   const SurveyOptions& options_;
   std::vector<const fast::Method*> methods_;
   Measurements result_;
@@ -279,8 +281,8 @@ std::vector<Trial> trials_of(std::span<const std::string> methods) {
   return trials_of_methods(find_methods(methods));
 }
 
-Measurements survey(std::span<const QueryGroup> groups, const SurveyOptions& options) {
+Measurements survey(std::span<const data::QueryGroup> groups, const SurveyOptions& options) {
   return Run(groups, options).result();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -30,7 +30,7 @@
 #include "verify/report/measure.hpp"
 #include "verify/report/measurement.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// Settings that are measured side by side.
 struct Trial {
@@ -72,7 +72,7 @@ struct SurveyOptions {
 
 /// Makes all measurements of a report. `command` is left to the caller.
 /// \throws std::invalid_argument for an unknown method, options out of range, or an empty group.
-[[nodiscard]] Measurements survey(std::span<const QueryGroup> groups,
+[[nodiscard]] Measurements survey(std::span<const data::QueryGroup> groups,
                                   const SurveyOptions& options = {});
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -20,7 +20,7 @@
 #include "verify/io/json.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 using Chosen = std::vector<const Measurement*>;
@@ -38,7 +38,7 @@ double time_of(const Measurement& m) { return m.nanoseconds; }
 bool is_linf(const Measurement& m) { return m.separation.norm == Norm::linf; }
 
 bool measures_in_both_norms(std::string_view method) {
-  const fast::MethodInfo* const info = find_info(method);
+  const fast::MethodInfo* const info = solvers::find_info(method);
   return info != nullptr && info->measures_in(Norm::linf) && info->measures_in(Norm::l2);
 }
 
@@ -530,7 +530,7 @@ class Builder {
            fmt::format("{}", mark.false_negatives), fmt::format("{}", mark.late_tois),
            fmt::format("{}", mark.early_upper_tois), fmt::format("{}", mark.beyond_tolerance),
            fmt::format("{}", mark.errors), fmt::format("{}", mark.undecided), mark.worst,
-           fmt::format("{}", mark.worst_rate), csv_number(mark.nanoseconds)});
+           fmt::format("{}", mark.worst_rate), io::csv_number(mark.nanoseconds)});
     }
     add_grid(std::move(figure));
     add_stability_of("stability_toi_median", "Stability: the median error of the time of impact",
@@ -572,7 +572,7 @@ class Builder {
           .points.push_back({static_cast<double>(mark.exponent), number, {}, false});
       figure.data.rows.push_back({mark.hardness, mark.measure, fmt::format("{}", mark.exponent),
                                   std::string(to_string(mark.kind)), mark.method,
-                                  csv_number(number)});
+                                  io::csv_number(number)});
     }
     add_grid(std::move(figure));
   }
@@ -585,8 +585,8 @@ class Builder {
 nlohmann::json json_of(const std::vector<FigurePoint>& points) {
   nlohmann::json list = nlohmann::json::array();
   for (const FigurePoint& point : points) {
-    nlohmann::json& json = list.emplace_back(nlohmann::json{{"x", number_to_json(point.x)},
-                                                            {"y", number_to_json(point.y)},
+    nlohmann::json& json = list.emplace_back(nlohmann::json{{"x", io::number_to_json(point.x)},
+                                                            {"y", io::number_to_json(point.y)},
                                                             {"label", point.label},
                                                             {"open", point.open}});
     if (!point.tip.empty()) json["tip"] = point.tip;
@@ -666,4 +666,4 @@ nlohmann::json to_json(const std::vector<Figure>& figures) {
   return list;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

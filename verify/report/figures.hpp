@@ -14,7 +14,7 @@
 #include "verify/report/measurement.hpp"
 #include "verify/report/tables.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// How page.js draws a panel.
 enum class FigureForm : std::uint8_t {
@@ -82,4 +82,4 @@ struct Figure {
 /// them.
 [[nodiscard]] nlohmann::json to_json(const std::vector<Figure>& figures);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -13,7 +13,7 @@
 #include "fast/certified.hpp"
 #include "verify/report/tables.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 /// The least and the greatest of some numbers.
@@ -159,4 +159,4 @@ std::vector<std::string> findings_of(const Measurements& measurements,
   return findings;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -9,7 +9,7 @@
 #include "verify/report/figures.hpp"
 #include "verify/report/measurement.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// A sentence each on the queries, on what is missed and what is right everywhere, on time, on the Pareto
 /// fronts of the figures, and on broken promises. Of methods in the experiment "field", but for the promises,
@@ -17,4 +17,4 @@ namespace touchstone::verify {
 [[nodiscard]] std::vector<std::string> findings_of(const Measurements& measurements,
                                                    const std::vector<Figure>& figures);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

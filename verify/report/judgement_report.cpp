@@ -4,13 +4,13 @@
 
 #include "verify/io/printable.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 /// Of a group and fault so many answers are printed.
 constexpr std::size_t most_printed = 20;
 
-nlohmann::json to_json(const ToiErrors& errors) {
+nlohmann::json to_json(const judge::ToiErrors& errors) {
   if (errors.count() == 0) return {};
   return {{"count", errors.count()},
           {"p50", errors.quantile(0.5)},
@@ -21,65 +21,65 @@ nlohmann::json to_json(const ToiErrors& errors) {
 
 }  // namespace
 
-std::optional<Spread> spread_of(const ToiErrors& errors) {
+std::optional<Spread> spread_of(const judge::ToiErrors& errors) {
   if (errors.count() == 0) return std::nullopt;
   return Spread{.count = errors.count(), .median = errors.quantile(0.5), .max = errors.max()};
 }
 
-std::vector<TextColumn> fault_columns() {
+std::vector<io::TextColumn> fault_columns() {
   return {{"false neg", 9},    {"false pos", 9}, {"late toi", 8},
           {"early upper", 11}, {"undecided", 9}, {"errors", 7}};
 }
 
-TextRow fault_cells(const Judgement& judgement) {
-  return {std::to_string(judgement.count(Fault::false_negative)),
-          std::to_string(judgement.count(Fault::false_positive)),
-          std::to_string(judgement.count(Fault::late_toi)),
-          std::to_string(judgement.count(Fault::early_toi_upper)),
+io::TextRow fault_cells(const judge::Judgement& judgement) {
+  return {std::to_string(judgement.count(judge::Fault::false_negative)),
+          std::to_string(judgement.count(judge::Fault::false_positive)),
+          std::to_string(judgement.count(judge::Fault::late_toi)),
+          std::to_string(judgement.count(judge::Fault::early_toi_upper)),
           std::to_string(judgement.undecided),
-          std::to_string(judgement.count(Fault::error))};
+          std::to_string(judgement.count(judge::Fault::error))};
 }
 
-std::vector<TextColumn> toi_error_columns() {
+std::vector<io::TextColumn> toi_error_columns() {
   return {{"error p50", 9}, {"error p99", 9}, {"error max", 9}};
 }
 
-TextRow toi_error_cells(const ToiErrors& errors) {
-  return {error_text(errors.quantile(0.5)), error_text(errors.quantile(0.99)),
-          error_text(errors.max())};
+io::TextRow toi_error_cells(const judge::ToiErrors& errors) {
+  return {io::error_text(errors.quantile(0.5)), io::error_text(errors.quantile(0.99)),
+          io::error_text(errors.max())};
 }
 
 std::string wrong_answers_text(const NamedJudgement& named,
-                               const std::function<QueryPlace(std::size_t)>& place_of) {
-  const Judgement& judgement = named.judgement;
-  const std::string method = printable(named.method);
+                               const std::function<data::QueryPlace(std::size_t)>& place_of) {
+  const judge::Judgement& judgement = named.judgement;
+  const std::string method = io::printable(named.method);
   std::string text;
-  std::array<std::uint64_t, fault_count> printed{};
+  std::array<std::uint64_t, judge::fault_count> printed{};
   for (std::size_t i = 0; i < judgement.wrong_answers.size(); ++i) {
-    const WrongAnswer& wrong = judgement.wrong_answers[i];
+    const judge::WrongAnswer& wrong = judgement.wrong_answers[i];
     auto& count = printed[static_cast<std::size_t>(wrong.fault)];
-    if (!breaks(wrong.fault, named.promise) || count == most_printed) continue;
+    if (!judge::breaks(wrong.fault, named.promise) || count == most_printed) continue;
     ++count;
-    const QueryPlace place = place_of(i);
-    text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n", to_string(wrong.fault),
-                        method, printable(place.source), named.kind, place.index, wrong.answer,
-                        wrong.truth);
+    const data::QueryPlace place = place_of(i);
+    text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n",
+                        judge::to_string(wrong.fault), method, io::printable(place.source),
+                        named.kind, place.index, wrong.answer, wrong.truth);
   }
-  for (std::size_t i = 0; i < fault_count; ++i) {
+  for (std::size_t i = 0; i < judge::fault_count; ++i) {
     const std::uint64_t all = judgement.faults[i];
     if (printed[i] != most_printed || all == most_printed) continue;
-    text += fmt::format("{}: {}: {}: and {} more\n", to_string(static_cast<Fault>(i)), method,
-                        printable(named.group), all - most_printed);
+    text += fmt::format("{}: {}: {}: and {} more\n", judge::to_string(static_cast<judge::Fault>(i)),
+                        method, io::printable(named.group), all - most_printed);
   }
   return text;
 }
 
 std::string to_text(const FailureCounts& failures) {
   std::string text;
-  for (const FailureKind kind : all_failure_kinds) {
+  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
     const std::uint64_t count = failures[static_cast<std::size_t>(kind)];
     if (count == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_string(kind));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, solvers::to_string(kind));
   }
   return text;
 }
@@ -91,29 +91,29 @@ std::string reading_text(std::uint64_t skipped, std::uint64_t rounded) {
   return text;
 }
 
-nlohmann::json to_json(const Judgement& judgement) {
-  return {{"false_negatives", judgement.count(Fault::false_negative)},
-          {"false_positives", judgement.count(Fault::false_positive)},
-          {"late_toi", judgement.count(Fault::late_toi)},
-          {"early_toi_upper", judgement.count(Fault::early_toi_upper)},
+nlohmann::json to_json(const judge::Judgement& judgement) {
+  return {{"false_negatives", judgement.count(judge::Fault::false_negative)},
+          {"false_positives", judgement.count(judge::Fault::false_positive)},
+          {"late_toi", judgement.count(judge::Fault::late_toi)},
+          {"early_toi_upper", judgement.count(judge::Fault::early_toi_upper)},
           {"undecided", judgement.undecided},
-          {"errors", judgement.count(Fault::error)},
+          {"errors", judgement.count(judge::Fault::error)},
           {"toi_error", to_json(judgement.toi_errors)}};
 }
 
-nlohmann::json to_json(const WrongAnswer& wrong) {
+nlohmann::json to_json(const judge::WrongAnswer& wrong) {
   return {{"index", wrong.index},
-          {"fault", to_string(wrong.fault)},
+          {"fault", judge::to_string(wrong.fault)},
           {"answer", wrong.answer},
           {"truth", wrong.truth}};
 }
 
 nlohmann::json to_json(const FailureCounts& failures) {
   nlohmann::json json = nlohmann::json::object();
-  for (const FailureKind kind : all_failure_kinds) {
-    json[to_string(kind)] = failures[static_cast<std::size_t>(kind)];
+  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
+    json[solvers::to_string(kind)] = failures[static_cast<std::size_t>(kind)];
   }
   return json;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

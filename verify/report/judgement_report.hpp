@@ -19,29 +19,29 @@
 #include "verify/judge/judge.hpp"
 #include "verify/report/measurement.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// The numbers that stand for the errors; nothing if there are none.
-[[nodiscard]] std::optional<Spread> spread_of(const ToiErrors& errors);
+[[nodiscard]] std::optional<Spread> spread_of(const judge::ToiErrors& errors);
 
 // ---- Text ---------------------------------------------------------------------------------------
 
 /// The columns of false negatives, false positives, late and early times of impact, undecided answers
 /// and errors.
-[[nodiscard]] std::vector<TextColumn> fault_columns();
+[[nodiscard]] std::vector<io::TextColumn> fault_columns();
 /// Their cells.
-[[nodiscard]] TextRow fault_cells(const Judgement& judgement);
+[[nodiscard]] io::TextRow fault_cells(const judge::Judgement& judgement);
 
 /// The columns of the errors of times of impact: median, 99th percentile, maximum.
-[[nodiscard]] std::vector<TextColumn> toi_error_columns();
+[[nodiscard]] std::vector<io::TextColumn> toi_error_columns();
 /// Their cells.
-[[nodiscard]] TextRow toi_error_cells(const ToiErrors& errors);
+[[nodiscard]] io::TextRow toi_error_cells(const judge::ToiErrors& errors);
 
 /// A judgement, and what to call it.
 struct NamedJudgement {
   std::string_view method;
   fast::Promise promise = fast::Promise::none;
-  const Judgement& judgement;
+  const judge::Judgement& judgement;
   std::string_view group;  ///< of the queries
   std::string_view kind;   ///< of the queries
 };
@@ -51,9 +51,9 @@ struct NamedJudgement {
 /// \param place_of where the query of a wrong answer comes from, by the answer's position in
 /// Judgement::wrong_answers.
 [[nodiscard]] std::string wrong_answers_text(
-    const NamedJudgement& named, const std::function<QueryPlace(std::size_t)>& place_of);
+    const NamedJudgement& named, const std::function<data::QueryPlace(std::size_t)>& place_of);
 
-using FailureCounts = std::array<std::uint64_t, failure_kinds>;
+using FailureCounts = std::array<std::uint64_t, solvers::failure_kinds>;
 
 /// "1 crash, 2 undecided": how many of each kind; empty if there are none.
 [[nodiscard]] std::string to_text(const FailureCounts& failures);
@@ -67,13 +67,13 @@ using FailureCounts = std::array<std::uint64_t, failure_kinds>;
 /// `false_negatives`, `false_positives` (undecided answers among them), `late_toi`, `early_toi_upper`,
 /// `undecided`, `errors`, and `toi_error`: null where no time of impact was given, else `count`, `p50`,
 /// `p90`, `p99` and `max` of the distance from toi_lower to the exact time of impact, quantiles to 1.6%.
-[[nodiscard]] nlohmann::json to_json(const Judgement& judgement);
+[[nodiscard]] nlohmann::json to_json(const judge::Judgement& judgement);
 
 /// `index`, `fault` ("false negative", "false positive", "late toi", "early toi_upper", "error",
 /// "beyond tolerance"), `answer` and `truth`.
-[[nodiscard]] nlohmann::json to_json(const WrongAnswer& wrong);
+[[nodiscard]] nlohmann::json to_json(const judge::WrongAnswer& wrong);
 
 /// The number of queries without an answer by FailureKind.
 [[nodiscard]] nlohmann::json to_json(const FailureCounts& failures);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

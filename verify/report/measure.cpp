@@ -10,13 +10,13 @@
 #include <tuple>
 #include <utility>
 
+#include "verify/jobs/deadline.hpp"
+#include "verify/jobs/statistics.hpp"
+#include "verify/jobs/timing.hpp"
 #include "verify/judge/judge.hpp"
 #include "verify/report/judgement_report.hpp"
-#include "verify/run/deadline.hpp"
-#include "verify/run/statistics.hpp"
-#include "verify/run/timing.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 Separation separation_of(const fast::MethodOptions& options) {
@@ -24,7 +24,8 @@ Separation separation_of(const fast::MethodOptions& options) {
 }
 
 /// What is asked of which method.
-Measurement of_question(const QueryGroup& group, Experiment experiment, const Setting& setting) {
+Measurement of_question(const data::QueryGroup& group, Experiment experiment,
+                        const Setting& setting) {
   Measurement said;
   said.experiment = experiment;
   said.group = group.name();
@@ -43,28 +44,28 @@ bool is_at_limit(const fast::Answer& answer, std::int64_t max_checks) {
   return max_checks > 0 && std::int64_t{answer.checks} >= max_checks;
 }
 
-void set_counts(const Judgement& judgement, Measurement& said) {
-  said.false_positives = judgement.count(Fault::false_positive);
-  said.false_negatives = judgement.count(Fault::false_negative);
-  said.late_tois = judgement.count(Fault::late_toi);
-  said.early_upper_tois = judgement.count(Fault::early_toi_upper);
-  said.errors = judgement.count(Fault::error);
+void set_counts(const judge::Judgement& judgement, Measurement& said) {
+  said.false_positives = judgement.count(judge::Fault::false_positive);
+  said.false_negatives = judgement.count(judge::Fault::false_negative);
+  said.late_tois = judgement.count(judge::Fault::late_toi);
+  said.early_upper_tois = judgement.count(judge::Fault::early_toi_upper);
+  said.errors = judgement.count(judge::Fault::error);
   said.undecided = judgement.undecided;
-  said.keeps_promise = said.promise == fast::Promise::none || keeps(judgement, said.promise);
+  said.keeps_promise = said.promise == fast::Promise::none || judge::keeps(judgement, said.promise);
   said.toi_error = spread_of(judgement.toi_errors);
 }
 
 class Run {
  public:
-  Run(const QueryGroup& group, Truths& truths, std::span<const Setting> settings,
+  Run(const data::QueryGroup& group, judge::Truths& truths, std::span<const Setting> settings,
       const fast::Method& reference, const MeasureOptions& options)
       : group_(group),
         truths_(truths),
         settings_(settings),
-        reference_(solver_in_process(reference, {})),
+        reference_(solvers::solver_in_process(reference, {})),
         options_(options) {
     for (const Setting& setting : settings) {
-      solvers_.push_back(solver_in_process(*setting.method, setting.options));
+      solvers_.push_back(solvers::solver_in_process(*setting.method, setting.options));
       timed_.emplace_back(*solvers_.back(), group, separation_of(setting.options));
     }
   }
@@ -98,7 +99,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return is_stopped(options_.stop); }
+  [[nodiscard]] bool stopped() const { return jobs::is_stopped(options_.stop); }
 
   void tell(double fraction) const {
     if (options_.on_progress) options_.on_progress(fraction);
@@ -107,16 +108,16 @@ class Run {
   /// Gives all settings of one method the smallest of their samples.
   void share_samples() {
     std::map<std::string, std::size_t> smallest;
-    for (const TimedSolver& timed : timed_) {
+    for (const jobs::TimedSolver& timed : timed_) {
       const auto [size, is_new] =
           smallest.try_emplace(timed.solver().name(), timed.queries().size());
       size->second = std::min(size->second, timed.queries().size());
     }
-    for (TimedSolver& timed : timed_) timed.take(smallest.at(timed.solver().name()));
+    for (jobs::TimedSolver& timed : timed_) timed.take(smallest.at(timed.solver().name()));
   }
 
   /// The times of single queries, and the truth.
-  void ask_singly(const TimedSolver& timed) {
+  void ask_singly(const jobs::TimedSolver& timed) {
     single_times_.push_back(
         timed.time_singles(timed.queries().size(), options_.seconds, options_.stop)
             .value_or(std::vector<double>()));
@@ -128,7 +129,7 @@ class Run {
   /// Which reference a solver is compared with.
   using ReferenceKey = std::tuple<std::size_t, double, Norm>;
 
-  static ReferenceKey key_of(const TimedSolver& timed) {
+  static ReferenceKey key_of(const jobs::TimedSolver& timed) {
     return {timed.queries().size(), timed.separation().distance, timed.separation().norm};
   }
 
@@ -137,14 +138,14 @@ class Run {
     for (std::size_t i = 0; i < settings_.size(); ++i) {
       const auto [place, is_new] = reference_of_.try_emplace(key_of(timed_[i]), timed_.size());
       if (!is_new) continue;
-      TimedSolver reference(*reference_, group_, timed_[i].separation());
+      jobs::TimedSolver reference(*reference_, group_, timed_[i].separation());
       reference.take(timed_[i].queries().size());
       timed_.push_back(std::move(reference));
     }
   }
 
   void repeat(std::size_t repetition) {
-    for (const std::size_t i : order_of_repetition(timed_.size(), repetition)) {
+    for (const std::size_t i : jobs::order_of_repetition(timed_.size(), repetition)) {
       if (stopped()) return;
       const bool is_first = timed_[i].times().repetitions.empty();
       if (is_first || timed_[i].seconds_spent() < options_.seconds) timed_[i].repeat();
@@ -153,25 +154,26 @@ class Run {
 
   // ---- Reporting --------------------------------------------------------------------------------
 
-  [[nodiscard]] const TimedSolver& reference_for(const TimedSolver& timed) const {
+  [[nodiscard]] const jobs::TimedSolver& reference_for(const jobs::TimedSolver& timed) const {
     return timed_[reference_of_.at(key_of(timed))];
   }
 
   [[nodiscard]] bool is_complete(std::size_t index) const {
-    const TimedSolver& timed = timed_[index];
+    const jobs::TimedSolver& timed = timed_[index];
     return !timed.times().repetitions.empty() &&
            !reference_for(timed).times().repetitions.empty() &&
            known_[index].size() == timed.queries().size();
   }
 
   [[nodiscard]] Measurement report(std::size_t index) const {
-    const TimedSolver& timed = timed_[index];
+    const jobs::TimedSolver& timed = timed_[index];
     Measurement said = of_question(group_, options_.experiment, settings_[index]);
     said.asked = timed.queries().size();
     said.nanoseconds = timed.times().median();
     said.repetitions = timed.times().repetitions.size();
     said.certified_nanoseconds = reference_for(timed).times().median();
-    for (const StageCount& stage : count_stages(timed.solver().info(), timed.answers())) {
+    for (const solvers::StageCount& stage :
+         solvers::count_stages(timed.solver().info(), timed.answers())) {
       said.stages.push_back({std::string(stage.stage), stage.queries});
     }
     set_counts(timed.judge(known_[index]), said);
@@ -181,7 +183,7 @@ class Run {
 
   /// Counts and times that are about each query.
   void describe_queries(std::size_t index, Measurement& said) const {
-    ToiErrors tolerances;
+    judge::ToiErrors tolerances;
     for (std::size_t i = 0; i < known_[index].size(); ++i) {
       const bool collides = known_[index][i].collides;
       const fast::Answer& answer = timed_[index].answers()[i];
@@ -194,25 +196,25 @@ class Run {
     said.achieved_tolerance = spread_of(tolerances);
   }
 
-  const QueryGroup& group_;
-  Truths& truths_;
+  const data::QueryGroup& group_;
+  judge::Truths& truths_;
   std::span<const Setting> settings_;
-  std::unique_ptr<Solver> reference_;
+  std::unique_ptr<solvers::Solver> reference_;
   const MeasureOptions& options_;
-  std::vector<std::unique_ptr<Solver>> solvers_;
+  std::vector<std::unique_ptr<solvers::Solver>> solvers_;
   /// Of the settings in their order, then the reference on each of their samples.
-  std::vector<TimedSolver> timed_;
+  std::vector<jobs::TimedSolver> timed_;
   /// Of the settings, in the order of their samples; none if stopped.
   std::vector<std::vector<double>> single_times_;
   /// The same; fewer than were asked if stopped.
-  std::vector<std::vector<Truth>> known_;
+  std::vector<std::vector<judge::Truth>> known_;
   /// Where in timed_.
   std::map<ReferenceKey, std::size_t> reference_of_;
 };
 
 }  // namespace
 
-std::vector<Measurement> measure(const QueryGroup& group, Truths& truths,
+std::vector<Measurement> measure(const data::QueryGroup& group, judge::Truths& truths,
                                  std::span<const Setting> settings, const fast::Method& reference,
                                  const MeasureOptions& options) {
   if (group.queries().empty()) throw std::invalid_argument(group.name() + ": no queries");
@@ -222,20 +224,20 @@ std::vector<Measurement> measure(const QueryGroup& group, Truths& truths,
   return Run(group, truths, settings, reference, options).measurements();
 }
 
-std::optional<Measurement> judge_all(const QueryGroup& group, Truths& truths,
+std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Truths& truths,
                                      const fast::Method& method, const fast::MethodOptions& options,
                                      Experiment experiment, const std::atomic<bool>* stop) {
   const std::vector<Query>& queries = group.queries();
   std::vector<std::size_t> positions(queries.size());
   std::iota(positions.begin(), positions.end(), std::size_t{0});
-  const std::vector<Truth> known = truths.of(separation_of(options), positions, stop);
+  const std::vector<judge::Truth> known = truths.of(separation_of(options), positions, stop);
   if (known.size() < queries.size()) return std::nullopt;
   std::vector<fast::Answer> answers(queries.size());
   method.solve(group.kind(), queries, answers, options);
   Measurement said = of_question(group, experiment, {.method = &method, .options = options});
   said.asked = queries.size();
-  Judgement judgement;
-  for (const Truth& truth : known) {
+  judge::Judgement judgement;
+  for (const judge::Truth& truth : known) {
     judgement.add(truth, answers[truth.index]);
     said.collisions += truth.collides ? 1U : 0U;
     said.at_limit += is_at_limit(answers[truth.index], said.max_checks) ? 1U : 0U;
@@ -244,4 +246,4 @@ std::optional<Measurement> judge_all(const QueryGroup& group, Truths& truths,
   return said;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -3,7 +3,7 @@
 /// \file
 /// Measures methods on one group of queries, side by side.
 ///
-/// **Sample and time.** As in verify/run/timing.hpp. A sample grows until it would take the method, or
+/// **Sample and time.** As in verify/jobs/timing.hpp. A sample grows until it would take the method, or
 /// the reference, more than MeasureOptions::seconds. Nothing is said of queries that were not asked.
 /// Each query is also timed alone, for the histograms. The reference runs on each of the samples too, so
 /// that ratios compare the same queries.
@@ -26,7 +26,7 @@
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measurement.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// A method under some options. The truth is about their separation.
 struct Setting {
@@ -55,17 +55,18 @@ struct MeasureOptions {
 /// have no time, no reference or no truth yet.
 /// \param reference the method whose time stands in Measurement::certified_nanoseconds
 /// \throws std::invalid_argument for options out of range or an empty group.
-[[nodiscard]] std::vector<Measurement> measure(const QueryGroup& group, Truths& truths,
+[[nodiscard]] std::vector<Measurement> measure(const data::QueryGroup& group, judge::Truths& truths,
                                                std::span<const Setting> settings,
                                                const fast::Method& reference,
                                                const MeasureOptions& options);
 
 /// Judges the answers of a method to all queries of the group of `truths`; nothing is timed. No result
 /// once *stop is true (it may be null).
-[[nodiscard]] std::optional<Measurement> judge_all(const QueryGroup& group, Truths& truths,
+[[nodiscard]] std::optional<Measurement> judge_all(const data::QueryGroup& group,
+                                                   judge::Truths& truths,
                                                    const fast::Method& method,
                                                    const fast::MethodOptions& options,
                                                    Experiment experiment,
                                                    const std::atomic<bool>* stop = nullptr);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

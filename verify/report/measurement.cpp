@@ -8,7 +8,7 @@
 
 #include "verify/io/printable.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 constexpr std::array<std::pair<Experiment, std::string_view>, 5> names{{
@@ -69,7 +69,7 @@ std::vector<const Measurement*> of_experiment(const Measurements& measurements,
 }
 
 Measurements with_printable_texts(Measurements measurements) {
-  const auto clean = [](std::string& text) { text = printable(text); };
+  const auto clean = [](std::string& text) { text = io::printable(text); };
   clean(measurements.command);
   clean(measurements.machine);
   for (Measurement& measurement : measurements.all) {
@@ -88,4 +88,4 @@ bool has_wrong_answers(const Measurements& measurements) {
   return !std::ranges::all_of(measurements.all, &Measurement::keeps_promise);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

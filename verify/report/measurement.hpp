@@ -15,7 +15,7 @@
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// Which question a measurement belongs to.
 enum class Experiment : std::uint8_t {
@@ -158,4 +158,4 @@ struct Measurements {
 /// Did a method give a wrong answer that its promise excludes?
 [[nodiscard]] bool has_wrong_answers(const Measurements& measurements);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

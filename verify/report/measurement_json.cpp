@@ -9,7 +9,7 @@
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 using Json = nlohmann::json;
@@ -19,15 +19,15 @@ constexpr const char* format_name = "touchstone measurements 1";
 Json json_of(const std::optional<Spread>& spread) {
   if (!spread) return {};
   return {{"count", spread->count},
-          {"median", number_to_json(spread->median)},
-          {"max", number_to_json(spread->max)}};
+          {"median", io::number_to_json(spread->median)},
+          {"max", io::number_to_json(spread->max)}};
 }
 
 std::optional<Spread> spread_from(const Json& json) {
   if (json.is_null()) return std::nullopt;
   return Spread{.count = json.at("count").get<std::uint64_t>(),
-                .median = number_from_json(json.at("median")),
-                .max = number_from_json(json.at("max"))};
+                .median = io::number_from_json(json.at("median")),
+                .max = io::number_from_json(json.at("max"))};
 }
 
 Json json_of(const TimeHistogram& times) {
@@ -51,7 +51,7 @@ Json json_of(const std::vector<StageShare>& stages) {
 fast::Promise promise_from(const std::string& name) {
   for (const auto promise :
        {fast::Promise::none, fast::Promise::conservative, fast::Promise::exact}) {
-    if (to_string(promise) == name) return promise;
+    if (solvers::to_string(promise) == name) return promise;
   }
   throw std::invalid_argument("no promise is called " + name);
 }
@@ -62,11 +62,11 @@ Json json_of(const Measurement& measurement) {
           {"group", m.group},
           {"kind", to_string(m.kind)},
           {"method", m.method},
-          {"promise", to_string(m.promise)},
-          {"tolerance", number_to_json(m.tolerance)},
+          {"promise", solvers::to_string(m.promise)},
+          {"tolerance", io::number_to_json(m.tolerance)},
           {"max_checks", m.max_checks},
-          {"separation", to_json(m.separation)},
-          {"scale", number_to_json(m.scale)},
+          {"separation", judge::to_json(m.separation)},
+          {"scale", io::number_to_json(m.scale)},
           {"group_queries", m.group_queries},
           {"asked", m.asked},
           {"collisions", m.collisions},
@@ -78,9 +78,9 @@ Json json_of(const Measurement& measurement) {
           {"undecided", m.undecided},
           {"at_limit", m.at_limit},
           {"keeps_promise", m.keeps_promise},
-          {"ns_per_query", number_to_json(m.nanoseconds)},
+          {"ns_per_query", io::number_to_json(m.nanoseconds)},
           {"repetitions", m.repetitions},
-          {"certified_ns_per_query", number_to_json(m.certified_nanoseconds)},
+          {"certified_ns_per_query", io::number_to_json(m.certified_nanoseconds)},
           {"toi_error", json_of(m.toi_error)},
           {"achieved_tolerance", json_of(m.achieved_tolerance)},
           {"stages", json_of(m.stages)},
@@ -100,12 +100,12 @@ void read_question(const Json& json, Measurement& m) {
   m.kind = kind_from_string(json.at("kind").get<std::string>());
   json.at("method").get_to(m.method);
   m.promise = promise_from(json.at("promise").get<std::string>());
-  m.tolerance = number_from_json(json.at("tolerance"));
+  m.tolerance = io::number_from_json(json.at("tolerance"));
   json.at("max_checks").get_to(m.max_checks);
   m.separation = separation_from(json.at("separation"));
   // (Files from before there was a scale have none.)
   const Json scale = json.value("scale", Json());
-  if (!scale.is_null()) m.scale = number_from_json(scale);
+  if (!scale.is_null()) m.scale = io::number_from_json(scale);
   json.at("group_queries").get_to(m.group_queries);
   json.at("asked").get_to(m.asked);
 }
@@ -126,9 +126,9 @@ Measurement measurement_from(const Json& json) {
   Measurement m;
   read_question(json, m);
   read_faults(json, m);
-  m.nanoseconds = number_from_json(json.at("ns_per_query"));
+  m.nanoseconds = io::number_from_json(json.at("ns_per_query"));
   json.at("repetitions").get_to(m.repetitions);
-  m.certified_nanoseconds = number_from_json(json.at("certified_ns_per_query"));
+  m.certified_nanoseconds = io::number_from_json(json.at("certified_ns_per_query"));
   m.toi_error = spread_from(json.at("toi_error"));
   m.achieved_tolerance = spread_from(json.at("achieved_tolerance"));
   for (const Json& stage : json.at("stages")) {
@@ -157,8 +157,8 @@ Json json_of(const StabilityMark& mark) {
           {"worst", mark.worst},
           {"worst_rate", mark.worst_rate},
           {"toi_error", json_of(mark.toi_error)},
-          {"ns_per_query", number_to_json(mark.nanoseconds)},
-          {"checks_per_query", number_to_json(mark.checks)}};
+          {"ns_per_query", io::number_to_json(mark.nanoseconds)},
+          {"checks_per_query", io::number_to_json(mark.checks)}};
 }
 
 StabilityMark mark_from(const Json& json) {
@@ -174,7 +174,7 @@ StabilityMark mark_from(const Json& json) {
   json.at("false_negatives").get_to(mark.false_negatives);
   json.at("worst").get_to(mark.worst);
   json.at("worst_rate").get_to(mark.worst_rate);
-  mark.nanoseconds = number_from_json(json.at("ns_per_query"));
+  mark.nanoseconds = io::number_from_json(json.at("ns_per_query"));
   // (Earlier files have no more than that.)
   mark.late_tois = json.value("late_tois", mark.late_tois);
   mark.early_upper_tois = json.value("early_upper_tois", mark.early_upper_tois);
@@ -182,7 +182,7 @@ StabilityMark mark_from(const Json& json) {
   mark.errors = json.value("errors", mark.errors);
   mark.undecided = json.value("undecided", mark.undecided);
   mark.toi_error = spread_from(json.value("toi_error", Json()));
-  mark.checks = number_from_json(json.value("checks_per_query", Json()));
+  mark.checks = io::number_from_json(json.value("checks_per_query", Json()));
   return mark;
 }
 
@@ -219,4 +219,4 @@ Measurements measurements_from_json(const Json& json) {
   }
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

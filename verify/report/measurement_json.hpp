@@ -7,7 +7,7 @@
 
 #include "verify/report/measurement.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// `format` (its name and version), `command`, `machine`, `interrupted`; `measurements`, a list of
 /// objects with the fields of Measurement under their names, `separation` as an object of
@@ -21,4 +21,4 @@ namespace touchstone::verify {
 /// \throws std::runtime_error that says what is wrong if it is none of these.
 [[nodiscard]] Measurements measurements_from_json(const nlohmann::json& json);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

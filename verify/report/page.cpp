@@ -17,7 +17,7 @@
 #include "verify/report/stability_report.hpp"
 #include "verify/report/tables.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 /// Nothing may be loaded from anywhere.
@@ -121,22 +121,23 @@ class Writer {
   /// What one reads first.
   void write_opening() {
     text_ += fmt::format("<header>\n<h1>{}</h1>\n<p>{}</p>\n", contents_.title,
-                         html_escaped(contents_.about));
+                         io::html_escaped(contents_.about));
     if (contents_.interrupted) {
       text_ += "<p class=\"warning\">Interrupted: not all that was asked for is here.</p>\n";
     }
     text_ += "<ul class=\"findings\">\n";
     for (const std::string& finding : contents_.findings) {
-      text_ += fmt::format("<li>{}</li>\n", html_escaped(finding));
+      text_ += fmt::format("<li>{}</li>\n", io::html_escaped(finding));
     }
     text_ += "</ul>\n</header>\n<main>\n";
     if (!contents_.figures.empty()) write_figure(contents_.figures.front());
   }
 
   void write_navigation() {
-    text_ += fmt::format("<p>Made{} by</p>\n<pre class=\"command\">{}</pre>\n",
-                         contents_.machine.empty() ? "" : " on " + html_escaped(contents_.machine),
-                         html_escaped(contents_.command));
+    text_ +=
+        fmt::format("<p>Made{} by</p>\n<pre class=\"command\">{}</pre>\n",
+                    contents_.machine.empty() ? "" : " on " + io::html_escaped(contents_.machine),
+                    io::html_escaped(contents_.command));
     text_ += "<nav aria-label=\"Contents\"><ul>\n";
     for (const Section& section : contents_.top_tables) write_link(section.id, section.title);
     for (const Figure& figure : contents_.figures) write_link(figure.id, figure.title);
@@ -145,7 +146,7 @@ class Writer {
   }
 
   void write_link(std::string_view id, std::string_view title) {
-    text_ += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, html_escaped(title));
+    text_ += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, io::html_escaped(title));
   }
 
   // ---- Tables -----------------------------------------------------------------------------------
@@ -164,7 +165,7 @@ class Writer {
   void write_meanings() {
     text_ += "<details><summary>What the columns mean</summary>\n<ul>\n";
     for (const std::string& meaning : column_meanings()) {
-      text_ += fmt::format("<li>{}</li>\n", html_escaped(meaning));
+      text_ += fmt::format("<li>{}</li>\n", io::html_escaped(meaning));
     }
     text_ += "</ul>\n</details>\n";
   }
@@ -172,18 +173,18 @@ class Writer {
   void write_table(const Table& table) {
     text_ += fmt::format(
         "<div class=\"scroll\" tabindex=\"0\"><table>\n<caption>{}</caption>\n<thead><tr>",
-        html_escaped(table.title));
+        io::html_escaped(table.title));
     for (const std::string& column : table.columns) {
-      text_ += fmt::format("<th scope=\"col\">{}</th>", html_escaped(column));
+      text_ += fmt::format("<th scope=\"col\">{}</th>", io::html_escaped(column));
     }
     text_ += "</tr></thead>\n<tbody>\n";
     for (const auto& row : table.rows) {
       text_ += "<tr>";
       for (std::size_t i = 0; i < row.size(); ++i) {
-        text_ += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", html_escaped(row[i]))
+        text_ += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", io::html_escaped(row[i]))
                         : fmt::format("<td{}>{}</td>",
                                       is_word(table.columns[i]) ? " class=\"word\"" : "",
-                                      html_escaped(row[i]));
+                                      io::html_escaped(row[i]));
       }
       text_ += "</tr>\n";
     }
@@ -200,7 +201,7 @@ class Writer {
     text_ += fmt::format(
         "<p class=\"origin\"><a class=\"csv\" download=\"{0}.csv\" "
         "href=\"data:text/csv;charset=utf-8,{1}\">CSV</a> <code>{2}</code></p>\n",
-        id, percent_encoded(to_csv(data)), html_escaped(contents_.command));
+        id, percent_encoded(to_csv(data)), io::html_escaped(contents_.command));
   }
 
   // ---- Figures ----------------------------------------------------------------------------------
@@ -209,7 +210,7 @@ class Writer {
     text_ += fmt::format(
         "<section class=\"figure\" id=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n"
         "<div class=\"legend\"></div>\n<div class=\"panels\"></div>\n",
-        figure.id, html_escaped(figure.title), html_escaped(figure.description));
+        figure.id, io::html_escaped(figure.title), io::html_escaped(figure.description));
     write_origin(figure.id, figure.data);
     text_ += "</section>\n";
   }
@@ -247,7 +248,7 @@ std::string report_page(const Measurements& measured) {
   return Writer(contents).page();
 }
 
-std::string stability_page(const StabilityResult& result, const std::string& command) {
+std::string stability_page(const stability::StabilityResult& result, const std::string& command) {
   const Measurements measurements = with_printable_texts(
       {.command = command, .machine = {}, .all = {}, .stability = marks_of(result)});
   Contents contents{
@@ -260,7 +261,7 @@ std::string stability_page(const StabilityResult& result, const std::string& com
                          result.count, result.seed,
                          is_contact(result.separation)
                              ? ""
-                             : "; minimum separation " + to_text(result.separation)),
+                             : "; minimum separation " + judge::to_text(result.separation)),
       .findings = {},
       .figures = figures_of(measurements),
       .top_tables = {{"overview", "Overview", {overview_of(result)}, false}},
@@ -268,10 +269,10 @@ std::string stability_page(const StabilityResult& result, const std::string& com
       .command = measurements.command,
       .machine = {},
       .interrupted = result.total.interrupted};
-  for (const MethodResult& method : result.total.methods) {
+  for (const jobs::MethodResult& method : result.total.methods) {
     contents.findings.push_back(promise_text(method) + ".");
   }
   return Writer(contents).page();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -15,7 +15,7 @@
 #include "verify/report/measurement.hpp"
 #include "verify/stability/stability.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// The page as HTML.
 [[nodiscard]] std::string report_page(const Measurements& measured);
@@ -23,6 +23,7 @@ namespace touchstone::verify {
 /// The map of stability as HTML: who keeps their promise, the worst of each hardness as a table, and as
 /// figures the worst outcome, the errors of the time of impact, time and checks of every cell.
 /// \param command the command line that made it
-[[nodiscard]] std::string stability_page(const StabilityResult& result, const std::string& command);
+[[nodiscard]] std::string stability_page(const stability::StabilityResult& result,
+                                         const std::string& command);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// The d3 library, minified, with its licence's notice at the top.
 [[nodiscard]] std::string_view d3_script();
@@ -17,4 +17,4 @@ namespace touchstone::verify {
 /// How a page looks.
 [[nodiscard]] std::string_view page_style();
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 /// A row of a published table.
@@ -157,4 +157,4 @@ std::optional<PublishedNumbers> published_separation(std::string_view dataset, K
   return find(separation, {dataset, kind, method, {}, distance});
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -13,7 +13,7 @@
 
 #include "exact/query.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// A cell of a published table, as printed; K and M stand for thousands and millions.
 struct PublishedNumbers {
@@ -36,4 +36,4 @@ struct PublishedNumbers {
                                                                    std::string_view method,
                                                                    double distance);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

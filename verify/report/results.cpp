@@ -17,7 +17,7 @@
 #include "verify/report/figures.hpp"
 #include "verify/report/tables.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 /// A method and why what we measure of it is not what was published.
@@ -112,8 +112,8 @@ class Writer {
   [[nodiscard]] std::string document() {
     text_ = "# Results\n\n";
     text_ += fmt::format("Written by `./run results`; not edited by hand. Made on {} by\n\n{}\n",
-                         markdown_escaped(measurements_.machine),
-                         markdown_code_block(without_folders(measurements_.command)));
+                         io::markdown_escaped(measurements_.machine),
+                         io::markdown_code_block(without_folders(measurements_.command)));
     if (measurements_.interrupted) text_ += "**Interrupted: not all is here.**\n\n";
     text_ +=
         "The truth is the exact oracle's. Published: Wang et al. 2021, \"A Large Scale Benchmark "
@@ -138,7 +138,7 @@ class Writer {
     std::string names;
     for (const Measurement* m : of_experiment(measurements_, Experiment::field)) {
       if (fmt::format("{}, {}", m->group, to_string(m->kind)) != place || !test(*m)) continue;
-      names += (names.empty() ? "" : ", ") + markdown_code(m->method);
+      names += (names.empty() ? "" : ", ") + io::markdown_code(m->method);
     }
     return names.empty() ? "none" : names;
   }
@@ -147,7 +147,7 @@ class Writer {
   void write_sentences() {
     text_ += "## In sentences\n\n";
     for (const Table& table : field_tables(measurements_)) {
-      text_ += fmt::format("- **{}**: ", markdown_escaped(table.title));
+      text_ += fmt::format("- **{}**: ", io::markdown_escaped(table.title));
       text_ += fmt::format(
           "with false negatives: {}. Without false positives: {}. ",
           names_where(table.title, [](const Measurement& m) { return m.false_negatives != 0; }),
@@ -172,10 +172,10 @@ class Writer {
       for (const FigurePanel& panel : figure.panels) {
         std::string names;
         for (const FigurePoint& point : panel.front) {
-          names += (names.empty() ? "" : ", ") + markdown_escaped(point.label);
+          names += (names.empty() ? "" : ", ") + io::markdown_escaped(point.label);
         }
         comparisons[names.empty() ? "none" : names].push_back(
-            fmt::format("{} ({})", what, markdown_escaped(panel.title)));
+            fmt::format("{} ({})", what, io::markdown_escaped(panel.title)));
       }
     }
     if (comparisons.empty()) return;
@@ -201,7 +201,7 @@ class Writer {
 
   void write_subsections(const std::vector<Table>& tables) {
     for (const Table& table : tables) {
-      text_ += fmt::format("### {}\n\n{}\n", markdown_escaped(table.title), to_markdown(table));
+      text_ += fmt::format("### {}\n\n{}\n", io::markdown_escaped(table.title), to_markdown(table));
     }
   }
 
@@ -253,4 +253,4 @@ std::string results_document(const Measurements& measurements) {
   return Writer(measurements).document();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

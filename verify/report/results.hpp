@@ -8,9 +8,9 @@
 
 #include "verify/report/measurement.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// The document, in Markdown.
 [[nodiscard]] std::string results_document(const Measurements& measurements);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -17,7 +17,7 @@
 #include "verify/report/judgement_report.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 constexpr std::string_view legend =
@@ -26,22 +26,22 @@ constexpr std::string_view legend =
     "one, "
     "E errors, B a yes beyond its tolerance\n";
 
-std::string_view name_of(const Outcome& outcome) {
-  return outcome.worst ? to_string(*outcome.worst) : std::string_view();
+std::string_view name_of(const stability::Outcome& outcome) {
+  return outcome.worst ? judge::to_string(*outcome.worst) : std::string_view();
 }
 
 /// What a level's cell looks like in one character.
-char character_of(const Outcome& outcome) {
+char character_of(const stability::Outcome& outcome) {
   if (!outcome.worst) return '.';
   switch (*outcome.worst) {
-    case Fault::false_negative:
+    case judge::Fault::false_negative:
       return 'N';
-    case Fault::late_toi:
-    case Fault::early_toi_upper:
+    case judge::Fault::late_toi:
+    case judge::Fault::early_toi_upper:
       return 'T';
-    case Fault::error:
+    case judge::Fault::error:
       return 'E';
-    case Fault::beyond_tolerance:
+    case judge::Fault::beyond_tolerance:
       return 'B';
     default:
       return static_cast<char>('0' + std::min(9, static_cast<int>(10.0 * outcome.rate)));
@@ -49,11 +49,11 @@ char character_of(const Outcome& outcome) {
 }
 
 /// The cells of one hardness and kind.
-using Row = std::vector<const StabilityCell*>;
+using Row = std::vector<const stability::StabilityCell*>;
 
-std::vector<Row> rows_of(const StabilityResult& result) {
+std::vector<Row> rows_of(const stability::StabilityResult& result) {
   std::vector<Row> rows;
-  for (const StabilityCell& cell : result.cells) {
+  for (const stability::StabilityCell& cell : result.cells) {
     const bool is_new = rows.empty() || rows.back().front()->hardness != cell.hardness ||
                         rows.back().front()->kind != cell.kind;
     if (is_new) rows.emplace_back();
@@ -62,47 +62,47 @@ std::vector<Row> rows_of(const StabilityResult& result) {
   return rows;
 }
 
-std::vector<TextColumn> columns() {
-  return joined<TextColumn>(
-      {{word_column("hardness", 8),
-        word_column("levels", 16),
-        word_column("kind", 11),
-        word_column("level by", 11),
+std::vector<io::TextColumn> columns() {
+  return io::joined<io::TextColumn>(
+      {{io::word_column("hardness", 8),
+        io::word_column("levels", 16),
+        io::word_column("kind", 11),
+        io::word_column("level by", 11),
         {"queries", 7}},
        fault_columns(),
        {{"ns/query", 10}, {"checks", 9}, {"error p50", 9}, {"error max", 9}}});
 }
 
-TextRow text_row(const Row& row, std::size_t method) {
-  CertifyResult sum;
+io::TextRow text_row(const Row& row, std::size_t method) {
+  jobs::CertifyResult sum;
   std::string marks;
-  for (const StabilityCell* cell : row) {
+  for (const stability::StabilityCell* cell : row) {
     sum += cell->judged;
-    marks += character_of(outcome_of(cell->judged, method));
+    marks += character_of(stability::outcome_of(cell->judged, method));
   }
-  const MethodResult& all = sum.methods.at(method);
-  const Judgement& judged = all.judgement;
-  const Hardness& hardness = *row.front()->hardness;
-  return joined<std::string>(
+  const jobs::MethodResult& all = sum.methods.at(method);
+  const judge::Judgement& judged = all.judgement;
+  const stability::Hardness& hardness = *row.front()->hardness;
+  return io::joined<std::string>(
       {{std::string(hardness.name),
         fmt::format("2^{} … 2^{}", hardness.exponents.front(), hardness.exponents.back()),
         std::string(to_string(row.front()->kind)), marks, std::to_string(judged.queries)},
        fault_cells(judged),
-       {number_text(nanoseconds_per_query(all), "{:.1f}"),
-        number_text(checks_per_query(all), "{:.1f}"), error_text(judged.toi_errors.quantile(0.5)),
-        error_text(judged.toi_errors.max())}});
+       {io::number_text(stability::nanoseconds_per_query(all), "{:.1f}"),
+        io::number_text(stability::checks_per_query(all), "{:.1f}"),
+        io::error_text(judged.toi_errors.quantile(0.5)), io::error_text(judged.toi_errors.max())}});
 }
 
-std::string method_text(const StabilityResult& result, std::size_t method) {
-  TextTable table(columns());
+std::string method_text(const stability::StabilityResult& result, std::size_t method) {
+  io::TextTable table(columns());
   for (const Row& row : rows_of(result)) table.add(text_row(row, method));
   return fmt::format("{}\n{}\n", promise_text(result.total.methods.at(method)), table.text());
 }
 
-nlohmann::json json_of(const StabilityCell& cell, std::size_t method) {
-  const MethodResult& of_method = cell.judged.methods.at(method);
-  const Judgement& judged = of_method.judgement;
-  const Outcome outcome = outcome_of(cell.judged, method);
+nlohmann::json json_of(const stability::StabilityCell& cell, std::size_t method) {
+  const jobs::MethodResult& of_method = cell.judged.methods.at(method);
+  const judge::Judgement& judged = of_method.judgement;
+  const stability::Outcome outcome = stability::outcome_of(cell.judged, method);
   nlohmann::json json = to_json(judged);
   json.update({{"hardness", cell.hardness->name},
                {"exponent", cell.exponent},
@@ -110,20 +110,22 @@ nlohmann::json json_of(const StabilityCell& cell, std::size_t method) {
                {"kind", to_string(cell.kind)},
                {"queries", judged.queries},
                {"collisions", cell.judged.collisions},
-               {"beyond_tolerance", judged.count(Fault::beyond_tolerance)},
-               {"false_negative_rate", rate_of(Fault::false_negative, cell.judged, method)},
-               {"false_positive_rate", rate_of(Fault::false_positive, cell.judged, method)},
-               {"worst", text_or_null(name_of(outcome))},
+               {"beyond_tolerance", judged.count(judge::Fault::beyond_tolerance)},
+               {"false_negative_rate",
+                stability::rate_of(judge::Fault::false_negative, cell.judged, method)},
+               {"false_positive_rate",
+                stability::rate_of(judge::Fault::false_positive, cell.judged, method)},
+               {"worst", io::text_or_null(name_of(outcome))},
                {"worst_rate", outcome.rate},
-               {"ns_per_query", number_to_json(nanoseconds_per_query(of_method))},
-               {"checks_per_query", number_to_json(checks_per_query(of_method))}});
+               {"ns_per_query", io::number_to_json(stability::nanoseconds_per_query(of_method))},
+               {"checks_per_query", io::number_to_json(stability::checks_per_query(of_method))}});
   return json;
 }
 
-StabilityMark mark_of(const StabilityCell& cell, std::size_t method) {
-  const MethodResult& result = cell.judged.methods.at(method);
-  const Judgement& judged = result.judgement;
-  const Outcome outcome = outcome_of(cell.judged, method);
+StabilityMark mark_of(const stability::StabilityCell& cell, std::size_t method) {
+  const jobs::MethodResult& result = cell.judged.methods.at(method);
+  const judge::Judgement& judged = result.judgement;
+  const stability::Outcome outcome = stability::outcome_of(cell.judged, method);
   return {.method = result.name,
           .hardness = std::string(cell.hardness->name),
           .measure = std::string(cell.hardness->measure),
@@ -131,36 +133,37 @@ StabilityMark mark_of(const StabilityCell& cell, std::size_t method) {
           .kind = cell.kind,
           .queries = cell.judged.queries,
           .collisions = cell.judged.collisions,
-          .false_positives = judged.count(Fault::false_positive),
-          .false_negatives = judged.count(Fault::false_negative),
-          .late_tois = judged.count(Fault::late_toi),
-          .early_upper_tois = judged.count(Fault::early_toi_upper),
-          .beyond_tolerance = judged.count(Fault::beyond_tolerance),
-          .errors = judged.count(Fault::error),
+          .false_positives = judged.count(judge::Fault::false_positive),
+          .false_negatives = judged.count(judge::Fault::false_negative),
+          .late_tois = judged.count(judge::Fault::late_toi),
+          .early_upper_tois = judged.count(judge::Fault::early_toi_upper),
+          .beyond_tolerance = judged.count(judge::Fault::beyond_tolerance),
+          .errors = judged.count(judge::Fault::error),
           .undecided = judged.undecided,
           .worst = std::string(name_of(outcome)),
           .worst_rate = outcome.rate,
           .toi_error = spread_of(judged.toi_errors),
-          .nanoseconds = nanoseconds_per_query(result).value_or(Measurement::unknown),
-          .checks = checks_per_query(result).value_or(Measurement::unknown)};
+          .nanoseconds = stability::nanoseconds_per_query(result).value_or(Measurement::unknown),
+          .checks = stability::checks_per_query(result).value_or(Measurement::unknown)};
 }
 
 }  // namespace
 
-std::string promise_text(const MethodResult& method) {
-  return fmt::format("{} ({}): {} its promise", printable(method.name), to_string(method.promise),
-                     keeps(method.judgement, method.promise) ? "keeps" : "breaks");
+std::string promise_text(const jobs::MethodResult& method) {
+  return fmt::format("{} ({}): {} its promise", io::printable(method.name),
+                     solvers::to_string(method.promise),
+                     judge::keeps(method.judgement, method.promise) ? "keeps" : "breaks");
 }
 
-std::string to_text(const StabilityResult& result) {
+std::string to_text(const stability::StabilityResult& result) {
   std::string text;
   if (!is_contact(result.separation)) {
-    text += fmt::format("minimum separation {}\n", to_text(result.separation));
+    text += fmt::format("minimum separation {}\n", judge::to_text(result.separation));
   }
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) text += method_text(result, i);
   text += legend;
-  for (const StabilityCell& cell : result.cells) {
-    for (const Mismatch& mismatch : cell.judged.mismatches) {
+  for (const stability::StabilityCell& cell : result.cells) {
+    for (const jobs::Mismatch& mismatch : cell.judged.mismatches) {
       text += fmt::format("disagreement: {}: {} query {}: certified solver {}, oracle {}\n",
                           cell.judged.name, to_string(cell.kind), mismatch.index, mismatch.recorded,
                           mismatch.truth);
@@ -169,7 +172,7 @@ std::string to_text(const StabilityResult& result) {
   return text;
 }
 
-nlohmann::json to_json(const StabilityResult& result) {
+nlohmann::json to_json(const stability::StabilityResult& result) {
   nlohmann::json json{{"seed", result.seed},
                       {"count", result.count},
                       {"separation", nlohmann::json()},
@@ -177,9 +180,9 @@ nlohmann::json to_json(const StabilityResult& result) {
                       {"disagreements", result.total.label_mismatches},
                       {"hardnesses", nlohmann::json::array()},
                       {"methods", nlohmann::json::array()}};
-  if (!is_contact(result.separation)) json["separation"] = to_json(result.separation);
-  const Hardness* latest = nullptr;
-  for (const StabilityCell& cell : result.cells) {
+  if (!is_contact(result.separation)) json["separation"] = judge::to_json(result.separation);
+  const stability::Hardness* latest = nullptr;
+  for (const stability::StabilityCell& cell : result.cells) {
     if (cell.hardness == latest) continue;
     latest = cell.hardness;
     json["hardnesses"].push_back({{"name", latest->name},
@@ -188,29 +191,29 @@ nlohmann::json to_json(const StabilityResult& result) {
                                   {"exponents", latest->exponents}});
   }
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) {
-    const MethodResult& total = result.total.methods[i];
+    const jobs::MethodResult& total = result.total.methods[i];
     nlohmann::json cells = nlohmann::json::array();
-    for (const StabilityCell& cell : result.cells) cells.push_back(json_of(cell, i));
+    for (const stability::StabilityCell& cell : result.cells) cells.push_back(json_of(cell, i));
     json["methods"].push_back({{"name", total.name},
-                               {"promise", to_string(total.promise)},
-                               {"keeps_promise", keeps(total.judgement, total.promise)},
+                               {"promise", solvers::to_string(total.promise)},
+                               {"keeps_promise", judge::keeps(total.judgement, total.promise)},
                                {"cells", std::move(cells)}});
   }
   return json;
 }
 
-std::vector<StabilityMark> marks_of(const StabilityResult& result) {
+std::vector<StabilityMark> marks_of(const stability::StabilityResult& result) {
   std::vector<StabilityMark> marks;
-  for (const StabilityCell& cell : result.cells) {
+  for (const stability::StabilityCell& cell : result.cells) {
     for (std::size_t i = 0; i < cell.judged.methods.size(); ++i) marks.push_back(mark_of(cell, i));
   }
   return marks;
 }
 
-Table overview_of(const StabilityResult& result) {
+Table overview_of(const stability::StabilityResult& result) {
   Table table{.title = "The worst at any level", .columns = {"method"}, .rows = {}};
-  std::vector<CertifyResult> sums;
-  for (const StabilityCell& cell : result.cells) {
+  std::vector<jobs::CertifyResult> sums;
+  for (const stability::StabilityCell& cell : result.cells) {
     if (table.columns.back() != cell.hardness->name) {
       table.columns.emplace_back(cell.hardness->name);
       sums.emplace_back();
@@ -220,8 +223,8 @@ Table overview_of(const StabilityResult& result) {
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) {
     std::vector<std::string>& row = table.rows.emplace_back();
     row.push_back(result.total.methods[i].name);
-    for (const CertifyResult& sum : sums) {
-      const Outcome outcome = outcome_of(sum, i);
+    for (const jobs::CertifyResult& sum : sums) {
+      const stability::Outcome outcome = stability::outcome_of(sum, i);
       row.push_back(outcome.worst
                         ? fmt::format("{} {:.2g} %", name_of(outcome), 100.0 * outcome.rate)
                         : "nothing wrong");
@@ -230,4 +233,4 @@ Table overview_of(const StabilityResult& result) {
   return table;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

@@ -11,14 +11,14 @@
 #include "verify/report/tables.hpp"
 #include "verify/stability/stability.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// A table for each method: a line for each hardness and kind, with a character for each level (what
 /// they mean stands below the last table), the sums of all levels, the mean time, the mean number of
 /// checks where the method counts them, and the error of the time of impact: how far toi_lower is from
 /// the exact one, in units of the motion's duration. Above it whether the method keeps its promise.
 /// Queries on which certified solver and oracle differ are named at the end.
-[[nodiscard]] std::string to_text(const StabilityResult& result);
+[[nodiscard]] std::string to_text(const stability::StabilityResult& result);
 
 /// `seed`, `count` (queries a cell), `separation` (null, or `min_separation` and `norm`),
 /// `interrupted`, `disagreements` (queries on which certified solver and oracle differ); `hardnesses`,
@@ -29,15 +29,15 @@ namespace touchstone::verify {
 /// fields of a judgement (judgement_report.hpp), `beyond_tolerance`, the rates `false_negative_rate` (of
 /// the collisions) and `false_positive_rate` (of the others), `worst` (null, or the name of the worst
 /// fault) with its `worst_rate`, `ns_per_query` and `checks_per_query` (null where unknown).
-[[nodiscard]] nlohmann::json to_json(const StabilityResult& result);
+[[nodiscard]] nlohmann::json to_json(const stability::StabilityResult& result);
 
 /// "certified (exact): keeps its promise".
-[[nodiscard]] std::string promise_text(const MethodResult& method);
+[[nodiscard]] std::string promise_text(const jobs::MethodResult& method);
 
 /// The cells as a report holds them, method by method within a cell.
-[[nodiscard]] std::vector<StabilityMark> marks_of(const StabilityResult& result);
+[[nodiscard]] std::vector<StabilityMark> marks_of(const stability::StabilityResult& result);
 
 /// A row a method, a column a hardness: the worst that happened at any level, and how often.
-[[nodiscard]] Table overview_of(const StabilityResult& result);
+[[nodiscard]] Table overview_of(const stability::StabilityResult& result);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

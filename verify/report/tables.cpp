@@ -14,7 +14,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/report/published.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 namespace {
 
 using Texts = std::vector<std::string>;
@@ -254,7 +254,7 @@ std::string to_markdown(const Table& table) {
     std::string result = "|";
     for (const std::string& text : texts) {
       result += ' ';
-      result += markdown_escaped(text) + " |";
+      result += io::markdown_escaped(text) + " |";
     }
     return result + "\n";
   };
@@ -266,9 +266,9 @@ std::string to_markdown(const Table& table) {
 
 std::string to_csv(const Table& table) {
   static constexpr std::string_view line_end = "\r\n";
-  std::string text = csv_row(table.columns, line_end);
-  for (const Texts& row : table.rows) text += csv_row(row, line_end);
+  std::string text = io::csv_row(table.columns, line_end);
+  for (const Texts& row : table.rows) text += io::csv_row(row, line_end);
   return text;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

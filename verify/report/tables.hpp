@@ -11,7 +11,7 @@
 
 #include "verify/report/measurement.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::report {
 
 /// A table of texts.
 struct Table {
@@ -49,4 +49,4 @@ struct Table {
 /// As RFC 4180 [rfc4180] has it, the first record being the columns.
 [[nodiscard]] std::string to_csv(const Table& table);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::report

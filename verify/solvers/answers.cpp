@@ -17,7 +17,7 @@
 #include "verify/io/input_file.hpp"
 #include "verify/io/printable.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 namespace {
 
 constexpr std::string_view header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure";
@@ -68,10 +68,10 @@ std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
   fast::Answer said = answer;
   if (why && why->kind == FailureKind::not_finite) said = {.verdict = verdict_of(why->kind)};
   const bool says_all = !why || why->kind == FailureKind::undecided;
-  return csv_row({std::string(file), std::to_string(index), std::string(to_string(kind)),
-                  std::string(to_string(said.verdict)), csv_number(said.toi_lower),
-                  csv_number(said.toi_upper), csv_number(said.tolerance),
-                  says_all ? std::string() : to_text(*why)});
+  return io::csv_row({std::string(file), std::to_string(index), std::string(to_string(kind)),
+                      std::string(to_string(said.verdict)), io::csv_number(said.toi_lower),
+                      io::csv_number(said.toi_upper), io::csv_number(said.tolerance),
+                      says_all ? std::string() : to_text(*why)});
 }
 
 /// Reads the file front to back, then puts the rows in order.
@@ -100,20 +100,20 @@ class AnswersReader {
 
   [[noreturn]] void fail(Column column, const std::string& reason) const {
     const auto number = static_cast<std::uint64_t>(column);
-    throw DatasetError(lines_.path(), {.line = line_number_, .column = number}, reason);
+    throw data::DatasetError(lines_.path(), {.line = line_number_, .column = number}, reason);
   }
 
   /// Splits the next record into fields_; false at the end of the file.
   bool next_record() {
-    std::optional<Line> line = lines_.next();
+    std::optional<io::Line> line = lines_.next();
     if (!line) return false;
     line_number_ = line->number;
     if (line->too_long) fail(Column::whole_line, "line longer than 1 MiB");
-    if (trimmed(line->text).empty())
+    if (io::trimmed(line->text).empty())
       fail(Column::whole_line, "blank line before the end of the file");
-    split_ = split_csv(line->text, fields_);
-    if (split_.fault == CsvSplit::Fault::open_quote) continue_record(std::string(line->text));
-    if (split_.fault == CsvSplit::Fault::text_after_quote) {
+    split_ = io::split_csv(line->text, fields_);
+    if (split_.fault == io::CsvSplit::Fault::open_quote) continue_record(std::string(line->text));
+    if (split_.fault == io::CsvSplit::Fault::text_after_quote) {
       fail(Column{split_.count}, "text after a quoted field");
     }
     return true;
@@ -121,13 +121,13 @@ class AnswersReader {
 
   /// Appends lines as long as a quoted field does not end.
   void continue_record(std::string record) {
-    while (split_.fault == CsvSplit::Fault::open_quote) {
-      const std::optional<Line> line = lines_.next();
+    while (split_.fault == io::CsvSplit::Fault::open_quote) {
+      const std::optional<io::Line> line = lines_.next();
       if (!line || line->too_long || record.size() + line->text.size() > longest_record) {
         fail(Column{split_.count}, "quoted field does not end");
       }
       record.append("\n").append(line->text);
-      split_ = split_csv(record, fields_);
+      split_ = io::split_csv(record, fields_);
     }
   }
 
@@ -140,7 +140,7 @@ class AnswersReader {
   [[nodiscard]] const std::string& raw(Column column) const {
     return fields_.at(static_cast<std::size_t>(column) - 1);
   }
-  [[nodiscard]] std::string_view field(Column column) const { return trimmed(raw(column)); }
+  [[nodiscard]] std::string_view field(Column column) const { return io::trimmed(raw(column)); }
 
   void add_row() {
     if (split_.count != columns_) {
@@ -164,7 +164,7 @@ class AnswersReader {
     if (group_ == nullptr || group_->first.second != kind || group_field_ != raw(Column::file)) {
       group_field_ = raw(Column::file);
       if (group_field_.empty()) fail(Column::file, "no file name");
-      group_ = &*answers_.rows_.try_emplace({text_of_field(group_field_), kind}).first;
+      group_ = &*answers_.rows_.try_emplace({io::text_of_field(group_field_), kind}).first;
     }
     return group_->second;
   }
@@ -174,7 +174,7 @@ class AnswersReader {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) {
-      fail(Column::index, "index must be a whole number from 0 on: " + quote(text));
+      fail(Column::index, "index must be a whole number from 0 on: " + data::quote(text));
     }
     return value;
   }
@@ -183,7 +183,8 @@ class AnswersReader {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (field(Column::kind) == to_string(kind)) return kind;
     }
-    fail(Column::kind, "kind must be vertex-face or edge-edge: " + quote(field(Column::kind)));
+    fail(Column::kind,
+         "kind must be vertex-face or edge-edge: " + data::quote(field(Column::kind)));
   }
 
   [[nodiscard]] fast::Verdict read_verdict() const {
@@ -192,7 +193,7 @@ class AnswersReader {
       if (field(Column::verdict) == to_string(verdict)) return verdict;
     }
     fail(Column::verdict,
-         "verdict must be yes, no, undecided or error: " + quote(field(Column::verdict)));
+         "verdict must be yes, no, undecided or error: " + data::quote(field(Column::verdict)));
   }
 
   /// The number in a field, if it is one: infinities and NaN are.
@@ -210,7 +211,7 @@ class AnswersReader {
     const std::optional<double> value = read_number(column);
     const bool counts = verdict == fast::Verdict::yes;
     if (!value || (counts && !std::isfinite(*value))) {
-      fail(column, "must be a finite double or empty: " + quote(field(column)));
+      fail(column, "must be a finite double or empty: " + data::quote(field(column)));
     }
     return counts ? *value : fast::Answer::none;
   }
@@ -220,7 +221,8 @@ class AnswersReader {
     if (field(Column::tolerance).empty()) return fast::Answer::none;
     const std::optional<double> value = read_number(Column::tolerance);
     if (!value || std::isnan(*value)) {
-      fail(Column::tolerance, "must be a double or empty: " + quote(field(Column::tolerance)));
+      fail(Column::tolerance,
+           "must be a double or empty: " + data::quote(field(Column::tolerance)));
     }
     if (*value < 0.0) fail(Column::tolerance, "tolerance must not be negative");
     return *value;
@@ -231,7 +233,8 @@ class AnswersReader {
     if (columns_ < most_columns || field(Column::failure).empty()) return std::nullopt;
     const std::optional<Failure> failure = failure_from_text(field(Column::failure));
     if (!failure) {
-      fail(Column::failure, "must be a kind of failure or empty: " + quote(field(Column::failure)));
+      fail(Column::failure,
+           "must be a kind of failure or empty: " + data::quote(field(Column::failure)));
     }
     if (verdict_of(failure->kind) != verdict) {
       fail(Column::failure, fmt::format("a failure of kind {} is no answer {}",
@@ -246,13 +249,13 @@ class AnswersReader {
     line_number_ = std::next(first)->line;
     fail(Column::index,
          fmt::format("{} query {} of {} is answered in line {} already", to_string(key.second),
-                     first->index, quote(key.first), first->line));
+                     first->index, data::quote(key.first), first->line));
   }
 
-  LineReader lines_;
+  io::LineReader lines_;
   std::uint64_t line_number_ = 0;
   Fields fields_;
-  CsvSplit split_;
+  io::CsvSplit split_;
   std::size_t columns_ = most_columns;
   RecordedAnswers answers_;
   std::pair<const RecordedAnswers::Key, RecordedAnswers::Rows>* group_ = nullptr;
@@ -262,7 +265,7 @@ class AnswersReader {
 std::optional<RecordedAnswer> RecordedAnswers::answer_to(std::string_view file, Kind kind,
                                                          std::uint64_t index) const {
   // The file has names as csv_field() writes them.
-  const std::string name = is_printable(file) ? std::string() : printable(file);
+  const std::string name = io::is_printable(file) ? std::string() : io::printable(file);
   const auto group = rows_.find(std::pair(name.empty() ? file : std::string_view(name), kind));
   if (group == rows_.end()) return std::nullopt;
   const auto row = std::ranges::lower_bound(group->second, index, {}, &Row::index);
@@ -306,4 +309,4 @@ RecordedAnswers load_answers(const std::filesystem::path& path) {
   return AnswersReader(path).read();
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

@@ -26,7 +26,7 @@
 #include "fast/method.hpp"
 #include "verify/solvers/failure.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 
 /// "no", "yes", "undecided" or "error".
 [[nodiscard]] std::string_view to_string(fast::Verdict verdict);
@@ -113,4 +113,4 @@ class RecordedAnswers {
 /// found, or two rows that answer the same query.
 [[nodiscard]] RecordedAnswers load_answers(const std::filesystem::path& path);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

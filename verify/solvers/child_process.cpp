@@ -25,7 +25,7 @@
 #include <system_error>
 #include <utility>
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -372,4 +372,4 @@ bool ChildProcess::has_ended() const {
   return result != 0 || info.si_pid == process_;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

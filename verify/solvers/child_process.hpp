@@ -27,7 +27,7 @@
 
 #include "verify/solvers/failure.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 
 /// What a child may take.
 struct ChildLimits {
@@ -136,4 +136,4 @@ class ChildProcess {
   int ended_ = -1;     ///< tells of its end; none where the system has no such thing
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

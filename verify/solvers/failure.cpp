@@ -11,7 +11,7 @@
 
 #include "verify/io/printable.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 namespace {
 
 constexpr std::string_view status_prefix = "status ";
@@ -29,7 +29,7 @@ std::string detail(const Failure& failure) {
     case FailureKind::exit:
       return fmt::format("{}{}", status_prefix, failure.number);
     default:
-      return printable(failure.what);
+      return io::printable(failure.what);
   }
 }
 
@@ -121,4 +121,4 @@ fast::Verdict verdict_of(FailureKind kind) {
   return is_undecided ? fast::Verdict::undecided : fast::Verdict::error;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

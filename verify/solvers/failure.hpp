@@ -12,7 +12,7 @@
 
 #include "fast/method.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 
 /// Why there is no answer to a query.
 enum class FailureKind : std::uint8_t {
@@ -68,4 +68,4 @@ struct QueryFailure {
 /// undecided or too slow, else error.
 [[nodiscard]] fast::Verdict verdict_of(FailureKind kind);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

@@ -14,7 +14,7 @@
 #include "fast/method.hpp"
 #include "verify/solvers/child_process.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 
 struct PluginOptions {
   /// What the library is held to; the interface has no way to say it.
@@ -43,4 +43,4 @@ struct PluginOptions {
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                                         const PluginOptions& options = {});
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

@@ -18,7 +18,7 @@
 #include "verify/baselines/tccd.hpp"
 #include "verify/baselines/uirf.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::string_view to_string(fast::Promise promise) {
   }
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

@@ -12,7 +12,7 @@
 
 #include "fast/method.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 
 /// All methods, always in the same order; they live as long as the program.
 [[nodiscard]] const std::vector<std::unique_ptr<const fast::Method>>& methods();
@@ -34,4 +34,4 @@ namespace touchstone::verify {
 /// "none", "conservative" or "exact".
 [[nodiscard]] std::string_view to_string(fast::Promise promise);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

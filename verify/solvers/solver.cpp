@@ -12,9 +12,9 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/run/thread_clock.hpp"
+#include "verify/jobs/thread_clock.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 namespace {
 
 using WallClock = std::chrono::steady_clock;
@@ -32,11 +32,11 @@ fast::MethodOptions with_separation(fast::MethodOptions options, const SolveRequ
 /// The time that work takes in this thread.
 template <class Work>
 SolverTime time_of(const Work& work) {
-  const double start = thread_nanoseconds();
+  const double start = jobs::thread_nanoseconds();
   const WallClock::time_point wall_start = WallClock::now();
   work();
   const double seconds = std::chrono::duration<double>(WallClock::now() - wall_start).count();
-  return {.processor_nanoseconds = thread_nanoseconds() - start, .wall_seconds = seconds};
+  return {.processor_nanoseconds = jobs::thread_nanoseconds() - start, .wall_seconds = seconds};
 }
 
 // ---- In this process ----------------------------------------------------------------------------
@@ -338,4 +338,4 @@ std::vector<StageCount> count_stages(const fast::MethodInfo& info,
   return counts;
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

@@ -21,7 +21,7 @@
 #include "verify/solvers/failure.hpp"
 #include "verify/solvers/solver_process.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 
 /// Some queries, and where they come from.
 struct SolveRequest {
@@ -143,4 +143,4 @@ struct StageCount {
 [[nodiscard]] std::vector<StageCount> count_stages(const fast::MethodInfo& info,
                                                    std::span<const fast::Answer> answers);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

@@ -18,9 +18,9 @@
 #include <type_traits>
 #include <utility>
 
-#include "verify/run/deadline.hpp"
+#include "verify/jobs/deadline.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -217,7 +217,7 @@ class SolverProcess::Impl {
       : method_(method), options_(options) {}
 
   SolverRun solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
-                  const fast::MethodOptions& method_options, const Deadline& deadline) {
+                  const fast::MethodOptions& method_options, const jobs::Deadline& deadline) {
     deadline_ = deadline;
     run_ = {};
     lost_children_ = 0;
@@ -248,7 +248,7 @@ class SolverProcess::Impl {
   };
 
   [[nodiscard]] bool is_stopped() const {
-    return verify::is_stopped(options_.stop) || deadline_.is_over();
+    return verify::jobs::is_stopped(options_.stop) || deadline_.is_over();
   }
 
   [[nodiscard]] bool has_failed_enough() const {
@@ -414,7 +414,7 @@ class SolverProcess::Impl {
   std::optional<TemporaryFolder> folder_;
   std::unique_ptr<ChildProcess> child_;
   CapturedOutput output_;
-  Deadline deadline_;
+  jobs::Deadline deadline_;
   SolverRun run_;
   /// Failures of this call that ended a child.
   std::size_t lost_children_ = 0;
@@ -434,10 +434,10 @@ SolverProcess::~SolverProcess() = default;
 SolverRun SolverProcess::solve(Kind kind, std::span<const Query> queries,
                                std::span<fast::Answer> answers,
                                const fast::MethodOptions& method_options,
-                               const Deadline& deadline) {
+                               const jobs::Deadline& deadline) {
   return impl_->solve(kind, queries, answers, method_options, deadline);
 }
 
 CapturedOutput SolverProcess::take_output() { return impl_->take_output(); }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

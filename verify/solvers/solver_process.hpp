@@ -22,11 +22,11 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/run/deadline.hpp"
+#include "verify/jobs/deadline.hpp"
 #include "verify/solvers/child_process.hpp"
 #include "verify/solvers/failure.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::solvers {
 
 struct SolverProcessOptions {
   /// Wall-clock seconds that a query may take, or up to five times as many while it waits for a
@@ -76,7 +76,7 @@ class SolverProcess {
   [[nodiscard]] SolverRun solve(Kind kind, std::span<const Query> queries,
                                 std::span<fast::Answer> answers,
                                 const fast::MethodOptions& method_options,
-                                const Deadline& deadline = {});
+                                const jobs::Deadline& deadline = {});
 
   /// What its children have printed since the last call of this, which forgets it.
   [[nodiscard]] CapturedOutput take_output();
@@ -86,4 +86,4 @@ class SolverProcess {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::solvers

@@ -14,12 +14,12 @@
 #include "verify/generate/grid.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::stability {
 namespace {
 
-using builtin::operator+;
-using builtin::Random;
-using builtin::Vector;
+using generate::operator+;
+using generate::Random;
+using generate::Vector;
 
 /// The frame's size is 2^this at most, and its coordinates up to 1.6 times 2^this.
 constexpr int log_frame = 50;
@@ -256,13 +256,13 @@ void check(const HardSort& sort) {
 
 /// One number for all that tells the sorts apart.
 std::uint64_t key_of(const HardSort& sort, std::uint64_t seed, std::uint64_t index) {
-  std::uint64_t key = builtin::mix(seed ^ builtin::hash(sort.hardness->name));
-  key = builtin::mix(key + static_cast<std::uint64_t>(sort.exponent));
-  key = builtin::mix(key + static_cast<std::uint64_t>(sort.kind));
-  return builtin::mix(key + index);
+  std::uint64_t key = generate::mix(seed ^ generate::hash(sort.hardness->name));
+  key = generate::mix(key + static_cast<std::uint64_t>(sort.exponent));
+  key = generate::mix(key + static_cast<std::uint64_t>(sort.kind));
+  return generate::mix(key + index);
 }
 
-class HardSource final : public QuerySource {
+class HardSource final : public data::QuerySource {
  public:
   HardSource(const HardSort& sort, std::uint64_t seed, std::uint64_t count)
       : sort_(sort),
@@ -275,10 +275,10 @@ class HardSource final : public QuerySource {
   [[nodiscard]] Separation recorded_separation() const override {
     return separation_at(*sort_.hardness, sort_.exponent, sort_.separation);
   }
-  [[nodiscard]] std::optional<RecordedQuery> next() override {
+  [[nodiscard]] std::optional<data::RecordedQuery> next() override {
     if (done_ == count_) return std::nullopt;
     const HardQuery made = make_hard_query(sort_, seed_, done_);
-    return RecordedQuery{
+    return data::RecordedQuery{
         .query = made.query, .index = done_++, .collides = made.collides, .toi = std::nullopt};
   }
   [[nodiscard]] double progress() const override {
@@ -323,9 +323,9 @@ HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed, std::uint64_
   Random random(key_of(sort, seed, index));
   HardQuery made;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    KnownQuery known;
+    generate::KnownQuery known;
     known.query = Scene(setup, sort.kind, wanted, random).query();
-    builtin::apply_random_symmetry(sort.kind, random, known);
+    generate::apply_random_symmetry(sort.kind, random, known);
     const fast::CertifiedResult truth =
         fast::certified(sort.kind, known.query, {.separation = separation});
     made = {.query = known.query, .collides = truth.verdict == fast::Verdict::yes};
@@ -334,10 +334,10 @@ HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed, std::uint64_
   return made;
 }
 
-std::unique_ptr<QuerySource> open_hard_queries(const HardSort& sort, std::uint64_t seed,
-                                               std::uint64_t count) {
+std::unique_ptr<data::QuerySource> open_hard_queries(const HardSort& sort, std::uint64_t seed,
+                                                     std::uint64_t count) {
   check(sort);
   return std::make_unique<HardSource>(sort, seed, count);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::stability

@@ -33,7 +33,7 @@
 #include "exact/query.hpp"
 #include "verify/data/query_source.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::stability {
 
 /// A way to be hard.
 struct Hardness {
@@ -85,8 +85,8 @@ struct HardQuery {
 
 /// The queries 0 to count−1 as a stream, labelled with the verdicts of the certified solver. Its name
 /// is hardness and level, "distance 2^-20"; its recorded separation is that of separation_at().
-[[nodiscard]] std::unique_ptr<QuerySource> open_hard_queries(const HardSort& sort,
-                                                             std::uint64_t seed,
-                                                             std::uint64_t count);
+[[nodiscard]] std::unique_ptr<data::QuerySource> open_hard_queries(const HardSort& sort,
+                                                                   std::uint64_t seed,
+                                                                   std::uint64_t count);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::stability

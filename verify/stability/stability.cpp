@@ -5,17 +5,17 @@
 #include <memory>
 #include <stdexcept>
 
-#include "verify/run/deadline.hpp"
+#include "verify/jobs/deadline.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::stability {
 namespace {
 
 constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
 
 /// Worst first.
-constexpr std::array<Fault, fault_count> by_weight{Fault::false_negative,   Fault::late_toi,
-                                                   Fault::early_toi_upper,  Fault::error,
-                                                   Fault::beyond_tolerance, Fault::false_positive};
+constexpr std::array<judge::Fault, judge::fault_count> by_weight{
+    judge::Fault::false_negative, judge::Fault::late_toi,         judge::Fault::early_toi_upper,
+    judge::Fault::error,          judge::Fault::beyond_tolerance, judge::Fault::false_positive};
 
 std::vector<StabilityCell> cells_of(const std::vector<const Hardness*>& sorts) {
   std::vector<StabilityCell> cells;
@@ -29,20 +29,21 @@ std::vector<StabilityCell> cells_of(const std::vector<const Hardness*>& sorts) {
   return cells;
 }
 
-CertifyResult judge(const StabilityCell& cell, const StabilityOptions& options,
-                    const std::function<void(double)>& on_progress) {
-  const std::unique_ptr<QuerySource> source = open_hard_queries({.hardness = cell.hardness,
-                                                                 .exponent = cell.exponent,
-                                                                 .kind = cell.kind,
-                                                                 .separation = options.separation},
-                                                                options.seed, options.count);
-  CertifyOptions certify_options;
+jobs::CertifyResult judge(const StabilityCell& cell, const StabilityOptions& options,
+                          const std::function<void(double)>& on_progress) {
+  const std::unique_ptr<data::QuerySource> source =
+      open_hard_queries({.hardness = cell.hardness,
+                         .exponent = cell.exponent,
+                         .kind = cell.kind,
+                         .separation = options.separation},
+                        options.seed, options.count);
+  jobs::CertifyOptions certify_options;
   certify_options.separation = source->recorded_separation();
   certify_options.threads = options.threads;
   certify_options.solvers = options.solvers;
   certify_options.on_progress = on_progress;
   certify_options.stop = options.stop;
-  CertifyResult judged = certify(*source, certify_options);
+  jobs::CertifyResult judged = jobs::certify(*source, certify_options);
   if (judged.error) throw std::runtime_error(source->name() + ": " + *judged.error);
   return judged;
 }
@@ -57,7 +58,7 @@ StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
                          .total = {},
                          .cells = cells_of(sorts)};
   result.total.name = "total";
-  const auto stopped = [&] { return is_stopped(options.stop); };
+  const auto stopped = [&] { return jobs::is_stopped(options.stop); };
   std::size_t done = 0;
   for (; done < result.cells.size() && !stopped(); ++done) {
     const auto on_progress = [&](double fraction) {
@@ -74,40 +75,41 @@ StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
   return result;
 }
 
-double rate_of(Fault fault, const CertifyResult& judged, std::size_t method) {
+double rate_of(judge::Fault fault, const jobs::CertifyResult& judged, std::size_t method) {
   const std::uint64_t misses = judged.queries - judged.collisions;
-  const bool about_misses = fault == Fault::false_positive || fault == Fault::beyond_tolerance;
-  const std::uint64_t among = fault == Fault::error ? judged.queries
-                              : about_misses        ? misses
-                                                    : judged.collisions;
+  const bool about_misses =
+      fault == judge::Fault::false_positive || fault == judge::Fault::beyond_tolerance;
+  const std::uint64_t among = fault == judge::Fault::error ? judged.queries
+                              : about_misses               ? misses
+                                                           : judged.collisions;
   const std::uint64_t count = judged.methods.at(method).judgement.count(fault);
   return among == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(among);
 }
 
-Outcome outcome_of(const CertifyResult& judged, std::size_t method) {
-  const Judgement& judgement = judged.methods.at(method).judgement;
-  const auto* const worst =
-      std::ranges::find_if(by_weight, [&](Fault fault) { return judgement.count(fault) != 0; });
+Outcome outcome_of(const jobs::CertifyResult& judged, std::size_t method) {
+  const judge::Judgement& judgement = judged.methods.at(method).judgement;
+  const auto* const worst = std::ranges::find_if(
+      by_weight, [&](judge::Fault fault) { return judgement.count(fault) != 0; });
   if (worst == by_weight.end()) return {};
   return {.worst = *worst, .rate = rate_of(*worst, judged, method)};
 }
 
-std::optional<double> checks_per_query(const MethodResult& method) {
-  const Judgement& judged = method.judgement;
+std::optional<double> checks_per_query(const jobs::MethodResult& method) {
+  const judge::Judgement& judged = method.judgement;
   if (judged.queries == 0 || judged.checks == 0) return std::nullopt;
   return static_cast<double>(judged.checks) / static_cast<double>(judged.queries);
 }
 
-std::optional<double> nanoseconds_per_query(const MethodResult& method) {
+std::optional<double> nanoseconds_per_query(const jobs::MethodResult& method) {
   if (!method.timed || method.judgement.queries == 0) return std::nullopt;
   return method.judgement.nanoseconds_per_query();
 }
 
 bool has_wrong_answers(const StabilityResult& result) {
-  const auto is_wrong = [](const MethodResult& method) {
-    return !keeps(method.judgement, method.promise);
+  const auto is_wrong = [](const jobs::MethodResult& method) {
+    return !judge::keeps(method.judgement, method.promise);
   };
   return result.total.label_mismatches != 0 || std::ranges::any_of(result.total.methods, is_wrong);
 }
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::stability

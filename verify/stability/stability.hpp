@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "exact/query.hpp"
+#include "verify/jobs/certify.hpp"
 #include "verify/judge/judge.hpp"
-#include "verify/run/certify.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/stability/hardness.hpp"
 
-namespace touchstone::verify {
+namespace touchstone::verify::stability {
 
 struct StabilityOptions {
   /// What counts as contact, where the level does not scale it. \pre has_hard_queries()
@@ -32,7 +32,7 @@ struct StabilityOptions {
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
   /// Judged on every query; not null.
-  std::vector<const Solver*> solvers = {};
+  std::vector<const solvers::Solver*> solvers = {};
   /// Called now and then with the fraction that is done; never from two threads at once.
   std::function<void(double)> on_progress = nullptr;
   /// May be null. Once true, the result is that of what was judged so far.
@@ -44,7 +44,7 @@ struct StabilityCell {
   const Hardness* hardness = nullptr;
   int exponent = 0;
   Kind kind = Kind::vertex_face;
-  CertifyResult judged;
+  jobs::CertifyResult judged;
 };
 
 struct StabilityResult {
@@ -52,7 +52,7 @@ struct StabilityResult {
   std::uint64_t seed = 0;
   std::uint64_t count = 0;
   /// Methods with what they were held to, judged on all cells.
-  CertifyResult total;
+  jobs::CertifyResult total;
   /// By hardness, then kind, then level, each in its order.
   std::vector<StabilityCell> cells;
 };
@@ -67,25 +67,26 @@ struct Outcome {
   /// The worst of it, nothing if nothing is wrong: a false negative is worse than a time of impact that
   /// excludes the true one, that than an error, that than a claim of too much nearness, that than a
   /// false positive.
-  std::optional<Fault> worst = std::nullopt;
+  std::optional<judge::Fault> worst = std::nullopt;
   /// How often, as a fraction of the queries that it can happen to: of those that collide (false
   /// negatives, times of impact), of those that do not (false positives, nearness), or of all.
   double rate = 0.0;
 };
 
 /// The outcome of method number `method` of a result.
-[[nodiscard]] Outcome outcome_of(const CertifyResult& judged, std::size_t method);
+[[nodiscard]] Outcome outcome_of(const jobs::CertifyResult& judged, std::size_t method);
 
 /// How often that happened, as a fraction as above; 0 if there was no query that it can happen to.
-[[nodiscard]] double rate_of(Fault fault, const CertifyResult& judged, std::size_t method);
+[[nodiscard]] double rate_of(judge::Fault fault, const jobs::CertifyResult& judged,
+                             std::size_t method);
 
 /// Mean number of checks, where the method counts them.
-[[nodiscard]] std::optional<double> checks_per_query(const MethodResult& method);
+[[nodiscard]] std::optional<double> checks_per_query(const jobs::MethodResult& method);
 
 /// Mean processor time, where it is known.
-[[nodiscard]] std::optional<double> nanoseconds_per_query(const MethodResult& method);
+[[nodiscard]] std::optional<double> nanoseconds_per_query(const jobs::MethodResult& method);
 
 /// Has a method broken its promise, or do certified solver and oracle differ on a query?
 [[nodiscard]] bool has_wrong_answers(const StabilityResult& result);
 
-}  // namespace touchstone::verify
+}  // namespace touchstone::verify::stability

@@ -160,7 +160,7 @@ TEST(CertifiedKernels, AreFoundByTheirInstructions) {
 
 // ---- Planted faults -----------------------------------------------------------------------------
 
-bool is_wrong(const verify::KnownQuery& known, const CertifiedResult& result) {
+bool is_wrong(const verify::generate::KnownQuery& known, const CertifiedResult& result) {
   if (result.verdict != (known.collides ? Verdict::yes : Verdict::no)) return true;
   if (!known.collides || !known.toi) return false;
   const bool is_late =
@@ -172,12 +172,12 @@ bool is_wrong(const verify::KnownQuery& known, const CertifiedResult& result) {
 std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
   constexpr std::uint64_t count = 120;
   std::vector<std::string> found;
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     bool wrong = false;
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t i = 0; i < count && !wrong; ++i) {
-        const verify::KnownQuery known = verify::make_query(family, kind, 5, i);
+        const verify::generate::KnownQuery known = verify::generate::make_query(family, kind, 5, i);
         wrong = is_wrong(known, certified(kind, known.query, {.kernel = &kernel}));
       }
     }
@@ -217,8 +217,8 @@ TEST(CertifiedKernels, FamiliesFindAFaultInEachStage) {
 /// Nothing moves by more than the points' distances here and there; or hardly at all.
 Query query_near(Random& random, Kind kind, double distance, int i) {
   if (i % 5 == 0) {
-    verify::builtin::Random drawn(random.bits());
-    return verify::tilting(kind, {.distance = distance}, drawn);
+    verify::generate::Random drawn(random.bits());
+    return verify::fuzz::tilting(kind, {.distance = distance}, drawn);
   }
   return i % 3 == 0 ? tests::full_significand_query(random)
                     : tests::near_contact_query(random, kind);

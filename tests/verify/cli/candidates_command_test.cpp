@@ -32,7 +32,7 @@ using Pairs = std::vector<std::array<std::int32_t, 2>>;
 
 /// All queries of a .npy file.
 std::vector<Query> npy_queries(const fs::path& path) {
-  NpyReader npy(path);
+  data::NpyReader npy(path);
   std::vector<Query> queries;
   while (npy.position() < npy.count()) queries.push_back(npy.next());
   return queries;

@@ -168,7 +168,7 @@ TEST_F(Tool, KeepGoingDecidesNoQueryThatIsPutTogetherOfTwo) {
 TEST_F(Tool, AnArrayThatBecomesShorterIsNamedAndWhatIsDoneIsWritten) {
   constexpr std::size_t queries = 16000, left = 12000;
   const fs::path array = path("a_vf.npy");
-  NpyWriter writer(array);
+  data::NpyWriter writer(array);
   for (std::size_t i = 0; i < queries; ++i) {
     writer.write(Query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
                         1, 1, -3, 0, 0, 0, 4, 0, 0, 0, 4, 0}});
@@ -201,7 +201,7 @@ TEST_F(Tool, AnArrayThatBecomesShorterIsNamedAndWhatIsDoneIsWritten) {
 }
 
 TEST_F(Tool, AnArrayOfNoQueriesIsADataset) {
-  NpyWriter(path("none_vf.npy")).close();
+  data::NpyWriter(path("none_vf.npy")).close();
   const std::string file = path("none_vf.npy");
   const Outcome certify =
       run({"certify", file, "--method", "certified", "--json", path("result.json")});

@@ -14,7 +14,7 @@
 #include "verify/data/dataset_error.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify::cli::respondents_test::solver_options_test {
+namespace touchstone::verify::cli::solver_options_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -60,26 +60,26 @@ TEST(SolverOptions, NumbersOutOfRangeAreRefused) {
 
 TEST(Solvers, AreThoseNamedInOrder) {
   SolverArguments arguments;
-  for (const auto& method : methods()) arguments.methods.emplace_back(method->name());
+  for (const auto& method : solvers::methods()) arguments.methods.emplace_back(method->name());
   for (const double limit : {0.0, 1.0}) {
     arguments.query_limit = limit;
     const Solvers solvers(arguments);
     const auto all = solvers.all();
-    ASSERT_EQ(all.size(), methods().size());
+    ASSERT_EQ(all.size(), solvers::methods().size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-      EXPECT_EQ(all[i]->name(), methods()[i]->name());
-      EXPECT_EQ(all[i]->promise(), methods()[i]->promise());
+      EXPECT_EQ(all[i]->name(), solvers::methods()[i]->name());
+      EXPECT_EQ(all[i]->promise(), solvers::methods()[i]->promise());
     }
   }
   arguments.exact = true;
   const Solvers held(arguments);
-  for (const Solver* solver : held.all()) {
+  for (const solvers::Solver* solver : held.all()) {
     EXPECT_EQ(solver->promise(), fast::Promise::exact);
   }
 }
 
 TEST(Solvers, OfOneNameAreToldApart) {
-  const std::string name(methods().front()->name());
+  const std::string name(solvers::methods().front()->name());
   SolverArguments arguments;
   arguments.methods = {name, name, name};
   const Solvers solvers(arguments);
@@ -100,8 +100,8 @@ TEST(Solvers, MayAllAnswerInThisProcessAndTheCertifiedOneWithAKernel) {
         fast::find_certified_kernel(fast::InstructionSet::scalar)}) {
     arguments.kernel = kernel;
     const Solvers solvers(arguments, MethodHost::this_process);
-    for (const Solver* solver : solvers.all()) {
-      const SolveReply reply = solver->solve({.queries = queries}, answers);
+    for (const solvers::Solver* solver : solvers.all()) {
+      const solvers::SolveReply reply = solver->solve({.queries = queries}, answers);
       EXPECT_FALSE(reply.time.has_value()) << "that of a child process";
       EXPECT_EQ(answers[0].verdict, fast::Verdict::yes);
     }
@@ -156,18 +156,19 @@ TEST(Solvers, WhatIsNotThereIsAnError) {
   both.methods = {"none", "nonsense"};
   EXPECT_THROW(Solvers{both}, std::invalid_argument);
   plugin.plugins = {"missing.so"};
-  EXPECT_THROW(Solvers{plugin}, DatasetError);
+  EXPECT_THROW(Solvers{plugin}, data::DatasetError);
   results.results = {"missing.csv"};
-  EXPECT_THROW(Solvers{results}, DatasetError);
+  EXPECT_THROW(Solvers{results}, data::DatasetError);
 }
 
 TEST(Solvers, AnswersNeverAskedForAreAWarning) {
   const fs::path path =
       fs::path(::testing::TempDir()) / ("touchstone_solvers_" + std::to_string(getpid()) + ".csv");
-  std::ofstream(path) << answers_header()
-                      << answer_row("a", 0, Kind::edge_edge, {.verdict = fast::Verdict::no})
-                      << answer_row("a", 1, Kind::edge_edge, {.verdict = fast::Verdict::no})
-                      << answer_row("b", 0, Kind::edge_edge, {.verdict = fast::Verdict::no});
+  std::ofstream(path)
+      << solvers::answers_header()
+      << solvers::answer_row("a", 0, Kind::edge_edge, {.verdict = fast::Verdict::no})
+      << solvers::answer_row("a", 1, Kind::edge_edge, {.verdict = fast::Verdict::no})
+      << solvers::answer_row("b", 0, Kind::edge_edge, {.verdict = fast::Verdict::no});
   SolverArguments arguments;
   arguments.results = {path};
   const Solvers solvers(arguments);
@@ -177,7 +178,7 @@ TEST(Solvers, AnswersNeverAskedForAreAWarning) {
   std::vector<fast::Answer> answers(1);
   const auto ask = [&](const std::string& source, std::uint64_t index) {
     const std::vector<std::uint64_t> indices{index};
-    const SolveReply reply = solvers.all().front()->solve(
+    const solvers::SolveReply reply = solvers.all().front()->solve(
         {.kind = Kind::edge_edge, .queries = queries, .source = source, .indices = indices},
         answers);
     EXPECT_TRUE(reply.missing.empty());
@@ -194,4 +195,4 @@ TEST(Solvers, AnswersNeverAskedForAreAWarning) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::cli::respondents_test::solver_options_test
+}  // namespace touchstone::verify::cli::solver_options_test

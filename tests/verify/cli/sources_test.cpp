@@ -39,12 +39,12 @@ class Sources : public ::testing::Test {
     handlers = {
         .title = "test",
         .use =
-            [this](QuerySource& source, const std::function<void(double)>& progress) {
+            [this](data::QuerySource& source, const std::function<void(double)>& progress) {
               used.emplace_back(source.name(), source.kind());
               for (auto query = source.next(); query; query = source.next()) ++queries;
               progress(1.0);
             },
-        .fail = [this](const fs::path& path, const DatasetError&) { failed.push_back(path); },
+        .fail = [this](const fs::path& path, const data::DatasetError&) { failed.push_back(path); },
         .stopped = [this] { return used.size() + failed.size() >= most; },
         .is_output = [this](const fs::path& path) { return path == output; }};
   }
@@ -70,11 +70,11 @@ TEST_F(Sources, WithASeparationTheBuiltInSetHasItsFamiliesToo) {
   arguments.separation.distance = 0.5;
   for_each_source(arguments, handlers);
   EXPECT_EQ(used.back(),
-            std::pair(std::string(separation_families().back().name), Kind::edge_edge));
+            std::pair(std::string(generate::separation_families().back().name), Kind::edge_edge));
   arguments.separation.distance = 0x1p-1070;
   used.clear();
   for_each_source(arguments, handlers);
-  EXPECT_EQ(used.back().first, families().back().name) << "they cannot double that";
+  EXPECT_EQ(used.back().first, generate::families().back().name) << "they cannot double that";
 }
 
 TEST_F(Sources, WhatIsRecordedIsAskedUnlessTheUserSaysOtherwise) {
@@ -82,7 +82,7 @@ TEST_F(Sources, WhatIsRecordedIsAskedUnlessTheUserSaysOtherwise) {
   SourceArguments arguments;
   arguments.paths = {folder};
   std::vector<Separation> asked;
-  handlers.use = [&](QuerySource& source, const std::function<void(double)>&) {
+  handlers.use = [&](data::QuerySource& source, const std::function<void(double)>&) {
     asked.push_back(separation_for(arguments, source));
   };
   constexpr Separation recorded{.distance = 0.5, .norm = Norm::l2};
@@ -102,9 +102,9 @@ TEST_F(Sources, WithoutPathsAreTheBuiltInSet) {
   arguments.count = 2;
   for_each_source(arguments, handlers);
   std::vector<std::pair<std::string, Kind>> expected;
-  for (const Family& family : families()) {
+  for (const generate::Family& family : generate::families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (supports(family, kind)) expected.emplace_back(family.name, kind);
+      if (generate::supports(family, kind)) expected.emplace_back(family.name, kind);
     }
   }
   EXPECT_EQ(used, expected);

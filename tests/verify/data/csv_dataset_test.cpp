@@ -12,7 +12,7 @@
 
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify::csv_dataset_test {
+namespace touchstone::verify::data::csv_dataset_test {
 namespace {
 
 using test::contents;
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{",,,,,,", "12: no number in the line"},
                       Fault{"1,1,2,1,3,1,\"1", "12:7: malformed quoted field"},
                       Fault{"1,1,2,\"1\"1,3,1,1", "12:4: malformed quoted field"},
-                      Fault{"1,1,2,1,3,1,1" + std::string(LineReader::longest_line, ' '),
+                      Fault{"1,1,2,1,3,1,1" + std::string(io::LineReader::longest_line, ' '),
                             "12: line longer than 1 MiB"}));
 
 TEST(CsvDataset, a_missing_row_is_found_at_the_first_label_that_differs) {
@@ -470,4 +470,4 @@ TEST(CsvWriter, without_close_there_is_no_file) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::csv_dataset_test
+}  // namespace touchstone::verify::data::csv_dataset_test

@@ -26,7 +26,7 @@
 #include "verify/data/dataset.hpp"
 #include "verify/data/npy.hpp"
 
-namespace touchstone::verify::test {
+namespace touchstone::verify::data::test {
 
 /// A folder of the running test, removed with all its files at the end.
 class TemporaryFolder {
@@ -213,4 +213,4 @@ template <class Action>
   return peak_resident() - before;
 }
 
-}  // namespace touchstone::verify::test
+}  // namespace touchstone::verify::data::test

@@ -8,7 +8,7 @@
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/data/npy.hpp"
 
-namespace touchstone::verify::dataset_source_test {
+namespace touchstone::verify::data::dataset_source_test {
 namespace {
 
 using test::error_of;
@@ -161,4 +161,4 @@ TEST(DatasetSource, companions_that_cannot_be_opened_throw_even_if_it_keeps_goin
 }
 
 }  // namespace
-}  // namespace touchstone::verify::dataset_source_test
+}  // namespace touchstone::verify::data::dataset_source_test

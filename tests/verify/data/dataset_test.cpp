@@ -13,7 +13,7 @@
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy.hpp"
 
-namespace touchstone::verify::dataset_test {
+namespace touchstone::verify::data::dataset_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -279,4 +279,4 @@ TEST_F(PublicData, writing_a_handcrafted_file_again_gives_the_same_bytes) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::dataset_test
+}  // namespace touchstone::verify::data::dataset_test

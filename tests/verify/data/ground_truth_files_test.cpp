@@ -7,7 +7,7 @@
 
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify::ground_truth_files_test {
+namespace touchstone::verify::data::ground_truth_files_test {
 namespace {
 
 using exact::Rational;
@@ -157,7 +157,7 @@ TEST(ToiReader, lines_of_no_known_query_end_it_with_a_place) {
   EXPECT_EQ(fault("1"), twice("f:3: expected two columns, query and toi"));
   EXPECT_EQ(fault("1,1,1"), twice("f:3: expected two columns, query and toi"));
   EXPECT_EQ(fault(""), twice("f:3: expected two columns, query and toi"));
-  EXPECT_EQ(fault(std::string(LineReader::longest_line + 1, '1')),
+  EXPECT_EQ(fault(std::string(io::LineReader::longest_line + 1, '1')),
             twice("f:3: line longer than 1 MiB"));
 }
 
@@ -223,4 +223,4 @@ TEST(Companions, that_cannot_be_read_are_errors) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::ground_truth_files_test
+}  // namespace touchstone::verify::data::ground_truth_files_test

@@ -10,7 +10,7 @@
 
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify::npy_dataset_test {
+namespace touchstone::verify::data::npy_dataset_test {
 namespace {
 
 using test::contents;
@@ -140,4 +140,4 @@ TEST(NpyDataset, memory_does_not_grow_with_the_file) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::npy_dataset_test
+}  // namespace touchstone::verify::data::npy_dataset_test

@@ -13,7 +13,7 @@
 
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify::npy_test {
+namespace touchstone::verify::data::npy_test {
 namespace {
 
 using test::contents;
@@ -266,4 +266,4 @@ TEST(NpyWriter, without_close_there_is_no_file) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::npy_test
+}  // namespace touchstone::verify::data::npy_test

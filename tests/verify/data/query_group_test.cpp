@@ -11,7 +11,7 @@
 
 #include "tests/support/memory_source.hpp"
 
-namespace touchstone::verify::query_group_test {
+namespace touchstone::verify::data::query_group_test {
 namespace {
 
 Query query_number(double number) {
@@ -86,4 +86,4 @@ TEST(QueryGroup, StopsReadingWhenAskedAndTellsHowFarItIs) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::query_group_test
+}  // namespace touchstone::verify::data::query_group_test

@@ -39,7 +39,7 @@ namespace {
 namespace fs = std::filesystem;
 using touchstone::Kind;
 using touchstone::Query;
-using touchstone::verify::DatasetError;
+using touchstone::verify::data::DatasetError;
 
 void require(bool holds) {
   if (!holds) std::abort();
@@ -65,10 +65,10 @@ void check_query(const Query& query) {
   for (const double x : query.coordinates) {
     require(std::isfinite(x));
     std::string text;
-    touchstone::verify::append_coordinate(text, x);
+    touchstone::verify::io::append_coordinate(text, x);
     const std::size_t comma = text.find(',');
     const auto parsed =
-        touchstone::verify::parse_coordinate(text.substr(0, comma), text.substr(comma + 1));
+        touchstone::verify::io::parse_coordinate(text.substr(0, comma), text.substr(comma + 1));
     require(parsed.exact && parsed.value == x);
   }
 }
@@ -76,7 +76,7 @@ void check_query(const Query& query) {
 /// Reads a dataset to its end. One that keeps going has no error on the way.
 template <class Dataset>
 void read_dataset(const fs::path& path, bool keep_going) {
-  touchstone::verify::DatasetOptions options;
+  touchstone::verify::data::DatasetOptions options;
   options.kind = Kind::edge_edge;
   options.round = keep_going;
   options.keep_going = keep_going;
@@ -106,17 +106,17 @@ void read_dataset(const fs::path& path, bool keep_going) {
 }
 
 void read_csv(const fs::path& path) {
-  read_dataset<touchstone::verify::CsvDataset>(path, false);
-  read_dataset<touchstone::verify::CsvDataset>(path, true);
+  read_dataset<touchstone::verify::data::CsvDataset>(path, false);
+  read_dataset<touchstone::verify::data::CsvDataset>(path, true);
 }
 
 void read_npy(const fs::path& path) {
-  read_dataset<touchstone::verify::NpyDataset>(path, false);
-  read_dataset<touchstone::verify::NpyDataset>(path, true);
+  read_dataset<touchstone::verify::data::NpyDataset>(path, false);
+  read_dataset<touchstone::verify::data::NpyDataset>(path, true);
 }
 
 void read_answers(const fs::path& path) {
-  const auto answers = touchstone::verify::load_answers(path);
+  const auto answers = touchstone::verify::solvers::load_answers(path);
   std::uint64_t sum = 0;
   for (const auto& group : answers.groups()) {
     sum += group.answers;
@@ -133,7 +133,7 @@ void read_answers(const fs::path& path) {
   require(sum == answers.size());
 }
 
-void check_mesh(const touchstone::verify::Mesh& mesh) {
+void check_mesh(const touchstone::verify::mesh::Mesh& mesh) {
   const auto is_vertex = [&](int i) { return i >= 0 && i < mesh.vertices.rows(); };
   require(mesh.vertices.rows() > 0 && mesh.vertices.allFinite());
   for (const auto& face : mesh.faces) require(std::ranges::all_of(face, is_vertex));
@@ -142,12 +142,12 @@ void check_mesh(const touchstone::verify::Mesh& mesh) {
   }
 }
 
-void read_obj_file(const fs::path& path) { check_mesh(touchstone::verify::read_obj(path)); }
+void read_obj_file(const fs::path& path) { check_mesh(touchstone::verify::mesh::read_obj(path)); }
 
-void read_ply_file(const fs::path& path) { check_mesh(touchstone::verify::read_ply(path)); }
+void read_ply_file(const fs::path& path) { check_mesh(touchstone::verify::mesh::read_ply(path)); }
 
 void read_labels(const fs::path& path) {
-  touchstone::verify::LabelReader labels(path);
+  touchstone::verify::data::LabelReader labels(path);
   std::uint64_t index = 0;
   for (; index < 100; index += 1 + index % 3) {
     try {
@@ -159,7 +159,7 @@ void read_labels(const fs::path& path) {
 }
 
 void read_tois(const fs::path& path) {
-  touchstone::verify::ToiReader tois(path);
+  touchstone::verify::data::ToiReader tois(path);
   std::uint64_t index = 0;
   for (; index < 100; index += 1 + index % 3) {
     try {
@@ -171,7 +171,7 @@ void read_tois(const fs::path& path) {
 }
 
 void read_separation_file(const fs::path& path) {
-  require(touchstone::is_valid(touchstone::verify::read_separation(path)));
+  require(touchstone::is_valid(touchstone::verify::data::read_separation(path)));
 }
 
 struct Reader {

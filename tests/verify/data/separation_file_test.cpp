@@ -11,7 +11,7 @@
 #include "tests/support/folder_test.hpp"
 #include "verify/data/dataset_error.hpp"
 
-namespace touchstone::verify::separation_file_test {
+namespace touchstone::verify::data::separation_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ TEST_F(SeparationFile, WhatIsNoneIsAnErrorThatNamesTheFile) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::separation_file_test
+}  // namespace touchstone::verify::data::separation_file_test

@@ -9,7 +9,7 @@
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/data/ground_truth_files.hpp"
 
-namespace touchstone::verify::toi_writer_test {
+namespace touchstone::verify::data::toi_writer_test {
 namespace {
 
 using exact::Integer;
@@ -95,4 +95,4 @@ TEST(ToiWriter, without_close_there_is_no_file) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::toi_writer_test
+}  // namespace touchstone::verify::data::toi_writer_test

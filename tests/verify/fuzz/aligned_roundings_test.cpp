@@ -11,7 +11,7 @@
 #include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::verify::aligned_roundings_test {
+namespace touchstone::verify::fuzz::aligned_roundings_test {
 namespace {
 
 using exact::Rational;
@@ -37,7 +37,7 @@ double worst_case(const Query& query, double t, std::size_t axis) {
 }
 
 TEST(Aligned, RoundingsAddUpAtAContact) {
-  builtin::Random random(3);
+  generate::Random random(3);
   int collisions = 0;
   const int count = tests::trials(200);
   for (int i = 0; i < count; ++i) {
@@ -59,4 +59,4 @@ TEST(Aligned, RoundingsAddUpAtAContact) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::aligned_roundings_test
+}  // namespace touchstone::verify::fuzz::aligned_roundings_test

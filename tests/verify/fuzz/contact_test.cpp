@@ -13,10 +13,10 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::contact_test {
+namespace touchstone::verify::fuzz::contact_test {
 namespace {
 
-using builtin::Random;
+using generate::Random;
 using Maker = Query (*)(Kind, Random&);
 
 constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
@@ -60,7 +60,7 @@ TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
   for_each_query(level_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
     const exact::Verdict verdict = exact::decide(kind, query);
     ASSERT_TRUE(verdict.collides());
-    full += builtin::uses_full_significands(query) ? 1 : 0;
+    full += generate::uses_full_significands(query) ? 1 : 0;
     const double toi = verdict.toi->enclosure().lower;
     inside += toi > 0.0 && toi < 1.0 ? 1 : 0;
     at_one += toi == 1.0 ? 1 : 0;
@@ -120,4 +120,4 @@ TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::contact_test
+}  // namespace touchstone::verify::fuzz::contact_test

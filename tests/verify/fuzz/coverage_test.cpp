@@ -8,7 +8,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify::coverage_test {
+namespace touchstone::verify::fuzz::coverage_test {
 namespace {
 
 using fast::Answer;
@@ -67,4 +67,4 @@ TEST(Signature, IsCoarse) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::coverage_test
+}  // namespace touchstone::verify::fuzz::coverage_test

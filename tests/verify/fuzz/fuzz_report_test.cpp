@@ -10,7 +10,7 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify::fuzz_report_test {
+namespace touchstone::verify::fuzz::fuzz_report_test {
 namespace {
 
 FuzzReport sample() {
@@ -202,10 +202,10 @@ TEST(FindingKind, HasANameEach) {
 }
 
 TEST(FindingKind, NamesFailuresAsTheyAreNamedEverywhere) {
-  for (const FailureKind kind : all_failure_kinds) {
-    EXPECT_EQ(to_string(finding_kind_of(kind)), to_string(kind));
+  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
+    EXPECT_EQ(to_string(finding_kind_of(kind)), solvers::to_string(kind));
   }
 }
 
 }  // namespace
-}  // namespace touchstone::verify::fuzz_report_test
+}  // namespace touchstone::verify::fuzz::fuzz_report_test

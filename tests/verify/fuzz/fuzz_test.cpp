@@ -26,7 +26,7 @@
 #include "verify/fuzz/recheck.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify::fuzz_test {
+namespace touchstone::verify::fuzz::fuzz_test {
 namespace {
 
 using fast::Answer;
@@ -251,7 +251,7 @@ TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
       {{}, 6000}, {{.distance = 1e-3, .norm = Norm::l2}, 160}};
   for (const auto& [separation, queries] : searches) {
     const FuzzOptions options{.most_queries = tests::trials(queries), .separation = separation};
-    const FuzzResult certified = fuzz(find_method("certified"), options);
+    const FuzzResult certified = fuzz(solvers::find_method("certified"), options);
     EXPECT_EQ(certified.all_findings, 0U);
     EXPECT_EQ(certified.queries, options.most_queries);
     EXPECT_EQ(certified.judged_by_oracle, certified.queries);
@@ -263,7 +263,7 @@ TEST(Fuzz, FindsNothingInTightInclusion) {
   const FuzzOptions options{.most_queries = tests::trials(std::uint64_t{1200}),
                             .method = {.max_checks = 200},
                             .query_limit_seconds = 30.0};
-  const FuzzResult result = fuzz(find_method("tight_inclusion"), options);
+  const FuzzResult result = fuzz(solvers::find_method("tight_inclusion"), options);
   EXPECT_EQ(result.all_findings, 0U);
   EXPECT_LT(result.judged_by_oracle, result.queries);
 }
@@ -351,14 +351,14 @@ TEST(Fuzz, StopsWhenTold) {
   options.on_progress = [&stop](const FuzzProgress& progress) {
     if (progress.queries > 1000) stop = true;
   };
-  const FuzzResult result = fuzz(find_method("certified"), options);
+  const FuzzResult result = fuzz(solvers::find_method("certified"), options);
   EXPECT_EQ(result.ended_by, FuzzEnd::interrupt);
   EXPECT_GT(result.queries, 1000U);
   EXPECT_LT(result.queries, 3000U);
 }
 
 TEST(Fuzz, EndsByTheClock) {
-  const FuzzResult result = fuzz(find_method("certified"), {.seconds = 0.2});
+  const FuzzResult result = fuzz(solvers::find_method("certified"), {.seconds = 0.2});
   EXPECT_EQ(result.ended_by, FuzzEnd::time);
   EXPECT_GE(result.seconds, 0.2);
   EXPECT_NEAR(result.method_seconds + result.other_seconds, result.seconds, 1e-9);
@@ -447,7 +447,7 @@ TEST(Fuzz, CountsTheTimeOfFindingsAsTheRuns) {
 }
 
 TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
-  const fast::Method& method = find_method("certified");
+  const fast::Method& method = solvers::find_method("certified");
   const auto refused = [&method](const FuzzOptions& options) {
     EXPECT_THROW(static_cast<void>(fuzz(method, options)), std::invalid_argument);
   };
@@ -462,4 +462,4 @@ TEST(Fuzz, RefusesOptionsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::fuzz_test
+}  // namespace touchstone::verify::fuzz::fuzz_test

@@ -13,10 +13,10 @@
 #include "tests/support/trials.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::generators_test {
+namespace touchstone::verify::fuzz::generators_test {
 namespace {
 
-using builtin::Random;
+using generate::Random;
 
 constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
 const std::array<Separation, 3> separations{
@@ -110,4 +110,4 @@ TEST(QueryPool, ForgetsTheOldestButNotWhatItKeeps) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::generators_test
+}  // namespace touchstone::verify::fuzz::generators_test

@@ -9,10 +9,10 @@
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::mutation_test {
+namespace touchstone::verify::fuzz::mutation_test {
 namespace {
 
-using builtin::Random;
+using generate::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double greatest = std::numeric_limits<double>::max();
@@ -89,4 +89,4 @@ TEST(Mutated, DoesAllThatItSays) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::mutation_test
+}  // namespace touchstone::verify::fuzz::mutation_test

@@ -20,7 +20,7 @@
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/judge/ground_truth.hpp"
 
-namespace touchstone::verify::recheck_test {
+namespace touchstone::verify::fuzz::recheck_test {
 namespace {
 
 using fast::Answer;
@@ -67,7 +67,7 @@ TEST(Recheck, AsksAgainAboutAnyQuery) {
   Query infinite = finding.original.query;
   infinite.coordinates.front() = HUGE_VAL;
   EXPECT_FALSE(recheck.ask(infinite));
-  EXPECT_FALSE(recheck.ask(finding.original.query, Deadline(0.0)));
+  EXPECT_FALSE(recheck.ask(finding.original.query, jobs::Deadline(0.0)));
 }
 
 TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
@@ -109,7 +109,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
   EXPECT_EQ(failing.answer.toi_lower, answer.toi_lower);
   const exact::Verdict truth = exact::decide(finding.kind, failing.query, finding.separation);
   EXPECT_EQ(failing.collides, truth.collides());
-  EXPECT_EQ(failing.truth, to_text(truth_of(0, truth)));
+  EXPECT_EQ(failing.truth, judge::to_text(judge::truth_of(0, truth)));
   EXPECT_NE(failing.detail.find(fmt::format("{}", answer.toi_lower)), std::string::npos)
       << failing.detail;
   EXPECT_EQ(tests::check(failing.certificate).accepted(), 1U) << failing.certificate;
@@ -141,7 +141,7 @@ TEST(Simplify, says_if_the_time_was_too_short) {
   // A clock that goes on whenever somebody looks.
   for (const double step : {1.0, 0.2, 0.05}) {
     double now = 0.0;
-    const Deadline deadline(1.0, [&now, step] { return now += step; });
+    const jobs::Deadline deadline(1.0, [&now, step] { return now += step; });
     Finding finding = found;
     simplify(method, {}, deadline, finding);
     EXPECT_EQ(finding.shrinking, Shrinking::cut_short);
@@ -191,9 +191,9 @@ TEST(Simplify, leaves_a_hang_alone_that_takes_longer_than_there_is_time) {
   Finding finding;
   finding.what = FindingKind::hang;
   finding.method = "function";
-  simplify(method, {.query_limit_seconds = 10.0}, Deadline(5.0, [] { return 0.0; }), finding);
+  simplify(method, {.query_limit_seconds = 10.0}, jobs::Deadline(5.0, [] { return 0.0; }), finding);
   EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
 }
 
 }  // namespace
-}  // namespace touchstone::verify::recheck_test
+}  // namespace touchstone::verify::fuzz::recheck_test

@@ -29,7 +29,7 @@ namespace touchstone::reproduction_of_claim {
 void expect_no_fault(const fast::Method& method);
 }
 
-namespace touchstone::verify::reproduce_test {
+namespace touchstone::verify::fuzz::reproduce_test {
 namespace {
 
 using fast::Answer;
@@ -104,7 +104,7 @@ TEST(AsPoints, gives_the_very_doubles_twice) {
 // ---- As CSV -------------------------------------------------------------------------------------
 
 TEST(AsCsv, reads_back_as_it_was) {
-  const test::TemporaryFolder folder;
+  const data::test::TemporaryFolder folder;
   tests::Random random(2);
   std::vector<Query> queries{tests::over_edge(1, 1, 1, -1).query};
   for (int i = 0; i < 30; ++i) {
@@ -113,8 +113,8 @@ TEST(AsCsv, reads_back_as_it_was) {
   }
   std::string text;
   for (std::size_t i = 0; i < queries.size(); ++i) text += as_csv(queries[i], i % 2 == 0);
-  CsvDataset source(folder.file("ee.csv", text), {.kind = Kind::edge_edge});
-  const auto read = test::read_all(source);
+  data::CsvDataset source(folder.file("ee.csv", text), {.kind = Kind::edge_edge});
+  const auto read = data::test::read_all(source);
   ASSERT_EQ(read.size(), queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
     EXPECT_EQ(read[i].query, queries[i]);
@@ -136,7 +136,7 @@ TEST(AsCsv, has_eight_rows_of_the_format) {
 // ---- As a C++ test ------------------------------------------------------------------------------
 
 std::string golden(const std::string& name) {
-  return test::contents(tests::source_folder() + "/tests/verify/fuzz/" + name);
+  return data::test::contents(tests::source_folder() + "/tests/verify/fuzz/" + name);
 }
 
 /// The text with a name for its fingerprint.
@@ -180,7 +180,7 @@ Answer yes_between(double lower, double upper) {
 }
 
 TEST(AsCppTest, passes_on_methods_that_are_right) {
-  for (const auto& method : methods()) {
+  for (const auto& method : solvers::methods()) {
     if (method->info().is_baseline) continue;
     EXPECT_EQ(failures(reproduction_of_miss::expect_no_fault, *method), 0) << method->name();
     EXPECT_EQ(failures(reproduction_of_claim::expect_no_fault, *method), 0) << method->name();
@@ -251,7 +251,7 @@ TEST(AsCppTest, loads_plugins_and_makes_names_of_any_text) {
   found.solver.plugin = "/tmp/a \"b\".so";
   found.solver.promise = Promise::exact;
   const std::string text = as_cpp_test(found);
-  EXPECT_NE(text.find(R"(expect_no_fault(*verify::load_plugin("/tmp/a \"b\".so"));)"),
+  EXPECT_NE(text.find(R"(expect_no_fault(*verify::solvers::load_plugin("/tmp/a \"b\".so"));)"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("promise = fast::Promise::exact;"), std::string::npos);
@@ -343,4 +343,4 @@ TEST(ReproductionOf, is_about_the_simplest_query_and_who_is_wrong) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::reproduce_test
+}  // namespace touchstone::verify::fuzz::reproduce_test

@@ -44,21 +44,21 @@ void expect_no_fault(const fast::Method& method) {
   method.solve(kind, {&query, 1}, {&answer, 1}, options);
   const exact::Verdict truth = exact::decide(kind, query, separation);
   EXPECT_EQ(truth.collides(), collides);
-  verify::Judgement judgement;
-  judgement.add(verify::truth_of(0, truth), answer);
+  verify::judge::Judgement judgement;
+  judgement.add(verify::judge::truth_of(0, truth), answer);
   if (answer.verdict == fast::Verdict::yes) {
     const Separation near =
-        verify::claimed_distance(method.info().filter, kind, query, answer, separation);
+        verify::judge::claimed_distance(method.info().filter, kind, query, answer, separation);
     EXPECT_TRUE(!is_valid(near) || exact::decide(kind, query, near).collides());
   }
-  for (const verify::WrongAnswer& wrong : judgement.wrong_answers) {
-    EXPECT_FALSE(verify::breaks(wrong.fault, promise))
-        << verify::to_string(wrong.fault) << ": " << wrong.answer << ", but " << wrong.truth;
+  for (const verify::judge::WrongAnswer& wrong : judgement.wrong_answers) {
+    EXPECT_FALSE(verify::judge::breaks(wrong.fault, promise))
+        << verify::judge::to_string(wrong.fault) << ": " << wrong.answer << ", but " << wrong.truth;
   }
 }
 
 TEST(Reproduction, tight_inclusion_false_negative_of_miss) {
-  expect_no_fault(verify::find_method("tight_inclusion"));
+  expect_no_fault(verify::solvers::find_method("tight_inclusion"));
 }
 
 }  // namespace touchstone::reproduction_of_miss

@@ -7,7 +7,7 @@
 
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::scheduler_test {
+namespace touchstone::verify::fuzz::scheduler_test {
 namespace {
 
 TEST(SignatureTable, CountsHowOftenASignatureWasSeen) {
@@ -27,7 +27,7 @@ TEST(Steering, GivesAllArmsAlikeBeforeItKnowsAnything) {
 /// Arm 3 of 8 pays once in 500 plays, the others never.
 TEST(Steering, FindsTheArmThatPaysRarely) {
   Steering steering(8, 1);
-  builtin::Random chance(5);
+  generate::Random chance(5);
   std::vector<int> plays(8);
   constexpr int rounds = 40'000;
   for (int i = 0; i < rounds; ++i) {
@@ -84,4 +84,4 @@ TEST(Steering, IsTheSameForTheSameSeed) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::scheduler_test
+}  // namespace touchstone::verify::fuzz::scheduler_test

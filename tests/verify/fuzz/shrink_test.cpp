@@ -19,7 +19,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::verify::shrink_test {
+namespace touchstone::verify::fuzz::shrink_test {
 namespace {
 
 using tests::PosedQuery;
@@ -293,4 +293,4 @@ TEST(Shrink, ends_between_two_calls_when_it_must) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::shrink_test
+}  // namespace touchstone::verify::fuzz::shrink_test

@@ -16,10 +16,10 @@
 #include "verify/fuzz/generators.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::symmetry_test {
+namespace touchstone::verify::fuzz::symmetry_test {
 namespace {
 
-using builtin::Random;
+using generate::Random;
 
 constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
 
@@ -133,4 +133,4 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::symmetry_test
+}  // namespace touchstone::verify::fuzz::symmetry_test

@@ -12,7 +12,7 @@
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify::triage_test {
+namespace touchstone::verify::fuzz::triage_test {
 namespace {
 
 using fast::Answer;
@@ -30,7 +30,8 @@ const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
 /// What the oracle says, after a check that the quick look does not excuse what is wrong.
 std::optional<FindingKind> fault(const tests::PosedQuery& posed, const Answer& answer,
                                  const Standard& standard = {}) {
-  const Truth truth = truth_of(0, exact::decide(posed.kind, posed.query, standard.separation));
+  const judge::Truth truth =
+      judge::truth_of(0, exact::decide(posed.kind, posed.query, standard.separation));
   const CertifiedResult judged =
       fast::certified(posed.kind, posed.query, {.separation = standard.separation});
   const auto accusation = accuse(posed.kind, posed.query, truth, answer, standard);
@@ -96,12 +97,16 @@ TEST(Referee, HoldsAYesToItsToleranceBeyondTheSeparation) {
 }
 
 TEST(Referee, TellsFailuresApart) {
-  const auto what = [](const Failure& failure) { return accuse_failure(failure, 10.0).what; };
-  for (const FailureKind kind : all_failure_kinds) {
-    EXPECT_EQ(to_string(what({.kind = kind})), to_string(kind));
+  const auto what = [](const solvers::Failure& failure) {
+    return accuse_failure(failure, 10.0).what;
+  };
+  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
+    EXPECT_EQ(to_string(what({.kind = kind})), solvers::to_string(kind));
   }
-  EXPECT_EQ(accuse_failure({.kind = FailureKind::hang}, 10.0).detail, "takes more than 10 s");
-  EXPECT_EQ(accuse_failure({.kind = FailureKind::exit, .number = 3}, 0.0).detail, "exit: status 3");
+  EXPECT_EQ(accuse_failure({.kind = solvers::FailureKind::hang}, 10.0).detail,
+            "takes more than 10 s");
+  EXPECT_EQ(accuse_failure({.kind = solvers::FailureKind::exit, .number = 3}, 0.0).detail,
+            "exit: status 3");
 }
 
 TEST(Referee, JudgesAtTheSeparation) {
@@ -125,14 +130,14 @@ TEST(Referee, FindsMostRightAnswersRightAtAGlance) {
 }
 
 TEST(Referee, AccusesAJudgeThatTheOracleContradicts) {
-  const Truth truth = truth_of(0, exact::decide(at_half.kind, at_half.query));
+  const judge::Truth truth = judge::truth_of(0, exact::decide(at_half.kind, at_half.query));
   CertifiedResult judged = fast::certified(at_half.kind, at_half.query);
   EXPECT_FALSE(accuse_judge(truth, judged));
   judged.toi_lower = 0.75;
   EXPECT_EQ(accuse_judge(truth, judged)->what, FindingKind::late_toi);
   judged = {.verdict = Verdict::no};
   EXPECT_EQ(accuse_judge(truth, judged)->what, FindingKind::false_negative);
-  const Truth miss = truth_of(0, exact::decide(never.kind, never.query));
+  const judge::Truth miss = judge::truth_of(0, exact::decide(never.kind, never.query));
   EXPECT_EQ(accuse_judge(miss, {.verdict = Verdict::yes})->what, FindingKind::false_positive);
 }
 
@@ -142,4 +147,4 @@ TEST(Referee, SaysAnswersInWords) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::triage_test
+}  // namespace touchstone::verify::fuzz::triage_test

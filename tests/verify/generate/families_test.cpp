@@ -23,7 +23,7 @@
 #include "exact/query.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::verify::families_test {
+namespace touchstone::verify::generate::families_test {
 namespace {
 
 using exact::Integer;
@@ -519,4 +519,4 @@ TEST(Families, OpenAsStreams) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::families_test
+}  // namespace touchstone::verify::generate::families_test

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace touchstone::verify::builtin::offset_test {
+namespace touchstone::verify::generate::offset_test {
 namespace {
 
 using exact::Rational;
@@ -53,4 +53,4 @@ TEST(Offset, ItMustComeWithinTheTime) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::builtin::offset_test
+}  // namespace touchstone::verify::generate::offset_test

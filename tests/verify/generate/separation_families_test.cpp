@@ -15,7 +15,7 @@
 #include "verify/generate/families.hpp"
 #include "verify/judge/separation_inference.hpp"
 
-namespace touchstone::verify::separation_families_test {
+namespace touchstone::verify::generate::separation_families_test {
 namespace {
 
 constexpr std::uint64_t seed = 20211;
@@ -41,7 +41,7 @@ void for_each_query(const Function& function) {
   for_each_stream([&](const Family& family, Kind kind, const Separation& separation) {
     for (std::uint64_t index = 0; index < queries_a_family; ++index) {
       SCOPED_TRACE(std::string(family.name) + " " + std::string(to_string(kind)) + " " +
-                   std::to_string(index) + " " + to_text(separation));
+                   std::to_string(index) + " " + judge::to_text(separation));
       function(kind, separation, make_query(family, kind, seed, index, separation));
     }
   });
@@ -83,7 +83,7 @@ TEST(SeparationFamilies, EveryFamilyHasTheVerdictsItSays) {
       times += known.toi ? 1U : 0U;
       collisions += known.collides ? 1U : 0U;
     }
-    SCOPED_TRACE(std::string(family.name) + " " + to_text(separation));
+    SCOPED_TRACE(std::string(family.name) + " " + judge::to_text(separation));
     EXPECT_EQ(verdicts.size(), family.verdicts == Verdicts::both ? 2U : 1U);
     EXPECT_GE(5 * times, collisions) << "those of the rest are irrational";
   });
@@ -150,4 +150,4 @@ TEST(SeparationFamilies, AStreamSaysWhatItsClaimsAreAbout) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::separation_families_test
+}  // namespace touchstone::verify::generate::separation_families_test

@@ -13,26 +13,26 @@
 
 #include "exact/oracle.hpp"
 #include "verify/generate/families.hpp"
-#include "verify/run/statistics.hpp"
+#include "verify/jobs/statistics.hpp"
 
-namespace touchstone::verify::workload_test {
+namespace touchstone::verify::generate::workload_test {
 namespace {
 
-std::vector<Query> patch_queries(const MovingMesh& mesh, Kind kind) {
-  const auto pairs = find_candidates(mesh, kind);
-  return queries_of(mesh, candidates_of(mesh, kind, pairs));
+std::vector<Query> patch_queries(const mesh::MovingMesh& mesh, Kind kind) {
+  const auto pairs = mesh::find_candidates(mesh, kind);
+  return mesh::queries_of(mesh, mesh::candidates_of(mesh, kind, pairs));
 }
 
 TEST(Workload, PatchesHaveEnoughCandidatesOfWhichSomePerCentCollideWithAnySeed) {
   static constexpr std::size_t asked = 2000;
   for (const std::uint64_t seed : {0U, 1U, 2021U, 4711U, 0xFFFFFFFFU}) {
-    const MovingMesh mesh = moving_patches({.seed = seed});
+    const mesh::MovingMesh mesh = moving_patches({.seed = seed});
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       const auto queries = patch_queries(mesh, kind);
       EXPECT_GE(queries.size(), 100'000U) << seed << to_string(kind);
       EXPECT_LE(queries.size(), 1'000'000U) << seed << to_string(kind);
       std::size_t collisions = 0;
-      for (const std::size_t i : spread_sample(queries.size(), asked)) {
+      for (const std::size_t i : jobs::spread_sample(queries.size(), asked)) {
         collisions += exact::decide(kind, queries[i]).collides() ? 1U : 0U;
       }
       EXPECT_GE(collisions, asked / 200) << seed << to_string(kind);
@@ -42,7 +42,7 @@ TEST(Workload, PatchesHaveEnoughCandidatesOfWhichSomePerCentCollideWithAnySeed) 
 }
 
 TEST(Workload, PatchesAreTwoGridsOfTriangles) {
-  const MovingMesh mesh = moving_patches({.seed = 5, .cells = 3});
+  const mesh::MovingMesh mesh = moving_patches({.seed = 5, .cells = 3});
   EXPECT_EQ(mesh.vertices.size(), 2U * 16);
   EXPECT_EQ(mesh.faces.size(), 2U * 18);
   // Of each grid: 3·4 along either axis, and a diagonal a cell.
@@ -57,7 +57,7 @@ TEST(Workload, PatchesAreTwoGridsOfTriangles) {
 }
 
 TEST(Workload, PatchesMoveTowardsAndThroughEachOther) {
-  const MovingMesh mesh = moving_patches();
+  const mesh::MovingMesh mesh = moving_patches();
   const std::size_t half = mesh.vertices.size() / 2;
   std::size_t passed = 0;
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -71,9 +71,9 @@ TEST(Workload, PatchesMoveTowardsAndThroughEachOther) {
 }
 
 TEST(Workload, PatchesDependOnTheSeedAndOnNothingElse) {
-  const MovingMesh once = moving_patches({.seed = 8, .cells = 10});
-  const MovingMesh again = moving_patches({.seed = 8, .cells = 10});
-  const MovingMesh other = moving_patches({.seed = 9, .cells = 10});
+  const mesh::MovingMesh once = moving_patches({.seed = 8, .cells = 10});
+  const mesh::MovingMesh again = moving_patches({.seed = 8, .cells = 10});
+  const mesh::MovingMesh other = moving_patches({.seed = 9, .cells = 10});
   EXPECT_EQ(once.faces, again.faces);
   std::size_t differences = 0;
   for (std::size_t i = 0; i < once.vertices.size(); ++i) {
@@ -92,7 +92,7 @@ TEST(Workload, EndContactsTouchAtOne) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const double scale : {0.01, 1.0, 1000.0}) {
       for (const bool two_decimals : {false, true}) {
-        const QueryGroup group =
+        const data::QueryGroup group =
             end_contacts(kind, {.scale = scale, .two_decimals = two_decimals, .count = 50});
         ASSERT_EQ(group.queries().size(), 50U);
         double greatest = 0.0;
@@ -115,7 +115,7 @@ TEST(Workload, EndContactsTouchAtOne) {
 
 TEST(Workload, TheHardSetIsThatOfTheFamilies) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const QueryGroup group = hard_set(kind, 7, 3);
+    const data::QueryGroup group = hard_set(kind, 7, 3);
     EXPECT_EQ(group.kind(), kind);
     std::size_t position = 0;
     for (const Family& family : families()) {
@@ -132,4 +132,4 @@ TEST(Workload, TheHardSetIsThatOfTheFamilies) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::workload_test
+}  // namespace touchstone::verify::generate::workload_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/random.hpp"
 
-namespace touchstone::verify::compressor_test {
+namespace touchstone::verify::io::compressor_test {
 namespace {
 
 /// By the library's other interface, the one for whole buffers and known sizes.
@@ -48,4 +48,4 @@ TEST(Compressor, ItsFrameHasAChecksum) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::compressor_test
+}  // namespace touchstone::verify::io::compressor_test

@@ -13,7 +13,7 @@
 #include "exact/algebra/number.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify::coordinate_text_test {
+namespace touchstone::verify::io::coordinate_text_test {
 namespace {
 
 using Limits = std::numeric_limits<double>;
@@ -95,7 +95,7 @@ TEST(ParseCoordinate, takes_the_nearest_double_of_other_decimals) {
 
 TEST(ParseCoordinate, what_17_digits_give_back_is_the_double) {
   std::mt19937_64 random(9);
-  for (const double x : test::random_query(random).coordinates) {
+  for (const double x : data::test::random_query(random).coordinates) {
     EXPECT_EQ(parse_coordinate(fmt::format("{:.17g}", x), "1").value, x);
     EXPECT_EQ(parse_coordinate(fmt::format("{:.1100f}", x), "1").value, x);
     EXPECT_TRUE(parse_coordinate(fmt::format("{:.1100f}", x), "1").exact);
@@ -205,4 +205,4 @@ TEST(AppendCoordinate, refuses_what_is_not_finite) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::coordinate_text_test
+}  // namespace touchstone::verify::io::coordinate_text_test

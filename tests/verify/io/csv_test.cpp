@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::verify::csv_test {
+namespace touchstone::verify::io::csv_test {
 namespace {
 
 using Fault = CsvSplit::Fault;
@@ -123,4 +123,4 @@ TEST(SplitCsv, UndoesTheQuotesOfCsvField) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::csv_test
+}  // namespace touchstone::verify::io::csv_test

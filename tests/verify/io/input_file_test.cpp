@@ -15,11 +15,11 @@
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/io/terminal.hpp"
 
-namespace touchstone::verify::input_file_test {
+namespace touchstone::verify::io::input_file_test {
 namespace {
 
-using test::error_of;
-using test::TemporaryFolder;
+using data::test::error_of;
+using data::test::TemporaryFolder;
 
 struct OwnedLine {
   std::string text;
@@ -165,4 +165,4 @@ TEST(Trimmed, removes_spaces_and_tabs_at_both_ends_only) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::input_file_test
+}  // namespace touchstone::verify::io::input_file_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace touchstone::verify::json_test {
+namespace touchstone::verify::io::json_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -38,4 +38,4 @@ TEST(Json, DocumentsAreAscii) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::json_test
+}  // namespace touchstone::verify::io::json_test

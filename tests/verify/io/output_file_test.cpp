@@ -14,12 +14,12 @@
 
 #include "tests/verify/data/dataset_fixture.hpp"
 
-namespace touchstone::verify::output_file_test {
+namespace touchstone::verify::io::output_file_test {
 namespace {
 
-using test::contents;
-using test::error_of;
-using test::TemporaryFolder;
+using data::test::contents;
+using data::test::error_of;
+using data::test::TemporaryFolder;
 
 /// Writing a file beyond this size fails as on a full disk while this object lives.
 class FileSizeLimit {
@@ -241,4 +241,4 @@ TEST(OutputFile, a_full_disk_is_an_error_and_leaves_nothing) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::output_file_test
+}  // namespace touchstone::verify::io::output_file_test

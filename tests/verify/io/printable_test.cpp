@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace touchstone::verify::printable_test {
+namespace touchstone::verify::io::printable_test {
 namespace {
 
 using namespace std::string_literals;
@@ -117,4 +117,4 @@ TEST(CppLiteral, IsALiteralOfTheSameBytes) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::printable_test
+}  // namespace touchstone::verify::io::printable_test

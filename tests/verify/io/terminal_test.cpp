@@ -17,7 +17,7 @@
 
 #include "tests/support/folder_test.hpp"
 
-namespace touchstone::verify::terminal_test {
+namespace touchstone::verify::io::terminal_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -230,4 +230,4 @@ TEST_F(PrintToFile, WritesAllOfIt) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::terminal_test
+}  // namespace touchstone::verify::io::terminal_test

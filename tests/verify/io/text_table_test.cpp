@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace touchstone::verify::text_table_test {
+namespace touchstone::verify::io::text_table_test {
 namespace {
 
 TEST(TextTable, AlignsWordsToTheLeftAndNumbersToTheRight) {
@@ -49,4 +49,4 @@ TEST(NumberText, IsADashWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::text_table_test
+}  // namespace touchstone::verify::io::text_table_test

@@ -11,7 +11,7 @@
 #include "fast/tight_inclusion.hpp"
 #include "verify/generate/families.hpp"
 
-namespace touchstone::verify::claimed_distance_test {
+namespace touchstone::verify::judge::claimed_distance_test {
 namespace {
 
 using exact::Rational;
@@ -82,11 +82,11 @@ TEST(ClaimedDistance, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
   std::size_t claims = 0;
   for (const double distance : {0.0, 1e-8, 1e-30}) {
     const Separation separation{.distance = distance};
-    for (const Family& family : families(separation)) {
+    for (const generate::Family& family : generate::families(separation)) {
       for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-        if (!supports(family, kind)) continue;
+        if (!generate::supports(family, kind)) continue;
         for (std::uint64_t index = 0; index < 4; ++index) {
-          const Query query = make_query(family, kind, 7, index, separation).query;
+          const Query query = generate::make_query(family, kind, 7, index, separation).query;
           const auto result =
               fast::tight_inclusion(kind, query, {.max_checks = 1000, .min_separation = distance});
           if (result.verdict != Verdict::yes) continue;
@@ -119,11 +119,11 @@ TEST(ClaimedDistance, NearnessIsSeenWhereTheBoundsLeaveRoom) {
 
 TEST(ClaimedDistance, WhatIsSeenIsTrue) {
   std::size_t seen = 0, near = 0;
-  for (const Family& family : families({})) {
+  for (const generate::Family& family : generate::families({})) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!supports(family, kind)) continue;
+      if (!generate::supports(family, kind)) continue;
       for (std::uint64_t index = 0; index < 6; ++index) {
-        const Query query = make_query(family, kind, 11, index, {}).query;
+        const Query query = generate::make_query(family, kind, 11, index, {}).query;
         const double size = std::abs(query.at(0, 0, 0)) + std::abs(query.at(1, 3, 1));
         for (const double distance : {1e-12 * size, 1e-3 * size, 0.3 * size}) {
           if (!is_valid({.distance = distance})) continue;
@@ -140,4 +140,4 @@ TEST(ClaimedDistance, WhatIsSeenIsTrue) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::claimed_distance_test
+}  // namespace touchstone::verify::judge::claimed_distance_test

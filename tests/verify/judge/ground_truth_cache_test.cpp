@@ -9,11 +9,11 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify::ground_truth_cache_test {
+namespace touchstone::verify::judge::ground_truth_cache_test {
 namespace {
 
 /// Vertices over a triangle that fall from height 1: through it, to half of it, and so on.
-QueryGroup falling() {
+data::QueryGroup falling() {
   std::vector<Query> queries;
   for (const double end : {-1.0, 0.5, -3.0, 0.25}) {
     queries.push_back(tests::over_triangle(1, 1, 1, end).query);
@@ -24,7 +24,7 @@ QueryGroup falling() {
 using Positions = std::vector<std::size_t>;
 
 TEST(Truths, AreThoseOfTheQueriesAskedFor) {
-  const QueryGroup group = falling();
+  const data::QueryGroup group = falling();
   Truths truths(group, 1);
   const std::vector<Truth> found = truths.of({}, Positions{0, 1, 2});
   ASSERT_EQ(found.size(), 3U);
@@ -38,7 +38,7 @@ TEST(Truths, AreThoseOfTheQueriesAskedFor) {
 }
 
 TEST(Truths, AskTheOracleOnceAQueryAndSeparation) {
-  const QueryGroup group = falling();
+  const data::QueryGroup group = falling();
   Truths truths(group);
   static_cast<void>(truths.of({}, Positions{0, 2}));
   EXPECT_EQ(truths.decided(), 2U);
@@ -51,7 +51,7 @@ TEST(Truths, AskTheOracleOnceAQueryAndSeparation) {
 }
 
 TEST(Truths, AreAboutTheSeparation) {
-  const QueryGroup group = falling();
+  const data::QueryGroup group = falling();
   Truths truths(group);
   const Positions all{0, 1, 2, 3};
   const auto hits = [&](const Separation& separation) {
@@ -65,7 +65,7 @@ TEST(Truths, AreAboutTheSeparation) {
 }
 
 TEST(Truths, OnceStoppedNoMoreAreDecided) {
-  const QueryGroup group = falling();
+  const data::QueryGroup group = falling();
   Truths truths(group);
   static_cast<void>(truths.of({}, Positions{0}));
   const std::atomic<bool> stop = true;
@@ -76,10 +76,10 @@ TEST(Truths, OnceStoppedNoMoreAreDecided) {
 }
 
 TEST(Truths, PositionsBeyondTheGroupAreRefused) {
-  const QueryGroup group = falling();
+  const data::QueryGroup group = falling();
   Truths truths(group);
   EXPECT_THROW(static_cast<void>(truths.of({}, Positions{4})), std::out_of_range);
 }
 
 }  // namespace
-}  // namespace touchstone::verify::ground_truth_cache_test
+}  // namespace touchstone::verify::judge::ground_truth_cache_test

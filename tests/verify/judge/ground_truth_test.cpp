@@ -7,7 +7,7 @@
 #include "exact/oracle.hpp"
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify::ground_truth_test {
+namespace touchstone::verify::judge::ground_truth_test {
 namespace {
 
 using exact::DoubleInterval;
@@ -36,4 +36,4 @@ TEST(Truth, InWords) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::ground_truth_test
+}  // namespace touchstone::verify::judge::ground_truth_test

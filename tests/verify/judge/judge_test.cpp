@@ -12,7 +12,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
 
-namespace touchstone::verify::judge_test {
+namespace touchstone::verify::judge::judge_test {
 namespace {
 
 using fast::Answer;
@@ -115,7 +115,7 @@ TEST(Judge, ATimeThatIsNotFiniteIsAnError) {
     const Judgement judgement = judge(hit(0.1, above(0.1)), answer);
     EXPECT_EQ(judgement.count(Fault::error), 1U);
     EXPECT_EQ(all_faults(judgement), 1U);
-    EXPECT_EQ(judgement.count(FailureKind::not_finite), 1U);
+    EXPECT_EQ(judgement.count(solvers::FailureKind::not_finite), 1U);
     EXPECT_EQ(judgement.toi_errors.count(), 0U);
   }
 }
@@ -123,16 +123,17 @@ TEST(Judge, ATimeThatIsNotFiniteIsAnError) {
 TEST(Judge, CountsFailuresByTheirKind) {
   Judgement judgement;
   const Truth truth = hit(0.25, 0.25);
-  for (const FailureKind kind : all_failure_kinds) {
-    const Failure failure{.kind = kind, .number = 3};
-    judgement.add(truth, {.verdict = verdict_of(kind)}, &failure);
+  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
+    const solvers::Failure failure{.kind = kind, .number = 3};
+    judgement.add(truth, {.verdict = solvers::verdict_of(kind)}, &failure);
   }
   // Without a failure the answer shows it.
   judgement.add(truth, {.verdict = Verdict::error});
   judgement.add(truth, {.verdict = Verdict::undecided});
-  for (const FailureKind kind : all_failure_kinds) {
-    const bool is_shown = kind == FailureKind::no_verdict || kind == FailureKind::undecided;
-    EXPECT_EQ(judgement.count(kind), is_shown ? 2U : 1U) << to_string(kind);
+  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
+    const bool is_shown =
+        kind == solvers::FailureKind::no_verdict || kind == solvers::FailureKind::undecided;
+    EXPECT_EQ(judgement.count(kind), is_shown ? 2U : 1U) << solvers::to_string(kind);
   }
   // A hang is no answer of the solver's, and taken for one that it is undecided.
   EXPECT_EQ(judgement.undecided, 3U);
@@ -140,7 +141,7 @@ TEST(Judge, CountsFailuresByTheirKind) {
   EXPECT_EQ(judgement.wrong_answers.at(1).answer, "exit: status 3");
   const Judgement once = judgement;
   judgement += once;
-  EXPECT_EQ(judgement.count(FailureKind::hang), 2U);
+  EXPECT_EQ(judgement.count(solvers::FailureKind::hang), 2U);
 }
 
 TEST(Judge, ATimeThatIsADoubleMayBeHit) {
@@ -321,4 +322,4 @@ TEST(Promises, OnlyExactnessForbidsFalsePositives) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::judge_test
+}  // namespace touchstone::verify::judge::judge_test

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-namespace touchstone::verify::separation_inference_test {
+namespace touchstone::verify::judge::separation_inference_test {
 namespace {
 
 constexpr Separation contact{};
@@ -46,4 +46,4 @@ TEST(Separation, TextAndJsonGiveTheSameDoubleAgain) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::separation_inference_test
+}  // namespace touchstone::verify::judge::separation_inference_test

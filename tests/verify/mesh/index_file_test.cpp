@@ -10,7 +10,7 @@
 
 #include "tests/support/mesh_files.hpp"
 
-namespace touchstone::verify::index_file_test {
+namespace touchstone::verify::mesh::index_file_test {
 namespace {
 
 using tests::MeshFolder;
@@ -48,8 +48,8 @@ TEST(WriteIndexPairs, WritesMoreThanItsBufferHolds) {
 
 TEST(WriteIndexPairs, SaysWhereItCannot) {
   const MeshFolder folder;
-  EXPECT_THROW(write_index_pairs(folder.path() / "none" / "a.npy", {}), DatasetError);
+  EXPECT_THROW(write_index_pairs(folder.path() / "none" / "a.npy", {}), data::DatasetError);
 }
 
 }  // namespace
-}  // namespace touchstone::verify::index_file_test
+}  // namespace touchstone::verify::mesh::index_file_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/mesh_files.hpp"
 
-namespace touchstone::verify::mesh_test {
+namespace touchstone::verify::mesh::mesh_test {
 namespace {
 
 using fast::Edge;
@@ -49,4 +49,4 @@ TEST(ReadMesh, SaysWhyAFileCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::mesh_test
+}  // namespace touchstone::verify::mesh::mesh_test

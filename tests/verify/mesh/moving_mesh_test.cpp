@@ -13,7 +13,7 @@
 #include "fast/broad_phase.hpp"
 #include "verify/data/dataset_error.hpp"
 
-namespace touchstone::verify::moving_mesh_test {
+namespace touchstone::verify::mesh::moving_mesh_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,7 +127,7 @@ TEST_F(Step, RefusesTwoDifferentMeshes) {
     try {
       static_cast<void>(read_step(before, after));
       FAIL() << text;
-    } catch (const DatasetError& error) {
+    } catch (const data::DatasetError& error) {
       EXPECT_EQ(error.path(), after);
       EXPECT_EQ(error.reason(), "is not the same mesh as " + before.string());
     }
@@ -137,8 +137,8 @@ TEST_F(Step, RefusesTwoDifferentMeshes) {
 TEST_F(Step, RefusesAFileThatIsNotThere) {
   const fs::path before = write("a0.obj", triangle);
   EXPECT_THROW(static_cast<void>(read_step(before, before.parent_path() / "missing.obj")),
-               DatasetError);
+               data::DatasetError);
 }
 
 }  // namespace
-}  // namespace touchstone::verify::moving_mesh_test
+}  // namespace touchstone::verify::mesh::moving_mesh_test

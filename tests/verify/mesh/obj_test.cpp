@@ -7,7 +7,7 @@
 
 #include "tests/support/mesh_files.hpp"
 
-namespace touchstone::verify::obj_test {
+namespace touchstone::verify::mesh::obj_test {
 namespace {
 
 using fast::Edge;
@@ -89,4 +89,4 @@ TEST(ReadObj, NamesTheLineAndTheReason) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::obj_test
+}  // namespace touchstone::verify::mesh::obj_test

@@ -14,7 +14,7 @@
 
 #include "tests/support/mesh_files.hpp"
 
-namespace touchstone::verify::ply_test {
+namespace touchstone::verify::mesh::ply_test {
 namespace {
 
 using fast::Edge;
@@ -359,4 +359,4 @@ TEST(ReadPly, NamesWhatIsWrongInBinary) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::ply_test
+}  // namespace touchstone::verify::mesh::ply_test

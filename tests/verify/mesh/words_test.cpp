@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace touchstone::verify::words_test {
+namespace touchstone::verify::mesh::words_test {
 namespace {
 
 std::vector<std::string> words(std::string_view line) {
@@ -59,4 +59,4 @@ TEST(ParseNumber, RefusesAllElse) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::words_test
+}  // namespace touchstone::verify::mesh::words_test

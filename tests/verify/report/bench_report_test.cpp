@@ -9,23 +9,23 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::verify::bench_report_test {
+namespace touchstone::verify::report::bench_report_test {
 namespace {
 
 using fast::Promise;
 using fast::Verdict;
 using Words = std::vector<std::string>;
 
-constexpr Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
-const Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
+constexpr judge::Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
+const judge::Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
 
-SolverResult careful() {
-  SolverResult careful;
+jobs::SolverResult careful() {
+  jobs::SolverResult careful;
   careful.name = "careful";
   careful.promise = Promise::exact;
   careful.queries = 400;
   careful.times.repetitions = {12.0, 10.0, 30.0};
-  careful.singles = SingleTimes{.queries = 300, .p50 = 40.2, .p99 = 900.0, .max = 12345.0};
+  careful.singles = jobs::SingleTimes{.queries = 300, .p50 = 40.2, .p99 = 900.0, .max = 12345.0};
   careful.stages = {{"axis", 300}, {"exact", 100}};
   careful.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.25});
   careful.judgement.add(miss, {.verdict = Verdict::no});
@@ -33,8 +33,8 @@ SolverResult careful() {
 }
 
 /// Wrong in each way, and not timed to the end.
-SolverResult hasty() {
-  SolverResult hasty;
+jobs::SolverResult hasty() {
+  jobs::SolverResult hasty;
   hasty.name = "hasty";
   hasty.promise = Promise::conservative;
   hasty.queries = 100;
@@ -51,7 +51,7 @@ BenchReport report() {
   BenchReport report;
   report.options.repetitions = 3;
   report.options.judge = 27;
-  BenchResult& group = report.groups.emplace_back();
+  jobs::BenchResult& group = report.groups.emplace_back();
   group.name = "b";
   group.kind = Kind::edge_edge;
   group.queries = 400;
@@ -62,8 +62,8 @@ BenchReport report() {
   return report;
 }
 
-StepResult step() {
-  StepResult step;
+jobs::StepResult step() {
+  jobs::StepResult step;
   step.name = "92-93";
   step.vertices = 10;
   step.edges = 30;
@@ -274,4 +274,4 @@ TEST(BenchReport, NamesTheSeparationWhereThereIsOne) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::bench_report_test
+}  // namespace touchstone::verify::report::bench_report_test

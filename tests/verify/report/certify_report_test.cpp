@@ -12,18 +12,18 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::verify::certify_report_test {
+namespace touchstone::verify::report::certify_report_test {
 namespace {
 
-std::vector<CertifyResult> results() {
-  CertifyResult clean;
+std::vector<jobs::CertifyResult> results() {
+  jobs::CertifyResult clean;
   clean.name = "a/vertex-face.csv";
   clean.kind = Kind::vertex_face;
   clean.queries = 8;
   clean.collisions = 3;
   clean.labels = 8;
   clean.microseconds = 16.0;
-  CertifyResult wrong;
+  jobs::CertifyResult wrong;
   wrong.name = "b,c/edge-edge.csv";
   wrong.kind = Kind::edge_edge;
   wrong.queries = 2;
@@ -35,8 +35,8 @@ std::vector<CertifyResult> results() {
   wrong.skipped = 4;
   wrong.rounded = 9;
   wrong.microseconds = 34.0;
-  wrong.mismatches = {{Mismatch::Of::label, 0, "no collision", "collision"},
-                      {Mismatch::Of::toi, 1, "2.5E-1", "5E-1"}};
+  wrong.mismatches = {{jobs::Mismatch::Of::label, 0, "no collision", "collision"},
+                      {jobs::Mismatch::Of::toi, 1, "2.5E-1", "5E-1"}};
   wrong.fail("b,c/edge-edge.csv:17:3: denominator is zero");
   return {clean, wrong};
 }
@@ -67,7 +67,7 @@ TEST(CertifyReport, TextHasARowASourceTheTotalAndEachMismatch) {
 }
 
 TEST(CertifyReport, TextShowsNamesOnOneLine) {
-  std::vector<CertifyResult> named = results();
+  std::vector<jobs::CertifyResult> named = results();
   named[1].name = "x\x1b[2J\ntotal 9\u202e";
   const std::string text = to_text(named);
   EXPECT_NE(text.find("\nx\\x1b[2J\\x0atotal 9\\u202e  edge-edge "), std::string::npos) << text;
@@ -104,15 +104,15 @@ TEST(CertifyReport, JsonHasTotalFilesAndMismatches) {
 }
 
 TEST(CertifyReport, JsonHasTheProofsWhereThereAreAny) {
-  std::vector<CertifyResult> proved = results();
+  std::vector<jobs::CertifyResult> proved = results();
   EXPECT_FALSE(to_json(proved).contains("proofs"));
-  for (CertifyResult& result : proved) result.proofs = {.no_collision = 3, .bytes = 70};
+  for (jobs::CertifyResult& result : proved) result.proofs = {.no_collision = 3, .bytes = 70};
   EXPECT_EQ(to_json(proved).at("proofs").at("no_collision"), 6);
   EXPECT_EQ(to_json(proved).at("proofs").at("bytes"), 140);
 }
 
 TEST(CertifyReport, NothingGivesAnEmptyReport) {
-  const nlohmann::json json = to_json(std::vector<CertifyResult>());
+  const nlohmann::json json = to_json(std::vector<jobs::CertifyResult>());
   EXPECT_EQ(json.at("queries"), 0);
   EXPECT_EQ(json.at("us_per_query"), 0.0);
   EXPECT_TRUE(json.at("mismatches").is_array());
@@ -124,18 +124,19 @@ using fast::Answer;
 using fast::Promise;
 using fast::Verdict;
 
-constexpr Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
-const Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
+constexpr judge::Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
+const judge::Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
 
 /// A source where `careful` is right and `hasty` is wrong in each way, and one where both are right.
-std::vector<CertifyResult> judged_results(Promise promise_of_hasty) {
-  MethodResult careful{
+std::vector<jobs::CertifyResult> judged_results(Promise promise_of_hasty) {
+  jobs::MethodResult careful{
       .name = "careful", .promise = Promise::exact, .timed = true, .judgement = {}};
-  MethodResult hasty{.name = "hasty", .promise = promise_of_hasty, .timed = false, .judgement = {}};
+  jobs::MethodResult hasty{
+      .name = "hasty", .promise = promise_of_hasty, .timed = false, .judgement = {}};
   careful.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.25});
   careful.judgement.nanoseconds = 12.5;
   hasty.judgement.add(hit, {.verdict = Verdict::yes});
-  std::vector<CertifyResult> all = results();
+  std::vector<jobs::CertifyResult> all = results();
   all[0].methods = {careful, hasty};
   for (int i = 0; i < 23; ++i) hasty.judgement.add(hit, {.verdict = Verdict::no});
   hasty.judgement.add(miss, {.verdict = Verdict::yes});
@@ -148,7 +149,7 @@ std::vector<CertifyResult> judged_results(Promise promise_of_hasty) {
   return all;
 }
 
-std::vector<std::string> method_lines(const std::vector<CertifyResult>& judged) {
+std::vector<std::string> method_lines(const std::vector<jobs::CertifyResult>& judged) {
   std::istringstream text(to_text(judged));
   std::vector<std::string> lines;
   bool seen = false;
@@ -190,7 +191,8 @@ TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
   ASSERT_EQ(json.at("methods").size(), 2U);
   nlohmann::json careful = json.at("methods")[0], hasty = json.at("methods")[1];
   nlohmann::json no_failures;
-  for (const FailureKind kind : all_failure_kinds) no_failures[to_string(kind)] = 0;
+  for (const solvers::FailureKind kind : solvers::all_failure_kinds)
+    no_failures[solvers::to_string(kind)] = 0;
   EXPECT_EQ(
       careful,
       (nlohmann::json{
@@ -232,16 +234,16 @@ TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
 
 constexpr Separation near{.distance = 1e-8, .norm = Norm::l2};
 
-std::vector<CertifyResult> separated_results() {
-  std::vector<CertifyResult> all = judged_results(Promise::conservative);
-  for (CertifyResult& result : all) result.separation = near;
+std::vector<jobs::CertifyResult> separated_results() {
+  std::vector<jobs::CertifyResult> all = judged_results(Promise::conservative);
+  for (jobs::CertifyResult& result : all) result.separation = near;
   return all;
 }
 
 TEST(CertifyReport, TextNamesTheSeparationAndWhatIsCompared) {
-  std::vector<CertifyResult> all = separated_results();
+  std::vector<jobs::CertifyResult> all = separated_results();
   EXPECT_TRUE(to_text(all).starts_with("minimum separation 1e-08 (l2)\nfile "));
-  all[1].compared = Inference::collisions;
+  all[1].compared = judge::Inference::collisions;
   EXPECT_TRUE(to_text(all).starts_with(
       "minimum separation 1e-08 (l2)\nrecorded answers are about less separation: only their "
       "collisions are compared, which must collide, no later\nfile "));
@@ -252,7 +254,7 @@ TEST(CertifyReport, TextNamesTheSeparationAndWhatIsCompared) {
 }
 
 TEST(CertifyReport, JsonHasTheSeparationOfFilesAndOfTheTotalIfItIsOne) {
-  std::vector<CertifyResult> all = separated_results();
+  std::vector<jobs::CertifyResult> all = separated_results();
   EXPECT_EQ(to_json(all).at("separation").dump(), R"({"min_separation":1e-08,"norm":"l2"})");
   EXPECT_EQ(to_json(all).at("files")[1].at("compared"), "all");
   all[1].separation.norm = Norm::linf;
@@ -261,7 +263,7 @@ TEST(CertifyReport, JsonHasTheSeparationOfFilesAndOfTheTotalIfItIsOne) {
 }
 
 TEST(CertifyReport, TolerancesHaveAColumnWithASeparationOrAFault) {
-  std::vector<CertifyResult> all = separated_results();
+  std::vector<jobs::CertifyResult> all = separated_results();
   all[0].methods[0].judgement.add_beyond_tolerance(miss,
                                                    {.verdict = Verdict::yes, .tolerance = 0.5});
   const auto lines = method_lines(all);
@@ -277,7 +279,7 @@ TEST(CertifyReport, TolerancesHaveAColumnWithASeparationOrAFault) {
             "tolerance 0.5, truth no collision");
   EXPECT_EQ(to_json(all).at("methods")[0].at("beyond_tolerance"), 1);
   EXPECT_EQ(to_json(all).at("methods")[1].at("beyond_tolerance"), 0);
-  for (CertifyResult& result : all) result.separation = {};
+  for (jobs::CertifyResult& result : all) result.separation = {};
   EXPECT_TRUE(method_lines(all)[0].ends_with("  beyond tol"));
   all = judged_results(Promise::none);
   EXPECT_FALSE(method_lines(all)[0].ends_with("  beyond tol"));
@@ -301,4 +303,4 @@ TEST(CertifyReport, TruthIsCsvWhoseDoublesComeBack) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::certify_report_test
+}  // namespace touchstone::verify::report::certify_report_test

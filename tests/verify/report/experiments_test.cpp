@@ -13,17 +13,17 @@
 
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify::experiments_test {
+namespace touchstone::verify::report::experiments_test {
 namespace {
 
 /// Vertices over a triangle, every second of which falls through it.
-std::vector<QueryGroup> falling() {
+std::vector<data::QueryGroup> falling() {
   std::vector<Query> queries;
   queries.reserve(20);
   for (int i = 0; i < 20; ++i) {
     queries.push_back(tests::over_triangle(1, 1, 1, i % 2 == 0 ? -1.0 : 0.5).query);
   }
-  std::vector<QueryGroup> groups;
+  std::vector<data::QueryGroup> groups;
   groups.emplace_back("falling", Kind::vertex_face, std::move(queries));
   return groups;
 }
@@ -93,7 +93,7 @@ TEST(Survey, SlowSearchersAreLimitedMore) {
 }
 
 TEST(Survey, MeasuresEveryTrialAndTheMapOfStability) {
-  const std::vector<QueryGroup> groups = falling();
+  const std::vector<data::QueryGroup> groups = falling();
   const Measurements result = survey(groups, quick());
   EXPECT_FALSE(result.interrupted);
   EXPECT_FALSE(result.machine.empty());
@@ -126,7 +126,7 @@ TEST(Survey, MeasuresEveryTrialAndTheMapOfStability) {
 }
 
 TEST(Survey, WithoutNamesAllMethodsTakePart) {
-  const std::vector<QueryGroup> groups = falling();
+  const std::vector<data::QueryGroup> groups = falling();
   SurveyOptions options = quick();
   options.methods.clear();
   options.stability_count = 0;
@@ -140,7 +140,7 @@ TEST(Survey, WithoutNamesAllMethodsTakePart) {
 }
 
 TEST(Survey, FiltersAreComparedOnFamiliesAndOverTheScale) {
-  const std::vector<QueryGroup> groups = falling();
+  const std::vector<data::QueryGroup> groups = falling();
   SurveyOptions options = quick();
   options.methods = {"tight_inclusion", "tight_inclusion_released"};
   options.count = 40;
@@ -165,7 +165,7 @@ TEST(Survey, FiltersAreComparedOnFamiliesAndOverTheScale) {
 }
 
 TEST(Survey, OnlyTheChosenExperimentsAreDone) {
-  const std::vector<QueryGroup> groups = falling();
+  const std::vector<data::QueryGroup> groups = falling();
   SurveyOptions options = quick();
   options.experiments = {Experiment::checks};
   options.stability_count = 0;
@@ -175,7 +175,7 @@ TEST(Survey, OnlyTheChosenExperimentsAreDone) {
 }
 
 TEST(Survey, StoppedItKeepsWhatIsMeasured) {
-  const std::vector<QueryGroup> groups = falling();
+  const std::vector<data::QueryGroup> groups = falling();
   std::atomic<bool> stop = false;
   SurveyOptions options = quick();
   options.stop = &stop;
@@ -189,11 +189,11 @@ TEST(Survey, StoppedItKeepsWhatIsMeasured) {
 }
 
 TEST(Survey, UnknownMethodsAreRefused) {
-  const std::vector<QueryGroup> groups = falling();
+  const std::vector<data::QueryGroup> groups = falling();
   SurveyOptions options = quick();
   options.methods = {"nonsense"};
   EXPECT_THROW(static_cast<void>(survey(groups, options)), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace touchstone::verify::experiments_test
+}  // namespace touchstone::verify::report::experiments_test

@@ -14,7 +14,7 @@
 
 #include "tests/support/measurements.hpp"
 
-namespace touchstone::verify::figures_test {
+namespace touchstone::verify::report::figures_test {
 namespace {
 
 using Places = std::vector<std::size_t>;
@@ -251,4 +251,4 @@ TEST(Figures, AreJsonForTheScript) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::figures_test
+}  // namespace touchstone::verify::report::figures_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/measurements.hpp"
 
-namespace touchstone::verify::findings_test {
+namespace touchstone::verify::report::findings_test {
 namespace {
 
 using Findings = std::vector<std::string>;
@@ -57,4 +57,4 @@ TEST(Findings, WithoutTheFieldAreThePromisesAlone) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::findings_test
+}  // namespace touchstone::verify::report::findings_test

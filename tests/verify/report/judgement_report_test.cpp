@@ -6,18 +6,18 @@
 #include <optional>
 #include <string>
 
-namespace touchstone::verify::judgement_report_test {
+namespace touchstone::verify::report::judgement_report_test {
 namespace {
 
 using fast::Verdict;
 
-constexpr Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
-const Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
+constexpr judge::Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
+const judge::Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
 
 /// 22 false negatives, a false positive, an undecided answer, a late time of impact and an early one, and
 /// an error.
-Judgement wrong_in_each_way() {
-  Judgement judgement;
+judge::Judgement wrong_in_each_way() {
+  judge::Judgement judgement;
   for (int i = 0; i < 22; ++i) judgement.add(hit, {.verdict = Verdict::no});
   judgement.add(miss, {.verdict = Verdict::yes});
   judgement.add(hit, {.verdict = Verdict::undecided});
@@ -28,23 +28,23 @@ Judgement wrong_in_each_way() {
 }
 
 TEST(JudgementReport, HasACellForEachColumn) {
-  const Judgement judgement = wrong_in_each_way();
-  EXPECT_EQ(fault_cells(judgement), (TextRow{"22", "1", "1", "1", "1", "1"}));
+  const judge::Judgement judgement = wrong_in_each_way();
+  EXPECT_EQ(fault_cells(judgement), (io::TextRow{"22", "1", "1", "1", "1", "1"}));
   EXPECT_EQ(fault_columns().size(), fault_cells(judgement).size());
   EXPECT_EQ(toi_error_cells(judgement.toi_errors).size(), toi_error_columns().size());
   EXPECT_EQ(toi_error_cells(judgement.toi_errors).back(), "2.50e-01");
-  EXPECT_EQ(toi_error_cells(ToiErrors()), (TextRow{"-", "-", "-"}));
+  EXPECT_EQ(toi_error_cells(judge::ToiErrors()), (io::TextRow{"-", "-", "-"}));
 }
 
 std::string lines(fast::Promise promise) {
-  const Judgement judgement = wrong_in_each_way();
+  const judge::Judgement judgement = wrong_in_each_way();
   return wrong_answers_text({.method = "a\nb",
                              .promise = promise,
                              .judgement = judgement,
                              .group = "group",
                              .kind = "edge-edge"},
                             [](std::size_t i) {
-                              return QueryPlace{"\x1b.csv", 100 + i};
+                              return data::QueryPlace{"\x1b.csv", 100 + i};
                             });
 }
 
@@ -69,10 +69,10 @@ TEST(JudgementReport, NamesAnswersThatBreakThePromiseOnly) {
 TEST(JudgementReport, CountsFailuresByKind) {
   FailureCounts failures{};
   EXPECT_EQ(to_text(failures), "");
-  failures[static_cast<std::size_t>(FailureKind::crash)] = 1;
-  failures[static_cast<std::size_t>(FailureKind::hang)] = 23;
+  failures[static_cast<std::size_t>(solvers::FailureKind::crash)] = 1;
+  failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 23;
   EXPECT_EQ(to_text(failures), "1 crash, 23 hang");
-  EXPECT_EQ(to_json(failures).size(), failure_kinds);
+  EXPECT_EQ(to_json(failures).size(), solvers::failure_kinds);
   EXPECT_EQ(to_json(failures).at("hang"), 23);
   EXPECT_EQ(to_json(failures).at("exit"), 0);
 }
@@ -94,7 +94,7 @@ TEST(JudgementReport, IsJson) {
                 {"errors", 1},
                 {"toi_error",
                  {{"count", 2}, {"p50", 0.25}, {"p90", 0.25}, {"p99", 0.25}, {"max", 0.25}}}}));
-  EXPECT_TRUE(to_json(Judgement()).at("toi_error").is_null());
+  EXPECT_TRUE(to_json(judge::Judgement()).at("toi_error").is_null());
   EXPECT_EQ(to_json(wrong_in_each_way().wrong_answers.front()),
             (nlohmann::json{{"index", 4},
                             {"fault", "false negative"},
@@ -103,7 +103,7 @@ TEST(JudgementReport, IsJson) {
 }
 
 TEST(SpreadOf, IsNothingWithoutErrors) {
-  ToiErrors errors;
+  judge::ToiErrors errors;
   EXPECT_FALSE(spread_of(errors).has_value());
   errors.add(0.0);
   errors.add(0.5);
@@ -112,4 +112,4 @@ TEST(SpreadOf, IsNothingWithoutErrors) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::judgement_report_test
+}  // namespace touchstone::verify::report::judgement_report_test

@@ -14,9 +14,9 @@
 #include "fast/certified.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
-#include "verify/run/thread_clock.hpp"
+#include "verify/jobs/thread_clock.hpp"
 
-namespace touchstone::verify::measure_test {
+namespace touchstone::verify::report::measure_test {
 namespace {
 
 using fast::Answer;
@@ -25,7 +25,7 @@ using fast::Verdict;
 using tests::FunctionMethod;
 
 /// Every tenth vertex falls through the triangle, at ½, the others to half their height.
-QueryGroup falling(std::size_t count) {
+data::QueryGroup falling(std::size_t count) {
   std::vector<Query> queries;
   for (std::size_t i = 0; i < count; ++i) {
     queries.push_back(tests::over_triangle(1, 1, 1, i % 10 == 0 ? -1.0 : 0.5).query);
@@ -49,13 +49,14 @@ class Field {
   }
   void add(const Setting& setting) { settings_.push_back(setting); }
 
-  [[nodiscard]] std::vector<Measurement> run(const QueryGroup& group,
+  [[nodiscard]] std::vector<Measurement> run(const data::QueryGroup& group,
                                              const MeasureOptions& options = {}) {
     return run(group, options, *fast::certified_method());
   }
-  [[nodiscard]] std::vector<Measurement> run(const QueryGroup& group, const MeasureOptions& options,
+  [[nodiscard]] std::vector<Measurement> run(const data::QueryGroup& group,
+                                             const MeasureOptions& options,
                                              const fast::Method& reference) {
-    Truths truths(group);
+    judge::Truths truths(group);
     return measure(group, truths, settings_, reference, options);
   }
 
@@ -65,7 +66,7 @@ class Field {
 };
 
 TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
-  const QueryGroup group = falling(200);
+  const data::QueryGroup group = falling(200);
   Field field;
   field.add([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; },
             Promise::conservative, "no");
@@ -125,7 +126,7 @@ TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
 }
 
 TEST(Measure, TheCertifiedSolverIsRightAndTellsItsStages) {
-  const QueryGroup group = falling(100);
+  const data::QueryGroup group = falling(100);
   Field field;
   const auto certified = fast::certified_method();
   field.add({certified.get(), {}});
@@ -137,7 +138,7 @@ TEST(Measure, TheCertifiedSolverIsRightAndTellsItsStages) {
 }
 
 TEST(Measure, LargerGroupsAreSampledAndItIsSaid) {
-  const QueryGroup group = falling(1000);
+  const data::QueryGroup group = falling(1000);
   Field field;
   field.add(tests::true_answer, Promise::exact, "truth");
   MeasureOptions options;
@@ -151,13 +152,13 @@ TEST(Measure, LargerGroupsAreSampledAndItIsSaid) {
 
 /// Burns so much processor time.
 Answer slow_no(Kind, const Query&) {
-  const double start = thread_nanoseconds();
-  while (thread_nanoseconds() - start < 1e6) continue;
+  const double start = jobs::thread_nanoseconds();
+  while (jobs::thread_nanoseconds() - start < 1e6) continue;
   return {.verdict = Verdict::no};
 }
 
 TEST(Measure, SlowMethodsGetASmallerSampleAndTheirOwnReference) {
-  const QueryGroup group = falling(1000);
+  const data::QueryGroup group = falling(1000);
   Field field;
   field.add(slow_no, Promise::none, "slow");
   field.add(tests::true_answer, Promise::exact, "fast");
@@ -188,7 +189,7 @@ TEST(Measure, ASampleIsNoLargerThanTheReferenceCanTake) {
 }
 
 TEST(Measure, TheTruthIsAboutTheSeparation) {
-  const QueryGroup group = falling(10);
+  const data::QueryGroup group = falling(10);
   Field field;
   field.add(tests::true_answer, Promise::none, "contact only",
             {.min_separation = 0.5, .norm = Norm::l2});
@@ -203,7 +204,7 @@ TEST(Measure, TheTruthIsAboutTheSeparation) {
 }
 
 TEST(Measure, SettingsOfAMethodMayShareTheSmallestSample) {
-  const QueryGroup group = falling(1000);
+  const data::QueryGroup group = falling(1000);
   Field field;
   field.add(slow_no, Promise::none, "method", {.tolerance = 1e-8});
   field.add([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; }, Promise::none,
@@ -223,7 +224,7 @@ TEST(Measure, SettingsOfAMethodMayShareTheSmallestSample) {
 }
 
 TEST(Measure, StoppedItHasNoResult) {
-  const QueryGroup group = falling(10);
+  const data::QueryGroup group = falling(10);
   Field field;
   field.add(tests::true_answer, Promise::exact, "truth");
   const std::atomic<bool> stop = true;
@@ -233,7 +234,7 @@ TEST(Measure, StoppedItHasNoResult) {
 }
 
 TEST(Measure, StoppedBetweenRepetitionsItKeepsThoseThatAreDone) {
-  const QueryGroup group = falling(10);
+  const data::QueryGroup group = falling(10);
   Field field;
   field.add(tests::true_answer, Promise::exact, "truth");
   std::atomic<bool> stop = false;
@@ -247,7 +248,7 @@ TEST(Measure, StoppedBetweenRepetitionsItKeepsThoseThatAreDone) {
 }
 
 TEST(Measure, TellsItsProgressUpToTheEnd) {
-  const QueryGroup group = falling(10);
+  const data::QueryGroup group = falling(10);
   Field field;
   field.add(tests::true_answer, Promise::exact, "truth");
   std::vector<double> told;
@@ -261,9 +262,9 @@ TEST(Measure, TellsItsProgressUpToTheEnd) {
 
 TEST(Measure, OptionsOutOfRangeAreRefused) {
   Field field;
-  const QueryGroup empty("empty", Kind::vertex_face);
+  const data::QueryGroup empty("empty", Kind::vertex_face);
   EXPECT_THROW(static_cast<void>(field.run(empty)), std::invalid_argument);
-  const QueryGroup group = falling(1);
+  const data::QueryGroup group = falling(1);
   for (const auto& spoil : std::vector<void (*)(MeasureOptions&)>{
            [](MeasureOptions& options) { options.count = 0; },
            [](MeasureOptions& options) { options.repetitions = 0; },
@@ -275,4 +276,4 @@ TEST(Measure, OptionsOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::measure_test
+}  // namespace touchstone::verify::report::measure_test

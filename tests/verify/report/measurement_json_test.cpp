@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-namespace touchstone::verify::measurement_json_test {
+namespace touchstone::verify::report::measurement_json_test {
 namespace {
 
 Measurement with_all_fields() {
@@ -146,4 +146,4 @@ TEST(MeasurementJson, WhatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::measurement_json_test
+}  // namespace touchstone::verify::report::measurement_json_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace touchstone::verify::measurement_test {
+namespace touchstone::verify::report::measurement_test {
 namespace {
 
 TEST(Measurement, ExperimentsHaveNames) {
@@ -62,4 +62,4 @@ TEST(Measurements, HaveWrongAnswersIfOnePromiseIsBroken) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::measurement_test
+}  // namespace touchstone::verify::report::measurement_test

@@ -18,7 +18,7 @@
 #include "verify/report/figures.hpp"
 #include "verify/report/page.hpp"
 
-namespace touchstone::verify::page_browser_test {
+namespace touchstone::verify::report::page_browser_test {
 namespace {
 
 class Browser : public tests::BrowserTest {};
@@ -123,22 +123,23 @@ TEST_F(Browser, DrawsNumbersAtTheEndsOfTheRange) {
 
 /// A level for each number, as the error of the time of impact, as time in nanoseconds, and as checks;
 /// each second one has a false negative.
-StabilityResult map_of(const std::vector<double>& numbers) {
-  StabilityResult result;
+stability::StabilityResult map_of(const std::vector<double>& numbers) {
+  stability::StabilityResult result;
   result.count = 1;
-  const Hardness& hardness = hardness_from_name("distance");
+  const stability::Hardness& hardness = stability::hardness_from_name("distance");
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    StabilityCell cell{.hardness = &hardness,
-                       .exponent = hardness.exponents.at(i % hardness.exponents.size()),
-                       .kind = i < hardness.exponents.size() ? Kind::vertex_face : Kind::edge_edge,
-                       .judged = {}};
+    stability::StabilityCell cell{
+        .hardness = &hardness,
+        .exponent = hardness.exponents.at(i % hardness.exponents.size()),
+        .kind = i < hardness.exponents.size() ? Kind::vertex_face : Kind::edge_edge,
+        .judged = {}};
     cell.judged.queries = cell.judged.collisions = 1;
-    MethodResult judged{.name = "planted", .timed = true, .judgement = {}};
+    jobs::MethodResult judged{.name = "planted", .timed = true, .judgement = {}};
     judged.judgement.queries = 1;
     judged.judgement.toi_errors.add(numbers[i]);
     judged.judgement.nanoseconds = numbers[i];
     judged.judgement.checks = static_cast<std::uint64_t>(std::min(numbers[i], 1e15));
-    judged.judgement.faults[static_cast<std::size_t>(Fault::false_negative)] = i % 2;
+    judged.judgement.faults[static_cast<std::size_t>(judge::Fault::false_negative)] = i % 2;
     cell.judged.methods.push_back(judged);
     result.total += cell.judged;
     result.cells.push_back(cell);
@@ -153,7 +154,8 @@ const std::vector<double> numbers_of_any_size{
 
 /// The page, with a line that says how many texts stand in cells and which are wider than these.
 /// \param planted put into every cell instead of its text, if not empty
-std::string page_that_measures(const StabilityResult& result, const std::string& planted = "") {
+std::string page_that_measures(const stability::StabilityResult& result,
+                               const std::string& planted = "") {
   const std::string script = "<p id=\"wide\"></p><script>const planted = \"" + planted + R"(";
 const texts = Array.from(document.querySelectorAll("text.cell"));
 if (planted) for (const text of texts) text.textContent = planted;
@@ -220,4 +222,4 @@ TEST_F(Browser, APlantedFaultIsSeen) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::page_browser_test
+}  // namespace touchstone::verify::report::page_browser_test

@@ -11,7 +11,7 @@
 #include "verify/report/figures.hpp"
 #include "verify/report/page_texts.hpp"
 
-namespace touchstone::verify::page_test {
+namespace touchstone::verify::report::page_test {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
@@ -119,21 +119,21 @@ TEST(Page, OpensWithItsFindingsAndTimeAgainstError) {
   }
 }
 
-StabilityResult map_of_one_cell(const std::string& method) {
-  StabilityResult result;
+stability::StabilityResult map_of_one_cell(const std::string& method) {
+  stability::StabilityResult result;
   result.seed = 77;
   result.count = 10;
-  StabilityCell cell{.hardness = &hardness_from_name("distance"),
-                     .exponent = -50,
-                     .kind = Kind::edge_edge,
-                     .judged = {}};
+  stability::StabilityCell cell{.hardness = &stability::hardness_from_name("distance"),
+                                .exponent = -50,
+                                .kind = Kind::edge_edge,
+                                .judged = {}};
   cell.judged.queries = 10;
   cell.judged.collisions = 5;
-  MethodResult judged{
+  jobs::MethodResult judged{
       .name = method, .promise = fast::Promise::conservative, .timed = true, .judgement = {}};
   judged.judgement.queries = 10;
   judged.judgement.nanoseconds = 1000.0;
-  judged.judgement.faults[static_cast<std::size_t>(Fault::false_negative)] = 1;
+  judged.judgement.faults[static_cast<std::size_t>(judge::Fault::false_negative)] = 1;
   cell.judged.methods.push_back(judged);
   result.total += cell.judged;
   result.cells.push_back(cell);
@@ -141,7 +141,7 @@ StabilityResult map_of_one_cell(const std::string& method) {
 }
 
 TEST(StabilityPage, SaysWhatItIsAboutAndWhoKeepsTheirPromise) {
-  StabilityResult result = map_of_one_cell("planted");
+  stability::StabilityResult result = map_of_one_cell("planted");
   result.separation = {.distance = 0.25, .norm = Norm::l2};
   result.total.interrupted = true;
   const std::string page = stability_page(result, "touchstone stability --seed 77");
@@ -173,4 +173,4 @@ TEST(Page, WithoutABaselineOursAreShownOverTheSeparation) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::page_test
+}  // namespace touchstone::verify::report::page_test

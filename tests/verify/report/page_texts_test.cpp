@@ -7,7 +7,7 @@
 
 #include "tests/support/folder_test.hpp"
 
-namespace touchstone::verify::page_texts_test {
+namespace touchstone::verify::report::page_texts_test {
 namespace {
 
 const std::string folder = tests::source_folder() + "/verify/report/page/";
@@ -32,4 +32,4 @@ TEST(PageTexts, NoneEndsTheElementThatItStandsIn) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::page_texts_test
+}  // namespace touchstone::verify::report::page_texts_test

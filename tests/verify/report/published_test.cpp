@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-namespace touchstone::verify::published_test {
+namespace touchstone::verify::report::published_test {
 namespace {
 
 constexpr std::array<std::string_view, 2> datasets{"handcrafted", "simulation"};
@@ -57,4 +57,4 @@ TEST(Published, OtherDataAreNotInIt) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::published_test
+}  // namespace touchstone::verify::report::published_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/measurements.hpp"
 
-namespace touchstone::verify::results_test {
+namespace touchstone::verify::report::results_test {
 namespace {
 
 bool contains(const std::string& text, const std::string& part) {
@@ -107,4 +107,4 @@ TEST(Results, NameNoFolderOfAMachine) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::results_test
+}  // namespace touchstone::verify::report::results_test

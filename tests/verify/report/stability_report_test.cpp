@@ -9,17 +9,18 @@
 
 #include "tests/support/methods.hpp"
 
-namespace touchstone::verify::stability_report_test {
+namespace touchstone::verify::report::stability_report_test {
 namespace {
 
 using fast::Verdict;
 
 /// One cell of ten queries, half of them collisions, as judged.
-StabilityCell cell(const std::string& hardness, int exponent, const Judgement& judgement) {
-  StabilityCell result{.hardness = &hardness_from_name(hardness),
-                       .exponent = exponent,
-                       .kind = Kind::edge_edge,
-                       .judged = {}};
+stability::StabilityCell cell(const std::string& hardness, int exponent,
+                              const judge::Judgement& judgement) {
+  stability::StabilityCell result{.hardness = &stability::hardness_from_name(hardness),
+                                  .exponent = exponent,
+                                  .kind = Kind::edge_edge,
+                                  .judged = {}};
   result.judged.queries = 10;
   result.judged.collisions = 5;
   result.judged.methods.push_back({.name = "planted",
@@ -29,22 +30,22 @@ StabilityCell cell(const std::string& hardness, int exponent, const Judgement& j
   return result;
 }
 
-Judgement faults(std::uint64_t false_negatives, std::uint64_t false_positives) {
-  Judgement result;
+judge::Judgement faults(std::uint64_t false_negatives, std::uint64_t false_positives) {
+  judge::Judgement result;
   result.queries = 10;
   result.nanoseconds = 1234.0;
   result.checks = 25;
-  result.faults[static_cast<std::size_t>(Fault::false_negative)] = false_negatives;
-  result.faults[static_cast<std::size_t>(Fault::false_positive)] = false_positives;
+  result.faults[static_cast<std::size_t>(judge::Fault::false_negative)] = false_negatives;
+  result.faults[static_cast<std::size_t>(judge::Fault::false_positive)] = false_positives;
   return result;
 }
 
-StabilityResult result_of(const std::vector<StabilityCell>& cells) {
-  StabilityResult result;
+stability::StabilityResult result_of(const std::vector<stability::StabilityCell>& cells) {
+  stability::StabilityResult result;
   result.seed = 3;
   result.count = 10;
   result.cells = cells;
-  for (const StabilityCell& one : cells) result.total += one.judged;
+  for (const stability::StabilityCell& one : cells) result.total += one.judged;
   return result;
 }
 
@@ -53,12 +54,12 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 TEST(StabilityText, HasALineAHardnessAndACharacterALevel) {
-  Judgement late = faults(0, 0);
-  late.faults[static_cast<std::size_t>(Fault::late_toi)] = 1;
-  Judgement wrong = faults(0, 0);
-  wrong.faults[static_cast<std::size_t>(Fault::error)] = 1;
-  Judgement far = faults(0, 1);
-  far.faults[static_cast<std::size_t>(Fault::beyond_tolerance)] = 1;
+  judge::Judgement late = faults(0, 0);
+  late.faults[static_cast<std::size_t>(judge::Fault::late_toi)] = 1;
+  judge::Judgement wrong = faults(0, 0);
+  wrong.faults[static_cast<std::size_t>(judge::Fault::error)] = 1;
+  judge::Judgement far = faults(0, 1);
+  far.faults[static_cast<std::size_t>(judge::Fault::beyond_tolerance)] = 1;
   const std::string text = to_text(result_of(
       {cell("distance", -1, faults(0, 0)), cell("distance", -5, faults(0, 2)),
        cell("distance", -10, faults(0, 5)), cell("distance", -15, faults(1, 5)),
@@ -74,12 +75,14 @@ TEST(StabilityText, KeepsItsPromiseWithFalsePositivesOnly) {
 }
 
 TEST(StabilityText, NamesSeparationAndDisagreements) {
-  StabilityResult result = result_of({cell("angle", -1, faults(0, 0))});
+  stability::StabilityResult result = result_of({cell("angle", -1, faults(0, 0))});
   EXPECT_FALSE(contains(to_text(result), "minimum separation"));
   result.separation = {.distance = 0.5, .norm = Norm::l2};
   result.cells[0].judged.name = "angle 2^-1";
-  result.cells[0].judged.mismatches.push_back(
-      {.of = Mismatch::Of::label, .index = 4, .recorded = "collision", .truth = "no collision"});
+  result.cells[0].judged.mismatches.push_back({.of = jobs::Mismatch::Of::label,
+                                               .index = 4,
+                                               .recorded = "collision",
+                                               .truth = "no collision"});
   const std::string text = to_text(result);
   EXPECT_TRUE(contains(text, "minimum separation 0.5 (l2)\n"));
   EXPECT_TRUE(contains(text,
@@ -89,7 +92,7 @@ TEST(StabilityText, NamesSeparationAndDisagreements) {
 }
 
 TEST(StabilityJson, HasEveryCellOfEveryMethod) {
-  Judgement with_error = faults(1, 3);
+  judge::Judgement with_error = faults(1, 3);
   with_error.toi_errors.add(0.25);
   const nlohmann::json json =
       to_json(result_of({cell("scale", -800, faults(0, 0)), cell("scale", 0, with_error)}));
@@ -128,9 +131,9 @@ TEST(StabilityJson, HasEveryCellOfEveryMethod) {
 }
 
 TEST(StabilityJson, IsNullWhereNothingIsKnown) {
-  StabilityCell unknown = cell("scale", 0, Judgement{});
+  stability::StabilityCell unknown = cell("scale", 0, judge::Judgement{});
   unknown.judged.methods[0].timed = false;
-  StabilityResult result = result_of({unknown});
+  stability::StabilityResult result = result_of({unknown});
   result.separation = {.distance = 0.5, .norm = Norm::l2};
   const nlohmann::json json = to_json(result);
   const nlohmann::json& only = json.at("methods")[0].at("cells")[0];
@@ -140,11 +143,11 @@ TEST(StabilityJson, IsNullWhereNothingIsKnown) {
 }
 
 TEST(StabilityMarks, HoldWhatAReportShowsOfACell) {
-  Judgement wrong = faults(1, 3);
+  judge::Judgement wrong = faults(1, 3);
   wrong.toi_errors.add(0.25);
   wrong.undecided = 2;
   const auto marks =
-      marks_of(result_of({cell("scale", -800, Judgement{}), cell("scale", 0, wrong)}));
+      marks_of(result_of({cell("scale", -800, judge::Judgement{}), cell("scale", 0, wrong)}));
   ASSERT_EQ(marks.size(), 2U);
   EXPECT_EQ(marks[0].worst, "");
   EXPECT_TRUE(std::isnan(marks[0].checks));
@@ -170,8 +173,8 @@ TEST(StabilityOverview, HasTheWorstOfEachHardness) {
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.rows[0],
             (Row{"planted", "false negative 10 %", "nothing wrong", "false positive 40 %"}));
-  EXPECT_EQ(overview_of(StabilityResult{}).columns, Row{"method"});
+  EXPECT_EQ(overview_of(stability::StabilityResult{}).columns, Row{"method"});
 }
 
 }  // namespace
-}  // namespace touchstone::verify::stability_report_test
+}  // namespace touchstone::verify::report::stability_report_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/measurements.hpp"
 
-namespace touchstone::verify::tables_test {
+namespace touchstone::verify::report::tables_test {
 namespace {
 
 using Row = std::vector<std::string>;
@@ -102,4 +102,4 @@ TEST(Tables, WriteMarkdownAndCsv) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::tables_test
+}  // namespace touchstone::verify::report::tables_test

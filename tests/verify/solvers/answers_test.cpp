@@ -15,12 +15,12 @@
 #include "tests/verify/data/dataset_fixture.hpp"
 #include "verify/io/printable.hpp"
 
-namespace touchstone::verify::answers_test {
+namespace touchstone::verify::solvers::answers_test {
 namespace {
 
+using data::test::TemporaryFolder;
 using fast::Answer;
 using fast::Verdict;
-using test::TemporaryFolder;
 
 constexpr auto vf = Kind::vertex_face;
 constexpr auto ee = Kind::edge_edge;
@@ -46,7 +46,7 @@ RecordedAnswers load_written(const std::string& text) {
 
 std::string error_in(const std::string& text) {
   const TemporaryFolder folder;
-  return test::error_of(folder.path(), [&] { static_cast<void>(load(folder, text)); });
+  return data::test::error_of(folder.path(), [&] { static_cast<void>(load(folder, text)); });
 }
 
 std::string error_in_rows(const std::string& text) { return error_in(header + text); }
@@ -135,7 +135,7 @@ TEST(Answers, AreFoundUnderNamesThatAreWrittenOut) {
   for (const std::string name :
        {"=1+1.csv", "'=1.csv", "-a.csv", "a\x1b[2J\n\u202e.csv", "caf\xe9.csv"}) {
     const std::string row = answer_row(name, 0, vf, {.verdict = Verdict::yes, .toi_lower = 0.5});
-    EXPECT_TRUE(is_printable(row.substr(0, row.size() - 1))) << row;
+    EXPECT_TRUE(io::is_printable(row.substr(0, row.size() - 1))) << row;
     EXPECT_EQ(std::string_view("=+-@").find(row.front()), std::string_view::npos) << row;
     const RecordedAnswers answers = load_written(row);
     ASSERT_TRUE(answers.answer_to(name, vf, 0)) << row;
@@ -349,9 +349,10 @@ TEST(LoadAnswers, NeedsItsHeader) {
 
 TEST(LoadAnswers, NeedsAFile) {
   const TemporaryFolder folder;
-  EXPECT_EQ(test::error_of(folder.path(),
+  EXPECT_EQ(
+      data::test::error_of(folder.path(),
                            [&] { static_cast<void>(load_answers(folder.path() / "none.csv")); }),
-            "none.csv: cannot open: No such file or directory");
+      "none.csv: cannot open: No such file or directory");
 }
 
 struct BadRow {
@@ -422,4 +423,4 @@ TEST(LoadAnswers, FindsLinesThatAreTooLong) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::answers_test
+}  // namespace touchstone::verify::solvers::answers_test

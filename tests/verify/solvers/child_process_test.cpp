@@ -14,7 +14,7 @@
 // A program of its own: it makes processes, which copy no threads. What a child may take is tested in
 // solver_process_test.cpp, where somebody takes it.
 
-namespace touchstone::verify::child_process_test {
+namespace touchstone::verify::solvers::child_process_test {
 namespace {
 
 using Event = ChildProcess::Event;
@@ -154,4 +154,4 @@ TEST(CapturedOutput, KeepsTheBeginning) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::child_process_test
+}  // namespace touchstone::verify::solvers::child_process_test

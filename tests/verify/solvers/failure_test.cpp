@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace touchstone::verify::failure_test {
+namespace touchstone::verify::solvers::failure_test {
 namespace {
 
 using fast::Answer;
@@ -68,4 +68,4 @@ TEST(VerdictOf, OnlyIndecisionIsConservative) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::failure_test
+}  // namespace touchstone::verify::solvers::failure_test

@@ -19,13 +19,13 @@
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
 #include "verify/solvers/solver_process.hpp"
 
-namespace touchstone::verify::plugin_test {
+namespace touchstone::verify::solvers::plugin_test {
 namespace {
 
+using data::test::error_of;
+using data::test::TemporaryFolder;
 using fast::Answer;
 using fast::Verdict;
-using test::error_of;
-using test::TemporaryFolder;
 using tests::Misbehaviour;
 using tests::PosedQuery;
 
@@ -355,4 +355,4 @@ TEST(Plugin, InAProcessOfItsOwnItsWorstCostsOneQueryEach) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::plugin_test
+}  // namespace touchstone::verify::solvers::plugin_test

@@ -14,7 +14,7 @@
 #include "tests/support/built_files.hpp"
 #include "tests/support/queries.hpp"
 
-namespace touchstone::verify::registry_test {
+namespace touchstone::verify::solvers::registry_test {
 namespace {
 
 TEST(Registry, NamesAreUniqueAndFound) {
@@ -114,4 +114,4 @@ TEST(Registry, PromisesHaveNames) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::registry_test
+}  // namespace touchstone::verify::solvers::registry_test

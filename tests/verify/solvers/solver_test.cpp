@@ -18,14 +18,14 @@
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
 #include "verify/generate/workload.hpp"
+#include "verify/jobs/bench.hpp"
+#include "verify/jobs/stream.hpp"
+#include "verify/jobs/thread_clock.hpp"
 #include "verify/mesh/moving_mesh.hpp"
-#include "verify/run/bench.hpp"
-#include "verify/run/stream.hpp"
-#include "verify/run/thread_clock.hpp"
 
 // A program of its own: it makes processes, which copy no threads.
 
-namespace touchstone::verify::solver_test {
+namespace touchstone::verify::solvers::solver_test {
 namespace {
 
 using fast::Answer;
@@ -90,8 +90,8 @@ TEST(Solver, InThisAndInChildProcessesGivesTheMethodsAnswers) {
 
 TEST(Solver, TimeIsTheProcessorTimeOfTheMethod) {
   const FunctionMethod burner([](Kind, const Query&) -> Answer {
-    const double start = thread_nanoseconds();
-    while (thread_nanoseconds() < start + 2e6) continue;
+    const double start = jobs::thread_nanoseconds();
+    while (jobs::thread_nanoseconds() < start + 2e6) continue;
     return {};
   });
   EXPECT_GE(ask(*solver_in_process(burner, {}), 10).nanoseconds(), 20e6);
@@ -218,7 +218,7 @@ TEST(Solver, SaysWhatItsChildProcessesDid) {
     if (getpid() != parent && ++calls == 1500) std::raise(SIGKILL);
     return echo(kind, query);
   });
-  const Outcome outcome = ask(*solver_in_children(dies_late, {}, {}), Block::size);
+  const Outcome outcome = ask(*solver_in_children(dies_late, {}, {}), jobs::Block::size);
   EXPECT_EQ(outcome.reply.unplaced_crashes, 1U);
   EXPECT_FALSE(outcome.reply.stopped);
   EXPECT_EQ(outcome.answers.back().verdict, Verdict::yes);
@@ -326,14 +326,14 @@ TEST(Solver, ACrashInABenchmarkCostsAQuery) {
     return tests::true_answer(kind, query);
   });
   const auto solver = solver_in_children(method, {}, {});
-  BenchOptions options;
+  jobs::BenchOptions options;
   options.repetitions = 2;
-  const BenchResult result = bench(QueryGroup("falling", vf, falling(8)),
-                                   std::vector<const Solver*>{solver.get()}, options);
-  const SolverResult& said = result.solvers.at(0);
+  const jobs::BenchResult result = jobs::bench(data::QueryGroup("falling", vf, falling(8)),
+                                               std::vector<const Solver*>{solver.get()}, options);
+  const jobs::SolverResult& said = result.solvers.at(0);
   EXPECT_EQ(said.queries, 8U);
   EXPECT_EQ(said.judgement.count(FailureKind::crash), 1U);
-  EXPECT_EQ(said.judgement.count(Fault::error), 1U);
+  EXPECT_EQ(said.judgement.count(judge::Fault::error), 1U);
   ASSERT_EQ(said.judgement.wrong_answers.size(), 1U);
   EXPECT_EQ(said.judgement.wrong_answers[0].answer, "crash: SIGSEGV");
   EXPECT_GT(said.times.median(), 0.0);
@@ -364,11 +364,11 @@ TEST(Solver, StagesAreCountedInTheirOrder) {
 }
 
 TEST(Solver, PairsAreAnsweredAsTheirQueriesAre) {
-  const MovingMesh mesh = moving_patches({.seed = 3, .cells = 6});
+  const mesh::MovingMesh mesh = generate::moving_patches({.seed = 3, .cells = 6});
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const auto pairs = find_candidates(mesh, kind);
-    const fast::Candidates candidates = candidates_of(mesh, kind, pairs);
-    const auto queries = queries_of(mesh, candidates);
+    const auto pairs = mesh::find_candidates(mesh, kind);
+    const fast::Candidates candidates = mesh::candidates_of(mesh, kind, pairs);
+    const auto queries = mesh::queries_of(mesh, candidates);
     const auto with_queries = certified_queries({});
     const auto with_pairs = certified_pairs(mesh.vertices, candidates, {});
     EXPECT_EQ(with_queries->name(), "certified_queries");
@@ -395,4 +395,4 @@ TEST(Solver, PairsAreAnsweredAsTheirQueriesAre) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::solver_test
+}  // namespace touchstone::verify::solvers::solver_test

@@ -22,7 +22,7 @@
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::hardness_test {
+namespace touchstone::verify::stability::hardness_test {
 namespace {
 
 using exact::Rational;
@@ -217,7 +217,7 @@ TEST(HardQueries, HaveTheScale) {
 TEST(HardQueries, HaveFullSignificands) {
   for (const std::string_view name : {"distance", "aspect", "angle", "scale"}) {
     for_each_query(name, 8, [](int, Kind, const Query& query, bool) {
-      EXPECT_TRUE(builtin::uses_full_significands(query));
+      EXPECT_TRUE(generate::uses_full_significands(query));
     });
   }
 }
@@ -225,7 +225,7 @@ TEST(HardQueries, HaveFullSignificands) {
 std::uint64_t hash(const Query& query) {
   std::uint64_t value = 0;
   for (const double x : query.coordinates) {
-    value = builtin::mix(value ^ std::bit_cast<std::uint64_t>(x));
+    value = generate::mix(value ^ std::bit_cast<std::uint64_t>(x));
   }
   return value;
 }
@@ -328,4 +328,4 @@ TEST(OpenHardQueries, StreamsThemWithTheirLabels) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::hardness_test
+}  // namespace touchstone::verify::stability::hardness_test

@@ -14,7 +14,7 @@
 #include "verify/generate/random.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify::stability_test {
+namespace touchstone::verify::stability::stability_test {
 namespace {
 
 using fast::Answer;
@@ -26,7 +26,7 @@ constexpr std::uint64_t count = 8;
 
 /// Queries of one hardness by one method that is a function.
 StabilityResult measure(const FunctionMethod& method, const StabilityOptions& base = {}) {
-  const auto solver = solver_in_process(method, {});
+  const auto solver = solvers::solver_in_process(method, {});
   StabilityOptions options = base;
   options.seed = 5;
   options.count = count;
@@ -36,7 +36,7 @@ StabilityResult measure(const FunctionMethod& method, const StabilityOptions& ba
 
 /// A coin for a query that depends on nothing else.
 bool coin(const Query& query) {
-  return builtin::mix(std::bit_cast<std::uint64_t>(query.coordinates[0])) % 2 == 0;
+  return generate::mix(std::bit_cast<std::uint64_t>(query.coordinates[0])) % 2 == 0;
 }
 
 Answer answer(Verdict verdict) { return {.verdict = verdict}; }
@@ -68,16 +68,17 @@ TEST(MeasureStability, PlantedMethodsHaveExactlyTheirRates) {
   const FunctionMethod always([](Kind, const Query&) { return answer(Verdict::yes); });
   const FunctionMethod unsure([](Kind, const Query&) { return answer(Verdict::undecided); });
   const FunctionMethod broken([](Kind, const Query&) { return answer(Verdict::error); });
-  for (const auto& [method, fault] :
-       {std::pair{&never, Fault::false_negative}, std::pair{&always, Fault::false_positive},
-        std::pair{&unsure, Fault::false_positive}, std::pair{&broken, Fault::error}}) {
+  for (const auto& [method, fault] : {std::pair{&never, judge::Fault::false_negative},
+                                      std::pair{&always, judge::Fault::false_positive},
+                                      std::pair{&unsure, judge::Fault::false_positive},
+                                      std::pair{&broken, judge::Fault::error}}) {
     const StabilityResult result = measure(*method);
     for (const StabilityCell& cell : result.cells) {
       const Outcome outcome = outcome_of(cell.judged, 0);
       ASSERT_TRUE(outcome.worst);
       EXPECT_EQ(*outcome.worst, fault);
       EXPECT_EQ(outcome.rate, 1.0);
-      EXPECT_EQ(rate_of(Fault::late_toi, cell.judged, 0), 0.0);
+      EXPECT_EQ(rate_of(judge::Fault::late_toi, cell.judged, 0), 0.0);
     }
   }
 }
@@ -97,8 +98,10 @@ TEST(MeasureStability, CountsWhatIsWrongInEachCell) {
           {.hardness = cell.hardness, .exponent = cell.exponent, .kind = cell.kind}, 5, index);
       if (coin(made.query)) ++(made.collides ? missed : invented);
     }
-    EXPECT_EQ(rate_of(Fault::false_negative, cell.judged, 0), static_cast<double>(missed) / 4.0);
-    EXPECT_EQ(rate_of(Fault::false_positive, cell.judged, 0), static_cast<double>(invented) / 4.0);
+    EXPECT_EQ(rate_of(judge::Fault::false_negative, cell.judged, 0),
+              static_cast<double>(missed) / 4.0);
+    EXPECT_EQ(rate_of(judge::Fault::false_positive, cell.judged, 0),
+              static_cast<double>(invented) / 4.0);
   }
 }
 
@@ -112,7 +115,7 @@ TEST(MeasureStability, TimesThatExcludeTheTrueOneAreWorseThanErrorsAndFalsePosit
   const StabilityResult result = measure(late);
   for (const StabilityCell& cell : result.cells) {
     const Outcome outcome = outcome_of(cell.judged, 0);
-    EXPECT_EQ(outcome.worst, Fault::late_toi);
+    EXPECT_EQ(outcome.worst, judge::Fault::late_toi);
     EXPECT_EQ(outcome.rate, 1.0);
   }
 }
@@ -145,7 +148,7 @@ TEST(MeasureStability, CountsChecksWhereTheMethodDoes) {
 
 /// The queries are about the distance that was asked for, and so is the truth.
 TEST(MeasureStability, TakesASeparation) {
-  const auto certified = solver_in_process(find_method("certified"), {});
+  const auto certified = solvers::solver_in_process(solvers::find_method("certified"), {});
   const StabilityResult result = measure_stability(
       {&hardness_from_name("scale")}, {.separation = {.distance = 0.01, .norm = Norm::l2},
                                        .count = count,
@@ -170,8 +173,8 @@ TEST(MeasureStability, IsTheSameForAnyNumberOfThreads) {
   const StabilityResult three = measure(method, {.threads = 3});
   ASSERT_EQ(one.cells.size(), three.cells.size());
   for (std::size_t i = 0; i < one.cells.size(); ++i) {
-    const Judgement& a = one.cells[i].judged.methods.at(0).judgement;
-    const Judgement& b = three.cells[i].judged.methods.at(0).judgement;
+    const judge::Judgement& a = one.cells[i].judged.methods.at(0).judgement;
+    const judge::Judgement& b = three.cells[i].judged.methods.at(0).judgement;
     EXPECT_EQ(a.faults, b.faults);
     EXPECT_EQ(a.undecided, b.undecided);
     ASSERT_EQ(a.toi_errors.count(), b.toi_errors.count());
@@ -198,4 +201,4 @@ TEST(MeasureStability, AStopLeavesWhatWasJudged) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::stability_test
+}  // namespace touchstone::verify::stability::stability_test

@@ -91,12 +91,12 @@ TEST(SeparatedDecision, AgreesWithTheOracleOnRandomQueries) {
 
 TEST(SeparatedDecision, AgreesWithTheOracleOnAllFamilies) {
   Random random(2);
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     for (const Kind kind : kinds) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t i = 0; i < 2; ++i) {
         SCOPED_TRACE(std::string(family.name) + ' ' + std::to_string(i));
-        expect_truth({kind, verify::make_query(family, kind, 3, i).query}, draw(random));
+        expect_truth({kind, verify::generate::make_query(family, kind, 3, i).query}, draw(random));
         if (HasFailure()) return;
       }
     }
@@ -110,7 +110,7 @@ TEST(SeparatedDecision, AgreesWithTheOracleOnPublicQueries) {
   Random random(3);
   for (const auto& file : files) {
     SCOPED_TRACE(file);
-    const auto source = verify::open_dataset(file);
+    const auto source = verify::data::open_dataset(file);
     while (const auto recorded = source->next()) {
       if (recorded->index % stride != 0) continue;
       expect_truth({source->kind(), recorded->query}, draw(random));

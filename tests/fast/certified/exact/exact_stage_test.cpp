@@ -94,12 +94,12 @@ void expect_truth(const PosedQuery& posed, double tolerance) {
 TEST(ExactStage, AgreesWithTheOracleOnAllFamilies) {
   constexpr std::uint64_t count = tests::trials(200U);
   std::size_t turn = 0;
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     for (const Kind kind : kinds) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t i = 0; i < count; ++i) {
         SCOPED_TRACE(std::string(family.name) + ' ' + std::to_string(i));
-        expect_truth({kind, verify::make_query(family, kind, 1, i).query},
+        expect_truth({kind, verify::generate::make_query(family, kind, 1, i).query},
                      tolerances[turn++ % tolerances.size()]);
         if (HasFailure()) return;
       }
@@ -108,11 +108,11 @@ TEST(ExactStage, AgreesWithTheOracleOnAllFamilies) {
 }
 
 TEST(ExactStage, KnowsTheTruthOfTheFamiliesByConstruction) {
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     for (const Kind kind : kinds) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t i = 0; i < tests::trials(300U); ++i) {
-        const verify::KnownQuery known = verify::make_query(family, kind, 2, i);
+        const verify::generate::KnownQuery known = verify::generate::make_query(family, kind, 2, i);
         const auto impact = decide_exactly(kind, known.query, 1e-12, 1.0);
         ASSERT_EQ(impact.has_value(), known.collides) << family.name << ' ' << i;
         if (!known.toi) continue;
@@ -328,12 +328,13 @@ TEST(ExactStage, SeparatesARootFromOneBesideIt) {
 
 /// How many families have an answer that is wrong.
 std::size_t families_that_find(Decide* decide) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(verify::families(), [&](const verify::Family& family) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      verify::generate::families(), [&](const verify::generate::Family& family) {
         for (const Kind kind : kinds) {
-          if (!verify::supports(family, kind)) continue;
+          if (!verify::generate::supports(family, kind)) continue;
           for (std::uint64_t i = 0; i < 50; ++i) {
-            if (is_wrong(decide, kind, verify::make_query(family, kind, 5, i).query)) return true;
+            if (is_wrong(decide, kind, verify::generate::make_query(family, kind, 5, i).query))
+              return true;
           }
         }
         return false;

@@ -143,13 +143,13 @@ TEST(Separated, EveryStageIsReached) {
 // ---- Against the oracle -------------------------------------------------------------------------
 
 TEST(Separated, IsRightOnAllFamilies) {
-  for (const verify::Family& family : verify::families()) {
+  for (const verify::generate::Family& family : verify::generate::families()) {
     for (const Kind kind : kinds) {
-      if (!verify::supports(family, kind)) continue;
+      if (!verify::generate::supports(family, kind)) continue;
       SCOPED_TRACE(family.name);
       std::vector<Query> queries;
       for (std::uint64_t i = 0; i < 10; ++i) {
-        queries.push_back(verify::make_query(family, kind, 4, i).query);
+        queries.push_back(verify::generate::make_query(family, kind, 4, i).query);
       }
       expect_truth_at_distances(kind, queries);
     }
@@ -248,7 +248,7 @@ TEST(Separated, IsRightOnPublicData) {
   if (files.empty()) GTEST_SKIP() << "public data missing";
   for (const auto& file : files) {
     SCOPED_TRACE(file);
-    const auto source = verify::open_dataset(file);
+    const auto source = verify::data::open_dataset(file);
     std::vector<Query> queries;
     while (const auto recorded = source->next()) queries.push_back(recorded->query);
     expect_truth_at_distances(source->kind(), queries);

@@ -1,0 +1,405 @@
+#include "verify/jobs/bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tests/support/methods.hpp"
+#include "tests/support/queries.hpp"
+#include "verify/jobs/statistics.hpp"
+#include "verify/jobs/thread_clock.hpp"
+
+namespace touchstone::verify::jobs::bench_test {
+namespace {
+
+using fast::Answer;
+using fast::Promise;
+using fast::Verdict;
+using tests::FunctionMethod;
+
+constexpr int hit_every = 10;
+
+bool collides(std::size_t position) { return position % hit_every == 0; }
+
+/// Vertices over a triangle, of which those at multiples of ten fall through it, each at a time of
+/// its own. The first coordinate of the face's first point numbers them.
+data::QueryGroup falling_vertices(std::size_t count) {
+  std::vector<Query> queries;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double start = 1.0 + 0.001 * static_cast<double>(i % 97);
+    queries.push_back(tests::over_triangle(1.0, 1.0, start, collides(i) ? -1.0 : 0.5).query);
+  }
+  return {"falling", Kind::vertex_face, std::move(queries)};
+}
+
+BenchOptions quick() {
+  BenchOptions options;
+  options.repetitions = 2;
+  options.seconds = 10.0;
+  options.singles = 50;
+  return options;
+}
+
+/// Methods and the solvers made of them.
+class Field {
+ public:
+  void add(FunctionMethod::Function function, Promise promise, const std::string& name) {
+    add(std::make_unique<FunctionMethod>(std::move(function), promise, name));
+  }
+  void add(std::unique_ptr<fast::Method> method) {
+    methods_.push_back(std::move(method));
+    solvers_.push_back(solvers::solver_in_process(*methods_.back(), {}));
+  }
+  void add(std::unique_ptr<solvers::Solver> solver) { solvers_.push_back(std::move(solver)); }
+
+  [[nodiscard]] BenchResult run(const data::QueryGroup& group, const BenchOptions& options) const {
+    std::vector<const solvers::Solver*> solvers;
+    for (const auto& solver : solvers_) solvers.push_back(solver.get());
+    return bench(group, solvers, options);
+  }
+
+ private:
+  std::vector<std::unique_ptr<fast::Method>> methods_;
+  std::vector<std::unique_ptr<solvers::Solver>> solvers_;
+};
+
+Answer always_no(Kind, const Query&) { return {.verdict = Verdict::no}; }
+Answer always_yes(Kind, const Query&) { return {.verdict = Verdict::yes}; }
+
+Answer late(Kind kind, const Query& query) {
+  Answer answer = tests::true_answer(kind, query);
+  answer.toi_lower = std::nextafter(answer.toi_upper, 2.0);
+  answer.toi_upper = Answer::none;
+  return answer;
+}
+
+Answer early_by_an_eighth(Kind kind, const Query& query) {
+  Answer answer = tests::true_answer(kind, query);
+  answer.toi_lower = answer.toi_lower - 0.125;
+  return answer;
+}
+
+std::uint64_t all_faults(const judge::Judgement& judgement) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t count : judgement.faults) sum += count;
+  return sum;
+}
+
+// ---- Error --------------------------------------------------------------------------------------
+
+TEST(Bench, CountsWhatEachSolverGetsWrong) {
+  Field field;
+  field.add(tests::true_answer, Promise::exact, "truth");
+  field.add(always_no, Promise::conservative, "no");
+  field.add(always_yes, Promise::conservative, "yes");
+  field.add(always_yes, Promise::exact, "exactly yes");
+  field.add(late, Promise::conservative, "late");
+  field.add(always_no, Promise::none, "no promise");
+  const BenchResult result = field.run(falling_vertices(200), quick());
+
+  EXPECT_EQ(result.name, "falling");
+  EXPECT_EQ(result.kind, Kind::vertex_face);
+  EXPECT_EQ(result.queries, 200U);
+  EXPECT_EQ(result.judged, 200U);
+  EXPECT_EQ(result.collisions, 20U);
+  EXPECT_FALSE(result.interrupted);
+  ASSERT_EQ(result.solvers.size(), 6U);
+  for (const SolverResult& solver : result.solvers) {
+    EXPECT_EQ(solver.queries, 200U);
+    EXPECT_EQ(solver.judgement.queries, 200U);
+  }
+  const SolverResult& truth = result.solvers[0];
+  const SolverResult& no = result.solvers[1];
+  const SolverResult& yes = result.solvers[2];
+  const SolverResult& late_one = result.solvers[4];
+  EXPECT_EQ(truth.name, "truth");
+  EXPECT_EQ(all_faults(truth.judgement), 0U);
+  EXPECT_EQ(truth.judgement.toi_errors.count(), 20U);
+  EXPECT_LT(truth.judgement.toi_errors.max(), 1e-15);
+  EXPECT_EQ(no.judgement.count(judge::Fault::false_negative), 20U);
+  EXPECT_EQ(all_faults(no.judgement), 20U);
+  EXPECT_EQ(yes.judgement.count(judge::Fault::false_positive), 180U);
+  EXPECT_EQ(all_faults(yes.judgement), 180U);
+  EXPECT_EQ(late_one.judgement.count(judge::Fault::late_toi), 20U);
+  EXPECT_EQ(all_faults(late_one.judgement), 20U);
+
+  EXPECT_FALSE(broke_promise(truth));
+  EXPECT_TRUE(broke_promise(no));
+  EXPECT_FALSE(broke_promise(yes));
+  EXPECT_TRUE(broke_promise(result.solvers[3])) << "an exact method may not say yes to all";
+  EXPECT_TRUE(broke_promise(late_one));
+  EXPECT_FALSE(broke_promise(result.solvers[5])) << "it promised nothing";
+  EXPECT_TRUE(any_broke_promise({&result, 1}));
+}
+
+TEST(Bench, MeasuresTheErrorOfTheTimeOfImpact) {
+  Field field;
+  field.add(early_by_an_eighth, Promise::conservative, "early");
+  const BenchResult result = field.run(falling_vertices(100), quick());
+  const judge::ToiErrors& errors = result.solvers[0].judgement.toi_errors;
+  EXPECT_EQ(errors.count(), 10U);
+  EXPECT_NEAR(errors.max(), 0.125, 1e-15);
+  EXPECT_NEAR(errors.quantile(0.5), 0.125, 1e-15);
+  EXPECT_FALSE(any_broke_promise({&result, 1}));
+}
+
+TEST(Bench, NamesTheQueriesThatWereAnsweredWrong) {
+  Field field;
+  field.add(always_no, Promise::conservative, "no");
+  const BenchResult result = field.run(falling_vertices(31), quick());
+  const SolverResult& no = result.solvers[0];
+  ASSERT_EQ(no.judgement.wrong_answers.size(), 4U);
+  ASSERT_EQ(no.wrong_places.size(), 4U);
+  EXPECT_EQ(no.wrong_places[3].source, "falling");
+  EXPECT_EQ(no.wrong_places[3].index, 30U);
+}
+
+TEST(Bench, JudgesASampleOfManyQueries) {
+  BenchOptions options = quick();
+  options.judge = 50;
+  Field field;
+  field.add(always_no, Promise::conservative, "no");
+  const BenchResult result = field.run(falling_vertices(1000), options);
+  const auto sample = spread_sample(1000, 50);
+  const auto hits = static_cast<std::size_t>(std::ranges::count_if(sample, collides));
+  ASSERT_GT(hits, 0U);
+  EXPECT_EQ(result.judged, 50U);
+  EXPECT_EQ(result.collisions, hits);
+  EXPECT_EQ(result.solvers[0].judgement.queries, 50U);
+  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_negative), hits);
+}
+
+TEST(Bench, JudgesWhatAnySolverCallsACollisionToo) {
+  BenchOptions options = quick();
+  options.judge = 150;
+  Field field;
+  field.add(always_no, Promise::conservative, "no");
+  field.add(tests::true_answer, Promise::exact, "truth");
+  const BenchResult result = field.run(falling_vertices(1000), options);
+  const auto sample = spread_sample(1000, 150);
+  const auto hits = static_cast<std::size_t>(std::ranges::count_if(sample, collides));
+  EXPECT_EQ(result.judged, 150 - hits + 100);
+  EXPECT_EQ(result.collisions, 100U);
+  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_negative), 100U);
+  EXPECT_EQ(all_faults(result.solvers[1].judgement), 0U);
+}
+
+TEST(Bench, JudgesNoMoreCallsThanTheLimit) {
+  BenchOptions options = quick();
+  options.judge = 50;
+  Field field;
+  field.add(always_yes, Promise::conservative, "yes");
+  const BenchResult result = field.run(falling_vertices(1000), options);
+  EXPECT_EQ(result.judged, 50U) << "the sample of the calls is that of the queries";
+  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_positive),
+            50 - result.collisions);
+}
+
+TEST(Bench, CountsStagesOfSolversThatHaveThem) {
+  const Query last = falling_vertices(40).queries().back();
+  const auto staged = [&last](Kind, const Query& query) {
+    return Answer{.checks = query == last ? 2U : 1U};
+  };
+  Field field;
+  field.add(std::make_unique<FunctionMethod>(
+      staged, fast::MethodInfo{.name = "staged", .stages = {"first", "second"}}));
+  field.add(always_no, Promise::none, "no");
+  const BenchResult result = field.run(falling_vertices(40), quick());
+  EXPECT_EQ(result.solvers[0].stages,
+            (std::vector<solvers::StageCount>{{"first", 39}, {"second", 1}}));
+  EXPECT_TRUE(result.solvers[1].stages.empty());
+  EXPECT_EQ(result.solvers[0].judgement.undecided, 40U);
+}
+
+// ---- Speed --------------------------------------------------------------------------------------
+
+void burn(double nanoseconds) {
+  const double start = thread_nanoseconds();
+  while (thread_nanoseconds() - start < nanoseconds) {
+  }
+}
+
+/// Takes its time for each query, notes every call, and answers yes.
+class Burner final : public solvers::Solver {
+ public:
+  using Log = std::vector<std::pair<std::string, std::size_t>>;
+
+  Burner(std::string_view name, double nanoseconds, Log& log)
+      : solvers::Solver(fast::MethodInfo{.name = name}), nanoseconds_(nanoseconds), log_(log) {}
+
+  [[nodiscard]] bool only_as_a_whole() const override { return whole; }
+  [[nodiscard]] solvers::SolveReply solve(const solvers::SolveRequest& request,
+                                          std::span<Answer> answers) const override {
+    log_.emplace_back(name(), request.queries.size());
+    latest.assign(request.queries.begin(), request.queries.end());
+    std::ranges::fill(answers, Answer{.verdict = Verdict::yes});
+    burn(nanoseconds_ * static_cast<double>(request.queries.size()));
+    if (on_solve) on_solve();
+    return {};
+  }
+
+  bool whole = false;
+  mutable std::vector<Query> latest;
+  std::function<void()> on_solve;
+
+ private:
+  double nanoseconds_;
+  Log& log_;
+};
+
+TEST(Bench, InterleavesTheSolvers) {
+  Burner::Log log;
+  Field field;
+  // Long enough that one call is a repetition.
+  field.add(std::make_unique<Burner>("a", 1e6, log));
+  field.add(std::make_unique<Burner>("b", 1e6, log));
+  BenchOptions options = quick();
+  options.repetitions = 3;
+  options.singles = 2;
+  options.seconds = 1e-3;
+  const BenchResult result = field.run(falling_vertices(4), options);
+  const Burner::Log expected{{"a", 4}, {"b", 4},  // a first look
+                             {"a", 4}, {"b", 4},  // memory, a, b
+                             {"a", 4}, {"b", 4},  // a, b, memory
+                             {"b", 4}, {"a", 4},  // b, memory, a
+                             {"a", 1}, {"a", 1}, {"b", 1}, {"b", 1}};
+  EXPECT_EQ(log, expected);
+  EXPECT_EQ(result.memory_pass.repetitions.size(), 3U);
+  EXPECT_EQ(result.solvers[1].times.repetitions.size(), 3U);
+}
+
+TEST(Bench, TimesAreThoseOfTheSolver) {
+  Burner::Log log;
+  Field field;
+  field.add(std::make_unique<Burner>("burner", 20'000.0, log));
+  const BenchResult result = field.run(falling_vertices(200), quick());
+  const SolverResult& burner = result.solvers[0];
+  EXPECT_GE(burner.times.min(), 20'000.0);
+  EXPECT_LT(burner.times.min(), 40'000.0);
+  EXPECT_GE(burner.times.median(), burner.times.min());
+  ASSERT_TRUE(burner.singles);
+  EXPECT_EQ(burner.singles->queries, 50U);
+  EXPECT_GT(burner.singles->p50, 19'000.0);
+  EXPECT_LE(burner.singles->p50, burner.singles->p99);
+  EXPECT_LE(burner.singles->p99, burner.singles->max);
+  EXPECT_GT(result.memory_pass.median(), 0.0);
+  EXPECT_LT(result.memory_pass.median(), 20'000.0);
+}
+
+TEST(Bench, SlowSolversAreTimedOnASpreadSample) {
+  Burner::Log log;
+  auto burner = std::make_unique<Burner>("burner", 50'000.0, log);
+  const Burner& slow = *burner;
+  Field field;
+  field.add(std::move(burner));
+  field.add(always_no, Promise::none, "fast");
+  BenchOptions options = quick();
+  options.seconds = 0.02;
+  options.singles = 0;
+  const data::QueryGroup group = falling_vertices(20'000);
+  const BenchResult result = field.run(group, options);
+  const std::size_t timed = result.solvers[0].queries;
+  EXPECT_GE(timed, 16U);
+  EXPECT_LT(timed, 800U) << "more would take two hundredths of a second";
+  EXPECT_EQ(timed & (timed - 1), 0U) << "a power of two";
+  EXPECT_EQ(result.solvers[1].queries, 20'000U);
+  ASSERT_EQ(slow.latest.size(), timed);
+  const auto sample = spread_sample(group.queries().size(), timed);
+  for (std::size_t i = 0; i < timed; ++i) {
+    ASSERT_EQ(slow.latest[i], group.queries()[sample[i]]) << i;
+  }
+  const auto hits = static_cast<std::uint64_t>(std::ranges::count_if(sample, collides));
+  EXPECT_EQ(result.solvers[0].judgement.queries, timed) << "it answered no others";
+  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_positive), timed - hits);
+  EXPECT_FALSE(result.solvers[0].singles);
+}
+
+TEST(Bench, WhatCanOnlyBeAskedAsAWholeIs) {
+  Burner::Log log;
+  auto burner = std::make_unique<Burner>("whole", 10'000.0, log);
+  burner->whole = true;
+  Field field;
+  field.add(std::move(burner));
+  BenchOptions options = quick();
+  options.seconds = 1e-3;
+  const BenchResult result = field.run(falling_vertices(1000), options);
+  EXPECT_EQ(log, (Burner::Log{{"whole", 1000}, {"whole", 1000}, {"whole", 1000}}));
+  EXPECT_EQ(result.solvers[0].queries, 1000U);
+  EXPECT_FALSE(result.solvers[0].singles);
+}
+
+// ---- The run ------------------------------------------------------------------------------------
+
+TEST(Bench, AStopKeepsWhatIsDone) {
+  std::atomic<bool> stop = false;
+  Burner::Log log;
+  auto burner = std::make_unique<Burner>("a", 1e6, log);
+  burner->on_solve = [&] { stop = log.size() == 3; };
+  Field field;
+  field.add(std::move(burner));
+  BenchOptions options = quick();
+  options.repetitions = 10;
+  options.stop = &stop;
+  const BenchResult result = field.run(falling_vertices(4), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(log.size(), 3U) << "a first look and two repetitions";
+  EXPECT_EQ(result.solvers[0].times.repetitions.size(), 2U);
+  EXPECT_EQ(result.judged, 0U);
+  EXPECT_FALSE(result.solvers[0].singles);
+}
+
+TEST(Bench, AStopBeforeTheBeginningGivesAnEmptyResult) {
+  const std::atomic<bool> stop = true;
+  Field field;
+  field.add(always_yes, Promise::exact, "yes");
+  BenchOptions options = quick();
+  options.stop = &stop;
+  const BenchResult result = field.run(falling_vertices(4), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.solvers[0].queries, 0U);
+  EXPECT_TRUE(std::isnan(result.solvers[0].times.median()));
+  EXPECT_FALSE(any_broke_promise({&result, 1}));
+}
+
+TEST(Bench, ProgressGrowsToOne) {
+  std::vector<double> told;
+  Field field;
+  field.add(always_yes, Promise::none, "yes");
+  field.add(always_no, Promise::none, "no");
+  BenchOptions options = quick();
+  options.on_progress = [&](double fraction) { told.push_back(fraction); };
+  EXPECT_EQ(field.run(falling_vertices(5000), options).judged, 5000U);
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_GT(told.front(), 0.0);
+  EXPECT_DOUBLE_EQ(told.back(), 1.0);
+}
+
+TEST(Bench, RefusesWhatMakesNoSense) {
+  Field field;
+  field.add(always_yes, Promise::none, "yes");
+  BenchOptions options = quick();
+  options.repetitions = 0;
+  EXPECT_THROW(static_cast<void>(field.run(falling_vertices(4), options)), std::invalid_argument);
+  options = quick();
+  for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    options.seconds = seconds;
+    EXPECT_THROW(static_cast<void>(field.run(falling_vertices(4), options)), std::invalid_argument);
+  }
+  EXPECT_THROW(static_cast<void>(field.run(falling_vertices(0), quick())), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::bench_test

@@ -1,0 +1,604 @@
+#include "verify/jobs/certify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/support/memory_source.hpp"
+#include "tests/support/methods.hpp"
+#include "tests/support/public_data.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/generate/families.hpp"
+
+namespace touchstone::verify::jobs::certify_test {
+namespace {
+
+using exact::Rational;
+using tests::MemorySource;
+
+/// A vertex falls from height `above` to height −`below` through the middle of a resting triangle:
+/// they collide iff below ≥ 0, at above/(above + below).
+Query falling_vertex(double above, double below) {
+  return {{1, 1, above,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
+           1, 1, -below, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
+}
+
+/// Hits at t=1/4, and misses where the index is divisible by 3, all recorded truly.
+std::vector<data::RecordedQuery> true_records(std::uint64_t count) {
+  std::vector<data::RecordedQuery> records;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const bool hit = i % 3 != 0;
+    records.push_back({.query = hit ? falling_vertex(1, 3) : falling_vertex(1, -0.5),
+                       .index = i,
+                       .collides = hit,
+                       .toi = hit ? std::optional(Rational(1, 4)) : std::nullopt});
+  }
+  return records;
+}
+
+CertifyResult certify_records(std::vector<data::RecordedQuery> records,
+                              const CertifyOptions& options = {}) {
+  MemorySource source(Kind::vertex_face, std::move(records));
+  return certify(source, options);
+}
+
+TEST(Certify, CountsWhatIsThere) {
+  const CertifyResult result = certify_records(true_records(300));
+  EXPECT_EQ(result.name, "memory");
+  EXPECT_EQ(result.queries, 300U);
+  EXPECT_EQ(result.collisions, 200U);
+  EXPECT_EQ(result.labels, 300U);
+  EXPECT_EQ(result.tois, 200U);
+  EXPECT_EQ(result.label_mismatches, 0U);
+  EXPECT_EQ(result.toi_mismatches, 0U);
+  EXPECT_TRUE(result.mismatches.empty());
+  EXPECT_EQ(result.skipped, 3U);
+  EXPECT_EQ(result.rounded, 5U);
+  EXPECT_FALSE(result.error);
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_GT(result.microseconds, 0.0);
+  EXPECT_DOUBLE_EQ(result.microseconds_per_query(), result.microseconds / 300);
+}
+
+TEST(Certify, FindsPlantedWrongLabelsOfBothKinds) {
+  auto records = true_records(300);
+  records[6].collides = true;     // a false positive
+  records[200].collides = false;  // a false negative
+  records[200].toi.reset();
+  const CertifyResult result = certify_records(std::move(records));
+  EXPECT_EQ(result.label_mismatches, 2U);
+  EXPECT_EQ(result.toi_mismatches, 0U);
+  ASSERT_EQ(result.mismatches.size(), 2U);
+  EXPECT_EQ(result.mismatches[0].index, 6U);
+  EXPECT_EQ(result.mismatches[0].of, Mismatch::Of::label);
+  EXPECT_EQ(result.mismatches[0].recorded, "collision");
+  EXPECT_EQ(result.mismatches[0].truth, "no collision");
+  EXPECT_EQ(result.mismatches[1].index, 200U);
+  EXPECT_EQ(result.mismatches[1].truth, "collision");
+}
+
+TEST(Certify, HoldsTimesOfImpactToTheTolerance) {
+  auto records = true_records(4);
+  const Rational quarter(1, 4), just_inside = exact::rational_from_decimal("0.99e-40"),
+                                just_outside = exact::rational_from_decimal("1.01e-40");
+  records[1].toi = quarter + just_inside;
+  EXPECT_EQ(certify_records(records).toi_mismatches, 0U);
+  records[1].toi = quarter - just_inside;
+  EXPECT_EQ(certify_records(records).toi_mismatches, 0U);
+  records[1].toi = quarter + just_outside;
+  EXPECT_EQ(certify_records(records).toi_mismatches, 1U);
+  records[1].toi = quarter - just_outside;
+  const CertifyResult result = certify_records(records);
+  ASSERT_EQ(result.mismatches.size(), 1U);
+  EXPECT_EQ(result.mismatches[0].of, Mismatch::Of::toi);
+  EXPECT_EQ(result.mismatches[0].index, 1U);
+  EXPECT_EQ(result.mismatches[0].truth, "2.5E-1");
+}
+
+TEST(Certify, ToleranceZeroAsksForEquality) {
+  CertifyOptions options;
+  options.toi_tolerance = 0;
+  auto records = true_records(4);
+  EXPECT_EQ(certify_records(records, options).toi_mismatches, 0U);
+  records[1].toi = *records[1].toi + exact::power_of_two(-2000);
+  EXPECT_EQ(certify_records(records, options).toi_mismatches, 1U);
+}
+
+TEST(Certify, PrintsTimesOfImpactUntilTheyDiffer) {
+  CertifyOptions options;
+  options.toi_tolerance = 0;
+  const std::string threes(45, '3');
+  std::vector<data::RecordedQuery> records{{.query = falling_vertex(1, 2),
+                                            .index = 0,
+                                            .collides = true,
+                                            .toi = exact::rational_from_decimal("0." + threes)},
+                                           {.query = falling_vertex(1, 3),
+                                            .index = 1,
+                                            .collides = true,
+                                            .toi = Rational(1, 4) + exact::power_of_two(-2000)}};
+  const CertifyResult result = certify_records(std::move(records), options);
+  ASSERT_EQ(result.mismatches.size(), 2U);
+  EXPECT_EQ(result.mismatches[0].recorded, "3." + threes.substr(1) + "E-1");
+  EXPECT_EQ(result.mismatches[0].truth, "3." + threes.substr(1) + threes + "E-1");
+  EXPECT_TRUE(result.mismatches[1].recorded.starts_with("2.5000"));
+  EXPECT_EQ(result.mismatches[1].truth, "2.5E-1");
+}
+
+TEST(Certify, ATimeOfImpactOfAMissIsAMismatch) {
+  auto records = true_records(4);
+  records[3].toi = Rational(1, 2);
+  const CertifyResult result = certify_records(std::move(records));
+  ASSERT_EQ(result.toi_mismatches, 1U);
+  EXPECT_EQ(result.mismatches[0].index, 3U);
+  EXPECT_EQ(result.mismatches[0].truth, "no collision");
+}
+
+// ---- Separations --------------------------------------------------------------------------------
+
+TEST(CertifySeparation, CountsCollisionsAtTheDistance) {
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    CertifyOptions options;
+    options.separation = {.distance = 0.5, .norm = norm};
+    const CertifyResult result = certify_records(true_records(300), options);
+    EXPECT_EQ(result.separation, options.separation);
+    EXPECT_EQ(result.collisions, 300U) << "the misses come within ½ at the end";
+    EXPECT_EQ(result.compared, judge::Inference::collisions);
+    EXPECT_EQ(result.labels, 200U);
+    EXPECT_EQ(result.tois, 200U);
+    EXPECT_EQ(result.label_mismatches + result.toi_mismatches, 0U);
+  }
+}
+
+TEST(CertifySeparation, RecordedContactMustBeNoEarlierThanNearness) {
+  // Within ½ from t = 1/8 on, in contact at 1/4.
+  CertifyOptions options;
+  options.separation.distance = 0.5;
+  options.toi_tolerance = 0;
+  auto records = true_records(4);
+  records[1].toi = Rational(1, 8);
+  EXPECT_EQ(certify_records(records, options).toi_mismatches, 0U);
+  records[1].toi = Rational(1, 8) - exact::power_of_two(-2000);
+  EXPECT_EQ(certify_records(records, options).toi_mismatches, 1U);
+  records[3].collides = true;  // true at the distance
+  EXPECT_EQ(certify_records(records, options).label_mismatches, 0U);
+  options.separation.distance = 0.25;
+  EXPECT_EQ(certify_records(records, options).label_mismatches, 1U);
+}
+
+/// What the built-in families about a separation record is compared in full.
+TEST(CertifySeparation, WhatIsAboutTheSameSeparationIsComparedInFull) {
+  const Separation separation{.distance = 0.75, .norm = Norm::l2};
+  const auto certified = [&](const Separation& asked) {
+    CertifyOptions options;
+    options.separation = asked;
+    options.toi_tolerance = 0;
+    return certify(*generate::open_family(generate::family_from_name("separation-endpoint"),
+                                          Kind::edge_edge, 5, 60, separation),
+                   options);
+  };
+  const CertifyResult same = certified(separation);
+  EXPECT_EQ(same.compared, judge::Inference::all);
+  EXPECT_EQ(same.labels, 60U);
+  EXPECT_EQ(same.label_mismatches + same.toi_mismatches, 0U);
+  const CertifyResult other = certified({.distance = 0.5, .norm = Norm::l2});
+  EXPECT_EQ(other.compared, judge::Inference::nothing);
+  EXPECT_EQ(other.labels, 0U);
+}
+
+TEST(Certify, ShowsFortyFiveDigitsOfATrueTimeHoweverSmall) {
+  // The vertex rises from 2^-1000 below the sinking face: toi = 2^-1000 / (2^-1000 + 3), no dyadic.
+  auto records = true_records(2);
+  records[1].query = falling_vertex(0x1p-1000, 3);
+  const CertifyResult result = certify_records(std::move(records));
+  ASSERT_EQ(result.toi_mismatches, 1U);
+  const std::string& truth = result.mismatches[0].truth;
+  const std::size_t exponent = truth.find("E-302");
+  ASSERT_NE(exponent, std::string::npos) << truth;
+  EXPECT_LE(exponent, 46U) << truth;
+  // 2^-1000 / 3 = 3.1108…e-302
+  EXPECT_EQ(truth.substr(0, 6), "3.1108") << truth;
+}
+
+TEST(Certify, UnrecordedAnswersAreNoMismatch) {
+  auto records = true_records(10);
+  for (data::RecordedQuery& record : records) {
+    record.collides.reset();
+    record.toi.reset();
+  }
+  const CertifyResult result = certify_records(std::move(records));
+  EXPECT_EQ(result.labels, 0U);
+  EXPECT_EQ(result.tois, 0U);
+  EXPECT_EQ(result.collisions, 6U);
+  EXPECT_TRUE(result.mismatches.empty());
+}
+
+TEST(Certify, TruthComesInOrderWhateverTheNumberOfThreads) {
+  for (const unsigned threads : {1U, 2U, 7U}) {
+    std::vector<judge::Truth> truths;
+    double last_progress = 0.0;
+    CertifyOptions options;
+    options.threads = threads;
+    options.on_truth = [&](const judge::Truth& truth) { truths.push_back(truth); };
+    options.on_progress = [&](double fraction) {
+      EXPECT_GE(fraction, last_progress);
+      last_progress = fraction;
+    };
+    EXPECT_EQ(certify_records(true_records(2000), options).queries, 2000U);
+    EXPECT_EQ(last_progress, 1.0);
+    ASSERT_EQ(truths.size(), 2000U);
+    for (std::uint64_t i = 0; i < truths.size(); ++i) {
+      ASSERT_EQ(truths[i].index, i);
+      ASSERT_EQ(truths[i].collides, i % 3 != 0);
+      ASSERT_EQ(truths[i].toi.has_value(), truths[i].collides);
+      const exact::DoubleInterval quarter{0.25, 0.25};
+      ASSERT_EQ(truths[i].toi.value_or(quarter), quarter);
+    }
+  }
+}
+
+TEST(Certify, AnErrorLosesNothingThatWasReadBefore) {
+  auto records = true_records(500);
+  records[100].collides = !*records[100].collides;
+  MemorySource source(Kind::vertex_face, records);
+  source.fail_at(333, "row 2670 is broken");
+  const CertifyResult result = certify(source);
+  EXPECT_EQ(result.error, "row 2670 is broken");
+  EXPECT_EQ(result.errors, 1U);
+  EXPECT_EQ(result.queries, 333U);
+  EXPECT_EQ(result.label_mismatches, 1U);
+}
+
+TEST(Certify, StopsWhenAskedAndKeepsWhatIsDone) {
+  std::atomic<bool> stop = false;
+  std::uint64_t seen = 0;
+  CertifyOptions options;
+  options.stop = &stop;
+  options.on_truth = [&](const judge::Truth&) { stop = ++seen > 100; };
+  const CertifyResult result = certify_records(true_records(100000), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.queries, seen);
+  EXPECT_GT(result.queries, 100U);
+  EXPECT_LT(result.queries, 10000U);
+}
+
+TEST(Certify, TotalIsTheSum) {
+  auto wrong = true_records(30);
+  wrong[1].collides = false;
+  const CertifyResult sum = total({certify_records(true_records(300)), certify_records(wrong)});
+  EXPECT_EQ(sum.queries, 330U);
+  EXPECT_EQ(sum.collisions, 220U);
+  EXPECT_EQ(sum.labels, 330U);
+  EXPECT_EQ(sum.label_mismatches, 1U);
+  EXPECT_EQ(sum.tois, 220U);
+  EXPECT_EQ(sum.skipped, 6U);
+  EXPECT_EQ(sum.rounded, 10U);
+}
+
+// ---- Solvers ------------------------------------------------------------------------------------
+
+using fast::Answer;
+using fast::Promise;
+using tests::FunctionMethod;
+using tests::true_answer;
+
+/// Hits by falling vertices at times that are no doubles, but for every third query, a miss. The
+/// height of the vertex tells the query's number.
+std::vector<data::RecordedQuery> numbered_records(std::uint64_t count) {
+  std::vector<data::RecordedQuery> records;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const double height = 1.0 + static_cast<double>(i);
+    records.push_back(
+        {.query = i % 3 != 0 ? falling_vertex(height, 2 * height) : falling_vertex(height, -0.5),
+         .index = i,
+         .collides = std::nullopt,
+         .toi = std::nullopt});
+  }
+  return records;
+}
+
+std::uint64_t number_of(const Query& query) {
+  return static_cast<std::uint64_t>(query.at(0, 0, 2)) - 1;
+}
+
+/// A method that is right but for the query of that number, to which it answers otherwise.
+FunctionMethod right_but_for(std::uint64_t number, const FunctionMethod::Function& otherwise) {
+  return FunctionMethod([number, otherwise](Kind kind, const Query& query) {
+    return number_of(query) == number ? otherwise(kind, query) : true_answer(kind, query);
+  });
+}
+
+judge::Judgement judged(const solvers::Solver& solver, std::uint64_t count = 30) {
+  CertifyOptions options;
+  options.solvers = {&solver};
+  const CertifyResult result = certify_records(numbered_records(count), options);
+  EXPECT_EQ(result.queries, count);
+  EXPECT_EQ(result.methods.size(), 1U);
+  EXPECT_EQ(result.methods.at(0).name, solver.name());
+  return result.methods.at(0).judgement;
+}
+
+judge::Judgement judged(const fast::Method& method, std::uint64_t count = 30) {
+  return judged(*solvers::solver_in_process(method, {}), count);
+}
+
+std::uint64_t all_faults(const judge::Judgement& judgement) {
+  return std::accumulate(judgement.faults.begin(), judgement.faults.end(), std::uint64_t{0});
+}
+
+TEST(CertifyMethods, ThePerfectMethodHasAllZeros) {
+  const FunctionMethod perfect(true_answer, Promise::exact);
+  const judge::Judgement judgement = judged(perfect, 5000);
+  EXPECT_EQ(judgement.queries, 5000U);
+  EXPECT_EQ(all_faults(judgement), 0U);
+  EXPECT_EQ(judgement.undecided, 0U);
+  EXPECT_EQ(judgement.missing, 0U);
+  EXPECT_TRUE(judgement.wrong_answers.empty());
+  EXPECT_TRUE(judge::keeps(judgement, Promise::exact));
+  EXPECT_GT(judgement.nanoseconds, 0.0);
+  EXPECT_EQ(judgement.toi_errors.count(), 3333U);
+  EXPECT_LE(judgement.toi_errors.max(), 0x1p-54) << "the toi is 1/3 and known to the last bit";
+}
+
+TEST(CertifyMethods, ThePerfectMethodIsPerfectOnTheBuiltInSet) {
+  const FunctionMethod perfect(true_answer, Promise::exact);
+  const auto solver = solvers::solver_in_process(perfect, {});
+  CertifyOptions options;
+  options.solvers = {solver.get()};
+  for (const generate::Family& family : generate::families()) {
+    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+      if (!generate::supports(family, kind)) continue;
+      const CertifyResult result = certify(*generate::open_family(family, kind, 3, 20), options);
+      EXPECT_EQ(all_faults(result.methods.at(0).judgement), 0U) << family.name;
+      EXPECT_EQ(result.methods.at(0).judgement.toi_errors.count(), result.collisions);
+    }
+  }
+}
+
+TEST(CertifyMethods, AYesThatClaimsMoreNearnessThanThereIsIsCaught) {
+  // The misses end ½ above the face; their yes claims to be within its tolerance and the distance.
+  const auto judged_with = [](double tolerance, double distance) {
+    const FunctionMethod method([tolerance](Kind, const Query&) -> fast::Answer {
+      return {.verdict = fast::Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
+    });
+    // Nobody says what a tolerance of this method claims: it is held to it as all are.
+    const auto solver = solvers::solver_in_process(method, {});
+    CertifyOptions options;
+    options.separation.distance = distance;
+    options.solvers = {solver.get()};
+    return certify_records(numbered_records(30), options).methods.at(0);
+  };
+  for (const double distance : {0.0, 0.25}) {
+    const double enough = 0.5 - distance;
+    const MethodResult kept = judged_with(enough, distance);
+    EXPECT_EQ(kept.judgement.count(judge::Fault::false_positive), 10U);
+    EXPECT_EQ(kept.judgement.count(judge::Fault::beyond_tolerance), 0U);
+    EXPECT_TRUE(judge::keeps(kept.judgement, Promise::conservative));
+    const MethodResult broken = judged_with(enough - 0x1p-50, distance);
+    EXPECT_EQ(broken.judgement.count(judge::Fault::beyond_tolerance), 10U);
+    EXPECT_FALSE(judge::keeps(broken.judgement, Promise::conservative));
+    EXPECT_EQ(judge::to_string(broken.judgement.wrong_answers.at(1).fault), "beyond tolerance");
+  }
+}
+
+TEST(CertifyMethods, EachFaultIsCountedInItsColumnAndListed) {
+  struct Planted {
+    std::uint64_t number;
+    FunctionMethod::Function otherwise;
+    judge::Fault fault;
+  };
+  using fast::Verdict;
+  const std::vector<Planted> all{
+      {7, [](Kind, const Query&) { return Answer{.verdict = Verdict::no}; },
+       judge::Fault::false_negative},
+      {9, [](Kind, const Query&) { return Answer{.verdict = Verdict::yes}; },
+       judge::Fault::false_positive},
+      {9, [](Kind, const Query&) { return Answer{.verdict = Verdict::undecided}; },
+       judge::Fault::false_positive},
+      {8, [](Kind, const Query&) { return Answer{.verdict = Verdict::error}; },
+       judge::Fault::error},
+      {8, [](Kind, const Query&) -> Answer { throw std::runtime_error("thrown"); },
+       judge::Fault::error},
+      // By the last bit, at a time that is no double.
+      {8,
+       [](Kind kind, const Query& query) {
+         Answer answer = true_answer(kind, query);
+         answer.toi_lower = answer.toi_upper;
+         return answer;
+       },
+       judge::Fault::late_toi},
+      {8,
+       [](Kind kind, const Query& query) {
+         Answer answer = true_answer(kind, query);
+         answer.toi_upper = answer.toi_lower;
+         return answer;
+       },
+       judge::Fault::early_toi_upper}};
+  for (const auto& [number, otherwise, fault] : all) {
+    const judge::Judgement judgement = judged(right_but_for(number, otherwise));
+    EXPECT_EQ(judgement.queries, 30U);
+    EXPECT_EQ(all_faults(judgement), 1U) << judge::to_string(fault);
+    EXPECT_EQ(judgement.count(fault), 1U) << judge::to_string(fault);
+    ASSERT_EQ(judgement.wrong_answers.size(), 1U);
+    EXPECT_EQ(judgement.wrong_answers[0].index, number);
+    EXPECT_EQ(judgement.wrong_answers[0].fault, fault);
+  }
+}
+
+TEST(CertifyMethods, UndecidedIsNoFalseNegative) {
+  const judge::Judgement judgement =
+      judged(right_but_for(7, [](Kind, const Query&) { return Answer{}; }));
+  EXPECT_EQ(judgement.undecided, 1U);
+  EXPECT_EQ(all_faults(judgement), 0U);
+}
+
+TEST(CertifyMethods, ACrashIsAnErrorAndAHangIsUndecided) {
+  const FunctionMethod method([](Kind kind, const Query& query) {
+    if (number_of(query) == 7) std::raise(SIGKILL);
+    while (number_of(query) == 11) std::this_thread::sleep_for(std::chrono::seconds(1));
+    return true_answer(kind, query);
+  });
+  const judge::Judgement judgement =
+      judged(*solvers::solver_in_children(method, {}, {.query_limit_seconds = 1.0}));
+  EXPECT_EQ(judgement.queries, 30U);
+  EXPECT_EQ(judgement.undecided, 1U);
+  EXPECT_EQ(all_faults(judgement), 1U);
+  ASSERT_EQ(judgement.wrong_answers.size(), 1U);
+  EXPECT_EQ(judgement.wrong_answers[0].index, 7U);
+  EXPECT_EQ(judgement.wrong_answers[0].fault, judge::Fault::error);
+  EXPECT_EQ(judgement.wrong_answers[0].answer, "crash: SIGKILL");
+  EXPECT_EQ(judgement.count(solvers::FailureKind::crash), 1U);
+  EXPECT_EQ(judgement.count(solvers::FailureKind::hang), 1U);
+  EXPECT_EQ(judgement.count(solvers::FailureKind::undecided), 0U);
+}
+
+TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {
+  for (const unsigned threads : {1U, 3U}) {
+    const FunctionMethod method([](Kind kind, const Query& query) {
+      const std::uint64_t number = number_of(query);
+      return number % 1000 == 1 ? Answer{.verdict = fast::Verdict::no} : true_answer(kind, query);
+    });
+    const auto solver = solvers::solver_in_process(method, {});
+    CertifyOptions options;
+    options.threads = threads;
+    options.solvers = {solver.get()};
+    const CertifyResult result = certify_records(numbered_records(9000), options);
+    const judge::Judgement& judgement = result.methods.at(0).judgement;
+    // Numbers divisible by 3 are misses, where no is right.
+    std::vector<std::uint64_t> expected, found;
+    for (std::uint64_t i = 1; i < 9000; i += 1000) {
+      if (i % 3 != 0) expected.push_back(i);
+    }
+    for (const judge::WrongAnswer& wrong : judgement.wrong_answers) found.push_back(wrong.index);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(all_faults(judgement), expected.size());
+  }
+}
+
+TEST(CertifyMethods, SeveralAreJudgedSideBySide) {
+  const FunctionMethod perfect(true_answer, Promise::exact, "perfect");
+  const FunctionMethod denier(
+      [](Kind, const Query&) { return Answer{.verdict = fast::Verdict::no}; }, Promise::none,
+      "denier");
+  const auto first = solvers::solver_in_process(perfect, {}),
+             second = solvers::solver_in_process(denier, {});
+  CertifyOptions options;
+  options.solvers = {first.get(), second.get()};
+  const CertifyResult one = certify_records(numbered_records(30), options);
+  const CertifyResult other = certify_records(numbered_records(300), options);
+  CertifyResult unopened;
+  const CertifyResult sum = total({unopened, one, other});
+  ASSERT_EQ(sum.methods.size(), 2U);
+  EXPECT_EQ(sum.methods[0].name, "perfect");
+  EXPECT_EQ(sum.methods[0].promise, Promise::exact);
+  EXPECT_EQ(all_faults(sum.methods[0].judgement), 0U);
+  EXPECT_EQ(sum.methods[1].name, "denier");
+  EXPECT_EQ(sum.methods[1].judgement.queries, 330U);
+  EXPECT_EQ(sum.methods[1].judgement.count(judge::Fault::false_negative), 220U);
+  EXPECT_TRUE(sum.methods[1].judgement.wrong_answers.empty()) << "they stay with their source";
+}
+
+TEST(CertifyMethods, AStopInSlowAnswersIsObeyedSoonAndLeavesAPrefix) {
+  std::atomic<bool> stop = false;
+  std::atomic<int> asked = 0;
+  const FunctionMethod slow([&](Kind kind, const Query& query) {
+    if (++asked == 40) stop = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return true_answer(kind, query);
+  });
+  const auto solver = solvers::solver_in_process(slow, {});
+  std::vector<std::uint64_t> truths;
+  CertifyOptions options;
+  options.threads = 2;
+  options.stop = &stop;
+  options.solvers = {solver.get()};
+  options.on_truth = [&](const judge::Truth& truth) { truths.push_back(truth.index); };
+  const CertifyResult result = certify_records(numbered_records(2000), options);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_LT(asked, 200);
+  EXPECT_GE(result.queries, 16U);
+  EXPECT_LT(result.queries, 200U);
+  EXPECT_EQ(result.methods.at(0).judgement.queries, result.queries);
+  EXPECT_EQ(truths.size(), result.queries);
+  EXPECT_EQ(truths.back() + 1, result.queries);
+}
+
+/// Every family's truth is known without the oracle; here the two meet. Times of impact must be
+/// equal, not near, and the oracle's contact must agree where the construction knows a unique one.
+class BuiltInSet : public ::testing::TestWithParam<generate::Family> {};
+
+TEST_P(BuiltInSet, AgreesWithTheOracle) {
+  const char* soak = std::getenv("TOUCHSTONE_SOAK");
+  const std::uint64_t count = soak != nullptr ? 50000U : tests::trials(1000U);
+  CertifyOptions options;
+  options.toi_tolerance = 0;
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    if (!generate::supports(GetParam(), kind)) continue;
+    const auto source = generate::open_family(GetParam(), kind, 1, count);
+    const CertifyResult result = certify(*source, options);
+    EXPECT_EQ(result.queries, count);
+    EXPECT_EQ(result.labels, count);
+    EXPECT_EQ(result.label_mismatches, 0U);
+    EXPECT_EQ(result.toi_mismatches, 0U);
+    for (const Mismatch& mismatch : result.mismatches) {
+      ADD_FAILURE() << to_string(kind) << " query " << mismatch.index << ": recorded "
+                    << mismatch.recorded << ", truth " << mismatch.truth;
+    }
+  }
+}
+
+std::string family_name(const ::testing::TestParamInfo<generate::Family>& info) {
+  std::string name(info.param.name);
+  std::erase(name, '-');
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet,
+                         ::testing::ValuesIn(generate::families().begin(),
+                                             generate::families().end()),
+                         family_name);
+
+/// The public benchmark data, or nothing where they are missing.
+std::vector<CertifyResult> certify_public(const std::string& folder) {
+  const std::filesystem::path root = tests::public_data_folder();
+  if (root.empty()) return {};
+  std::vector<CertifyResult> results;
+  const std::vector<std::filesystem::path> paths{root / folder};
+  for (const auto& file : data::find_datasets(paths))
+    results.push_back(certify(*data::open_dataset(file)));
+  return results;
+}
+
+TEST(PublicData, HandcraftedQueriesAgree) {
+  const auto results = certify_public("handcrafted");
+  if (results.empty()) GTEST_SKIP() << "public data missing";
+  const CertifyResult sum = total(results);
+  EXPECT_EQ(sum.queries, 4884U);
+  EXPECT_EQ(sum.labels, 4884U);
+  EXPECT_EQ(sum.label_mismatches, 0U);
+  EXPECT_EQ(sum.skipped, 0U);
+}
+
+TEST(PublicData, SimulationQueriesAndTimesOfImpactAgree) {
+  const auto results = certify_public("simulation");
+  if (results.empty()) GTEST_SKIP() << "public data missing";
+  const CertifyResult sum = total(results);
+  EXPECT_EQ(sum.queries, 4652U + 92U + 263U);
+  EXPECT_EQ(sum.labels, sum.queries);
+  EXPECT_EQ(sum.collisions, 4650U + 27U + 107U);
+  EXPECT_EQ(sum.tois, sum.collisions);
+  EXPECT_EQ(sum.label_mismatches, 0U);
+  EXPECT_EQ(sum.toi_mismatches, 0U);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::certify_test

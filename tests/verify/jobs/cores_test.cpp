@@ -1,0 +1,15 @@
+#include "verify/jobs/cores.hpp"
+
+#include <gtest/gtest.h>
+
+namespace touchstone::verify::jobs::cores_test {
+namespace {
+
+TEST(Cores, AreThoseAskedForWithinReason) {
+  EXPECT_EQ(cores_for(3), 3);
+  EXPECT_EQ(cores_for(1'000'000), 1024);
+  EXPECT_EQ(cores_for(0), oneapi::tbb::info::default_concurrency());
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::cores_test

@@ -1,0 +1,54 @@
+#include "verify/jobs/memory_pass.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstddef>
+#include <vector>
+
+#include "tests/support/random.hpp"
+
+namespace touchstone::verify::jobs::memory_pass_test {
+namespace {
+
+std::vector<Query> random_queries(std::size_t count) {
+  tests::Random random(count);
+  std::vector<Query> queries(count);
+  for (Query& query : queries) {
+    for (double& x : query.coordinates) x = std::bit_cast<double>(random.bits());
+  }
+  return queries;
+}
+
+std::uint64_t fold(const std::vector<Query>& queries) {
+  std::uint64_t all = 0;
+  for (const Query& query : queries) {
+    for (const double x : query.coordinates) all ^= std::bit_cast<std::uint64_t>(x);
+  }
+  return all;
+}
+
+TEST(MemoryPass, ReadsEveryCoordinateOfAnyNumberOfQueries) {
+  for (std::size_t count = 0; count < 20; ++count) {
+    const auto queries = random_queries(count);
+    EXPECT_EQ(memory_pass(queries), fold(queries)) << count;
+  }
+  const auto many = random_queries(100'003);
+  EXPECT_EQ(memory_pass(many), fold(many));
+}
+
+TEST(MemoryPass, ChangesWithEveryCoordinate) {
+  auto queries = random_queries(9);
+  const std::uint64_t before = memory_pass(queries);
+  for (Query& query : queries) {
+    for (double& x : query.coordinates) {
+      const double old = x;
+      x = std::bit_cast<double>(std::bit_cast<std::uint64_t>(old) ^ 1U);
+      EXPECT_EQ(memory_pass(queries), before ^ 1U);
+      x = old;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::memory_pass_test

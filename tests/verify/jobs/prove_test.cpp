@@ -1,0 +1,182 @@
+#include "verify/jobs/prove.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exact/certificate/certificate_text.hpp"
+#include "tests/support/certificates.hpp"
+#include "tests/support/memory_source.hpp"
+#include "tests/support/queries.hpp"
+#include "verify/jobs/certify.hpp"
+
+namespace touchstone::verify::jobs::prove_test {
+namespace {
+
+using tests::MemorySource;
+
+/// Every third query collides at 0, at 1/3 or at 3/4.
+std::vector<data::RecordedQuery> falling_vertices(std::uint64_t count) {
+  std::vector<data::RecordedQuery> records;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const double end = i % 9 == 0 ? -2 : i % 9 == 3 ? -1.0 / 3 : 0.5;
+    const double start = i % 9 == 6 ? 0 : 1;
+    const auto posed = tests::over_triangle(1, 1, start, end);
+    records.push_back(
+        {.query = posed.query, .index = i + 10, .collides = std::nullopt, .toi = std::nullopt});
+  }
+  return records;
+}
+
+struct ProofRun {
+  SourceProof proof;
+  std::string text{exact::certificates_header()};
+
+  /// The text with the closing line for what was counted.
+  [[nodiscard]] std::string stream() const {
+    return text + exact::certificates_closing_line(proof.counts.certificates());
+  }
+};
+
+ProofRun run(data::QuerySource& source, SourceProofOptions options = {}) {
+  ProofRun result;
+  options.on_certificates = [&](std::string_view text) { result.text += text; };
+  result.proof = prove(source, options);
+  return result;
+}
+
+TEST(Prove, WritesEveryCertificateInOrderWhateverTheThreads) {
+  std::string first;
+  for (const unsigned threads : {1U, 3U}) {
+    MemorySource source(Kind::vertex_face, falling_vertices(9000));
+    const ProofRun result = run(source, {.threads = threads});
+    const ProofCounts& counts = result.proof.counts;
+    EXPECT_EQ(counts.certificates(), 9000U);
+    EXPECT_EQ(counts.no_collision, 6000U);
+    EXPECT_EQ(counts.time_of_impact, 3000U);
+    EXPECT_EQ(counts.collision, 0U);
+    EXPECT_EQ(counts.pieces, (std::map<std::size_t, std::uint64_t>{{0, 1000}, {1, 8000}}));
+    EXPECT_EQ(counts.bytes + exact::certificates_header().size(), result.text.size());
+    EXPECT_GT(counts.nanoseconds, 0.0);
+    EXPECT_GT(result.proof.oracle_nanoseconds, 0.0);
+    EXPECT_TRUE(counts.beyond_limits.empty());
+    EXPECT_EQ(result.proof.skipped, 3U);
+    EXPECT_EQ(result.proof.rounded, 5U);
+    if (first.empty()) first = result.text;
+    EXPECT_EQ(result.text, first);
+  }
+  std::size_t at = 0;
+  for (std::uint64_t i = 0; i < 9000; ++i) {
+    at = first.find("\nlabel memory:" + std::to_string(i + 10) + "\n", at);
+    ASSERT_NE(at, std::string::npos) << i;
+  }
+  const checker::Report report = tests::check(first + exact::certificates_closing_line(9000));
+  EXPECT_TRUE(report.all_accepted());
+  EXPECT_EQ(report.no_collision, 6000U);
+  EXPECT_EQ(report.time_of_impact, 3000U);
+}
+
+TEST(Prove, ClaimsWhatItIsAskedTo) {
+  MemorySource source(Kind::vertex_face, falling_vertices(90));
+  const ProofRun result = run(source, {.proof = {.collision_claim = exact::Claim::collision}});
+  EXPECT_EQ(result.proof.counts.collision, 30U);
+  EXPECT_EQ(result.proof.counts.time_of_impact, 0U);
+  EXPECT_EQ(tests::check(result.stream()).collision, 30U);
+}
+
+TEST(Prove, ProvesAtADistanceInEitherNorm) {
+  for (const Norm norm : {Norm::linf, Norm::l2}) {
+    MemorySource source(Kind::vertex_face, falling_vertices(90));
+    // Of each nine, the six that end ½ above the face come within it there.
+    const ProofRun result = run(source, {.separation = {.distance = 0.5, .norm = norm}});
+    EXPECT_EQ(result.proof.counts.time_of_impact, 90U);
+    MemorySource again(Kind::vertex_face, falling_vertices(90));
+    const ProofRun less = run(again, {.separation = {.distance = 0.25, .norm = norm}});
+    EXPECT_EQ(less.proof.counts.no_collision, 60U);
+    for (const std::string& text : {result.stream(), less.stream()}) {
+      EXPECT_TRUE(tests::check(text).all_accepted());
+      EXPECT_EQ(tests::check(text).accepted(), 90U);
+    }
+  }
+}
+
+TEST(Prove, AnErrorOrAStopLeavesWholeCertificates) {
+  MemorySource broken(Kind::vertex_face, falling_vertices(3000));
+  broken.fail_at(2500, "row is broken");
+  const ProofRun to_error = run(broken);
+  EXPECT_EQ(to_error.proof.reading_error, "row is broken");
+  EXPECT_EQ(tests::check(to_error.stream()).accepted(), 2500U);
+
+  std::atomic<bool> stop = false;
+  MemorySource source(Kind::vertex_face, falling_vertices(200000));
+  std::string text(exact::certificates_header());
+  const SourceProof stopped = prove(source, {.on_certificates =
+                                                 [&](std::string_view certificates) {
+                                                   text += certificates;
+                                                   stop = true;
+                                                 },
+                                             .stop = &stop});
+  EXPECT_TRUE(stopped.interrupted);
+  const checker::Report report =
+      tests::check(text + exact::certificates_closing_line(stopped.counts.certificates()));
+  EXPECT_TRUE(report.all_accepted());
+  EXPECT_EQ(report.accepted(), stopped.counts.certificates());
+  EXPECT_GT(report.accepted(), 0U);
+  EXPECT_LT(report.accepted(), 100000U);
+}
+
+TEST(Prove, CertifyMakesTheSameCertificates) {
+  MemorySource source(Kind::vertex_face, falling_vertices(5000));
+  const ProofRun proved = run(source);
+  MemorySource again(Kind::vertex_face, falling_vertices(5000));
+  std::string text(exact::certificates_header());
+  const CertifyResult certified =
+      certify(again, {.on_certificates = [&](std::string_view part) { text += part; }});
+  EXPECT_EQ(text, proved.text);
+  EXPECT_EQ(certified.proofs.certificates(), 5000U);
+  EXPECT_EQ(total({certified, certified}).proofs.certificates(), 10000U);
+  MemorySource once_more(Kind::vertex_face, falling_vertices(50));
+  EXPECT_EQ(certify(once_more).proofs.certificates(), 0U);
+}
+
+TEST(ProofCounts, AddUpAndAreReported) {
+  ProofCounts sum{.no_collision = 1, .pieces = {{1, 1}}, .bytes = 100, .nanoseconds = 1000.0};
+  sum += ProofCounts{.no_collision = 1,
+                     .collision = 2,
+                     .time_of_impact = 4,
+                     .pieces = {{1, 1}, {3, 6}},
+                     .bytes = 700,
+                     .nanoseconds = 7000.0,
+                     .beyond_limits = {"x:1: no certificate"}};
+  EXPECT_EQ(sum.certificates(), 8U);
+  EXPECT_EQ(to_text(sum),
+            "claim            certificates\n"
+            "no collision                2\n"
+            "collision                   2\n"
+            "time of impact              4\n"
+            "total                       8\n"
+            "\n"
+            "pieces           certificates\n"
+            "1                           2\n"
+            "3                           6\n"
+            "\n"
+            "800 bytes, 100.0 bytes/certificate, 1.00 µs/certificate\n");
+  const nlohmann::json expected = {{"certificates", 8},
+                                   {"no_collision", 2},
+                                   {"collision", 2},
+                                   {"time_of_impact", 4},
+                                   {"pieces", {{"1", 2}, {"3", 6}}},
+                                   {"bytes", 800},
+                                   {"bytes_per_certificate", 100.0},
+                                   {"us_per_certificate", 1.0},
+                                   {"beyond_limits", 1}};
+  EXPECT_EQ(to_json(sum), expected);
+  EXPECT_EQ(to_json(ProofCounts{})["us_per_certificate"], 0.0);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::prove_test

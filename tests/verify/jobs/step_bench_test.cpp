@@ -1,0 +1,117 @@
+#include "verify/jobs/step_bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+#include "exact/oracle.hpp"
+#include "fast/broad_phase.hpp"
+#include "verify/generate/workload.hpp"
+
+namespace touchstone::verify::jobs::step_bench_test {
+namespace {
+
+/// What the oracle says of the candidates of a kind.
+struct Expected {
+  std::size_t candidates = 0;
+  std::size_t collisions = 0;
+  double earliest_lower = 2.0;
+  double earliest_upper = 2.0;
+};
+
+Expected expected(const mesh::MovingMesh& mesh, Kind kind) {
+  const auto pairs = mesh::find_candidates(mesh, kind);
+  Expected all{.candidates = pairs.size()};
+  for (const Query& query : mesh::queries_of(mesh, mesh::candidates_of(mesh, kind, pairs))) {
+    const exact::Verdict verdict = exact::decide(kind, query);
+    if (!verdict.collides()) continue;
+    ++all.collisions;
+    const auto [lower, upper] = verdict.toi->enclosure();
+    all.earliest_lower = std::min(all.earliest_lower, lower);
+    all.earliest_upper = std::min(all.earliest_upper, upper);
+  }
+  return all;
+}
+
+TEST(StepBench, FindsTheCollisionsAndTheEarliestOne) {
+  const mesh::MovingMesh mesh = generate::moving_patches({.seed = 11, .cells = 8});
+  std::vector<double> told;
+  const StepResult result =
+      bench_step(mesh, {.repetitions = 3, .threads = 2, .on_progress = [&](double fraction) {
+                          told.push_back(fraction);
+                        }});
+  EXPECT_EQ(told, (std::vector<double>{1.0 / 3.0, 2.0 / 3.0, 1.0}));
+  const Expected vertices = expected(mesh, Kind::vertex_face);
+  const Expected edges = expected(mesh, Kind::edge_edge);
+  EXPECT_EQ(result.name, "patches");
+  EXPECT_EQ(result.vertices, mesh.vertices.size());
+  EXPECT_EQ(result.edges, mesh.edges.size());
+  EXPECT_EQ(result.faces, mesh.faces.size());
+  EXPECT_EQ(result.vertex_face.candidates, vertices.candidates);
+  EXPECT_EQ(result.vertex_face.collisions, vertices.collisions);
+  EXPECT_EQ(result.edge_edge.candidates, edges.candidates);
+  EXPECT_EQ(result.edge_edge.collisions, edges.collisions);
+  ASSERT_GT(edges.collisions, 0U);
+  ASSERT_TRUE(result.earliest);
+  EXPECT_LE(result.earliest->toi_lower, std::min(vertices.earliest_upper, edges.earliest_upper));
+  EXPECT_GE(result.earliest->toi_upper, std::min(vertices.earliest_lower, edges.earliest_lower));
+  EXPECT_LE(result.earliest->toi_upper - result.earliest->toi_lower, 1e-11);
+  EXPECT_TRUE(result.earliest_agrees);
+  EXPECT_FALSE(result.interrupted);
+}
+
+TEST(StepBench, TimesOneThreadAndMany) {
+  const mesh::MovingMesh mesh = generate::moving_patches({.seed = 11, .cells = 8});
+  const StepResult both = bench_step(mesh, {.repetitions = 2, .threads = 3});
+  ASSERT_EQ(both.times.size(), 2U);
+  EXPECT_EQ(both.times[0].threads, 1);
+  EXPECT_EQ(both.times[1].threads, 3);
+  for (const StepTimes& times : both.times) {
+    for (const StepTime& time : {times.broad_phase, times.collisions, times.earliest}) {
+      EXPECT_GT(time.wall, 0.0);
+      EXPECT_GT(time.processor, 0.0);
+    }
+  }
+  const StepResult one = bench_step(mesh, {.repetitions = 1, .threads = 1});
+  ASSERT_EQ(one.times.size(), 1U);
+  EXPECT_EQ(one.times[0].threads, 1);
+}
+
+TEST(StepBench, AStepWithoutContactHasNoEarliestImpact) {
+  Eigen::Matrix<double, 3, 3, Eigen::RowMajor> points;
+  points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  std::vector<fast::Face> faces{{0, 1, 2}};
+  auto edges = fast::edges_of(faces);
+  const mesh::MovingMesh mesh{.name = "alone",
+                              .vertices = fast::MovingVertices(points, points),
+                              .faces = std::move(faces),
+                              .edges = std::move(edges)};
+  const StepResult result = bench_step(mesh);
+  EXPECT_EQ(result.vertex_face.candidates, 0U);
+  EXPECT_EQ(result.edge_edge.candidates, 0U);
+  EXPECT_FALSE(result.earliest);
+  EXPECT_TRUE(result.earliest_agrees);
+}
+
+TEST(StepBench, AStopLeavesTheRestOut) {
+  const std::atomic<bool> stop = true;
+  const StepResult result =
+      bench_step(generate::moving_patches({.seed = 1, .cells = 4}), {.stop = &stop});
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_TRUE(result.times.empty());
+  EXPECT_TRUE(result.earliest_agrees);
+}
+
+TEST(StepBench, RefusesOptionsOutOfRange) {
+  const mesh::MovingMesh mesh = generate::moving_patches({.seed = 1, .cells = 1});
+  EXPECT_THROW(static_cast<void>(bench_step(mesh, {.repetitions = 0})), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::step_bench_test

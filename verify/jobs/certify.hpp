@@ -1,0 +1,116 @@
+#pragma once
+
+/// \file
+/// The main job: hold what a source records of its queries against the exact truth.
+///
+/// Queries stream from the source through the oracle, many at a time on all cores, and come out in
+/// the order they went in: the output does not depend on the number of threads. Time is the
+/// processor time that the oracle takes, so that it does not depend on them either, nor on reading.
+/// Solvers and their recorded answers are judged on the way: the truth is there.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "exact/query.hpp"
+#include "verify/data/query_source.hpp"
+#include "verify/jobs/prove.hpp"
+#include "verify/judge/judge.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/solver.hpp"
+
+namespace touchstone::verify::jobs {
+
+/// A recorded answer that is not the truth.
+struct Mismatch {
+  enum class Of : std::uint8_t { label, toi };
+
+  Of of;
+  std::uint64_t index;
+  std::string recorded;
+  std::string truth;
+};
+
+struct CertifyOptions {
+  /// What counts as contact.
+  Separation separation = {};
+  /// Cores to use; 0: all of them.
+  unsigned threads = 0;
+  /// A recorded time of impact may be off by this much; 0: not at all.
+  exact::Rational toi_tolerance = default_toi_tolerance();
+  /// Called for every query, in order, never from two threads at once.
+  std::function<void(const judge::Truth&)> on_truth = nullptr;
+  /// Called with the certificates of queries (exact/certificate.hpp), whole ones and in order, never
+  /// from two threads at once. Without it none are made.
+  std::function<void(std::string_view)> on_certificates = nullptr;
+  /// Called now and then with the fraction of the source that is read; never from two threads at
+  /// once.
+  std::function<void(double)> on_progress = nullptr;
+  /// Once true, no further queries are read and the result is that of those read so far.
+  const std::atomic<bool>* stop = nullptr;
+  /// Judged on every query; not null.
+  std::vector<const solvers::Solver*> solvers = {};
+
+  /// 1e-40: what the 45 digits of published times of impact have to offer.
+  static exact::Rational default_toi_tolerance();
+};
+
+/// The judgement on one solver.
+struct MethodResult {
+  std::string name;
+  fast::Promise promise = fast::Promise::none;  ///< what it is held to
+  bool timed = false;                           ///< Is its processor time known?
+  judge::Judgement judgement;
+};
+
+/// The judgement on one source.
+struct CertifyResult {
+  std::string name;
+  Separation separation = {};  ///< what counted as contact; not set in a total
+  /// What of the recorded claims was compared; not set in a total.
+  judge::Inference compared = judge::Inference::all;
+  std::optional<Kind> kind;      ///< empty for a total, and for a source that could not be opened
+  std::uint64_t queries = 0;     ///< decided
+  std::uint64_t collisions = 0;  ///< of these, by the truth
+  std::uint64_t labels = 0;      ///< queries with a recorded verdict that is compared
+  std::uint64_t label_mismatches = 0;
+  std::uint64_t tois = 0;  ///< queries with a recorded time of impact that is compared
+  std::uint64_t toi_mismatches = 0;
+  std::uint64_t skipped = 0;  ///< in error, left out
+  std::uint64_t rounded = 0;  ///< coordinates rounded to double
+  std::uint64_t errors = 0;   ///< errors that ended the reading
+  double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
+  std::vector<Mismatch> mismatches;
+  ProofCounts proofs;  ///< what was proved, where certificates are asked for
+  /// In the order of CertifyOptions::solvers.
+  std::vector<MethodResult> methods;
+  /// The error that ended the reading before the source's end; all of the above holds up to there.
+  std::optional<std::string> error;
+  bool interrupted = false;
+
+  /// Mean time of the oracle; 0 if there are no queries.
+  [[nodiscard]] double microseconds_per_query() const;
+
+  /// Sets the error that ended the reading.
+  void fail(const std::string& message);
+
+  /// Adds all counts of another source; the mismatches and wrong answers stay with their source.
+  CertifyResult& operator+=(const CertifyResult& other);
+};
+
+/// Decides every query of the source and compares. Errors of the source end up in the result.
+/// A recorded time of impact of a query that does not collide is a mismatch; a collision without a
+/// recorded time of impact is not. What is recorded about another separation is compared as far as
+/// something follows from it (verify/judge/separation_inference.hpp): collisions, which must be no later.
+[[nodiscard]] CertifyResult certify(data::QuerySource& source, const CertifyOptions& options = {});
+
+/// Sums of all counts, in a result called "total"; the mismatches and wrong answers stay with their
+/// sources. \pre all were judged with the same solvers.
+[[nodiscard]] CertifyResult total(const std::vector<CertifyResult>& results);
+
+}  // namespace touchstone::verify::jobs

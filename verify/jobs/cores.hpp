@@ -1,0 +1,19 @@
+#pragma once
+
+/// \file
+/// How many cores a job uses.
+
+#include <oneapi/tbb/info.h>
+
+#include <algorithm>
+
+namespace touchstone::verify::jobs {
+
+/// The cores that an option asks for, at most 1024; 0: all of them.
+[[nodiscard]] inline int cores_for(unsigned threads) {
+  constexpr unsigned most = 1024;
+  return threads == 0 ? oneapi::tbb::info::default_concurrency()
+                      : static_cast<int>(std::min(threads, most));
+}
+
+}  // namespace touchstone::verify::jobs

@@ -1,0 +1,62 @@
+#pragma once
+
+/// \file
+/// Until when work may go on: by a clock that a test can replace, or until somebody stops it.
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace touchstone::verify::jobs {
+
+/// Is the work to stop? Null: nobody can stop it.
+[[nodiscard]] inline bool is_stopped(const std::atomic<bool>* stop) {
+  return stop != nullptr && stop->load();
+}
+
+/// Seconds since some moment; never runs backwards.
+using SecondsClock = std::function<double()>;
+
+/// The system's clock.
+[[nodiscard]] inline double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// A moment of a clock, or no limit at all.
+class Deadline {
+ public:
+  /// Never over.
+  Deadline() = default;
+
+  /// \param seconds from now on, ≥ 0; infinite: never over
+  /// \pre the clock is not null.
+  explicit Deadline(double seconds, SecondsClock clock = steady_seconds)
+      : clock_(std::move(clock)), end_(clock_() + seconds) {}
+
+  /// 0 once it is over, infinite if there is no limit.
+  [[nodiscard]] double seconds_left() const { return std::max(0.0, end_ - clock_()); }
+  [[nodiscard]] bool is_over() const { return !(seconds_left() > 0.0); }
+
+  /// The earlier of this one and so many seconds from now.
+  [[nodiscard]] Deadline at_most(double seconds) const {
+    Deadline result = *this;
+    result.end_ = std::min(end_, clock_() + seconds);
+    return result;
+  }
+
+  /// The later of this one and so many seconds from now.
+  [[nodiscard]] Deadline at_least(double seconds) const {
+    Deadline result = *this;
+    result.end_ = std::max(end_, clock_() + seconds);
+    return result;
+  }
+
+ private:
+  SecondsClock clock_ = steady_seconds;
+  double end_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace touchstone::verify::jobs

@@ -1,0 +1,147 @@
+#include "verify/jobs/stream.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <utility>
+
+#include "verify/io/terminal.hpp"
+#include "verify/jobs/cores.hpp"
+#include "verify/jobs/deadline.hpp"
+
+namespace touchstone::verify::jobs {
+namespace {
+
+namespace tbb = oneapi::tbb;
+
+/// A block with what becomes of it.
+struct Token {
+  Block block;
+  BlockResult result;
+  double progress = 0.0;
+};
+
+/// The serial ends of the pipeline: reading, and what is done in order.
+class Stream {
+ public:
+  Stream(data::QuerySource& source, const StreamOptions& options)
+      : source_(source), options_(options) {}
+
+  /// The next block; null at the end. Errors of the source are kept, and end the stream.
+  std::shared_ptr<Token> read() {
+    auto token = std::make_shared<Token>();
+    token->block.source = &source_.name();
+    token->block.kind = source_.kind();
+    while (!ended_ && token->block.queries.size() < Block::size) read_query(token->block);
+    token->progress = source_.progress();
+    return token->block.queries.empty() ? nullptr : token;
+  }
+
+  void finish(const Token& token) {
+    if (cut_) return;
+    token.result.in_order();
+    if (options_.on_progress) options_.on_progress(token.progress);
+    cut_ = !token.result.complete;
+  }
+
+  void fail(const std::string& message) { result_.error = message; }
+
+  StreamResult result() {
+    result_.interrupted = result_.interrupted || cut_;
+    result_.skipped = source_.skipped();
+    result_.rounded = source_.rounded();
+    return std::move(result_);
+  }
+
+ private:
+  void read_query(Block& block) {
+    if (is_stopped(options_.stop)) {
+      ended_ = result_.interrupted = true;
+      return;
+    }
+    try {
+      auto query = source_.next();
+      ended_ = !query;
+      if (!query) return;
+      block.queries.push_back(query->query);
+      block.indices.push_back(query->index);
+      block.claims.push_back({query->collides, std::move(query->toi)});
+    } catch (const io::Interrupted&) {
+      ended_ = result_.interrupted = true;
+    } catch (const std::exception& error) {
+      result_.error = error.what();
+      ended_ = true;
+    }
+  }
+
+  data::QuerySource& source_;
+  const StreamOptions& options_;
+  StreamResult result_;
+  bool ended_ = false;
+  bool cut_ = false;
+};
+
+}  // namespace
+
+Passes::Passes(std::size_t queries, const std::atomic<bool>* stop)
+    : queries_(queries), stop_(stop), done_((queries + unit - 1) / unit) {}
+
+void Passes::run(std::size_t span, const std::function<bool(std::size_t, std::size_t)>& work) {
+  const std::size_t step =
+      std::clamp<std::size_t>(span / unit, 1, std::max<std::size_t>(done_.size(), 1));
+  const std::size_t steps = (done_.size() + step - 1) / step;
+  const auto part = [&](std::size_t i) {
+    if (stop_ != nullptr && stop_->load()) return;
+    const std::size_t first = i * step, last = std::min(first + step, done_.size());
+    if (!work(first * unit, std::min(last * unit, queries_) - first * unit)) return;
+    for (std::size_t u = first; u < last; ++u) ++done_[u];
+  };
+  // Isolated, so that a thread that waits here does not begin another block meanwhile.
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_for(std::size_t{0}, steps, part, tbb::simple_partitioner()); });
+  ++passes_;
+}
+
+std::size_t Passes::complete() const {
+  const auto first_undone =
+      std::ranges::find_if(done_, [this](std::size_t passes) { return passes != passes_; });
+  return std::min(static_cast<std::size_t>(first_undone - done_.begin()) * unit, queries_);
+}
+
+StreamResult stream(data::QuerySource& source, const BlockWork& work,
+                    const StreamOptions& options) {
+  using TokenPointer = std::shared_ptr<Token>;
+  const int threads = cores_for(options.threads);
+  const std::size_t blocks_in_flight = 2 * static_cast<std::size_t>(threads);
+  Stream ends(source, options);
+  const auto read = [&](tbb::flow_control& flow) {
+    TokenPointer token = ends.read();
+    if (!token) flow.stop();
+    return token;
+  };
+  const auto work_on = [&](TokenPointer token) {
+    token->result = work(token->block);
+    return token;
+  };
+  const auto finish = [&](const TokenPointer& token) { ends.finish(*token); };
+  const auto run = [&] {
+    tbb::parallel_pipeline(
+        blocks_in_flight,
+        tbb::make_filter<void, TokenPointer>(tbb::filter_mode::serial_in_order, read) &
+            tbb::make_filter<TokenPointer, TokenPointer>(tbb::filter_mode::parallel, work_on) &
+            tbb::make_filter<TokenPointer, void>(tbb::filter_mode::serial_in_order, finish));
+  };
+  tbb::task_arena arena(threads);
+  try {
+    arena.execute(run);
+  } catch (const std::exception& error) {
+    ends.fail(error.what());
+  }
+  return ends.result();
+}
+
+}  // namespace touchstone::verify::jobs

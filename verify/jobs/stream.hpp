@@ -1,0 +1,127 @@
+#pragma once
+
+/// \file
+/// Queries on their way from a source through work on all cores, and out in order.
+///
+/// They travel in blocks. Blocks are worked on in parallel, and so are the parts of a block: a
+/// source of a thousand queries keeps all cores busy too. What a stop leaves unfinished is dropped
+/// from its first query on, so what comes out is always all that is true of the first queries.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "exact/query.hpp"
+#include "verify/data/query_source.hpp"
+#include "verify/solvers/solver.hpp"
+
+namespace touchstone::verify::jobs {
+
+/// Some consecutive queries of a source.
+struct Block {
+  /// What the source claims of a query.
+  struct Claim {
+    std::optional<bool> collides;
+    std::optional<exact::Rational> toi;
+  };
+
+  /// So many queries, but for the last block: as many as hide the cost of a clock call behind a
+  /// solver that takes 10 ns a query.
+  static constexpr std::size_t size = 2048;
+
+  const std::string* source;
+  Kind kind;
+  std::vector<Query> queries;
+  std::vector<std::uint64_t> indices;
+  std::vector<Claim> claims;
+
+  /// Asks for the answers to `count` of them from number `first` on.
+  [[nodiscard]] solvers::SolveRequest request(std::size_t first, std::size_t count,
+                                              const Separation& separation) const {
+    return {.kind = kind,
+            .queries = std::span(queries).subspan(first, count),
+            .separation = separation,
+            .source = *source,
+            .indices = std::span(indices).subspan(first, count)};
+  }
+};
+
+/// Passes over the queries of a block, each on all cores.
+class Passes {
+ public:
+  /// Parts of a pass begin at multiples of this.
+  static constexpr std::size_t unit = 16;
+
+  /// \param stop May be null. Once true, no further part of a pass is begun.
+  Passes(std::size_t queries, const std::atomic<bool>* stop);
+
+  /// Calls work(first, count) for parts of about `span` queries, at least a unit, which together
+  /// are the block; from several threads. The work says whether it is done with the part: a stop
+  /// may have cut it short. Returns when all have returned.
+  void run(std::size_t span, const std::function<bool(std::size_t, std::size_t)>& work);
+
+  /// So many queries, from the first, are done with in all passes so far.
+  [[nodiscard]] std::size_t complete() const;
+
+ private:
+  std::size_t queries_;
+  const std::atomic<bool>* stop_;
+  std::size_t passes_ = 0;
+  std::vector<std::size_t> done_;  // passes that are done with each unit
+};
+
+/// What the work on a block leaves to be done in the order of the queries.
+struct BlockResult {
+  /// Called once, never from two threads at once.
+  std::function<void()> in_order;
+  /// False ends the stream behind this block.
+  bool complete = true;
+};
+
+/// The work on a block; called from several threads. The block lives until in_order has returned.
+using BlockWork = std::function<BlockResult(const Block&)>;
+
+struct StreamOptions {
+  /// Cores to use; 0: all of them.
+  unsigned threads = 0;
+  /// Called now and then with the fraction of the source that is done; never from two threads at
+  /// once.
+  std::function<void(double)> on_progress = nullptr;
+  /// Once true, no further queries are read.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// How a stream ended.
+struct StreamResult {
+  std::uint64_t skipped = 0;  ///< in error, left out
+  std::uint64_t rounded = 0;  ///< coordinates rounded to double
+  /// The error that ended the stream before the source's end.
+  std::optional<std::string> error;
+  bool interrupted = false;
+};
+
+/// Sends all queries of the source through the work. Errors of the source, and exceptions of the
+/// work, end the stream and are in the result; what was done in order until then stands.
+StreamResult stream(data::QuerySource& source, const BlockWork& work, const StreamOptions& options);
+
+/// The same with work in two steps: what make(block) returns says by its complete() whether the
+/// stream goes on, and add takes it in the order of the queries.
+template <class Make, class Add>
+StreamResult stream(data::QuerySource& source, const Make& make, const Add& add,
+                    const StreamOptions& options) {
+  const auto work = [&](const Block& block) -> BlockResult {
+    const auto made = std::make_shared<const std::invoke_result_t<Make, const Block&>>(make(block));
+    return {.in_order = [made, &add] { add(*made); }, .complete = made->complete()};
+  };
+  return stream(source, BlockWork(work), options);
+}
+
+}  // namespace touchstone::verify::jobs

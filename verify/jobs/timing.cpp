@@ -1,0 +1,155 @@
+#include "verify/jobs/timing.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <limits>
+
+#include "verify/jobs/deadline.hpp"
+#include "verify/jobs/statistics.hpp"
+
+namespace touchstone::verify::jobs {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+/// Shorter work is done several times at once.
+constexpr double least_nanoseconds = 2e6;
+/// The first guess at a solver's pace is made on so many queries, the next on at most so many times as
+/// many.
+constexpr std::size_t first_sample = 16;
+constexpr double most_growth = 64.0;
+/// Of the time that a sample may take, the share that is aimed at.
+constexpr double aimed_share = 0.9;
+constexpr int sweeps = 3;
+constexpr int clock_readings = 10'000;
+
+double nanoseconds_since(WallClock::time_point start) {
+  return std::chrono::duration<double, std::nano>(WallClock::now() - start).count();
+}
+
+}  // namespace
+
+double Times::median() const { return jobs::median(repetitions); }
+
+double Times::min() const { return quantile(repetitions, 0.0); }
+
+TimedSolver::TimedSolver(const solvers::Solver& solver, const data::QueryGroup& group,
+                         const Separation& separation)
+    : solver_(&solver), group_(&group), separation_(separation) {}
+
+void TimedSolver::take(std::size_t count) {
+  const std::vector<Query>& all = group_->queries();
+  positions_ = spread_sample(all.size(), count);
+  copies_.clear();
+  queries_ = all;
+  if (count < all.size()) {
+    for (const std::size_t position : positions_) copies_.push_back(all[position]);
+    queries_ = copies_;
+  }
+  answers_.resize(queries_.size());
+  calls_ = 0;
+}
+
+void TimedSolver::choose_sample(const SampleLimits& limits) {
+  const std::size_t most = std::min(limits.most, group_->queries().size());
+  std::size_t count = solver_->only_as_a_whole() ? most : std::min(first_sample, most);
+  // The pace varies from query to query, so a small sample says little.
+  for (;;) {
+    take(count);
+    double growth = possible_growth(limits);
+    if (count == most || is_stopped(limits.stop)) return;
+    // The first time a sample is solved its memory is touched for the first time too.
+    if (growth < 2.0) growth = possible_growth(limits);
+    if (growth < 2.0 || is_stopped(limits.stop)) return;
+    count = std::min(count * std::bit_floor(static_cast<std::size_t>(growth)), most);
+  }
+}
+
+double TimedSolver::possible_growth(const SampleLimits& limits) {
+  double nanoseconds = 0.0;
+  if (limits.companion != nullptr) nanoseconds = time_calls(*limits.companion, 1);
+  const WallClock::time_point start = WallClock::now();
+  double own = time_calls(*solver_, 1);
+  // A child process may sleep.
+  if (reply_.time) own = std::max(own, nanoseconds_since(start));
+  calls_ = calls_for(own);
+  return std::min(aimed_share * 1e9 * limits.seconds / std::max(own, nanoseconds), most_growth);
+}
+
+double TimedSolver::time_calls(const solvers::Solver& solver, std::size_t calls) {
+  const solvers::SolveRequest request{
+      .kind = group_->kind(), .queries = queries_, .separation = separation_};
+  double own = 0.0;
+  const double here = time_of(calls, [&] {
+    reply_ = solver.solve(request, answers_);
+    unplaced_crashes_ += reply_.unplaced_crashes;
+    own += reply_.time.value_or(solvers::SolverTime{}).processor_nanoseconds;
+  });
+  return reply_.time ? own / static_cast<double>(calls) : here;
+}
+
+void TimedSolver::repeat() {
+  if (calls_ == 0) calls_ = calls_for(time_calls(*solver_, 1));
+  const double nanoseconds = time_calls(*solver_, calls_);
+  seconds_spent_ += 1e-9 * nanoseconds * static_cast<double>(calls_);
+  times_.repetitions.push_back(nanoseconds / static_cast<double>(queries_.size()));
+}
+
+std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, double seconds,
+                                                             const std::atomic<bool>* stop) const {
+  const std::vector<std::size_t> chosen = spread_sample(queries_.size(), count);
+  std::vector<double> times(chosen.size(), std::numeric_limits<double>::infinity());
+  fast::Answer answer;
+  const WallClock::time_point start = WallClock::now();
+  for (int sweep = 0; sweep < sweeps && nanoseconds_since(start) <= 1e9 * seconds; ++sweep) {
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (is_stopped(stop)) return std::nullopt;
+      const solvers::SolveRequest request{.kind = group_->kind(),
+                                          .queries = queries_.subspan(chosen[i], 1),
+                                          .separation = separation_};
+      const WallClock::time_point before = WallClock::now();
+      const solvers::SolveReply reply = solver_->solve(request, {&answer, 1});
+      const double here = nanoseconds_since(before);
+      const double time = reply.time ? reply.time.value().processor_nanoseconds : here;
+      times[i] = std::min(times[i], time);
+    }
+  }
+  const double clock = clock_nanoseconds();
+  for (double& time : times) time = std::max(time - clock, 0.0);
+  return times;
+}
+
+judge::Judgement TimedSolver::judge(std::span<const judge::Truth> truths) const {
+  judge::Judgement judgement;
+  auto failure = reply_.failures.begin();
+  std::size_t i = 0;
+  for (const judge::Truth& truth : truths) {
+    while (i < positions_.size() && positions_[i] < truth.index) ++i;
+    if (i == positions_.size()) break;
+    if (positions_[i] != truth.index) continue;
+    while (failure != reply_.failures.end() && failure->position < i) ++failure;
+    const bool has_failed = failure != reply_.failures.end() && failure->position == i;
+    judgement.add(truth, answers_[i], has_failed ? &failure->failure : nullptr);
+  }
+  judgement.add_unplaced_crashes(unplaced_crashes_);
+  return judgement;
+}
+
+std::size_t calls_for(double nanoseconds) {
+  return static_cast<std::size_t>(std::clamp(least_nanoseconds / nanoseconds, 1.0, 1e6));
+}
+
+std::vector<std::size_t> order_of_repetition(std::size_t items, std::size_t repetition) {
+  std::vector<std::size_t> order(items);
+  for (std::size_t i = 0; i < items; ++i) order[i] = (i + repetition) % items;
+  return order;
+}
+
+double clock_nanoseconds() {
+  std::vector<double> times(clock_readings);
+  for (double& time : times) time = nanoseconds_since(WallClock::now());
+  return median(times);
+}
+
+}  // namespace touchstone::verify::jobs

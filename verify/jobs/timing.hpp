@@ -1,0 +1,136 @@
+#pragma once
+
+/// \file
+/// The measuring engine of benchmarks and reports: how long a solver takes for queries of a group.
+///
+/// **Sample.** A solver is timed on an evenly spread sample of the group, which grows until it takes
+/// about as long as it may, or all that may be asked are in it. It has sixteen queries times a power of
+/// two, or all; smaller samples are part of larger ones, and the same sample is found again.
+///
+/// **Time.** A repetition is one call for the whole sample, or the mean of several where one takes
+/// little, and its time processor time: of the calling thread, or of the child process that it waits
+/// for. The repetitions of several solvers are to be interleaved (order_of_repetition). Single queries
+/// are timed by the wall clock, one call each; what else happens on the machine is left out by taking
+/// the shortest of up to three sweeps over them.
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/data/query_group.hpp"
+#include "verify/jobs/thread_clock.hpp"
+#include "verify/judge/judge.hpp"
+#include "verify/solvers/solver.hpp"
+
+namespace touchstone::verify::jobs {
+
+/// Nanoseconds a query, one number for each repetition.
+struct Times {
+  std::vector<double> repetitions;
+
+  /// NaN if there was no repetition; the same below.
+  [[nodiscard]] double median() const;
+  [[nodiscard]] double min() const;
+};
+
+/// How large a sample may grow.
+struct SampleLimits {
+  /// Queries; at least 1.
+  std::size_t most = 0;
+  /// Processor time that one call for the sample may take; positive.
+  double seconds = 0.0;
+  /// A solver that is timed on the same sample, and may take no longer; may be null.
+  const solvers::Solver* companion = nullptr;
+  /// May be null. Once true, the sample grows no more.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// A solver, the sample of a group that it is timed on, its answers and its times.
+class TimedSolver {
+ public:
+  /// Solver and group must live as long as this object. The sample is empty.
+  TimedSolver(const solvers::Solver& solver, const data::QueryGroup& group,
+              const Separation& separation);
+  TimedSolver(const TimedSolver&) = delete;
+  TimedSolver& operator=(const TimedSolver&) = delete;
+  TimedSolver(TimedSolver&&) = default;
+  TimedSolver& operator=(TimedSolver&&) = default;
+  ~TimedSolver() = default;
+
+  /// Makes the sample the evenly spread one of so many queries, or all there are.
+  void take(std::size_t count);
+  /// Solves larger and larger samples, and keeps the last one.
+  void choose_sample(const SampleLimits& limits);
+  /// Times the sample once more.
+  void repeat();
+  /// Nanoseconds of each of `count` queries that are evenly spread over the sample, each solved alone,
+  /// without what the clock itself takes. After `seconds` no further sweep is begun. Nothing once *stop
+  /// is true (it may be null).
+  [[nodiscard]] std::optional<std::vector<double>> time_singles(
+      std::size_t count, double seconds, const std::atomic<bool>* stop) const;
+  /// Judges the latest answers to those queries whose truth is given, by their positions in the group.
+  /// \pre the truths are in the order of their positions.
+  [[nodiscard]] judge::Judgement judge(std::span<const judge::Truth> truths) const;
+
+  [[nodiscard]] const solvers::Solver& solver() const { return *solver_; }
+  [[nodiscard]] const Separation& separation() const { return separation_; }
+  /// The sample.
+  [[nodiscard]] std::span<const Query> queries() const { return queries_; }
+  /// The positions of the sample in the group, ascending.
+  [[nodiscard]] const std::vector<std::size_t>& positions() const { return positions_; }
+  /// Of the latest call, query by query.
+  [[nodiscard]] std::span<const fast::Answer> answers() const { return answers_; }
+  [[nodiscard]] const Times& times() const { return times_; }
+  /// Processor time of all repetitions.
+  [[nodiscard]] double seconds_spent() const { return seconds_spent_; }
+
+ private:
+  /// Processor time in nanoseconds, the mean of so many calls.
+  double time_calls(const solvers::Solver& solver, std::size_t calls);
+  /// How many times as many queries would take as long as they may, by the pace of these.
+  double possible_growth(const SampleLimits& limits);
+
+  const solvers::Solver* solver_;
+  const data::QueryGroup* group_;
+  Separation separation_;
+  std::vector<std::size_t> positions_;
+  /// Copies of the queries there, if these are not all.
+  std::vector<Query> copies_;
+  std::span<const Query> queries_;
+  std::vector<fast::Answer> answers_;
+  /// Of the latest call.
+  solvers::SolveReply reply_;
+  /// Of all calls.
+  std::uint64_t unplaced_crashes_ = 0;
+  /// In a repetition; 0: not known yet.
+  std::size_t calls_ = 0;
+  Times times_;
+  double seconds_spent_ = 0.0;
+};
+
+/// So many times is work that takes this long to be done at once, so that the clock does not show.
+[[nodiscard]] std::size_t calls_for(double nanoseconds);
+
+/// Processor time of the work in this thread in nanoseconds, as the mean of so many calls.
+template <class Work>
+[[nodiscard]] double time_of(std::size_t calls, const Work& work) {
+  const double start = thread_nanoseconds();
+  for (std::size_t i = 0; i < calls; ++i) work();
+  return (thread_nanoseconds() - start) / static_cast<double>(calls);
+}
+
+/// What a repetition times, in this order: a rotation of 0, …, `items`−1, so that no item always runs
+/// behind the same other one.
+[[nodiscard]] std::vector<std::size_t> order_of_repetition(std::size_t items,
+                                                           std::size_t repetition);
+
+/// Nanoseconds between two readings of the clock that single queries are timed with, the median of
+/// many: what is subtracted from their times.
+[[nodiscard]] double clock_nanoseconds();
+
+}  // namespace touchstone::verify::jobs
