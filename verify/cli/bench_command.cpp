@@ -20,6 +20,7 @@
 #include "fast/certified.hpp"
 #include "fast/certified/kernel.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
@@ -220,30 +221,37 @@ class BenchRun {
 };
 
 void add_bench_options(CLI::App& command, Arguments& arguments) {
+  command.option_defaults()->group("Measurement");
   command
       .add_option("--step", arguments.step,
-                  "Instead of queries: two meshes, before and after a step of a simulation")
+                  "Instead of queries: two meshes, before and after a step")
       ->type_name("FRAME0 FRAME1")
       ->expected(2)
       ->excludes(command.get_option("PATH"));
-  command.add_option("--kernel", arguments.kernel, "Instructions that the certified solver uses")
+  command
+      .add_option("--kernel", arguments.kernel,
+                  "Kernel of the certified solver: scalar, avx2, avx512 or best")
+      ->type_name("NAME")
       ->capture_default_str()
-      ->check(CLI::IsMember({"scalar", "avx2", "avx512", "best"}));
+      ->check(CLI::IsMember({"scalar", "avx2", "avx512", "best"}).description(""));
   command.add_option("--repetitions", arguments.bench.repetitions, "Times are medians of so many")
+      ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, 1'000'000));
   command
       .add_option("--seconds", arguments.bench.seconds,
-                  "Seconds a method and repetition; slower methods are timed on a sample")
+                  "Seconds of a method and repetition; slower methods are timed on a sample")
+      ->type_name("S")
       ->capture_default_str()
       ->check(real_number(1e-6, 1e6));
   command
       .add_option("--judge", arguments.bench.judge,
-                  "Of larger groups judge a sample of so many queries, and what any method calls a "
-                  "collision")
+                  "Judge so many queries of a group, and all that a method calls collisions")
+      ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(0, INT64_MAX));
-  command.add_option("--json", arguments.json_file, "Write the result as JSON")->type_name("FILE");
+  command.option_defaults()->group("Output");
+  add_json_option(command, arguments.json_file);
 }
 
 /// Where the user names no solver, the default methods are timed.
@@ -257,27 +265,21 @@ void settle(const CLI::App& command, Arguments& arguments) {
 
 void add_bench_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "bench", "Time solvers beside a pass that only reads the queries, and judge their answers");
+  CLI::App* command =
+      app.add_subcommand("bench", "Measure speed and error of solvers, also on whole steps");
   add_source_options(*command, arguments->sources);
   add_solver_options(*command, arguments->solvers);
   add_bench_options(*command, *arguments);
-  command->footer(
-      "Without PATH the built-in workload: two patches of triangle mesh that move through each\n"
-      "other, and the generated hard set. The queries of a PATH are one group a kind. Our solvers "
-      "run\n"
-      "in this process, in one thread; plugins in child processes, where a crash, or a query "
-      "beyond\n"
-      "--query-limit, costs one answer.\n"
-      "With --step the candidates of our broad phase are the queries, and the whole step is timed "
-      "from\n"
-      "broad phase to the times of impact, with one thread and with --threads: wall and processor "
-      "time.\n"
-      "With --min-separation candidates are the pairs whose boxes come that near.\n"
-      "Exit status: 0 all is well, 1 a solver gave an answer that its promise excludes, 2 bad "
-      "input or\n"
-      "usage, 130 interrupted (what is done by then is reported and written).\n"
-      "Example: touchstone bench data/handcrafted --method tight_inclusion --json result.json");
+  set_help(*command,
+           "touchstone bench data/handcrafted --method tight_inclusion --json result.json\n"
+           "touchstone bench --step 92.ply 93.ply --method certified",
+           "Without PATH: two patches of mesh that move through each other, and the built-in set. "
+           "Built-in solvers "
+           "run in this process, in one thread, plugins in child processes. With --step the "
+           "queries are the "
+           "candidates of the broad phase, and the whole step is timed, with one thread and with "
+           "--threads.\n" +
+               std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle(*command, *arguments);
     status = BenchRun(*arguments).run();

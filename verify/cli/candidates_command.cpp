@@ -21,6 +21,7 @@
 #include "fast/broad_phase.hpp"
 #include "fast/mesh.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/npy.hpp"
 #include "verify/io/json.hpp"
@@ -182,33 +183,36 @@ Status candidates(const Arguments& arguments) {
 }
 
 void add_options(CLI::App& command, Arguments& arguments) {
+  command.option_defaults()->group("Input");
   command.add_option("before", arguments.before, "Mesh before the step: .ply or .obj")
       ->type_name("FRAME0")
       ->required();
   command.add_option("after", arguments.after, "The same mesh after it: the vertices have moved")
       ->type_name("FRAME1")
       ->required();
+  add_distance_option(
+      command, arguments.min_separation,
+      "Also pairs whose boxes are this near, enough for either norm: decimal or 0x1p-10");
+  command.add_option("--threads", arguments.broad_phase.max_threads, "Cores to use (0: all)")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_number(0, INT_MAX));
+  command.option_defaults()->group("Output");
   command
       .add_option(
           "--out", arguments.prefix,
-          "Write PREFIX_vf.npy and PREFIX_ee.npy (queries), PREFIX_vf_pairs.npy (vertex and\n"
-          "face) and PREFIX_ee_pairs.npy (two edges) of each query, and PREFIX_edges.npy")
+          "Write PREFIX_vf.npy and PREFIX_ee.npy (queries), PREFIX_vf_pairs.npy (vertex and "
+          "face), PREFIX_ee_pairs.npy (two edges) and PREFIX_edges.npy")
       ->type_name("PREFIX")
       ->required();
-  add_distance_option(command, arguments.min_separation,
-                      "Also what comes this near, on every axis: enough for either norm; a number "
-                      "from 0 on, also hexadecimal; default 0");
-  command.add_option("--max-threads", arguments.broad_phase.max_threads, "Cores to use; 0: all")
-      ->capture_default_str()
-      ->check(whole_number(0, INT_MAX));
   command
       .add_option(
           "--max-candidates", arguments.broad_phase.max_candidates,
-          "More of a kind are an error that says how many there are; 0: as many as fit into "
-          "the free memory")
+          "More of a kind are an error that gives their number (0: as many as fit into memory)")
+      ->type_name("N")
       ->default_val(0)
       ->check(whole_number(0, UINT64_MAX));
-  command.add_option("--json", arguments.json_file, "Write the summary as JSON")->type_name("FILE");
+  add_json_option(command, arguments.json_file);
 }
 
 }  // namespace
@@ -216,14 +220,14 @@ void add_options(CLI::App& command, Arguments& arguments) {
 void add_candidates_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "candidates", "Find what may touch in a step of a simulation: swept boxes that overlap");
+      "candidates", "Write the pairs of a moving mesh whose swept boxes overlap");
   add_options(*command, *arguments);
-  command->footer(
-      "Pairs that share a vertex are left out. Edges are numbered by their larger vertex, then by\n"
-      "the smaller.\n"
-      "Exit status: 0 all is written, 2 bad input or usage, 130 interrupted.\n"
-      "Example: touchstone candidates frames/92.ply frames/93.ply --out cloth && \\\n"
-      "         touchstone certify cloth_vf.npy cloth_ee.npy");
+  set_help(*command,
+           "touchstone candidates frames/92.ply frames/93.ply --out cloth\n"
+           "touchstone certify cloth_vf.npy cloth_ee.npy",
+           "Pairs that share a vertex are left out. Edges are numbered by their larger vertex, "
+           "then by the smaller.\n" +
+               std::string(writing_statuses));
   command->callback([arguments, &status] {
     arguments->broad_phase.min_separation = arguments->min_separation.value_or(0.0);
     status = candidates(*arguments);

@@ -16,6 +16,7 @@
 
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
@@ -198,12 +199,10 @@ void add_judged_options(CLI::App& command, SolverArguments& judged) {
   add_solver_options(command, judged);
   command
       .add_option("--results", judged.results,
-                  "Judge the answers of this file: file,index,kind,verdict,toi_lower,toi_upper,"
-                  "tolerance and maybe failure (as touchstone solve writes it)")
+                  "Recorded answers to judge, as touchstone solve writes them; repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_flag("--exact", judged.exact,
-                   "Hold every solver to exactness: false positives are wrong answers too");
+  add_exact_flag(command, judged);
 }
 
 }  // namespace
@@ -211,13 +210,11 @@ void add_judged_options(CLI::App& command, SolverArguments& judged) {
 void add_certify_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
-      "certify",
-      "Decide every query exactly and hold recorded labels and times of impact, and the "
-      "answers of solvers, against the truth");
+      "certify", "Decide queries exactly; compare answers and solvers with the truth");
   add_source_options(*command, arguments->sources);
   add_judged_options(*command, arguments->judged);
-  command->add_option("--json", arguments->json_file, "Write the result as JSON")
-      ->type_name("FILE");
+  command->option_defaults()->group("Output");
+  add_json_option(*command, arguments->json_file);
   command
       ->add_option("--truth", arguments->truth_file,
                    "Write the truth as CSV: file,index,kind,collides,toi_lower,toi_upper")
@@ -226,24 +223,13 @@ void add_certify_command(CLI::App& app, Status& status) {
       ->add_option("--prove", arguments->proof_file,
                    "Write a proof of every verdict, as touchstone prove does")
       ->type_name("FILE");
-  command->footer(
-      "Solvers: --method, --plugin and --results may each be given several times. Without any of\n"
-      "them, those of ours that promise something are judged on the built-in set (--method none:\n"
-      "no solver), and no solver on other queries.\n"
-      "Exit status: 0 all recorded answers are true and all solvers keep their promise, 1 some "
-      "are\n"
-      "not or do not (every solver must be free of false negatives, of times of impact that "
-      "exclude\n"
-      "the true one and of errors, an exact one of false positives too), 2 bad input, a query\n"
-      "without a recorded answer, or bad usage, 130 interrupted (what is done by then is reported\n"
-      "and written).\n"
-      "With --min-separation the truth is about that distance; of what is recorded about contact "
-      "only\n"
-      "what follows is compared: a collision must collide, no later.\n"
-      "A yes is held to the tolerance it comes with: the primitives must come within it and the\n"
-      "distance (of Tight-Inclusion twice its filter, too).\n"
-      "Example: touchstone certify data/handcrafted --json result.json --truth truth.csv\n"
-      "Example: touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion");
+  set_help(*command,
+           "touchstone certify data/handcrafted --json result.json\n"
+           "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion",
+           "Without --method, --plugin and --results our solvers are judged on the built-in set, "
+           "and none on other "
+           "queries (--method none: none). What is judged: docs/testing.md.\n" +
+               std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);
     status = CertifyRun(*arguments).run();

@@ -14,6 +14,7 @@
 #include "filters/derivation/catalogue.hpp"
 #include "filters/derivation/derivation.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
@@ -128,39 +129,38 @@ Status derive(const Arguments& arguments) {
 
 void add_derive_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "derive",
-      "Derive the error bounds of the filtered expressions, in units of u times the greatest "
-      "coordinate");
+  CLI::App* command =
+      app.add_subcommand("derive", "Derive the error bounds of filtered expressions");
+  command->option_defaults()->group("Input");
   command
       ->add_option("--model", arguments->models,
-                   "Only these columns: published, rigorous, gappa, observed (default: all)")
+                   "Only these columns: published, rigorous, gappa, observed; repeatable")
       ->type_name("NAME")
-      ->check(CLI::IsMember(models_by_name));
+      ->check(CLI::IsMember(models_by_name).description(""));
+  command->add_option("--precision", arguments->precision, "Only double, float or double_double")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"double", "float", "double_double"}).description(""));
+  add_seed_option(*command, arguments->seed, "Seed of the search for the worst error");
   command
-      ->add_option("--precision", arguments->precision,
-                   "double, float or double_double (default: all)")
-      ->type_name("NAME")
-      ->check(CLI::IsMember({"double", "float", "double_double"}));
+      ->add_option("--evaluations", arguments->evaluations,
+                   "Evaluations of that search, for each row")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_number(1, UINT64_MAX));
+  command->add_option("--threads", arguments->threads, "Cores to use (default: all)")
+      ->type_name("N")
+      ->check(whole_number(1, 4096));
+  command->option_defaults()->group("Output");
   command
       ->add_option("--emit", arguments->header_file,
                    "Write the header of bounds (filters/error_bounds.hpp)")
       ->type_name("FILE");
-  command->add_option("--json", arguments->json_file, "Write the table as JSON")->type_name("FILE");
-  command->add_option("--seed", arguments->seed, "Seed of the search for the worst error")
-      ->capture_default_str()
-      ->check(whole_number(0, UINT64_MAX));
-  command
-      ->add_option("--evaluations", arguments->evaluations,
-                   "Evaluations that the search may spend a row")
-      ->capture_default_str()
-      ->check(whole_number(1, UINT64_MAX));
-  command->add_option("--threads", arguments->threads, "Threads (default: all)")
-      ->check(whole_number(1, 4096));
-  command->footer(
-      "Exit status: 0 all is derived, 2 bad usage, an error in writing, or no gappa where --model\n"
-      "gappa asks for it, 130 interrupted.\n"
-      "Example: touchstone derive --model published --model rigorous --precision double");
+  add_json_option(*command, arguments->json_file);
+  set_help(*command, "touchstone derive --model published --model rigorous --precision double",
+           "Bounds are in units of u times the greatest coordinate to the expression's degree. "
+           "Without gappa its "
+           "column is empty; --model gappa then is an error.\n" +
+               std::string(writing_statuses));
   command->callback([arguments, &status] { status = derive(*arguments); });
 }
 

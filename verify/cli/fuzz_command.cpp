@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/data/csv_dataset.hpp"
@@ -303,43 +304,43 @@ std::vector<std::string> finding_kind_names() {
 }
 
 void add_search_options(CLI::App& command, Arguments& arguments) {
+  command.option_defaults()->group("Search");
   command
       .add_option(
           "--seconds", arguments.seconds,
           fmt::format("Seconds to search (default {} unless --queries is given)", default_seconds))
+      ->type_name("S")
       ->check(real_number(1e-3, longest_run));
   command.add_option("--queries", arguments.queries, "Queries to ask")
+      ->type_name("N")
       ->check(whole_number(1, UINT64_MAX));
-  command.add_option("--seed", arguments.seed, "Seed of all queries")
-      ->capture_default_str()
-      ->check(whole_number(0, UINT64_MAX));
+  add_seed_option(command, arguments.seed, "Seed of all queries");
   command
       .add_option("--most-findings", arguments.most_findings,
-                  "End after so many findings that are not alike (0: never)")
+                  "End after so many different findings (0: never)")
+      ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(0, UINT32_MAX));
-  command.add_option("--kind", arguments.kind, "Only queries of this kind")
-      ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
   command
       .add_option("--only", arguments.only,
-                  "Seek findings of this kind only; others are counted and no more")
+                  fmt::format("Report findings of this kind only; repeatable: {}",
+                              fmt::join(finding_kind_names(), ", ")))
       ->type_name("KIND")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(finding_kind_names()));
-  command
-      .add_option("--corpus", arguments.corpus,
-                  "Dataset files (.csv, .npy) or folders, whose queries are mutated")
+      ->check(CLI::IsMember(finding_kind_names()).description(""));
+  add_kind_option(command, arguments.kind, "Only vertex-face or edge-edge queries");
+  command.add_option("--corpus", arguments.corpus, "Datasets whose queries are mutated")
       ->type_name("PATH");
+  add_separation_options(command, arguments.separation);
 }
 
 void add_output_options(CLI::App& command, Arguments& arguments) {
+  command.option_defaults()->group("Output");
   command
-      .add_option(
-          "--out", arguments.out_file,
-          "Write the queries found, with their truth, as a dataset: FILE where its name says "
-          "vertex-face or edge-edge, else FILE-vertex-face.csv and FILE-edge-edge.csv")
+      .add_option("--out", arguments.out_file,
+                  "Write the queries found, with their truth, as a dataset, a file for each kind")
       ->type_name("FILE.csv");
-  command.add_option("--json", arguments.json_file, "Write the result as JSON")->type_name("FILE");
+  add_json_option(command, arguments.json_file);
 }
 
 }  // namespace
@@ -349,27 +350,20 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   CLI::App* command =
       app.add_subcommand("fuzz", "Search for queries that a solver answers wrongly");
   add_solver_options(*command, arguments->solver);
-  command->add_flag("--exact", arguments->solver.exact,
-                    "Hold the solver to exactness: false positives are findings too");
+  add_exact_flag(*command, arguments->solver);
   add_search_options(*command, *arguments);
-  add_separation_options(*command, arguments->separation);
   add_output_options(*command, *arguments);
-  command->footer(
-      "The solver (one --method or --plugin) runs in a child process. Sought are false\n"
-      "negatives, times of impact that exclude the true one, a yes beyond the tolerance that it\n"
-      "states, crashes, exits, exceptions, missing verdicts, numbers that are not finite, hangs,\n"
-      "and of what calls itself exact false positives, undecided and other answers to exact\n"
-      "images of a query. --only KIND, several times if need be, seeks that alone. The\n"
-      "certified solver judges, the oracle one answer in a hundred again and every finding; of\n"
-      "method certified the oracle judges all. Findings are made as simple as they go, and\n"
-      "printed as points, as a command that asks again with all that the solver was asked with,\n"
-      "and as a C++ test.\n"
-      "A seed and --queries determine them. --seconds bounds all of that.\n"
-      "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, or nothing was judged,\n"
-      "130 interrupted with nothing found.\n"
-      "Example: touchstone fuzz --method tight_inclusion --seconds 600 --json result.json\n"
-      "Example: touchstone fuzz --plugin ./libsolver.so --only false_negative --only late_toi\n"
-      "Example: touchstone fuzz --plugin ./libsolver.so --exact --out found.csv --corpus data");
+  set_help(*command,
+           "touchstone fuzz --plugin ./libsolver.so --only false_negative --seconds 600\n"
+           "touchstone fuzz --plugin ./libsolver.so --exact --out found.csv --corpus data",
+           "The one solver runs in a child process. A finding is simplified and printed as points, "
+           "as a command that "
+           "asks again, and as a C++ test. The same --seed and --queries give the same findings. "
+           "What is searched "
+           "and who judges: docs/testing.md.\n"
+           "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, or nothing judged, 130 "
+           "interrupted with "
+           "nothing found.");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);
     status = FuzzRun(*arguments).run();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/npy.hpp"
@@ -184,31 +185,30 @@ Status generate(const Arguments& arguments) {
 
 void add_generate_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "generate", "Write the built-in set: degenerate queries with truth known by construction");
-  command->add_option("--out", arguments->folder, "Folder to write to")->type_name("FOLDER");
+  CLI::App* command =
+      app.add_subcommand("generate", "Write the built-in set: hard queries of known truth");
+  command->option_defaults()->group("Input");
   command->add_option("--family", arguments->names, "Only these families (see --list)")
       ->type_name("NAME");
-  command->add_option("--seed", arguments->seed, "Seed")
-      ->capture_default_str()
-      ->check(whole_number(0, UINT64_MAX));
-  command->add_option("--count", arguments->count, "Queries a family and kind")
+  add_seed_option(*command, arguments->seed, "Seed");
+  command->add_option("--count", arguments->count, "Queries of each family and kind")
+      ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, UINT64_MAX));
   add_separation_options(*command, arguments->separation);
+  command->option_defaults()->group("Output");
+  command->add_flag("--list", arguments->list, "List the families, and why their truth is known");
+  command->add_option("--out", arguments->folder, "Folder to write to")->type_name("FOLDER");
   command->add_flag("--npy", arguments->npy,
                     "Write float64 arrays of shape (N, 8, 3), without the truth, instead of CSV");
-  command->add_flag("--list", arguments->list, "Name the families and why their truth is known");
-  command->add_option("--json", arguments->json_file, "Write the list of files as JSON")
-      ->type_name("FILE");
-  command->footer(
-      "With --min-separation there are further families, with contact at exactly that distance, "
-      "the\n"
-      "families about contact are written without truth, and FOLDER/separation.json says what the\n"
-      "truth is about.\n"
-      "Exit status: 0 all is written, 2 bad usage or an error in writing, 130 interrupted.\n"
-      "Example: touchstone generate --out hard --count 100 --family hourglass\n"
-      "Example: touchstone generate --out near --min-separation 1e-8 --norm l2");
+  add_json_option(*command, arguments->json_file);
+  set_help(*command,
+           "touchstone generate --out hard --count 100 --family hourglass\n"
+           "touchstone generate --out near --min-separation 1e-8 --norm l2",
+           "With --min-separation there are more families, with contact at exactly that distance; "
+           "the others are "
+           "written without truth, and FOLDER/separation.json says what the truth is about.\n" +
+               std::string(writing_statuses));
   command->callback([arguments, &status] { status = generate(*arguments); });
 }
 

@@ -10,13 +10,16 @@
 
 #include "fast/platform/arithmetic_check.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 
 namespace {
 
+using touchstone::verify::cli::set_help;
 using touchstone::verify::cli::Status;
+using touchstone::verify::cli::use_help_format;
 using touchstone::verify::io::print;
 
 /// No file that is opened later may become a standard stream that was closed when the program began, and
@@ -31,17 +34,20 @@ void open_standard_streams() {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Touchstone: whether and when two moving primitives touch, exactly."};
-  app.footer(
-      "Exit status: 0 all is well, 1 wrong answers found, 2 bad input or usage, 130 interrupted.\n"
-      "Example: touchstone certify path/to/queries");
-  app.set_version_flag("--version", TOUCHSTONE_VERSION);
+  CLI::App app{
+      "Exact ground truth, verified solvers and test tools for continuous collision detection",
+      "touchstone"};
+  use_help_format(app);
+  set_help(app, "touchstone certify path/to/queries",
+           "touchstone COMMAND --help describes a command.\n"
+           "Exit status: 0 all is well, 1 wrong answers, 2 bad input or usage, 130 interrupted.");
+  app.set_version_flag("--version", TOUCHSTONE_VERSION, "Print the version");
   // What was on the command line stands in the message.
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return touchstone::verify::io::printable(error.what()) +
            "\nRun with --help for more information.\n";
   });
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   Status status = Status::all_well;
   touchstone::verify::cli::add_certify_command(app, status);
   touchstone::verify::cli::add_solve_command(app, status);
@@ -62,6 +68,10 @@ int run(int argc, char** argv) {
     print(stdout, help.str());
     print(stderr, reason.str());
     return static_cast<int>(code == 0 ? Status::all_well : Status::bad_input);
+  }
+  if (app.get_subcommands().empty()) {
+    print(stderr, app.help());
+    return static_cast<int>(Status::bad_input);
   }
   return static_cast<int>(status);
 }

@@ -105,19 +105,32 @@ CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& dista
 }
 
 void add_separation_options(CLI::App& command, SeparationArguments& arguments) {
-  add_distance_option(
-      command, arguments.distance,
-      "What comes within this distance counts as contact: a number from 0 on, in "
-      "units of the coordinates, also hexadecimal (0x1p-10); default 0, or what the "
-      "separation.json beside a dataset says");
+  add_distance_option(command, arguments.distance,
+                      "Contact: distance ≤ D, decimal or 0x1p-10 (default: 0 or separation.json)");
   command
       .add_option_function<std::string>(
           "--norm",
           [&arguments](const std::string& text) { arguments.norm = norm_from_string(text); },
-          "How that distance is measured: linf (the greatest of its components, the default) or l2 "
-          "(Euclid's); e.g. --min-separation 1e-8 --norm l2")
+          "Norm of the distance: linf (greatest component, the default) or l2")
       ->type_name("NORM")
-      ->check(CLI::IsMember({"linf", "l2"}));
+      ->check(CLI::IsMember({"linf", "l2"}).description(""));
+}
+
+void add_json_option(CLI::App& command, std::string& file) {
+  command.add_option("--json", file, "Write the result as JSON")->type_name("FILE");
+}
+
+void add_kind_option(CLI::App& command, std::string& kind, const std::string& description) {
+  command.add_option("--kind", kind, description)
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"vertex-face", "edge-edge"}).description(""));
+}
+
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& description) {
+  command.add_option("--seed", seed, description)
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_number(0, UINT64_MAX));
 }
 
 void report_error(std::string_view message) {

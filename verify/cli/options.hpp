@@ -51,6 +51,15 @@ CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& dista
 /// Adds --min-separation and --norm; the arguments must live until the command line is parsed.
 void add_separation_options(CLI::App& command, SeparationArguments& arguments);
 
+/// Adds --json FILE. The text must live until the command line is parsed, as all arguments below.
+void add_json_option(CLI::App& command, std::string& file);
+
+/// Adds --kind, which limits a command to queries of one kind, or says the kind of all.
+void add_kind_option(CLI::App& command, std::string& kind, const std::string& description);
+
+/// Adds --seed.
+void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& description);
+
 /// Prints "touchstone: error: …" on standard error, printable (printable.hpp).
 void report_error(std::string_view message);
 

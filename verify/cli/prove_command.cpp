@@ -15,6 +15,7 @@
 #include "exact/algebra/number.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/io/json.hpp"
@@ -163,10 +164,10 @@ class ProveRun {
 
 void add_prove_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "prove",
-      "Decide every query exactly and write a proof of each verdict, for touchstone-check");
+  CLI::App* command =
+      app.add_subcommand("prove", "Write a proof of each verdict, for touchstone-check");
   add_source_options(*command, arguments->sources);
+  command->option_defaults()->group("Output");
   command
       ->add_option("--out", arguments->out_file,
                    "Write the certificates; compressed if the name ends in .zst")
@@ -174,22 +175,22 @@ void add_prove_command(CLI::App& app, Status& status) {
       ->required();
   command
       ->add_option("--claim", arguments->claim,
-                   "What to prove of a collision: its time of impact, or only that it is one")
-      ->check(CLI::IsMember({"time_of_impact", "collision"}))
+                   "Claim about a collision: its time_of_impact, or only that it is a collision")
+      ->type_name("CLAIM")
+      ->check(CLI::IsMember({"time_of_impact", "collision"}).description(""))
       ->capture_default_str();
   command
       ->add_option("--width", arguments->width,
-                   "Width of the interval that a time of impact is proved to lie in (a decimal\n"
-                   "number); without it the interval is that of two neighbouring doubles")
+                   "Width of the interval around a time of impact, a decimal number (default: two "
+                   "neighbouring "
+                   "doubles)")
       ->type_name("W");
-  command->add_option("--json", arguments->json_file, "Write the summary as JSON")
-      ->type_name("FILE");
-  command->footer(
-      "Exit status: 0 all is proved and written, 2 bad input or usage (or a proof beyond the "
-      "limits\n"
-      "of the format), 130 interrupted (what is done by then is written, whole certificates).\n"
-      "Example: touchstone prove data/handcrafted --out handcrafted.cert.zst &&\n"
-      "         zstdcat handcrafted.cert.zst | touchstone-check -");
+  add_json_option(*command, arguments->json_file);
+  set_help(
+      *command,
+      "touchstone prove data/handcrafted --out handcrafted.cert.zst\n"
+      "zstdcat handcrafted.cert.zst | touchstone-check -",
+      "A proof beyond the limits of the format is bad input.\n" + std::string(writing_statuses));
   command->callback([arguments, &status] { status = ProveRun(*arguments).run(); });
 }
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/data/query_group.hpp"
@@ -227,25 +228,27 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
   for (const std::string name : {"--min-separation", "--norm", "--count"}) {
     command.remove_option(command.get_option(name));
   }
+  command.option_defaults()->group("Measurement");
   command
-      .add_option("--method", arguments.survey.methods, "Only these of " + solvers::method_names())
+      .add_option("--method", arguments.survey.methods,
+                  "Only these; repeatable: " + solvers::method_names())
       ->type_name("NAME")
       ->allow_extra_args(false);
   command
-      .add_option(
-          "--count", arguments.survey.count,
-          "Queries asked of a group, an evenly spread sample of larger ones (over the distance a "
-          "quarter of them)")
+      .add_option("--count", arguments.survey.count,
+                  "Queries of a group: a sample of larger ones, a quarter of it over the distance")
+      ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, UINT32_MAX));
   command
-      .add_option("--seconds", arguments.survey.seconds,
-                  "Processor seconds that the sample of a method, group and setting may take; "
-                  "slower methods "
-                  "are asked fewer")
+      .add_option(
+          "--seconds", arguments.survey.seconds,
+          "Processor seconds of a method, group and setting; slower methods get fewer queries")
+      ->type_name("S")
       ->capture_default_str()
       ->check(real_number(1e-6, 1e6));
   command.add_option("--repetitions", arguments.survey.repetitions, "Times are medians of so many")
+      ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, 1'000'000));
   command
@@ -256,31 +259,33 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
               arguments.survey.experiments.push_back(report::experiment_from_string(name));
             }
           },
-          "Only these: all methods (field), over the distance, over δ, over m_I, what "
-          "Tight-Inclusion's filters miss")
+          "Only these; repeatable: field (all methods), separation, tolerance (δ), checks (m_I), "
+          "filter")
       ->type_name("NAME")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"field", "separation", "tolerance", "checks", "filter"}));
+      ->check(
+          CLI::IsMember({"field", "separation", "tolerance", "checks", "filter"}).description(""));
   command
       .add_option("--stability", arguments.survey.stability_count,
-                  "Queries a cell of the maps of stability (0: no maps)")
+                  "Queries in a cell of the stability maps (0: no maps)")
+      ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(0, UINT32_MAX));
 }
 
 void add_output_options(CLI::App& command, Arguments& arguments) {
+  command.option_defaults()->group("Output");
   command
       .add_option("--from", arguments.from_file,
-                  "Measure nothing: take the measurements that --json of an earlier run wrote")
+                  "Measure nothing: read what --json of an earlier run wrote")
       ->type_name("FILE.json")
       ->excludes(command.get_option("PATH"))
       ->excludes(command.get_option("--method"));
   command.add_option("--out", arguments.page_file, "Write the page")->type_name("FILE.html");
-  command.add_option("--json", arguments.json_file, "Write all measurements as JSON")
-      ->type_name("FILE.json");
+  add_json_option(command, arguments.json_file);
   command
       .add_option("--results", arguments.results_file,
-                  "Write the tables as Markdown, the published numbers beside ours")
+                  "Write the tables as Markdown, beside the published numbers")
       ->type_name("FILE.md");
 }
 
@@ -288,21 +293,15 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
 
 void add_report_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "report", "Measure all methods side by side, and draw their speed against their error");
+  CLI::App* command =
+      app.add_subcommand("report", "Measure all solvers, and draw a page of speed against error");
   add_measuring_options(*command, *arguments);
   add_output_options(*command, *arguments);
-  command->footer(
-      "The page is one file that needs no network; its path is printed. Without PATH the queries "
-      "are\n"
-      "those of two patches of triangle mesh that move through each other, and the generated hard\n"
-      "set. The queries of a PATH are one group a kind. Times are those of one thread; the truth "
-      "is\n"
-      "the oracle's.\n"
-      "Exit status: 0 all is well, 1 a solver gave an answer that its promise excludes, 2 bad "
-      "input or\n"
-      "usage, 130 interrupted (what is measured by then is written).\n"
-      "Example: touchstone report data/handcrafted --out report.html --json report.json");
+  set_help(*command, "touchstone report data/handcrafted --out report.html --json report.json",
+           "Without PATH: two patches of mesh that move through each other, and the built-in set. "
+           "The page needs no "
+           "network; its path is printed. Times are those of one thread.\n" +
+               std::string(judging_statuses));
   command->callback([arguments, &status] { status = ReportRun(*arguments).run(); });
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
@@ -172,36 +173,31 @@ class SolveRun {
   std::uint64_t reading_errors_ = 0;
 };
 
-void add_problem_options(CLI::App& command, fast::MethodOptions& options) {
-  command
-      .add_option("--t-max", options.t_max,
-                  "Only impacts up to this time count, for methods that know of it")
-      ->capture_default_str()
-      ->check(real_number(0.0, 1.0));
-}
-
 }  // namespace
 
 void add_solve_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      app.add_subcommand("solve", "Have a solver answer every query and write its answers as CSV");
+      app.add_subcommand("solve", "Write the answers of a solver to all queries as CSV");
   add_source_options(*command, arguments->sources);
   add_solver_options(*command, arguments->solver);
-  add_problem_options(*command, arguments->solver.options);
+  command
+      ->add_option("--t-max", arguments->solver.options.t_max,
+                   "Only impacts up to this time count, for methods that have this option")
+      ->type_name("T")
+      ->capture_default_str()
+      ->check(real_number(0.0, 1.0));
+  command->option_defaults()->group("Output");
   command
       ->add_option("--out", arguments->out_file,
                    "Write file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure")
       ->type_name("FILE")
       ->required();
-  command->add_option("--json", arguments->json_file, "Write the summary as JSON")
-      ->type_name("FILE");
-  command->footer(
-      "Exit status: 0 all is answered and written, 2 bad input or usage, 130 interrupted (what is\n"
-      "done by then is written).\n"
-      "Methods get --min-separation and --norm; one that can only do linf finds all of l2 with "
-      "it.\n"
-      "Example: touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv");
+  add_json_option(*command, arguments->json_file);
+  set_help(
+      *command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
+      "A method that knows linf only finds all that is within the distance in l2, and more.\n" +
+          std::string(writing_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
     status = SolveRun(*arguments).run();

@@ -39,19 +39,35 @@ std::vector<std::string> named_methods(const SolverArguments& arguments) {
 }  // namespace
 
 void add_solver_options(CLI::App& command, SolverArguments& arguments) {
+  command.option_defaults()->group("Solver");
   command
-      .add_option("--method", arguments.methods, "A built-in solver: " + solvers::method_names())
+      .add_option("--method", arguments.methods,
+                  "Built-in solver; repeatable: " + solvers::method_names())
       ->type_name("NAME")
       ->allow_extra_args(false);
   command
       .add_option("--plugin", arguments.plugins,
-                  "A solver of your own: a shared library with the interface of verify/plugin.h")
+                  "Your solver: a shared library (verify/plugin.h); repeatable")
       ->type_name("LIB.so")
       ->allow_extra_args(false);
   command
+      .add_option("--tolerance", arguments.options.tolerance,
+                  "Tolerance of conservative methods, in units of the coordinates")
+      ->type_name("X")
+      ->capture_default_str()
+      ->check(real_number(DBL_TRUE_MIN, DBL_MAX));
+  command
+      .add_option(
+          "--max-checks", arguments.options.max_checks,
+          fmt::format("Steps of iterative methods for a query (0: no limit; built-in set: {})",
+                      built_in_max_checks))
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_number(0, INT64_MAX));
+  command
       .add_option("--query-limit", arguments.query_limit,
-                  "Seconds that a query may take of a solver in a child process; beyond, it is "
-                  "undecided (0: no limit)")
+                  "Seconds for a query in a child process; then it is undecided (0: no limit)")
+      ->type_name("S")
       ->capture_default_str()
       ->check(real_number(0.0, longest_limit));
   command
@@ -60,26 +76,19 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
           [&arguments](double gibibytes) {
             arguments.memory_limit = static_cast<std::uint64_t>(gibibytes * bytes_of_gibibyte);
           },
-          fmt::format("GiB of memory that a solver's process may take (default {:g}, 0: no limit)",
+          fmt::format("Memory of a child process in GiB (default {:g}, 0: no limit)",
                       static_cast<double>(arguments.memory_limit) / bytes_of_gibibyte))
       ->type_name("GIB")
       ->check(real_number(0.0, most_gibibytes));
   command.add_flag("--allow-processes", arguments.allow_processes,
-                   "Let a solver's process make processes of its own; without it, fork() fails");
+                   "Let plugins start processes of their own");
   command.add_flag("--show-output", arguments.show_output,
-                   "Print on standard error what plugins print");
-  command
-      .add_option("--tolerance", arguments.options.tolerance,
-                  "What tolerance-driven methods aim at, in units of the coordinates")
-      ->capture_default_str()
-      ->check(real_number(DBL_TRUE_MIN, DBL_MAX));
-  command
-      .add_option("--max-checks", arguments.options.max_checks,
-                  fmt::format("Steps that iterative methods may take a query (0: no limit; "
-                              "built-in set: {})",
-                              built_in_max_checks))
-      ->capture_default_str()
-      ->check(whole_number(0, INT64_MAX));
+                   "Show what plugins print, on standard error");
+}
+
+void add_exact_flag(CLI::App& command, SolverArguments& arguments) {
+  command.add_flag("--exact", arguments.exact,
+                   "Judge every solver as exact: false positives are wrong answers too");
 }
 
 std::vector<std::filesystem::path> SolverArguments::files() const {

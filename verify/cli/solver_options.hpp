@@ -56,6 +56,9 @@ struct SolverArguments {
 /// until the command line is parsed.
 void add_solver_options(CLI::App& command, SolverArguments& arguments);
 
+/// Adds --exact.
+void add_exact_flag(CLI::App& command, SolverArguments& arguments);
+
 /// To be called on the arguments of a parsed command line: on the built-in set, which is made of the
 /// hardest queries, methods take fewer steps unless --max-checks says how many.
 /// \throws std::invalid_argument if an option of solvers is given and no solver is asked.

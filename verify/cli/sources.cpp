@@ -121,25 +121,24 @@ void for_each_file(const SourceArguments& arguments, const SourceHandlers& handl
 }  // namespace
 
 void add_source_options(CLI::App& command, SourceArguments& arguments) {
-  command.add_option("PATH", arguments.paths,
-                     "Dataset files (.csv, .npy) or folders; without any, the built-in set");
+  command.option_defaults()->group("Input");
   command
-      .add_option("--kind", arguments.kind,
-                  "Kind of all queries, where the paths do not say it: vertex-face or edge-edge")
-      ->check(CLI::IsMember({"vertex-face", "edge-edge"}));
+      .add_option("PATH", arguments.paths,
+                  "Dataset files (.csv, .npy) or folders; without any, the built-in set")
+      ->type_name("");
+  add_kind_option(command, arguments.kind,
+                  "vertex-face or edge-edge, where the path does not say which");
   command.add_flag("--round", arguments.round,
-                   "Take the nearest double for coordinates (fractions or decimals) that are none, "
-                   "and count them");
-  command.add_flag(
-      "--keep-going", arguments.keep_going,
-      "Skip queries and files in error, and the rest of a CSV file behind a line that is no row; "
-      "name and count them (no longer all well: exit status 2)");
+                   "Round coordinates that are not doubles, and count them");
+  command.add_flag("--keep-going", arguments.keep_going,
+                   "Skip and count queries and files in error (exit status 2)");
   command.add_option("--threads", arguments.threads, "Cores to use (0: all)")
+      ->type_name("N")
       ->capture_default_str();
-  command.add_option("--seed", arguments.seed, "Seed of the built-in set")
-      ->capture_default_str()
-      ->check(whole_number(0, UINT64_MAX));
-  command.add_option("--count", arguments.count, "Queries a family and kind of the built-in set")
+  add_seed_option(command, arguments.seed, "Seed of the built-in set");
+  command
+      .add_option("--count", arguments.count, "Queries of each family and kind of the built-in set")
+      ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, UINT64_MAX));
   add_separation_options(command, arguments.separation);

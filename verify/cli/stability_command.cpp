@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/io/json.hpp"
@@ -108,28 +109,28 @@ Status run(const Arguments& arguments) {
 
 void add_options(CLI::App& command, Arguments& arguments) {
   add_solver_options(command, arguments.judged);
-  command.add_flag("--exact", arguments.judged.exact,
-                   "Hold every solver to exactness: false positives are wrong answers too");
+  add_exact_flag(command, arguments.judged);
   std::string names;
   for (const stability::Hardness& hardness : stability::hardnesses()) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", hardness.name);
   }
-  command.add_option("--hardness", arguments.hardnesses, "Only these of " + names)
+  command.option_defaults()->group("Queries");
+  command.add_option("--hardness", arguments.hardnesses, "Only these; repeatable: " + names)
       ->type_name("NAME")
       ->allow_extra_args(false);
-  command.add_option("--seed", arguments.seed, "Seed of the queries")
-      ->capture_default_str()
-      ->check(whole_number(0, UINT64_MAX));
-  command.add_option("--count", arguments.count, "Queries a hardness, level and kind")
+  add_seed_option(command, arguments.seed, "Seed of the queries");
+  command.add_option("--count", arguments.count, "Queries of each hardness, level and kind")
+      ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, UINT64_MAX));
   command.add_option("--threads", arguments.threads, "Cores to use (0: all)")
+      ->type_name("N")
       ->capture_default_str();
   add_separation_options(command, arguments.separation);
-  command.add_option("--json", arguments.json_file, "Write the result as JSON")->type_name("FILE");
+  command.option_defaults()->group("Output");
+  add_json_option(command, arguments.json_file);
   command
-      .add_option("--picture", arguments.picture_file,
-                  "Draw the result as a heat map: a page (HTML) that any browser shows")
+      .add_option("--picture", arguments.picture_file, "Draw the result as a page for a browser")
       ->type_name("FILE.html");
 }
 
@@ -137,22 +138,20 @@ void add_options(CLI::App& command, Arguments& arguments) {
 
 void add_stability_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "stability", "Map what solvers get wrong, and how long they take, as queries get harder");
+  CLI::App* command =
+      app.add_subcommand("stability", "Judge solvers on queries of growing difficulty");
   add_options(*command, *arguments);
   std::string list;
   for (const stability::Hardness& hardness : stability::hardnesses()) {
-    list += fmt::format("  {:<9} {}: 2^{} to 2^{}\n", hardness.name, hardness.measure,
-                        hardness.exponents.front(), hardness.exponents.back());
+    list += fmt::format("{}{} ({}, 2^{} to 2^{})", list.empty() ? "" : "; ", hardness.name,
+                        hardness.measure, hardness.exponents.front(), hardness.exponents.back());
   }
-  command->footer(
-      "Queries that are hard in one way, at eleven levels each, and mild in all others:\n" + list +
-      "Half of them collide. The truth is that of the certified solver, checked by the oracle on "
-      "all.\n"
-      "Without --method or --plugin all our methods are judged but the baselines.\n"
-      "Exit status: 0 all solvers keep their promise, 1 some do not, 2 bad usage, 130 interrupted\n"
-      "(what is done by then is reported and written).\n"
-      "Example: touchstone stability --method tight_inclusion --picture stability.html");
+  set_help(*command, "touchstone stability --method tight_inclusion --picture stability.html",
+           "Queries that are hard in one way, at eleven levels: " + list +
+               ". Half of them collide. Without --method and --plugin all built-in solvers but the "
+               "baselines are "
+               "judged.\n" +
+               std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->judged);
     status = run(*arguments);

@@ -56,12 +56,6 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_F(Bench, HelpHasAnExample) {
-  EXPECT_EQ(run("--help"), 0);
-  EXPECT_TRUE(contains(read("out"), "Example: touchstone bench ")) << read("out");
-  EXPECT_TRUE(contains(read("out"), "--query-limit"));
-}
-
 TEST_F(Bench, TimesAndJudgesTheGivenQueries) {
   const std::string folder = quoted("data");
   static_cast<void>(write("data/a_vf.csv", falling_vertex("-3") + falling_vertex("0")));

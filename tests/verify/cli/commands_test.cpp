@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -54,21 +55,51 @@ std::string falling_vertex(const std::string& label, const std::string& end_heig
   return rows("1") + rows(end_height);
 }
 
-TEST_F(Tool, HelpHasAnExampleEverywhere) {
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
-                                                    {"certify", "--help"},
-                                                    {"solve", "--help"},
-                                                    {"generate", "--help"}}) {
-    const Outcome help = run(arguments);
-    EXPECT_EQ(help.status, 0);
-    EXPECT_TRUE(contains(help.out, "Example: touchstone ")) << help.out;
+/// The subcommands, as the help of the program lists them.
+std::vector<std::string> subcommands_in(const std::string& help) {
+  std::vector<std::string> names;
+  std::istringstream lines(help.substr(help.find("Subcommands:\n")));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line) && line.starts_with("  ")) {
+    names.push_back(line.substr(2, line.find(' ', 2) - 2));
   }
+  return names;
+}
+
+/// Lines of a help text, of which none is wider than a screen.
+std::ptrdiff_t lines_of(const std::string& help) {
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 102U) << line;
+  return std::ranges::count(help, '\n');
+}
+
+TEST_F(Tool, HelpBeginsWithAnExampleAndFitsAScreen) {
+  const std::string overview = run({"--help"}).out;
+  EXPECT_LE(lines_of(overview), 24) << overview;
+  const std::vector<std::string> subcommands = subcommands_in(overview);
+  EXPECT_EQ(subcommands.size(), 10U) << overview;
+  for (const std::string& name : subcommands) {
+    const Outcome help = run({name, "--help"});
+    EXPECT_EQ(help.status, 0);
+    EXPECT_LE(lines_of(help.out), 46) << help.out;
+    const std::size_t example = help.out.find("\n\nExample: touchstone " + name);
+    EXPECT_LT(example, help.out.find("\n\nUsage: touchstone " + name)) << help.out;
+    EXPECT_TRUE(contains(help.out, "\n\nOutput:\n")) << help.out;
+    EXPECT_TRUE(contains(help.out, "Exit status: 0 ")) << help.out;
+  }
+}
+
+TEST_F(Tool, WithoutASubcommandItListsThem) {
+  const Outcome bare = run({});
+  EXPECT_EQ(bare.status, 2);
+  EXPECT_EQ(bare.out, "");
+  EXPECT_EQ(bare.err, run({"--help"}).out);
 }
 
 TEST_F(Tool, UsageErrorsExitWithTwo) {
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{},
-        {"nonsense"},
+       {std::vector<std::string>{"nonsense"},
         {"certify", "--nonsense"},
         {"certify", "--kind", "face-face"},
         {"certify", "--count", "0"},

@@ -172,10 +172,5 @@ TEST_F(ProveCommand, CertifyWritesTheSame) {
   EXPECT_EQ(run({"certify", data, "--prove", "/dev/full"}), 2);
 }
 
-TEST_F(ProveCommand, HelpHasAnExample) {
-  EXPECT_EQ(run({"prove", "--help"}), 0);
-  EXPECT_TRUE(contains(out(), "Example: touchstone prove"));
-}
-
 }  // namespace
 }  // namespace touchstone::verify::cli::prove_command_test

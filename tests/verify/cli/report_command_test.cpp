@@ -47,12 +47,6 @@ class Report : public tests::ToolTest {
 const std::string quick =
     " --method certified --method tight_inclusion --repetitions 1 --seconds 0.01 --stability 0 ";
 
-TEST_F(Report, HelpHasAnExample) {
-  EXPECT_EQ(run("--help"), 0);
-  EXPECT_TRUE(contains(read("out"), "Example: touchstone report ")) << read("out");
-  EXPECT_FALSE(contains(read("out"), "--norm"));
-}
-
 TEST_F(Report, WritesPageMeasurementsAndTablesOfTheGivenQueries) {
   ASSERT_EQ(run(data() + quick + "--out " + quoted("page.html") + " --json " + quoted("json") +
                 " --results " + quoted("results.md")),

@@ -87,13 +87,6 @@ TEST_F(SeparationOptions, BadValuesAreUsageErrors) {
   }
 }
 
-TEST_F(SeparationOptions, TheHelpSaysWhatTheyMean) {
-  for (const char* command : {"certify", "solve", "bench", "prove", "generate"}) {
-    ASSERT_EQ(run(std::string(command) + " --help"), 0);
-    EXPECT_TRUE(contains(read("out"), "--min-separation 1e-8 --norm l2")) << read("out");
-  }
-}
-
 TEST_F(SeparationOptions, AtDistanceZeroNothingChanges) {
   const std::string file = write("a_vf.csv", falls("1") + stays_away("0"));
   const auto result = [&](const std::string& options) {

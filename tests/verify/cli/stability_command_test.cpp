@@ -33,12 +33,6 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_F(Stability, HelpHasAnExampleAndTheLevels) {
-  EXPECT_EQ(run("--help"), 0);
-  EXPECT_TRUE(contains(read("out"), "Example: touchstone stability ")) << read("out");
-  EXPECT_TRUE(contains(read("out"), "distance to contact, in sizes: 2^-1 to 2^-50"));
-}
-
 TEST_F(Stability, WritesTableJsonAndPicture) {
   ASSERT_EQ(run(quick + "--method certified --seed 9 --json " + quoted("json") + " --picture " +
                 quoted("map.html")),
