@@ -197,8 +197,8 @@ MpfrNumber exact(const Pair& a) {
 
 /// The greatest relative error found, in units of u². Fails unless results are normalised, and the
 /// truth is computed without rounding.
-template <class Operation, class Truth>
-double worst_error(const Operation& operation, const Truth& truth, bool cancels) {
+template <class Operation, class GroundTruth>
+double worst_error(const Operation& operation, const GroundTruth& truth, bool cancels) {
   Numbers numbers(4);
   double worst = 0;
   mpfr_clear_inexflag();

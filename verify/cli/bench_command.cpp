@@ -182,7 +182,7 @@ class BenchRun {
   void require_one_separation(const data::QuerySource& source,
                               std::optional<Separation>& so_far) const {
     const Separation separation = separation_for(arguments_.sources, source);
-    if (so_far && !judge::same_question(*so_far, separation)) {
+    if (so_far && !judge::same_separation(*so_far, separation)) {
       throw data::DatasetError(source.name(), {},
                                "is about a minimum separation of " + judge::to_text(separation) +
                                    ", the files before it about " + judge::to_text(*so_far));

@@ -115,7 +115,7 @@ class CertifyRun {
     options.solvers = solvers_.all();
     options.on_progress = progress;
     if (truth_) {
-      options.on_truth = [&](const judge::Truth& truth) {
+      options.on_truth = [&](const judge::GroundTruth& truth) {
         truth_.write(report::truth_row(source.name(), source.kind(), truth));
       };
     }

@@ -156,7 +156,7 @@ class FoundQueries {
   /// \throws std::runtime_error if a folder has queries about another separation.
   void require_same_separation(const fs::path& file) const {
     const Separation recorded = data::recorded_separation(file);
-    if (judge::same_question(recorded, separation_)) return;
+    if (judge::same_separation(recorded, separation_)) return;
     if (is_contact(recorded) && is_without_datasets()) return;
     throw std::runtime_error(
         fmt::format("{}: its folder is about a minimum separation of {}, not {}; choose another",

@@ -63,7 +63,7 @@ void list_families(const std::vector<generate::Family>& chosen_families) {
 /// The query without what is known of it at another separation.
 void keep_claims_about(const Separation& separation, const data::QuerySource& source,
                        std::optional<data::RecordedQuery>& query) {
-  if (!query || judge::same_question(source.recorded_separation(), separation)) return;
+  if (!query || judge::same_separation(source.recorded_separation(), separation)) return;
   query->collides.reset();
   query->toi.reset();
 }
@@ -120,7 +120,8 @@ void require_same_separation(const fs::path& folder, const Separation& separatio
   const bool has_queries = fs::exists(folder / to_string(Kind::vertex_face)) ||
                            fs::exists(folder / to_string(Kind::edge_edge));
   const Separation recorded = data::recorded_separation(folder / "any");
-  if ((!has_queries && is_contact(recorded)) || judge::same_question(recorded, separation)) return;
+  if ((!has_queries && is_contact(recorded)) || judge::same_separation(recorded, separation))
+    return;
   throw std::runtime_error(
       fmt::format("{}: is about a minimum separation of {}, not {}; choose another folder",
                   folder.string(), judge::to_text(recorded), judge::to_text(separation)));

@@ -86,7 +86,7 @@ Separation SeparationArguments::settle(const Separation& recorded) const {
   if (is_contact(recorded)) return given();
   const Separation asked{.distance = distance.value_or(recorded.distance),
                          .norm = norm.value_or(recorded.norm)};
-  if (judge::same_question(asked, recorded)) return asked;
+  if (judge::same_separation(asked, recorded)) return asked;
   throw std::invalid_argument(
       fmt::format("asked for a minimum separation of {}, but its separation.json says {}",
                   judge::to_text(asked), judge::to_text(recorded)));

@@ -43,7 +43,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   SourceArguments sources;
-  report::SurveyOptions survey;
+  report::ExperimentOptions experiments;
   std::string from_file;
   std::string page_file;
   std::string json_file;
@@ -112,12 +112,12 @@ class ReportRun {
 
   [[nodiscard]] report::Measurements measured(const std::vector<data::QueryGroup>& groups) const {
     io::ProgressBar bar("report");
-    report::SurveyOptions options = arguments_.survey;
+    report::ExperimentOptions options = arguments_.experiments;
     options.seed = arguments_.sources.seed;
     options.threads = arguments_.sources.threads;
     options.on_progress = [&bar](double fraction) { bar.update(fraction); };
     options.stop = &io::interrupted();
-    report::Measurements measurements = report::survey(groups, options);
+    report::Measurements measurements = report::run_experiments(groups, options);
     measurements.command = command_line();
     return measurements;
   }
@@ -133,7 +133,7 @@ class ReportRun {
   [[nodiscard]] std::vector<data::QueryGroup> built_in() const {
     const std::uint64_t seed = arguments_.sources.seed;
     const std::uint64_t a_family =
-        std::max<std::uint64_t>(1, arguments_.survey.count / generate::families().size());
+        std::max<std::uint64_t>(1, arguments_.experiments.count / generate::families().size());
     const mesh::MovingMesh patches = generate::moving_patches({.seed = seed});
     std::vector<data::QueryGroup> groups;
     for (const Kind kind : kinds()) {
@@ -230,24 +230,26 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
   }
   command.option_defaults()->group("Measurement");
   command
-      .add_option("--method", arguments.survey.methods,
+      .add_option("--method", arguments.experiments.methods,
                   "Only these; repeatable: " + solvers::method_names())
       ->type_name("NAME")
       ->allow_extra_args(false);
   command
-      .add_option("--count", arguments.survey.count,
+      .add_option("--count", arguments.experiments.count,
                   "Queries of a group: a sample of larger ones, a quarter of it over the distance")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, UINT32_MAX));
   command
       .add_option(
-          "--seconds", arguments.survey.seconds,
+          "--seconds", arguments.experiments.seconds,
           "Processor seconds of a method, group and setting; slower methods get fewer queries")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(1e-6, 1e6));
-  command.add_option("--repetitions", arguments.survey.repetitions, "Times are medians of so many")
+  command
+      .add_option("--repetitions", arguments.experiments.repetitions,
+                  "Times are medians of so many")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, 1'000'000));
@@ -256,7 +258,7 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
           "--experiment",
           [&arguments](const std::vector<std::string>& chosen) {
             for (const std::string& name : chosen) {
-              arguments.survey.experiments.push_back(report::experiment_from_string(name));
+              arguments.experiments.experiments.push_back(report::experiment_from_string(name));
             }
           },
           "Only these; repeatable: field (all methods), separation, tolerance (δ), checks (m_I), "
@@ -266,7 +268,7 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
       ->check(
           CLI::IsMember({"field", "separation", "tolerance", "checks", "filter"}).description(""));
   command
-      .add_option("--stability", arguments.survey.stability_count,
+      .add_option("--stability", arguments.experiments.stability_count,
                   "Queries in a cell of the stability maps (0: no maps)")
       ->type_name("N")
       ->capture_default_str()

@@ -54,7 +54,7 @@ void for_each_family(const SourceArguments& arguments, const SourceHandlers& han
 
 /// \throws std::runtime_error if a dataset file or what accompanies it is an output.
 void check_outputs(const fs::path& file, const SourceHandlers& handlers) {
-  std::vector<fs::path> inputs = data::find_companions(file);
+  std::vector<fs::path> inputs = data::find_ground_truth_files(file);
   inputs.push_back(file);
   for (const fs::path& input : inputs) {
     if (handlers.is_output(input)) {

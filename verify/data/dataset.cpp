@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_companion_folder(const fs::path& path) {
+bool is_ground_truth_folder(const fs::path& path) {
   static constexpr std::array<std::string_view, 4> names{"toi", "mma_bool", "boxes", "frames"};
   return std::find(names.begin(), names.end(), path.filename().string()) != names.end();
 }
@@ -29,7 +29,7 @@ bool is_dataset_name(const fs::path& path) {
   return path.extension() == ".npy" || (path.extension() == ".csv" && !name.ends_with("_toi.csv"));
 }
 
-bool is_companion_name(const fs::path& path) {
+bool is_ground_truth_name(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.ends_with("_toi.csv") || name.ends_with("_mma_bool.json") ||
          name == "separation.json";
@@ -74,7 +74,7 @@ class Search {
     std::error_code error;
     const fs::file_type type = entry.status(error).type();
     if (type == fs::file_type::directory) {
-      take_folder(entry, companions || is_companion_folder(entry.path()));
+      take_folder(entry, companions || is_ground_truth_folder(entry.path()));
     } else if (type == fs::file_type::regular) {
       take_file(entry.path(), companions);
     } else if (entry.is_symlink(error)) {
@@ -98,7 +98,7 @@ class Search {
       found_.push_back(path);
     } else if (is_dataset) {
       leave_out(path, "in a folder of what accompanies datasets; name the file itself to read it");
-    } else if (!companions && !is_companion_name(path)) {
+    } else if (!companions && !is_ground_truth_name(path)) {
       leave_out(path, "no dataset (.csv, .npy)");
     }
   }

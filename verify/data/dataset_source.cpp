@@ -11,7 +11,7 @@ DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions o
       name_(path.string()),
       options_(std::move(options)),
       kind_(options_.kind ? *options_.kind : kind_from_path(path)),
-      companions_(path),
+      ground_truth_files_(path),
       separation_(data::recorded_separation(path)) {}
 
 std::optional<RecordedQuery> DatasetSource::next() {
@@ -37,10 +37,10 @@ std::optional<RecordedQuery> DatasetSource::read_record() {
   if (at_end()) return std::nullopt;
   const std::uint64_t index = count_++;
   const StoredQuery stored = read(index);
-  RecordedTruth truth = companions_.at(index);
+  RecordedTruth truth = ground_truth_files_.at(index);
   if (stored.label && truth.collides && *stored.label != *truth.collides) {
     throw DatasetError(path_, stored.label_position,
-                       "label differs from that in " + companions_.label_path().string());
+                       "label differs from that in " + ground_truth_files_.label_path().string());
   }
   return RecordedQuery{.query = stored.query,
                        .index = index,
@@ -53,9 +53,9 @@ void DatasetSource::give_up(const DatasetError& fault) {
   throw DatasetError(fault);
 }
 
-/// Companions must not go on where the queries end.
+/// Ground truth files must not go on where the queries end.
 void DatasetSource::finish() {
-  for (const DatasetError& fault : companions_.beyond(count_)) skip(fault);
+  for (const DatasetError& fault : ground_truth_files_.beyond(count_)) skip(fault);
 }
 
 void DatasetSource::skip(const DatasetError& fault) {

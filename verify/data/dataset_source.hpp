@@ -62,7 +62,7 @@ class DatasetSource : public QuerySource {
   std::string name_;
   DatasetOptions options_;
   Kind kind_;
-  Companions companions_;
+  GroundTruthFiles ground_truth_files_;
   Separation separation_;
   std::uint64_t count_ = 0;
   std::uint64_t skipped_ = 0;

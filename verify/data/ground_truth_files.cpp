@@ -225,7 +225,7 @@ void ToiReader::fail(FilePosition position, const std::string& reason) const {
   throw DatasetError(lines_.path(), position, reason);
 }
 
-std::vector<std::filesystem::path> find_companions(const std::filesystem::path& dataset) {
+std::vector<std::filesystem::path> find_ground_truth_files(const std::filesystem::path& dataset) {
   std::vector<std::filesystem::path> paths;
   for (const auto& path : {find_labels(dataset), find_tois(dataset)}) {
     if (path) paths.push_back(*path);
@@ -234,19 +234,19 @@ std::vector<std::filesystem::path> find_companions(const std::filesystem::path& 
   return paths;
 }
 
-Companions::Companions(const std::filesystem::path& dataset) {
+GroundTruthFiles::GroundTruthFiles(const std::filesystem::path& dataset) {
   if (auto path = find_labels(dataset)) labels_.emplace(*path);
   if (auto path = find_tois(dataset)) tois_.emplace(*path);
 }
 
-RecordedTruth Companions::at(std::uint64_t index) {
+RecordedTruth GroundTruthFiles::at(std::uint64_t index) {
   RecordedTruth truth;
   if (labels_) truth.collides = labels_->at(index);
   if (tois_) truth.toi = tois_->at(index);
   return truth;
 }
 
-std::vector<DatasetError> Companions::beyond(std::uint64_t count) {
+std::vector<DatasetError> GroundTruthFiles::beyond(std::uint64_t count) {
   std::vector<DatasetError> faults;
   if (labels_) {
     if (auto fault = labels_->beyond(count)) faults.push_back(*fault);
@@ -257,7 +257,7 @@ std::vector<DatasetError> Companions::beyond(std::uint64_t count) {
   return faults;
 }
 
-std::filesystem::path Companions::label_path() const {
+std::filesystem::path GroundTruthFiles::label_path() const {
   return labels_ ? labels_->path() : std::filesystem::path();
 }
 

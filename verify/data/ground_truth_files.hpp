@@ -105,16 +105,16 @@ struct RecordedTruth {
 };
 
 /// The companion files that there are of a dataset, the one of its separation included.
-[[nodiscard]] std::vector<std::filesystem::path> find_companions(
+[[nodiscard]] std::vector<std::filesystem::path> find_ground_truth_files(
     const std::filesystem::path& dataset);
 
 /// The companion files that a dataset has: of <dir>/<name>.csv the first that exists of
 /// <dir>/../mma_bool/<name>_mma_bool.json, <dir>/mma_bool/<name>_mma_bool.json and
 /// <dir>/<name>_mma_bool.json, and likewise toi/<name>_toi.csv.
-class Companions {
+class GroundTruthFiles {
  public:
   /// \throws DatasetError if a companion exists but its beginning cannot be read.
-  explicit Companions(const std::filesystem::path& dataset);
+  explicit GroundTruthFiles(const std::filesystem::path& dataset);
 
   /// What is known of a query; numbers must ascend from call to call.
   /// \throws DatasetError if what is recorded cannot be read.

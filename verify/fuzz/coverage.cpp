@@ -43,8 +43,8 @@ class Hash {
 
 }  // namespace
 
-std::uint64_t signature(Kind kind, const Query& query, const fast::CertifiedResult& judged,
-                        const fast::Answer& answer) {
+std::uint64_t coverage_key(Kind kind, const Query& query, const fast::CertifiedResult& judged,
+                           const fast::Answer& answer) {
   double greatest = 0.0;
   std::uint64_t zeros = 0;
   for (const double x : query.coordinates) {

@@ -35,7 +35,7 @@ using generate::Random;
 /// Queries of a block before the images: little enough that slow solvers end in time and are
 /// steered early.
 constexpr std::size_t block_queries = 256;
-/// Queries that one draw of the steering stands for.
+/// Queries that one draw of the scheduler stands for.
 constexpr std::size_t slice_queries = 16;
 /// Queries that are judged together: enough for the kernel, and few enough to end in time.
 constexpr std::size_t judged_together = 64;
@@ -52,7 +52,7 @@ constexpr double oracle_work = 40.0;
 /// About the microseconds of a step that a solver says it took, such as a box.
 constexpr double check_work = 0.05;
 
-/// What a finding is worth beside a query of a new signature.
+/// What a finding is worth beside a query of a new coverage key.
 constexpr double finding_reward = 50.0;
 
 /// Far from overflow and underflow: what is made from it is not a query of zeros.
@@ -100,7 +100,7 @@ class BlockMaker {
       : kinds_(options.kinds),
         generators_(generators),
         context_(options.separation),
-        steering_(generators.size(), generate::mix(options.seed) + 1),
+        scheduler_(generators.size(), generate::mix(options.seed) + 1),
         random_(generate::mix(options.seed)) {
     for (const CorpusQuery& query : options.corpus) context_.pool(query.kind).keep(query.query);
   }
@@ -109,7 +109,7 @@ class BlockMaker {
     Block block;
     block.kind = kinds_[count_++ % kinds_.size()];
     while (block.queries.size() < block_queries) {
-      const std::size_t arm = steering_.choose();
+      const std::size_t arm = scheduler_.choose();
       for (std::size_t i = 0; i < slice_queries; ++i) {
         block.queries.push_back(generators_[arm].make(block.kind, context_, random_));
         block.arms.push_back(arm);
@@ -121,7 +121,7 @@ class BlockMaker {
 
   /// Notes what a query of the block brought.
   void learn(std::size_t arm, double reward, double work) {
-    steering_.learn(arm, reward, generators_[arm].work + work);
+    scheduler_.learn(arm, reward, generators_[arm].work + work);
   }
 
   /// Keeps a query as one to mutate.
@@ -143,7 +143,7 @@ class BlockMaker {
   const std::vector<Kind>& kinds_;
   const std::vector<Generator>& generators_;
   GeneratorContext context_;
-  Steering steering_;
+  Scheduler scheduler_;
   Random random_;
   std::size_t count_ = 0;
 };
@@ -316,10 +316,10 @@ class Run {
       reward += examine_answer(i, work);
     }
     const std::uint32_t before =
-        signatures_.add(signature(block_.kind, block_.queries[i], judged_[i], answers_[i]));
+        coverage_.add(coverage_key(block_.kind, block_.queries[i], judged_[i], answers_[i]));
     reward += 1.0 / (1.0 + before);
     if (before == 0) {
-      ++statistics.signatures;
+      ++statistics.coverage_keys;
       if (is_moderate(block_.queries[i])) maker_.remember(block_.kind, block_.queries[i]);
     }
     work += check_work * static_cast<double>(answers_[i].checks);
@@ -338,22 +338,22 @@ class Run {
     work += oracle_work;
     ++result_.judged_by_oracle;
     const exact::Verdict verdict = exact::decide(block_.kind, query, options_.separation);
-    const judge::Truth truth = judge::truth_of(result_.queries, verdict);
+    const judge::GroundTruth truth = judge::truth_of(result_.queries, verdict);
     double reward = 0.0;
     if (name_ != judge_name()) {
-      const auto of_judge = accuse_judge(truth, judged_[i]);
+      const auto of_judge = diagnose_judge(truth, judged_[i]);
       if (of_judge) reward += report(i, {*of_judge, judge_name()}, verdict);
     }
-    auto accusation = accuse(block_.kind, query, truth, answers_[i], standard_);
-    if (!accusation && missing.any()) {
-      accusation = {FindingKind::not_finite,
-                    fmt::format("{} is NaN, which it gives with other collisions",
-                                missing.lower ? "toi_lower" : "toi_upper")};
-      return reward + report(i, {*accusation, name_, missing}, verdict);
+    auto diagnosis = diagnose(block_.kind, query, truth, answers_[i], standard_);
+    if (!diagnosis && missing.any()) {
+      diagnosis = {FindingKind::not_finite,
+                   fmt::format("{} is NaN, which it gives with other collisions",
+                               missing.lower ? "toi_lower" : "toi_upper")};
+      return reward + report(i, {*diagnosis, name_, missing}, verdict);
     }
-    if (!accusation) return reward;
-    explain_asymmetry(i, *accusation);
-    return reward + report(i, {*accusation, name_}, verdict);
+    if (!diagnosis) return reward;
+    explain_asymmetry(i, *diagnosis);
+    return reward + report(i, {*diagnosis, name_}, verdict);
   }
 
   MissingBounds missing_bounds(const Answer& answer) {
@@ -364,39 +364,39 @@ class Run {
 
   /// If the query is an image and what it is an image of has an answer that contradicts: of what
   /// calls itself exact that is what is wrong.
-  void explain_asymmetry(std::size_t i, Accusation& accusation) const {
+  void explain_asymmetry(std::size_t i, Diagnosis& diagnosis) const {
     const Image* const image = block_.image(i);
     if (image == nullptr || standard_.promise != fast::Promise::exact) return;
     const bool origin_has_answer = failure_at(image->origin) == nullptr;
     const Answer& other = answers_[image->origin];
     if (!origin_has_answer || !contradict(answers_[i], other, !image->symmetry.reversed)) return;
-    accusation.what = FindingKind::asymmetry;
-    accusation.detail += fmt::format("; of what this is an exact image of ({}) it says: {}",
-                                     to_text(image->symmetry), to_text(other));
+    diagnosis.what = FindingKind::asymmetry;
+    diagnosis.detail += fmt::format("; of what this is an exact image of ({}) it says: {}",
+                                    to_text(image->symmetry), to_text(other));
   }
 
   double report_failure(std::size_t i, const solvers::Failure& failure) {
     ++result_.judged_by_oracle;
-    return report(i, {accuse_failure(failure, options_.query_limit_seconds), name_},
+    return report(i, {diagnose_failure(failure, options_.query_limit_seconds), name_},
                   exact::decide(block_.kind, block_.queries[i], options_.separation));
   }
 
   /// Who does what wrong.
   struct Charge {
-    Accusation accusation;
+    Diagnosis diagnosis;
     std::string_view method;
     MissingBounds missing = {};
   };
 
   /// Counts a finding, keeps the first of a class. Returns the reward, less for what is not new.
   double report(std::size_t i, const Charge& charge, const exact::Verdict& verdict) {
-    if (!seeks(options_, charge.accusation.what)) {
+    if (!seeks(options_, charge.diagnosis.what)) {
       ++result_.other_findings;
       return 0.0;
     }
     ++result_.all_findings;
     ++result_.generators[block_.arms[i]].findings;
-    const Class what{std::string(charge.method), charge.accusation.what, block_.kind,
+    const Class what{std::string(charge.method), charge.diagnosis.what, block_.kind,
                      judged_[i].stage, block_.arms[i]};
     const std::uint64_t before = classes_[what]++;
     if (before < kept_of_class && !has_found_enough()) keep(i, charge, verdict);
@@ -406,13 +406,13 @@ class Run {
   void keep(std::size_t i, const Charge& charge, const exact::Verdict& verdict) {
     const bool of_judge = charge.method == judge_name() && name_ != judge_name();
     const std::string& generator = result_.generators[block_.arms[i]].name;
-    Finding finding{.what = charge.accusation.what,
+    Finding finding{.what = charge.diagnosis.what,
                     .kind = block_.kind,
                     .separation = options_.separation,
                     .method = std::string(charge.method),
                     .original = failing_case(block_.kind, block_.queries[i],
                                              of_judge ? answer_of(judged_[i]) : answers_[i],
-                                             verdict, charge.accusation.detail, generator),
+                                             verdict, charge.diagnosis.detail, generator),
                     .missing = charge.missing,
                     .seconds = seconds(),
                     .queries = result_.queries,
@@ -449,7 +449,7 @@ class Run {
   jobs::Deadline end_{
       options_.seconds > 0.0 ? options_.seconds : std::numeric_limits<double>::infinity(),
       options_.clock};
-  SignatureTable signatures_;
+  CoverageTable coverage_;
   BoundHabit lower_habit_;
   BoundHabit upper_habit_;
   std::map<Class, std::uint64_t> classes_;

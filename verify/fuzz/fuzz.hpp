@@ -3,10 +3,10 @@
 /// \file
 /// The search for wrong answers of one solver.
 ///
-/// Blocks of queries come from generators (generators.hpp) that the steering (scheduler.hpp) prefers
+/// Blocks of queries come from generators (generators.hpp) that the scheduler (scheduler.hpp) prefers
 /// by what they have brought so far. The solver answers them in a child process (solver_process.hpp), the
 /// certified solver judges (triage.hpp), and the oracle judges a share again and everything that
-/// is suspect. Some queries are asked once more as an exact image (symmetry.hpp).
+/// is doubtful. Some queries are asked once more as an exact image (symmetry.hpp).
 ///
 /// The same seed gives the same queries and findings on every machine, for any solver that answers
 /// the same: what steers is counted work, the clock only ends the run. (A query near the time limit
@@ -100,9 +100,9 @@ enum class FuzzEnd : std::uint8_t { time, queries, findings, interrupt };
 struct GeneratorStatistics {
   std::string name;
   std::uint64_t queries = 0;
-  std::uint64_t collisions = 0;  ///< of these, by the judge
-  std::uint64_t signatures = 0;  ///< queries of a new sort: see scheduler.hpp
-  std::uint64_t findings = 0;    ///< all, kept or not
+  std::uint64_t collisions = 0;     ///< of these, by the judge
+  std::uint64_t coverage_keys = 0;  ///< queries of a new sort: see scheduler.hpp
+  std::uint64_t findings = 0;       ///< all, kept or not
 };
 
 struct FuzzResult {
@@ -111,7 +111,7 @@ struct FuzzResult {
   std::uint64_t unanswered = 0;        ///< asked, but the run was over before they were answered
   std::uint64_t images = 0;            ///< of those judged
   std::uint64_t collisions = 0;        ///< of these, by the judge
-  std::uint64_t judged_by_oracle = 0;  ///< its share, and what was suspect
+  std::uint64_t judged_by_oracle = 0;  ///< its share, and what was doubtful
   double seconds = 0.0;                ///< wall clock
   double method_seconds = 0.0;         ///< of these, waiting for the method
   double shrink_seconds = 0.0;         ///< of these, making findings simpler

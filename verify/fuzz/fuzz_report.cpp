@@ -24,11 +24,11 @@ std::string generator_table(const FuzzResult& result) {
   io::TextTable table({io::word_column("generator", 17),
                        {"queries", 10},
                        {"collisions", 10},
-                       {"signatures", 10},
+                       {"coverage_keys", 10},
                        {"findings", 8}});
   for (const GeneratorStatistics& generator : result.generators) {
     table.add({std::string(generator.name), std::to_string(generator.queries),
-               std::to_string(generator.collisions), std::to_string(generator.signatures),
+               std::to_string(generator.collisions), std::to_string(generator.coverage_keys),
                std::to_string(generator.findings)});
   }
   return table.text();
@@ -170,7 +170,7 @@ nlohmann::json to_json(const FuzzReport& report) {
     generators.push_back({{"name", generator.name},
                           {"queries", generator.queries},
                           {"collisions", generator.collisions},
-                          {"signatures", generator.signatures},
+                          {"coverage_keys", generator.coverage_keys},
                           {"findings", generator.findings}});
   }
   nlohmann::json findings = nlohmann::json::array(), only = nlohmann::json::array();

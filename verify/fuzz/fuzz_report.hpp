@@ -50,7 +50,7 @@ struct FuzzReport {
 /// "interrupt"), `queries`, `unjudged`, `unanswered`, `images`, `collisions`, `judged_by_oracle`, `seconds`,
 /// `method_seconds`, `shrink_seconds`, `other_seconds`, `queries_per_second`, `judged_per_second`,
 /// `all_findings`, `other_findings`, `unplaced_crashes`, `interrupted`, `generators` (a list of `name`, `queries`,
-/// `collisions`, `signatures`, `findings`) and `findings`, a list as above.
+/// `collisions`, `coverage_keys`, `findings`) and `findings`, a list as above.
 [[nodiscard]] nlohmann::json to_json(const FuzzReport& report);
 
 }  // namespace touchstone::verify::fuzz

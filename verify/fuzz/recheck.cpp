@@ -94,9 +94,9 @@ std::optional<FailingCase> Recheck::ask(const Query& query, const jobs::Deadline
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
   const exact::Verdict verdict = exact::decide(finding_.kind, query, standard_.separation);
-  const auto accusation = accuse_reply(query, judge::truth_of(0, verdict), *reply);
-  if (!accusation || !is_same(*accusation)) return std::nullopt;
-  return failing_case(finding_.kind, query, reply->answer, verdict, accusation->detail,
+  const auto diagnosis = diagnose_reply(query, judge::truth_of(0, verdict), *reply);
+  if (!diagnosis || !is_same(*diagnosis)) return std::nullopt;
+  return failing_case(finding_.kind, query, reply->answer, verdict, diagnosis->detail,
                       finding_.generator);
 }
 
@@ -115,20 +115,21 @@ std::optional<Recheck::Reply> Recheck::reply_to(const Query& query,
   return reply;
 }
 
-std::optional<Accusation> Recheck::accuse_reply(const Query& query, const judge::Truth& truth,
-                                                const Reply& reply) const {
-  if (reply.failure) return accuse_failure(*reply.failure, query_limit_seconds_);
+std::optional<Diagnosis> Recheck::diagnose_reply(const Query& query,
+                                                 const judge::GroundTruth& truth,
+                                                 const Reply& reply) const {
+  if (reply.failure) return diagnose_failure(*reply.failure, query_limit_seconds_);
   if (finding_.missing.any() && reply.answer.verdict == Verdict::yes &&
       lacks_same_bounds(reply.answer, finding_.original.answer)) {
-    return Accusation{FindingKind::not_finite, finding_.original.detail};
+    return Diagnosis{FindingKind::not_finite, finding_.original.detail};
   }
   Standard standard = standard_;
   if (of_judge_) standard = {.promise = fast::Promise::exact, .separation = standard_.separation};
-  return accuse(finding_.kind, query, truth, reply.answer, standard);
+  return diagnose(finding_.kind, query, truth, reply.answer, standard);
 }
 
-bool Recheck::is_same(const Accusation& accusation) const {
-  return accusation.what == finding_.what || finding_.what == FindingKind::asymmetry;
+bool Recheck::is_same(const Diagnosis& diagnosis) const {
+  return diagnosis.what == finding_.what || finding_.what == FindingKind::asymmetry;
 }
 
 void simplify(const fast::Method& method, const FuzzOptions& options,

@@ -62,10 +62,10 @@ class Recheck {
     std::optional<solvers::Failure> failure;
   };
   [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const jobs::Deadline& deadline);
-  [[nodiscard]] std::optional<Accusation> accuse_reply(const Query& query,
-                                                       const judge::Truth& truth,
-                                                       const Reply& reply) const;
-  [[nodiscard]] bool is_same(const Accusation& accusation) const;
+  [[nodiscard]] std::optional<Diagnosis> diagnose_reply(const Query& query,
+                                                        const judge::GroundTruth& truth,
+                                                        const Reply& reply) const;
+  [[nodiscard]] bool is_same(const Diagnosis& diagnosis) const;
 
   Finding finding_;
   Standard standard_;

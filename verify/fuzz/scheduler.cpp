@@ -16,31 +16,31 @@ constexpr double first_work = 100.0;
 
 }  // namespace
 
-SignatureTable::SignatureTable() : counts_(std::size_t{1} << table_bits) {}
+CoverageTable::CoverageTable() : counts_(std::size_t{1} << table_bits) {}
 
-std::uint32_t SignatureTable::add(std::uint64_t signature) {
-  std::uint32_t& count = counts_[generate::mix(signature) >> (64U - table_bits)];
+std::uint32_t CoverageTable::add(std::uint64_t coverage_key) {
+  std::uint32_t& count = counts_[generate::mix(coverage_key) >> (64U - table_bits)];
   size_ += count == 0 ? 1U : 0U;
   const std::uint32_t before = count;
   if (count != std::numeric_limits<std::uint32_t>::max()) ++count;
   return before;
 }
 
-Steering::Steering(std::size_t arms, std::uint64_t seed, const SteeringOptions& options)
+Scheduler::Scheduler(std::size_t arms, std::uint64_t seed, const SchedulerOptions& options)
     : random_(generate::mix(seed)), options_(options), arms_(arms) {}
 
-double Steering::rate(const Arm& arm) {
+double Scheduler::rate(const Arm& arm) {
   return (arm.reward + first_reward) / (arm.work + first_work);
 }
 
-double Steering::share(std::size_t arm) const {
+double Scheduler::share(std::size_t arm) const {
   double sum = 0.0;
   for (const Arm& other : arms_) sum += rate(other);
   return options_.explored / static_cast<double>(arms_.size()) +
          (1.0 - options_.explored) * rate(arms_.at(arm)) / sum;
 }
 
-std::size_t Steering::choose() {
+std::size_t Scheduler::choose() {
   double sum = 0.0;
   for (const Arm& arm : arms_) sum += rate(arm);
   const double alike = options_.explored / static_cast<double>(arms_.size());
@@ -52,7 +52,7 @@ std::size_t Steering::choose() {
   return arms_.size() - 1;
 }
 
-void Steering::learn(std::size_t arm, double reward, double work) {
+void Scheduler::learn(std::size_t arm, double reward, double work) {
   // 1/(1+x), not exp: the same on every machine.
   const double kept = 1.0 / (1.0 + options_.forgetting * work);
   for (Arm& other : arms_) {

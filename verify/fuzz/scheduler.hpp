@@ -3,9 +3,9 @@
 /// \file
 /// What makes the search go where it pays.
 ///
-/// Queries fall into sorts, told apart by a *signature*: at which stage the judge decided, where
+/// Queries fall into sorts, told apart by a *coverage key*: at which stage the judge decided, where
 /// the time of impact is, how far the answer is from it, and so on. A query of a sort that is rare
-/// so far is worth more than one of many. The *steering* is a bandit: it draws arms (generators)
+/// so far is worth more than one of many. The *scheduler* is a bandit: it draws arms (generators)
 /// with a probability that grows with their worth by the work they took, most recent work counting
 /// most, and leaves to every arm a small share, so that one that pays late is found.
 
@@ -17,16 +17,16 @@
 
 namespace touchstone::verify::fuzz {
 
-/// How often each signature was seen.
-class SignatureTable {
+/// How often each coverage key was seen.
+class CoverageTable {
  public:
-  SignatureTable();
+  CoverageTable();
 
-  /// Counts a signature, and returns how often it was seen before. Two signatures may be taken for
+  /// Counts a coverage key, and returns how often it was seen before. Two coverage keys may be taken for
   /// one (their hashes lie in 2^16 places).
-  std::uint32_t add(std::uint64_t signature);
+  std::uint32_t add(std::uint64_t coverage_key);
 
-  /// Places that are taken: about the number of different signatures.
+  /// Places that are taken: about the number of different coverage keys.
   [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
@@ -34,7 +34,7 @@ class SignatureTable {
   std::size_t size_ = 0;
 };
 
-struct SteeringOptions {
+struct SchedulerOptions {
   /// What was learnt counts so much less after each unit of work learnt later: half after 0.7 /
   /// this.
   double forgetting = 1e-4;
@@ -43,10 +43,10 @@ struct SteeringOptions {
 };
 
 /// Chooses among arms. The same calls give the same choices everywhere.
-class Steering {
+class Scheduler {
  public:
   /// \pre arms > 0
-  Steering(std::size_t arms, std::uint64_t seed, const SteeringOptions& options = {});
+  Scheduler(std::size_t arms, std::uint64_t seed, const SchedulerOptions& options = {});
 
   /// The arm to play next.
   [[nodiscard]] std::size_t choose();
@@ -66,7 +66,7 @@ class Steering {
   [[nodiscard]] static double rate(const Arm& arm);
 
   generate::Random random_;
-  SteeringOptions options_;
+  SchedulerOptions options_;
   std::vector<Arm> arms_;
 };
 

@@ -32,24 +32,24 @@ std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& 
 }
 
 /// Of a yes to what does not collide; what collides is near enough for any claim.
-std::optional<Accusation> accuse_tolerance(Kind kind, const Query& query, const Answer& answer,
-                                           const Standard& standard) {
+std::optional<Diagnosis> accuse_tolerance(Kind kind, const Query& query, const Answer& answer,
+                                          const Standard& standard) {
   const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
   if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
-  return Accusation{FindingKind::beyond_tolerance,
-                    fmt::format("{}, but they never come within {}, as that claims",
-                                to_text(answer), judge::to_text(*claimed))};
+  return Diagnosis{FindingKind::beyond_tolerance,
+                   fmt::format("{}, but they never come within {}, as that claims", to_text(answer),
+                               judge::to_text(*claimed))};
 }
 
-std::optional<Accusation> accuse_toi(const judge::Truth& truth, const Answer& answer) {
+std::optional<Diagnosis> accuse_toi(const judge::GroundTruth& truth, const Answer& answer) {
   const auto [lower, upper] = truth.toi.value();
   // The enclosure's ends are neighbouring doubles, or one: these comparisons are exact.
   if (answer.toi_lower > lower) {
-    return Accusation{FindingKind::late_toi, fmt::format("toi_lower {} is late", answer.toi_lower)};
+    return Diagnosis{FindingKind::late_toi, fmt::format("toi_lower {} is late", answer.toi_lower)};
   }
   if (answer.toi_upper < upper) {
-    return Accusation{FindingKind::early_toi_upper,
-                      fmt::format("toi_upper {} is early", answer.toi_upper)};
+    return Diagnosis{FindingKind::early_toi_upper,
+                     fmt::format("toi_upper {} is early", answer.toi_upper)};
   }
   return std::nullopt;
 }
@@ -77,22 +77,22 @@ bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judge
   return !(answer.toi_lower > judged.toi_lower) && !(answer.toi_upper < judged.toi_upper);
 }
 
-std::optional<Accusation> accuse(Kind kind, const Query& query, const judge::Truth& truth,
-                                 const Answer& answer, const Standard& standard) {
+std::optional<Diagnosis> diagnose(Kind kind, const Query& query, const judge::GroundTruth& truth,
+                                  const Answer& answer, const Standard& standard) {
   if (answer.verdict == Verdict::error)
-    return accuse_failure(solvers::failure_of(answer).value(), 0.0);
+    return diagnose_failure(solvers::failure_of(answer).value(), 0.0);
   if (answer.verdict == Verdict::yes && has_bad_number(answer)) {
-    return Accusation{FindingKind::not_finite, to_text(answer)};
+    return Diagnosis{FindingKind::not_finite, to_text(answer)};
   }
   if (truth.collides) {
     if (answer.verdict == Verdict::no) {
-      return Accusation{FindingKind::false_negative, "no, but they collide"};
+      return Diagnosis{FindingKind::false_negative, "no, but they collide"};
     }
     return answer.verdict == Verdict::yes ? accuse_toi(truth, answer) : std::nullopt;
   }
   if (answer.verdict == Verdict::no) return std::nullopt;
   if (standard.promise == Promise::exact) {
-    return Accusation{
+    return Diagnosis{
         answer.verdict == Verdict::yes ? FindingKind::false_positive : FindingKind::undecided,
         to_text(answer) + ", but they do not collide, and it promises exactness"};
   }
@@ -100,7 +100,7 @@ std::optional<Accusation> accuse(Kind kind, const Query& query, const judge::Tru
                                         : std::nullopt;
 }
 
-Accusation accuse_failure(const solvers::Failure& failure, double limit_seconds) {
+Diagnosis diagnose_failure(const solvers::Failure& failure, double limit_seconds) {
   const FindingKind what = finding_kind_of(failure.kind);
   switch (failure.kind) {
     case solvers::FailureKind::hang:
@@ -112,12 +112,13 @@ Accusation accuse_failure(const solvers::Failure& failure, double limit_seconds)
   }
 }
 
-std::optional<Accusation> accuse_judge(const judge::Truth& truth, const CertifiedResult& judged) {
+std::optional<Diagnosis> diagnose_judge(const judge::GroundTruth& truth,
+                                        const CertifiedResult& judged) {
   const Answer answer{.verdict = judged.verdict,
                       .toi_lower = judged.toi_lower,
                       .toi_upper = judged.toi_upper,
                       .tolerance = Answer::none};
-  return accuse(Kind::vertex_face, {}, truth, answer, {.promise = Promise::exact});
+  return diagnose(Kind::vertex_face, {}, truth, answer, {.promise = Promise::exact});
 }
 
 std::string to_text(const Answer& answer) {

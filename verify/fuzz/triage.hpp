@@ -4,7 +4,7 @@
 /// Right or wrong: one answer held against the truth.
 ///
 /// The certified solver decides blocks of queries at speed. Its verdicts and enclosures tell at
-/// once that most answers are right; the others are *suspect*, and only the oracle says of them
+/// once that most answers are right; the others are *doubtful*, and only the oracle says of them
 /// that they are wrong. So a fault of the judge costs a finding, which the oracle's share of all
 /// queries brings to light, and never accuses an innocent solver.
 
@@ -29,7 +29,7 @@ struct Standard {
 };
 
 /// What is wrong, and in words.
-struct Accusation {
+struct Diagnosis {
   FindingKind what;
   std::string detail;
 };
@@ -48,18 +48,18 @@ struct Accusation {
 /// - beyond_tolerance: yes, but they never come as near as its tolerance claims;
 /// - late_toi, early_toi_upper: yes with a bound on the wrong side of the exact time of impact.
 /// \param truth of the query at the standard's separation
-[[nodiscard]] std::optional<Accusation> accuse(Kind kind, const Query& query,
-                                               const judge::Truth& truth,
-                                               const fast::Answer& answer,
-                                               const Standard& standard);
+[[nodiscard]] std::optional<Diagnosis> diagnose(Kind kind, const Query& query,
+                                                const judge::GroundTruth& truth,
+                                                const fast::Answer& answer,
+                                                const Standard& standard);
 
 /// What is wrong with a solver that gave no answer, or none that can be.
 /// \param limit_seconds that a query may take
-[[nodiscard]] Accusation accuse_failure(const solvers::Failure& failure, double limit_seconds);
+[[nodiscard]] Diagnosis diagnose_failure(const solvers::Failure& failure, double limit_seconds);
 
 /// Does the oracle's truth contradict what the certified solver found?
-[[nodiscard]] std::optional<Accusation> accuse_judge(const judge::Truth& truth,
-                                                     const fast::CertifiedResult& judged);
+[[nodiscard]] std::optional<Diagnosis> diagnose_judge(const judge::GroundTruth& truth,
+                                                      const fast::CertifiedResult& judged);
 
 /// "no", "yes, toi_lower 0.5, tolerance 1e-06": the verdict and the fields that are given.
 [[nodiscard]] std::string to_text(const fast::Answer& answer);

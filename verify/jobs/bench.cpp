@@ -133,12 +133,12 @@ class Run {
     const auto on_progress = [this](double part) {
       steps_.done(part * static_cast<double>(timed_.size()));
     };
-    const std::vector<judge::Truth> truths =
+    const std::vector<judge::GroundTruth> truths =
         truths_.of(options_.separation, positions_to_judge(), options_.stop, on_progress);
     steps_.next(timed_.size());
     result_.judged = truths.size();
     result_.collisions =
-        static_cast<std::size_t>(std::ranges::count_if(truths, &judge::Truth::collides));
+        static_cast<std::size_t>(std::ranges::count_if(truths, &judge::GroundTruth::collides));
     for (std::size_t i = 0; i < timed_.size(); ++i) {
       SolverResult& said = result_.solvers[i];
       said.judgement = timed_[i].judge(truths);
@@ -170,7 +170,7 @@ class Run {
   const data::QueryGroup& group_;
   const BenchOptions& options_;
   std::vector<TimedSolver> timed_;
-  judge::Truths truths_;
+  judge::GroundTruthCache truths_;
   Steps steps_;
   BenchResult result_;
   std::size_t pass_calls_ = 0;

@@ -171,9 +171,9 @@ class BlockJudgement {
       const std::uint64_t index = block_.indices[first + i];
       compare(index, block_.claims[first + i], verdict, comparison_, part.mismatches);
       truths_[first + i] =
-          wants_toi
-              ? judge::truth_of(index, verdict)
-              : judge::Truth{.index = index, .collides = verdict.collides(), .toi = std::nullopt};
+          wants_toi ? judge::truth_of(index, verdict)
+                    : judge::GroundTruth{
+                          .index = index, .collides = verdict.collides(), .toi = std::nullopt};
     }
     if (options_.on_certificates) prove_part(first, verdicts, part);
   }
@@ -258,7 +258,7 @@ class BlockJudgement {
   const CertifyOptions& options_;
   const Comparison& comparison_;
   Passes passes_;
-  std::vector<judge::Truth> truths_;
+  std::vector<judge::GroundTruth> truths_;
   std::vector<DecidedPart> decided_;
   std::vector<Answers> answers_;
   std::vector<judge::Judgement> judgements_;

@@ -44,7 +44,7 @@ struct CertifyOptions {
   /// A recorded time of impact may be off by this much; 0: not at all.
   exact::Rational toi_tolerance = default_toi_tolerance();
   /// Called for every query, in order, never from two threads at once.
-  std::function<void(const judge::Truth&)> on_truth = nullptr;
+  std::function<void(const judge::GroundTruth&)> on_truth = nullptr;
   /// Called with the certificates of queries (exact/certificate.hpp), whole ones and in order, never
   /// from two threads at once. Without it none are made.
   std::function<void(std::string_view)> on_certificates = nullptr;

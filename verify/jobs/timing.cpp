@@ -120,11 +120,11 @@ std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, 
   return times;
 }
 
-judge::Judgement TimedSolver::judge(std::span<const judge::Truth> truths) const {
+judge::Judgement TimedSolver::judge(std::span<const judge::GroundTruth> truths) const {
   judge::Judgement judgement;
   auto failure = reply_.failures.begin();
   std::size_t i = 0;
-  for (const judge::Truth& truth : truths) {
+  for (const judge::GroundTruth& truth : truths) {
     while (i < positions_.size() && positions_[i] < truth.index) ++i;
     if (i == positions_.size()) break;
     if (positions_[i] != truth.index) continue;

@@ -75,7 +75,7 @@ class TimedSolver {
       std::size_t count, double seconds, const std::atomic<bool>* stop) const;
   /// Judges the latest answers to those queries whose truth is given, by their positions in the group.
   /// \pre the truths are in the order of their positions.
-  [[nodiscard]] judge::Judgement judge(std::span<const judge::Truth> truths) const;
+  [[nodiscard]] judge::Judgement judge(std::span<const judge::GroundTruth> truths) const;
 
   [[nodiscard]] const solvers::Solver& solver() const { return *solver_; }
   [[nodiscard]] const Separation& separation() const { return separation_; }

@@ -4,13 +4,13 @@
 
 namespace touchstone::verify::judge {
 
-Truth truth_of(std::uint64_t index, const exact::Verdict& verdict) {
-  Truth truth{.index = index, .collides = verdict.collides(), .toi = std::nullopt};
+GroundTruth truth_of(std::uint64_t index, const exact::Verdict& verdict) {
+  GroundTruth truth{.index = index, .collides = verdict.collides(), .toi = std::nullopt};
   if (truth.collides) truth.toi = verdict.toi->enclosure();
   return truth;
 }
 
-std::string to_text(const Truth& truth) {
+std::string to_text(const GroundTruth& truth) {
   if (!truth.collides) return "no collision";
   const auto [lower, upper] = truth.toi.value();
   return lower == upper ? fmt::format("collision at {}", lower)

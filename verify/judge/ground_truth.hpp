@@ -14,7 +14,7 @@
 namespace touchstone::verify::judge {
 
 /// The truth about one query.
-struct Truth {
+struct GroundTruth {
   std::uint64_t index;
   bool collides;
   /// On collision neighbouring doubles around the exact time of impact, or the double that it is.
@@ -22,10 +22,10 @@ struct Truth {
 };
 
 /// The truth about query number `index` of its source, of which this is the verdict.
-[[nodiscard]] Truth truth_of(std::uint64_t index, const exact::Verdict& verdict);
+[[nodiscard]] GroundTruth truth_of(std::uint64_t index, const exact::Verdict& verdict);
 
 /// "no collision", "collision at 0.5" or "collision after 0.1 and before 0.2", both excluded: so that a
 /// time of impact that differs from the exact one by less than a spacing of doubles is seen to be wrong.
-[[nodiscard]] std::string to_text(const Truth& truth);
+[[nodiscard]] std::string to_text(const GroundTruth& truth);
 
 }  // namespace touchstone::verify::judge

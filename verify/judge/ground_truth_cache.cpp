@@ -21,21 +21,21 @@ constexpr std::size_t step = 4096;
 
 }  // namespace
 
-Truths::Truths(const data::QueryGroup& group, unsigned threads)
+GroundTruthCache::GroundTruthCache(const data::QueryGroup& group, unsigned threads)
     : group_(group), threads_(jobs::cores_for(threads)) {}
 
-Truths::Known& Truths::known_at(const Separation& separation) {
+GroundTruthCache::Known& GroundTruthCache::known_at(const Separation& separation) {
   const auto found = std::ranges::find_if(
-      known_, [&](const auto& known) { return same_question(known.first, separation); });
+      known_, [&](const auto& known) { return same_separation(known.first, separation); });
   if (found != known_.end()) return found->second;
   return known_.emplace_back(separation, Known()).second;
 }
 
-void Truths::decide(const Separation& separation, std::span<const std::size_t> positions,
-                    Known& known, const std::atomic<bool>* stop,
-                    const std::function<void(double)>& on_progress) {
+void GroundTruthCache::decide(const Separation& separation, std::span<const std::size_t> positions,
+                              Known& known, const std::atomic<bool>* stop,
+                              const std::function<void(double)>& on_progress) {
   tbb::task_arena arena(threads_);
-  std::vector<std::optional<Truth>> found(std::min(step, positions.size()));
+  std::vector<std::optional<GroundTruth>> found(std::min(step, positions.size()));
   for (std::size_t first = 0; first < positions.size(); first += step) {
     const std::size_t count = std::min(step, positions.size() - first);
     std::ranges::fill(found, std::nullopt);
@@ -59,9 +59,10 @@ void Truths::decide(const Separation& separation, std::span<const std::size_t> p
   }
 }
 
-std::vector<Truth> Truths::of(const Separation& separation, std::span<const std::size_t> positions,
-                              const std::atomic<bool>* stop,
-                              const std::function<void(double)>& on_progress) {
+std::vector<GroundTruth> GroundTruthCache::of(const Separation& separation,
+                                              std::span<const std::size_t> positions,
+                                              const std::atomic<bool>* stop,
+                                              const std::function<void(double)>& on_progress) {
   Known& known = known_at(separation);
   std::vector<std::size_t> unknown;
   for (const std::size_t position : positions) {
@@ -70,7 +71,7 @@ std::vector<Truth> Truths::of(const Separation& separation, std::span<const std:
   std::ranges::sort(unknown);
   unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
   decide(separation, unknown, known, stop, on_progress);
-  std::vector<Truth> truths;
+  std::vector<GroundTruth> truths;
   for (const std::size_t position : positions) {
     const auto found = known.find(position);
     if (found == known.end()) break;

@@ -19,10 +19,10 @@ namespace touchstone::verify::judge {
 
 /// A memory of verdicts: of one group, at any number of separations. For one thread at a time; the
 /// oracle works on all cores.
-class Truths {
+class GroundTruthCache {
  public:
   /// The group must live as long as this. \param threads cores to use; 0: all of them
-  explicit Truths(const data::QueryGroup& group, unsigned threads = 0);
+  explicit GroundTruthCache(const data::QueryGroup& group, unsigned threads = 0);
 
   /// The truth of the queries at these positions, in their order; `index` is the position. Those that
   /// are not known yet are decided; once *stop is true (it may be null) no more of them, and then only
@@ -30,16 +30,16 @@ class Truths {
   /// \param on_progress told now and then the fraction that is done, from this thread; may be null
   /// \throws std::invalid_argument if a coordinate is not finite, or the separation not valid;
   /// std::out_of_range for a position beyond the group.
-  [[nodiscard]] std::vector<Truth> of(const Separation& separation,
-                                      std::span<const std::size_t> positions,
-                                      const std::atomic<bool>* stop = nullptr,
-                                      const std::function<void(double)>& on_progress = nullptr);
+  [[nodiscard]] std::vector<GroundTruth> of(
+      const Separation& separation, std::span<const std::size_t> positions,
+      const std::atomic<bool>* stop = nullptr,
+      const std::function<void(double)>& on_progress = nullptr);
 
   /// Verdicts that the oracle was asked for so far.
   [[nodiscard]] std::size_t decided() const { return decided_; }
 
  private:
-  using Known = std::unordered_map<std::size_t, Truth>;
+  using Known = std::unordered_map<std::size_t, GroundTruth>;
 
   [[nodiscard]] Known& known_at(const Separation& separation);
   void decide(const Separation& separation, std::span<const std::size_t> positions, Known& known,

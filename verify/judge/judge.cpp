@@ -85,7 +85,7 @@ double Judgement::nanoseconds_per_query() const {
   return queries == 0 ? 0.0 : nanoseconds / static_cast<double>(queries);
 }
 
-void Judgement::add(const Truth& truth, const fast::Answer& answer,
+void Judgement::add(const GroundTruth& truth, const fast::Answer& answer,
                     const solvers::Failure* failure) {
   using fast::Verdict;
   ++queries;
@@ -108,7 +108,7 @@ void Judgement::add(const Truth& truth, const fast::Answer& answer,
   }
 }
 
-void Judgement::add_toi(const Truth& truth, const fast::Answer& answer) {
+void Judgement::add_toi(const GroundTruth& truth, const fast::Answer& answer) {
   const auto [lower, upper] = truth.toi.value();
   // No comparison holds of a NaN, the mark of what a method does not give.
   if (answer.toi_lower > lower) add_fault(Fault::late_toi, truth, answer);
@@ -118,7 +118,7 @@ void Judgement::add_toi(const Truth& truth, const fast::Answer& answer) {
   toi_errors.add(std::max(upper - answer.toi_lower, answer.toi_lower - lower));
 }
 
-void Judgement::add_fault(Fault fault, const Truth& truth, const fast::Answer& answer,
+void Judgement::add_fault(Fault fault, const GroundTruth& truth, const fast::Answer& answer,
                           const solvers::Failure& failure) {
   auto& count = faults[static_cast<std::size_t>(fault)];
   if (++count > most_kept) return;
@@ -128,7 +128,7 @@ void Judgement::add_fault(Fault fault, const Truth& truth, const fast::Answer& a
        to_text(truth)});
 }
 
-void Judgement::add_beyond_tolerance(const Truth& truth, const fast::Answer& answer) {
+void Judgement::add_beyond_tolerance(const GroundTruth& truth, const fast::Answer& answer) {
   add_fault(Fault::beyond_tolerance, truth, answer);
 }
 

@@ -109,11 +109,11 @@ struct Judgement {
 
   /// Judges an answer. \pre truth.toi is there if it collides.
   /// \param failure why there is none; null: as the answer shows
-  void add(const Truth& truth, const fast::Answer& answer,
+  void add(const GroundTruth& truth, const fast::Answer& answer,
            const solvers::Failure* failure = nullptr);
 
   /// Notes that a yes claims more nearness than there is.
-  void add_beyond_tolerance(const Truth& truth, const fast::Answer& answer);
+  void add_beyond_tolerance(const GroundTruth& truth, const fast::Answer& answer);
 
   /// Notes that there is no answer to that query.
   void add_missing(std::uint64_t index);
@@ -125,9 +125,9 @@ struct Judgement {
   Judgement& operator+=(const Judgement& next);
 
  private:
-  void add_fault(Fault fault, const Truth& truth, const fast::Answer& answer,
+  void add_fault(Fault fault, const GroundTruth& truth, const fast::Answer& answer,
                  const solvers::Failure& failure = {});
-  void add_toi(const Truth& truth, const fast::Answer& answer);
+  void add_toi(const GroundTruth& truth, const fast::Answer& answer);
 };
 
 /// Does that fault break the promise? Every method, whatever it promises, is to be free of false

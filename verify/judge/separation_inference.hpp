@@ -18,7 +18,7 @@
 namespace touchstone::verify::judge {
 
 /// Do both ask the same?
-[[nodiscard]] bool same_question(const Separation& a, const Separation& b);
+[[nodiscard]] bool same_separation(const Separation& a, const Separation& b);
 
 /// What claims about one separation say about another.
 enum class Inference : std::uint8_t {

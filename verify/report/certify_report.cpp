@@ -274,7 +274,7 @@ std::string truth_header() {
   return io::csv_row({"file", "index", "kind", "collides", "toi_lower", "toi_upper"});
 }
 
-std::string truth_row(const std::string& file, Kind kind, const judge::Truth& truth) {
+std::string truth_row(const std::string& file, Kind kind, const judge::GroundTruth& truth) {
   const auto [lower, upper] = truth.toi.value_or(exact::DoubleInterval{unknown, unknown});
   return io::csv_row({file, std::to_string(truth.index), std::string(to_string(kind)),
                       truth.collides ? "1" : "0", io::csv_number(lower), io::csv_number(upper)});

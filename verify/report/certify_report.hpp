@@ -44,6 +44,7 @@ namespace touchstone::verify::report {
 /// A row of it: collides as 0 or 1, the ends of the enclosure (neighbouring doubles or equal) with as
 /// many digits as give the same double again, empty without collision. The file's name is quoted
 /// where CSV demands it.
-[[nodiscard]] std::string truth_row(const std::string& file, Kind kind, const judge::Truth& truth);
+[[nodiscard]] std::string truth_row(const std::string& file, Kind kind,
+                                    const judge::GroundTruth& truth);
 
 }  // namespace touchstone::verify::report

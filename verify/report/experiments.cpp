@@ -127,7 +127,7 @@ std::string processor() {
 
 class Run {
  public:
-  Run(std::span<const data::QueryGroup> groups, const SurveyOptions& options)
+  Run(std::span<const data::QueryGroup> groups, const ExperimentOptions& options)
       : groups_(groups), options_(options), methods_(find_methods(options.methods)) {
     if (!methods_.empty()) return;
     for (const auto& method : solvers::methods()) methods_.push_back(method.get());
@@ -137,7 +137,7 @@ class Run {
     result_.machine = processor();
     const std::vector<Trial> trials = chosen_trials();
     for (std::size_t group = 0; group < groups_.size(); ++group) {
-      judge::Truths truths(groups_[group], options_.threads);
+      judge::GroundTruthCache truths(groups_[group], options_.threads);
       for (std::size_t trial = 0; trial < trials.size() && !stopped(); ++trial) {
         const auto place = static_cast<double>(group * trials.size() + trial);
         const auto all = static_cast<double>(groups_.size() * trials.size());
@@ -173,8 +173,8 @@ class Run {
     return trial.experiment == Experiment::separation ? (options_.count + 3) / 4 : options_.count;
   }
 
-  void measure_trial(const data::QueryGroup& group, judge::Truths& truths, const Trial& trial,
-                     const std::function<void(double)>& on_progress) {
+  void measure_trial(const data::QueryGroup& group, judge::GroundTruthCache& truths,
+                     const Trial& trial, const std::function<void(double)>& on_progress) {
     std::vector<Measurement> measured =
         measure(group, truths, trial.settings, solvers::find_method(fast::certified_info().name),
                 {.experiment = trial.experiment,
@@ -228,7 +228,7 @@ class Run {
              std::optional<double> scale) {
     fast::MethodOptions asked;
     asked.max_checks = filter_limit;
-    judge::Truths truths(group, options_.threads);
+    judge::GroundTruthCache truths(group, options_.threads);
     std::vector<Measurement> side_by_side;
     for (const fast::Method* const method : chosen) {
       if (stopped()) return;
@@ -266,7 +266,7 @@ class Run {
   }
 
   std::span<const data::QueryGroup> groups_;
-  const SurveyOptions& options_;
+  const ExperimentOptions& options_;
   std::vector<const fast::Method*> methods_;
   Measurements result_;
 };
@@ -281,7 +281,8 @@ std::vector<Trial> trials_of(std::span<const std::string> methods) {
   return trials_of_methods(find_methods(methods));
 }
 
-Measurements survey(std::span<const data::QueryGroup> groups, const SurveyOptions& options) {
+Measurements run_experiments(std::span<const data::QueryGroup> groups,
+                             const ExperimentOptions& options) {
   return Run(groups, options).result();
 }
 

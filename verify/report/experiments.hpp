@@ -48,7 +48,7 @@ struct Trial {
 /// The scales of the experiment on filters, ascending.
 [[nodiscard]] std::span<const double> filter_scales();
 
-struct SurveyOptions {
+struct ExperimentOptions {
   /// Names of methods; all there are if empty.
   std::vector<std::string> methods = {};
   /// Those to do; all if empty.
@@ -72,7 +72,7 @@ struct SurveyOptions {
 
 /// Makes all measurements of a report. `command` is left to the caller.
 /// \throws std::invalid_argument for an unknown method, options out of range, or an empty group.
-[[nodiscard]] Measurements survey(std::span<const data::QueryGroup> groups,
-                                  const SurveyOptions& options = {});
+[[nodiscard]] Measurements run_experiments(std::span<const data::QueryGroup> groups,
+                                           const ExperimentOptions& options = {});
 
 }  // namespace touchstone::verify::report

@@ -24,8 +24,8 @@ Separation separation_of(const fast::MethodOptions& options) {
 }
 
 /// What is asked of which method.
-Measurement of_question(const data::QueryGroup& group, Experiment experiment,
-                        const Setting& setting) {
+Measurement of_separation(const data::QueryGroup& group, Experiment experiment,
+                          const Setting& setting) {
   Measurement said;
   said.experiment = experiment;
   said.group = group.name();
@@ -57,8 +57,9 @@ void set_counts(const judge::Judgement& judgement, Measurement& said) {
 
 class Run {
  public:
-  Run(const data::QueryGroup& group, judge::Truths& truths, std::span<const Setting> settings,
-      const fast::Method& reference, const MeasureOptions& options)
+  Run(const data::QueryGroup& group, judge::GroundTruthCache& truths,
+      std::span<const Setting> settings, const fast::Method& reference,
+      const MeasureOptions& options)
       : group_(group),
         truths_(truths),
         settings_(settings),
@@ -167,7 +168,7 @@ class Run {
 
   [[nodiscard]] Measurement report(std::size_t index) const {
     const jobs::TimedSolver& timed = timed_[index];
-    Measurement said = of_question(group_, options_.experiment, settings_[index]);
+    Measurement said = of_separation(group_, options_.experiment, settings_[index]);
     said.asked = timed.queries().size();
     said.nanoseconds = timed.times().median();
     said.repetitions = timed.times().repetitions.size();
@@ -197,7 +198,7 @@ class Run {
   }
 
   const data::QueryGroup& group_;
-  judge::Truths& truths_;
+  judge::GroundTruthCache& truths_;
   std::span<const Setting> settings_;
   std::unique_ptr<solvers::Solver> reference_;
   const MeasureOptions& options_;
@@ -207,14 +208,14 @@ class Run {
   /// Of the settings, in the order of their samples; none if stopped.
   std::vector<std::vector<double>> single_times_;
   /// The same; fewer than were asked if stopped.
-  std::vector<std::vector<judge::Truth>> known_;
+  std::vector<std::vector<judge::GroundTruth>> known_;
   /// Where in timed_.
   std::map<ReferenceKey, std::size_t> reference_of_;
 };
 
 }  // namespace
 
-std::vector<Measurement> measure(const data::QueryGroup& group, judge::Truths& truths,
+std::vector<Measurement> measure(const data::QueryGroup& group, judge::GroundTruthCache& truths,
                                  std::span<const Setting> settings, const fast::Method& reference,
                                  const MeasureOptions& options) {
   if (group.queries().empty()) throw std::invalid_argument(group.name() + ": no queries");
@@ -224,20 +225,20 @@ std::vector<Measurement> measure(const data::QueryGroup& group, judge::Truths& t
   return Run(group, truths, settings, reference, options).measurements();
 }
 
-std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Truths& truths,
+std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::GroundTruthCache& truths,
                                      const fast::Method& method, const fast::MethodOptions& options,
                                      Experiment experiment, const std::atomic<bool>* stop) {
   const std::vector<Query>& queries = group.queries();
   std::vector<std::size_t> positions(queries.size());
   std::iota(positions.begin(), positions.end(), std::size_t{0});
-  const std::vector<judge::Truth> known = truths.of(separation_of(options), positions, stop);
+  const std::vector<judge::GroundTruth> known = truths.of(separation_of(options), positions, stop);
   if (known.size() < queries.size()) return std::nullopt;
   std::vector<fast::Answer> answers(queries.size());
   method.solve(group.kind(), queries, answers, options);
-  Measurement said = of_question(group, experiment, {.method = &method, .options = options});
+  Measurement said = of_separation(group, experiment, {.method = &method, .options = options});
   said.asked = queries.size();
   judge::Judgement judgement;
-  for (const judge::Truth& truth : known) {
+  for (const judge::GroundTruth& truth : known) {
     judgement.add(truth, answers[truth.index]);
     said.collisions += truth.collides ? 1U : 0U;
     said.at_limit += is_at_limit(answers[truth.index], said.max_checks) ? 1U : 0U;

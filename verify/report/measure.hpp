@@ -55,7 +55,8 @@ struct MeasureOptions {
 /// have no time, no reference or no truth yet.
 /// \param reference the method whose time stands in Measurement::certified_nanoseconds
 /// \throws std::invalid_argument for options out of range or an empty group.
-[[nodiscard]] std::vector<Measurement> measure(const data::QueryGroup& group, judge::Truths& truths,
+[[nodiscard]] std::vector<Measurement> measure(const data::QueryGroup& group,
+                                               judge::GroundTruthCache& truths,
                                                std::span<const Setting> settings,
                                                const fast::Method& reference,
                                                const MeasureOptions& options);
@@ -63,7 +64,7 @@ struct MeasureOptions {
 /// Judges the answers of a method to all queries of the group of `truths`; nothing is timed. No result
 /// once *stop is true (it may be null).
 [[nodiscard]] std::optional<Measurement> judge_all(const data::QueryGroup& group,
-                                                   judge::Truths& truths,
+                                                   judge::GroundTruthCache& truths,
                                                    const fast::Method& method,
                                                    const fast::MethodOptions& options,
                                                    Experiment experiment,

@@ -266,7 +266,7 @@ class SolverProcess::Impl {
     shared.careful_until = 0;
     searched_until_ = 0;
     slow_until_ = 0;
-    suspect_.reset();
+    doubtful_.reset();
     for (std::size_t first = 0; first < queries.size() && !has_failed_enough();) {
       const Stop stop = run_child(first);
       add_times();
@@ -306,11 +306,11 @@ class SolverProcess::Impl {
   /// A step, or a query, that ended a child is behind: nothing in it has done so again.
   void leave_behind(std::size_t begin) {
     const bool is_behind_step = searched_until_ != 0 && begin >= searched_until_;
-    const bool is_behind_suspect = suspect_ && begin > *suspect_;
-    if (!is_behind_step && !is_behind_suspect) return;
+    const bool is_behind_doubtful = doubtful_ && begin > *doubtful_;
+    if (!is_behind_step && !is_behind_doubtful) return;
     ++run_.unplaced_crashes;
     searched_until_ = 0;
-    suspect_.reset();
+    doubtful_.reset();
   }
 
   /// Where to begin anew behind what stopped a child.
@@ -326,9 +326,9 @@ class SolverProcess::Impl {
     // A step that was too slow, and then the query alone, are twice; what ends a child it is to do in
     // a child of its own.
     const bool is_sure = stop.hang && begin < slow_until_;
-    if (!is_sure && suspect_ != begin) {
+    if (!is_sure && doubtful_ != begin) {
       shared.careful_until = std::max(shared.careful_until, begin + 1);
-      suspect_ = begin;
+      doubtful_ = begin;
       return begin;
     }
     run_.processor_seconds += stop.processor_seconds;
@@ -338,7 +338,7 @@ class SolverProcess::Impl {
     run_.answered = offset + begin + 1;
     // Found: the end of the child in the step was this query's.
     searched_until_ = 0;
-    suspect_.reset();
+    doubtful_.reset();
     return begin + 1;
   }
 
@@ -423,7 +423,7 @@ class SolverProcess::Impl {
   /// The same, since the step took too long.
   std::size_t slow_until_ = 0;
   /// What failed alone, and is asked again.
-  std::optional<std::size_t> suspect_;
+  std::optional<std::size_t> doubtful_;
 };
 
 SolverProcess::SolverProcess(const fast::Method& method, const SolverProcessOptions& options)

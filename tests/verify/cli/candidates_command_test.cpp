@@ -123,10 +123,10 @@ TEST_F(CandidatesCommand, WritesQueriesThatTheirPairsName) {
 TEST_F(CandidatesCommand, KnowsOfASeparation) {
   const std::string before = write("0.obj", falling_triangle("1"));
   const auto count = [&](const std::string& separation) {
-    EXPECT_EQ(run({before, before, "--out", path("s"), "--min-separation", separation,
-                   "--threads", "1"})
-                  .status,
-              0);
+    EXPECT_EQ(
+        run({before, before, "--out", path("s"), "--min-separation", separation, "--threads", "1"})
+            .status,
+        0);
     return pairs("s_vf_pairs.npy").size();
   };
   EXPECT_EQ(count("0"), 0U);

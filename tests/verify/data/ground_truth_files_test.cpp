@@ -170,10 +170,12 @@ TEST(ToiReader, reports_what_is_wrong_behind_the_last_query) {
             (Answers{"1", "1", "behind f:4:1: query numbers do not ascend"}));
 }
 
-TEST(Companions, are_found_beside_and_below_the_folder_of_the_dataset_in_order) {
+TEST(GroundTruthFiles, are_found_beside_and_below_the_folder_of_the_dataset_in_order) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("scene/queries/7vf.csv", "");
-  const auto path_of_labels = [&] { return Companions(dataset).label_path().lexically_normal(); };
+  const auto path_of_labels = [&] {
+    return GroundTruthFiles(dataset).label_path().lexically_normal();
+  };
   EXPECT_EQ(path_of_labels(), "");
   for (const std::string place :
        {"scene/queries/7vf_mma_bool.json", "scene/queries/mma_bool/7vf_mma_bool.json",
@@ -184,7 +186,7 @@ TEST(Companions, are_found_beside_and_below_the_folder_of_the_dataset_in_order) 
   for (const std::string place :
        {"scene/queries/7vf_toi.csv", "scene/queries/toi/7vf_toi.csv", "scene/toi/7vf_toi.csv"}) {
     (void)folder.file(place, "query,toi\n0," + std::to_string(place.size()) + "\n");
-    Companions companions(dataset);
+    GroundTruthFiles companions(dataset);
     const RecordedTruth truth = companions.at(0);
     EXPECT_EQ(truth.collides, std::optional(true));
     EXPECT_EQ(truth.toi, std::optional(Rational(place.size())));
@@ -192,33 +194,33 @@ TEST(Companions, are_found_beside_and_below_the_folder_of_the_dataset_in_order) 
   }
 }
 
-TEST(Companions, are_known_by_their_paths) {
+TEST(GroundTruthFiles, are_known_by_their_paths) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("queries/7vf.csv", "");
-  EXPECT_TRUE(find_companions(dataset).empty());
+  EXPECT_TRUE(find_ground_truth_files(dataset).empty());
   const auto tois = folder.file("toi/7vf_toi.csv", "");
   const auto labels = folder.file("queries/7vf_mma_bool.json", "");
-  const auto found = find_companions(dataset);
+  const auto found = find_ground_truth_files(dataset);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].lexically_normal(), labels);
   EXPECT_EQ(found[1].lexically_normal(), tois);
 }
 
-TEST(Companions, of_other_datasets_do_not_count) {
+TEST(GroundTruthFiles, of_other_datasets_do_not_count) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("queries/7vf.npy", "");
   (void)folder.file("mma_bool/17vf_mma_bool.json", "[true]");
   (void)folder.file("toi/8vf_toi.csv", "query,toi\n0,1\n");
-  Companions companions(dataset);
+  GroundTruthFiles companions(dataset);
   EXPECT_EQ(companions.at(0).collides, std::nullopt);
   EXPECT_EQ(companions.at(0).toi, std::nullopt);
 }
 
-TEST(Companions, that_cannot_be_read_are_errors) {
+TEST(GroundTruthFiles, that_cannot_be_read_are_errors) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("7vf.csv", "");
   std::filesystem::create_directory(folder.path() / "7vf_toi.csv");
-  EXPECT_EQ(error_of(folder.path(), [&] { Companions companions(dataset); }),
+  EXPECT_EQ(error_of(folder.path(), [&] { GroundTruthFiles companions(dataset); }),
             "7vf_toi.csv: is a folder");
 }
 

@@ -26,10 +26,12 @@ struct Case {
                          .v = 0.25};
   Answer answer{.verdict = Verdict::yes, .toi_lower = 0.499, .tolerance = 1e-6};
 
-  [[nodiscard]] std::uint64_t operator()() const { return signature(kind, query, judged, answer); }
+  [[nodiscard]] std::uint64_t operator()() const {
+    return coverage_key(kind, query, judged, answer);
+  }
 };
 
-TEST(Signature, TellsSortsApart) {
+TEST(CoverageKey, TellsSortsApart) {
   const std::vector<std::function<void(Case&)>> changes{
       [](Case&) {},
       [](Case& c) { c.kind = Kind::edge_edge; },
@@ -55,7 +57,7 @@ TEST(Signature, TellsSortsApart) {
   EXPECT_EQ(seen.size(), changes.size());
 }
 
-TEST(Signature, IsCoarse) {
+TEST(CoverageKey, IsCoarse) {
   const Case one;
   Case other;
   other.query.coordinates.front() = 1.5;

@@ -33,7 +33,7 @@ FuzzReport sample() {
   report.result.other_seconds = 0.5;
   report.result.all_findings = 12;
   report.result.generators = {
-      {.name = "grid", .queries = 3000, .collisions = 1000, .signatures = 20, .findings = 12}};
+      {.name = "grid", .queries = 3000, .collisions = 1000, .coverage_keys = 20, .findings = 12}};
   Finding finding;
   finding.what = FindingKind::late_toi;
   finding.separation = {.distance = 0.5, .norm = Norm::l2};
@@ -153,7 +153,7 @@ TEST(FuzzReport, WritesAllAsJson) {
   EXPECT_EQ(json.at("judged_per_second"), 6000.0);
   EXPECT_EQ(json.at("all_findings"), 12);
   EXPECT_EQ(json.at("interrupted"), false);
-  EXPECT_EQ(json.at("generators").at(0).at("signatures"), 20);
+  EXPECT_EQ(json.at("generators").at(0).at("coverage_keys"), 20);
   for (const nlohmann::json& solver : {json.at("solver"), json.at("findings").at(0).at("solver")}) {
     EXPECT_EQ(solver.at("plugin"), "/tmp/mine.so");
     EXPECT_EQ(solver.at("tolerance"), 0.25);

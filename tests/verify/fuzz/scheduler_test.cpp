@@ -10,8 +10,8 @@
 namespace touchstone::verify::fuzz::scheduler_test {
 namespace {
 
-TEST(SignatureTable, CountsHowOftenASignatureWasSeen) {
-  SignatureTable table;
+TEST(CoverageTable, CountsHowOftenAKeyWasSeen) {
+  CoverageTable table;
   EXPECT_EQ(table.add(7), 0U);
   EXPECT_EQ(table.add(8), 0U);
   EXPECT_EQ(table.add(7), 1U);
@@ -19,65 +19,65 @@ TEST(SignatureTable, CountsHowOftenASignatureWasSeen) {
   EXPECT_EQ(table.size(), 2U);
 }
 
-TEST(Steering, GivesAllArmsAlikeBeforeItKnowsAnything) {
-  const Steering steering(4, 1);
-  for (std::size_t arm = 0; arm < 4; ++arm) EXPECT_DOUBLE_EQ(steering.share(arm), 0.25);
+TEST(Scheduler, GivesAllArmsAlikeBeforeItKnowsAnything) {
+  const Scheduler scheduler(4, 1);
+  for (std::size_t arm = 0; arm < 4; ++arm) EXPECT_DOUBLE_EQ(scheduler.share(arm), 0.25);
 }
 
 /// Arm 3 of 8 pays once in 500 plays, the others never.
-TEST(Steering, FindsTheArmThatPaysRarely) {
-  Steering steering(8, 1);
+TEST(Scheduler, FindsTheArmThatPaysRarely) {
+  Scheduler scheduler(8, 1);
   generate::Random chance(5);
   std::vector<int> plays(8);
   constexpr int rounds = 40'000;
   for (int i = 0; i < rounds; ++i) {
-    const std::size_t arm = steering.choose();
+    const std::size_t arm = scheduler.choose();
     ++plays.at(arm);
     const bool pays = arm == 3 && chance.bits() % 500 == 0;
-    steering.learn(arm, pays ? 50.0 : 0.0, 1.0);
+    scheduler.learn(arm, pays ? 50.0 : 0.0, 1.0);
   }
   EXPECT_GT(plays[3], rounds / 3);
   // All others get their share of what is explored.
   for (const int count : plays) EXPECT_GT(count, rounds / 8 / 8);
 }
 
-TEST(Steering, PrefersWhatTakesLessWork) {
-  Steering steering(2, 1);
+TEST(Scheduler, PrefersWhatTakesLessWork) {
+  Scheduler scheduler(2, 1);
   for (int i = 0; i < 1000; ++i) {
-    steering.learn(0, 1.0, 1.0);
-    steering.learn(1, 1.0, 20.0);
+    scheduler.learn(0, 1.0, 1.0);
+    scheduler.learn(1, 1.0, 20.0);
   }
-  EXPECT_GT(steering.share(0), 0.8);
+  EXPECT_GT(scheduler.share(0), 0.8);
 }
 
-TEST(Steering, ForgetsAnArmThatPaysNoMore) {
-  Steering steering(2, 1);
-  for (int i = 0; i < 2000; ++i) steering.learn(0, 1.0, 1.0);
-  EXPECT_GT(steering.share(0), 0.8);
-  for (int i = 0; i < 100'000; ++i) steering.learn(0, 0.0, 1.0);
-  EXPECT_LT(steering.share(0), 0.5);
+TEST(Scheduler, ForgetsAnArmThatPaysNoMore) {
+  Scheduler scheduler(2, 1);
+  for (int i = 0; i < 2000; ++i) scheduler.learn(0, 1.0, 1.0);
+  EXPECT_GT(scheduler.share(0), 0.8);
+  for (int i = 0; i < 100'000; ++i) scheduler.learn(0, 0.0, 1.0);
+  EXPECT_LT(scheduler.share(0), 0.5);
 }
 
-TEST(Steering, LeavesEveryArmAShare) {
-  Steering steering(5, 1, {.explored = 0.25});
-  for (int i = 0; i < 10'000; ++i) steering.learn(0, 1000.0, 1.0);
+TEST(Scheduler, LeavesEveryArmAShare) {
+  Scheduler scheduler(5, 1, {.explored = 0.25});
+  for (int i = 0; i < 10'000; ++i) scheduler.learn(0, 1000.0, 1.0);
   double sum = 0.0;
   for (std::size_t arm = 0; arm < 5; ++arm) {
-    EXPECT_GE(steering.share(arm), 0.05 - 1e-12);
-    sum += steering.share(arm);
+    EXPECT_GE(scheduler.share(arm), 0.05 - 1e-12);
+    sum += scheduler.share(arm);
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
-TEST(Steering, IsTheSameForTheSameSeed) {
-  Steering a(6, 9), b(6, 9), other(6, 10);
+TEST(Scheduler, IsTheSameForTheSameSeed) {
+  Scheduler a(6, 9), b(6, 9), other(6, 10);
   int differences = 0;
   for (int i = 0; i < 1000; ++i) {
     const std::size_t arm = a.choose();
     ASSERT_EQ(arm, b.choose());
     differences += arm == other.choose() ? 0 : 1;
-    for (Steering* steering : {&a, &b, &other}) {
-      steering->learn(arm, static_cast<double>(arm), 1.0 + static_cast<double>(i % 3));
+    for (Scheduler* scheduler : {&a, &b, &other}) {
+      scheduler->learn(arm, static_cast<double>(arm), 1.0 + static_cast<double>(i % 3));
     }
   }
   EXPECT_GT(differences, 500);

@@ -30,22 +30,22 @@ const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
 /// What the oracle says, after a check that the quick look does not excuse what is wrong.
 std::optional<FindingKind> fault(const tests::PosedQuery& posed, const Answer& answer,
                                  const Standard& standard = {}) {
-  const judge::Truth truth =
+  const judge::GroundTruth truth =
       judge::truth_of(0, exact::decide(posed.kind, posed.query, standard.separation));
   const CertifiedResult judged =
       fast::certified(posed.kind, posed.query, {.separation = standard.separation});
-  const auto accusation = accuse(posed.kind, posed.query, truth, answer, standard);
-  EXPECT_FALSE(accusation && is_beyond_doubt(posed.kind, posed.query, judged, answer, standard));
-  if (!accusation) return std::nullopt;
-  EXPECT_FALSE(accusation->detail.empty());
-  return accusation->what;
+  const auto diagnosis = diagnose(posed.kind, posed.query, truth, answer, standard);
+  EXPECT_FALSE(diagnosis && is_beyond_doubt(posed.kind, posed.query, judged, answer, standard));
+  if (!diagnosis) return std::nullopt;
+  EXPECT_FALSE(diagnosis->detail.empty());
+  return diagnosis->what;
 }
 
 Answer yes(double lower, double upper, double tolerance = Answer::none) {
   return {.verdict = Verdict::yes, .toi_lower = lower, .toi_upper = upper, .tolerance = tolerance};
 }
 
-TEST(Referee, KnowsEveryFaultOfACollision) {
+TEST(Triage, KnowsEveryFaultOfACollision) {
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::no}), FindingKind::false_negative);
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::error}), FindingKind::no_verdict);
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::undecided}), std::nullopt);
@@ -59,7 +59,7 @@ TEST(Referee, KnowsEveryFaultOfACollision) {
 }
 
 /// 1/3 is no double: its neighbours are the tightest right bounds.
-TEST(Referee, IsExactAboutTimesThatAreNoDoubles) {
+TEST(Triage, IsExactAboutTimesThatAreNoDoubles) {
   const double third = 1.0 / 3.0;  // rounded down
   const double above = std::nextafter(third, 1.0);
   EXPECT_EQ(fault(at_third, yes(third, above)), std::nullopt);
@@ -67,7 +67,7 @@ TEST(Referee, IsExactAboutTimesThatAreNoDoubles) {
   EXPECT_EQ(fault(at_third, yes(0.0, third)), FindingKind::early_toi_upper);
 }
 
-TEST(Referee, HoldsOnlyWhatIsExactToMisses) {
+TEST(Triage, HoldsOnlyWhatIsExactToMisses) {
   const Standard exact{.promise = Promise::exact};
   EXPECT_EQ(fault(never, {.verdict = Verdict::yes}), std::nullopt);
   EXPECT_EQ(fault(never, {.verdict = Verdict::yes}, exact), FindingKind::false_positive);
@@ -78,7 +78,7 @@ TEST(Referee, HoldsOnlyWhatIsExactToMisses) {
 }
 
 /// The primitives come within 1, and no nearer.
-TEST(Referee, HoldsAYesToItsTolerance) {
+TEST(Triage, HoldsAYesToItsTolerance) {
   const Standard standard{.promise = Promise::conservative, .filter = fast::ErrorModel::derived};
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 1.0), standard), std::nullopt);
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.99), standard), FindingKind::beyond_tolerance);
@@ -88,7 +88,7 @@ TEST(Referee, HoldsAYesToItsTolerance) {
 }
 
 /// In the norm of the separation, for a solver of which no more is known.
-TEST(Referee, HoldsAYesToItsToleranceBeyondTheSeparation) {
+TEST(Triage, HoldsAYesToItsToleranceBeyondTheSeparation) {
   const Separation separation{.distance = 0.5, .norm = Norm::l2};
   const Standard standard{.separation = separation};
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.5), standard), std::nullopt);
@@ -96,27 +96,27 @@ TEST(Referee, HoldsAYesToItsToleranceBeyondTheSeparation) {
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.0), standard), FindingKind::beyond_tolerance);
 }
 
-TEST(Referee, TellsFailuresApart) {
+TEST(Triage, TellsFailuresApart) {
   const auto what = [](const solvers::Failure& failure) {
-    return accuse_failure(failure, 10.0).what;
+    return diagnose_failure(failure, 10.0).what;
   };
   for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
     EXPECT_EQ(to_string(what({.kind = kind})), solvers::to_string(kind));
   }
-  EXPECT_EQ(accuse_failure({.kind = solvers::FailureKind::hang}, 10.0).detail,
+  EXPECT_EQ(diagnose_failure({.kind = solvers::FailureKind::hang}, 10.0).detail,
             "takes more than 10 s");
-  EXPECT_EQ(accuse_failure({.kind = solvers::FailureKind::exit, .number = 3}, 0.0).detail,
+  EXPECT_EQ(diagnose_failure({.kind = solvers::FailureKind::exit, .number = 3}, 0.0).detail,
             "exit: status 3");
 }
 
-TEST(Referee, JudgesAtTheSeparation) {
+TEST(Triage, JudgesAtTheSeparation) {
   const Standard standard{.promise = Promise::exact, .separation = {.distance = 1.5}};
   EXPECT_EQ(fault(never, {.verdict = Verdict::no}, standard), FindingKind::false_negative);
   EXPECT_EQ(fault(never, yes(0.5, 0.5), standard), std::nullopt);
   EXPECT_EQ(fault(never, yes(0.75, 0.75), standard), FindingKind::late_toi);
 }
 
-TEST(Referee, FindsMostRightAnswersRightAtAGlance) {
+TEST(Triage, FindsMostRightAnswersRightAtAGlance) {
   const auto glance = [](const tests::PosedQuery& posed, const Answer& answer,
                          const Standard& standard) {
     return is_beyond_doubt(posed.kind, posed.query, fast::certified(posed.kind, posed.query),
@@ -129,19 +129,19 @@ TEST(Referee, FindsMostRightAnswersRightAtAGlance) {
   EXPECT_TRUE(glance(never, yes(0.5, Answer::none, 2.0), {.filter = fast::ErrorModel::derived}));
 }
 
-TEST(Referee, AccusesAJudgeThatTheOracleContradicts) {
-  const judge::Truth truth = judge::truth_of(0, exact::decide(at_half.kind, at_half.query));
+TEST(Triage, DiagnosesAJudgeThatTheOracleContradicts) {
+  const judge::GroundTruth truth = judge::truth_of(0, exact::decide(at_half.kind, at_half.query));
   CertifiedResult judged = fast::certified(at_half.kind, at_half.query);
-  EXPECT_FALSE(accuse_judge(truth, judged));
+  EXPECT_FALSE(diagnose_judge(truth, judged));
   judged.toi_lower = 0.75;
-  EXPECT_EQ(accuse_judge(truth, judged)->what, FindingKind::late_toi);
+  EXPECT_EQ(diagnose_judge(truth, judged)->what, FindingKind::late_toi);
   judged = {.verdict = Verdict::no};
-  EXPECT_EQ(accuse_judge(truth, judged)->what, FindingKind::false_negative);
-  const judge::Truth miss = judge::truth_of(0, exact::decide(never.kind, never.query));
-  EXPECT_EQ(accuse_judge(miss, {.verdict = Verdict::yes})->what, FindingKind::false_positive);
+  EXPECT_EQ(diagnose_judge(truth, judged)->what, FindingKind::false_negative);
+  const judge::GroundTruth miss = judge::truth_of(0, exact::decide(never.kind, never.query));
+  EXPECT_EQ(diagnose_judge(miss, {.verdict = Verdict::yes})->what, FindingKind::false_positive);
 }
 
-TEST(Referee, SaysAnswersInWords) {
+TEST(Triage, SaysAnswersInWords) {
   EXPECT_EQ(to_text(Answer{.verdict = Verdict::no}), "no");
   EXPECT_EQ(to_text(yes(0.5, Answer::none, 1e-6)), "yes, toi_lower 0.5, tolerance 1e-06");
 }

@@ -224,11 +224,11 @@ TEST(Certify, UnrecordedAnswersAreNoMismatch) {
 
 TEST(Certify, TruthComesInOrderWhateverTheNumberOfThreads) {
   for (const unsigned threads : {1U, 2U, 7U}) {
-    std::vector<judge::Truth> truths;
+    std::vector<judge::GroundTruth> truths;
     double last_progress = 0.0;
     CertifyOptions options;
     options.threads = threads;
-    options.on_truth = [&](const judge::Truth& truth) { truths.push_back(truth); };
+    options.on_truth = [&](const judge::GroundTruth& truth) { truths.push_back(truth); };
     options.on_progress = [&](double fraction) {
       EXPECT_GE(fraction, last_progress);
       last_progress = fraction;
@@ -263,7 +263,7 @@ TEST(Certify, StopsWhenAskedAndKeepsWhatIsDone) {
   std::uint64_t seen = 0;
   CertifyOptions options;
   options.stop = &stop;
-  options.on_truth = [&](const judge::Truth&) { stop = ++seen > 100; };
+  options.on_truth = [&](const judge::GroundTruth&) { stop = ++seen > 100; };
   const CertifyResult result = certify_records(true_records(100000), options);
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.queries, seen);
@@ -521,7 +521,7 @@ TEST(CertifyMethods, AStopInSlowAnswersIsObeyedSoonAndLeavesAPrefix) {
   options.threads = 2;
   options.stop = &stop;
   options.solvers = {solver.get()};
-  options.on_truth = [&](const judge::Truth& truth) { truths.push_back(truth.index); };
+  options.on_truth = [&](const judge::GroundTruth& truth) { truths.push_back(truth.index); };
   const CertifyResult result = certify_records(numbered_records(2000), options);
   EXPECT_TRUE(result.interrupted);
   EXPECT_LT(asked, 200);

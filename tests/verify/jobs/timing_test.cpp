@@ -137,7 +137,7 @@ TEST(TimedSolver, JudgesTheQueriesWhoseTruthIsKnown) {
   TimedSolver timed(*solver, group, {});
   timed.take(100);
   timed.repeat();
-  std::vector<judge::Truth> truths;
+  std::vector<judge::GroundTruth> truths;
   for (const std::uint64_t position : {0U, 10U, 11U, 90U}) {
     truths.push_back({.index = position, .collides = position != 11, .toi = {{0.25, 0.25}}});
   }

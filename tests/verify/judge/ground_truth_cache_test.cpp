@@ -23,10 +23,10 @@ data::QueryGroup falling() {
 
 using Positions = std::vector<std::size_t>;
 
-TEST(Truths, AreThoseOfTheQueriesAskedFor) {
+TEST(GroundTruthCache, AreThoseOfTheQueriesAskedFor) {
   const data::QueryGroup group = falling();
-  Truths truths(group, 1);
-  const std::vector<Truth> found = truths.of({}, Positions{0, 1, 2});
+  GroundTruthCache truths(group, 1);
+  const std::vector<GroundTruth> found = truths.of({}, Positions{0, 1, 2});
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[0].index, 0U);
   EXPECT_TRUE(found[0].collides);
@@ -37,9 +37,9 @@ TEST(Truths, AreThoseOfTheQueriesAskedFor) {
   EXPECT_EQ(found[2].toi.value().lower, 0.25);
 }
 
-TEST(Truths, AskTheOracleOnceAQueryAndSeparation) {
+TEST(GroundTruthCache, AskTheOracleOnceAQueryAndSeparation) {
   const data::QueryGroup group = falling();
-  Truths truths(group);
+  GroundTruthCache truths(group);
   static_cast<void>(truths.of({}, Positions{0, 2}));
   EXPECT_EQ(truths.decided(), 2U);
   EXPECT_EQ(truths.of({}, Positions{0, 1, 2, 3}).size(), 4U);
@@ -50,13 +50,13 @@ TEST(Truths, AskTheOracleOnceAQueryAndSeparation) {
   EXPECT_EQ(truths.decided(), 5U);
 }
 
-TEST(Truths, AreAboutTheSeparation) {
+TEST(GroundTruthCache, AreAboutTheSeparation) {
   const data::QueryGroup group = falling();
-  Truths truths(group);
+  GroundTruthCache truths(group);
   const Positions all{0, 1, 2, 3};
   const auto hits = [&](const Separation& separation) {
     std::size_t count = 0;
-    for (const Truth& truth : truths.of(separation, all)) count += truth.collides ? 1U : 0U;
+    for (const GroundTruth& truth : truths.of(separation, all)) count += truth.collides ? 1U : 0U;
     return count;
   };
   EXPECT_EQ(hits({}), 2U);
@@ -64,20 +64,20 @@ TEST(Truths, AreAboutTheSeparation) {
   EXPECT_EQ(hits({.distance = 0.5, .norm = Norm::linf}), 4U);
 }
 
-TEST(Truths, OnceStoppedNoMoreAreDecided) {
+TEST(GroundTruthCache, OnceStoppedNoMoreAreDecided) {
   const data::QueryGroup group = falling();
-  Truths truths(group);
+  GroundTruthCache truths(group);
   static_cast<void>(truths.of({}, Positions{0}));
   const std::atomic<bool> stop = true;
-  const std::vector<Truth> known = truths.of({}, Positions{0, 1}, &stop);
+  const std::vector<GroundTruth> known = truths.of({}, Positions{0, 1}, &stop);
   ASSERT_EQ(known.size(), 1U);
   EXPECT_EQ(known[0].index, 0U);
   EXPECT_EQ(truths.decided(), 1U);
 }
 
-TEST(Truths, PositionsBeyondTheGroupAreRefused) {
+TEST(GroundTruthCache, PositionsBeyondTheGroupAreRefused) {
   const data::QueryGroup group = falling();
-  Truths truths(group);
+  GroundTruthCache truths(group);
   EXPECT_THROW(static_cast<void>(truths.of({}, Positions{4})), std::out_of_range);
 }
 

@@ -12,26 +12,27 @@ namespace {
 
 using exact::DoubleInterval;
 
-TEST(Truth, IsTheVerdictInDoubles) {
+TEST(GroundTruth, IsTheVerdictInDoubles) {
   const auto truth_about = [](const tests::PosedQuery& posed, const Separation& separation) {
     return truth_of(7, exact::decide(posed.kind, posed.query, separation));
   };
   const tests::PosedQuery falling = tests::over_triangle(1, 1, 2, -1);
-  const Truth at_two_thirds = truth_about(falling, {});
+  const GroundTruth at_two_thirds = truth_about(falling, {});
   EXPECT_EQ(at_two_thirds.index, 7U);
   EXPECT_TRUE(at_two_thirds.collides);
   EXPECT_EQ(at_two_thirds.toi, (DoubleInterval{0x1.5555555555555p-1, 0x1.5555555555556p-1}));
   EXPECT_EQ(truth_about(falling, {.distance = 0.5}).toi, (DoubleInterval{0.5, 0.5}));
-  const Truth never = truth_about(tests::over_triangle(1, 1, 2, 1), {});
+  const GroundTruth never = truth_about(tests::over_triangle(1, 1, 2, 1), {});
   EXPECT_FALSE(never.collides);
   EXPECT_EQ(never.toi, std::nullopt);
 }
 
-TEST(Truth, InWords) {
-  EXPECT_EQ(to_text(Truth{.index = 0, .collides = false, .toi = std::nullopt}), "no collision");
-  EXPECT_EQ(to_text(Truth{.index = 0, .collides = true, .toi = DoubleInterval{0.5, 0.5}}),
+TEST(GroundTruth, InWords) {
+  EXPECT_EQ(to_text(GroundTruth{.index = 0, .collides = false, .toi = std::nullopt}),
+            "no collision");
+  EXPECT_EQ(to_text(GroundTruth{.index = 0, .collides = true, .toi = DoubleInterval{0.5, 0.5}}),
             "collision at 0.5");
-  EXPECT_EQ(to_text(Truth{.index = 0, .collides = true, .toi = DoubleInterval{0.25, 0.5}}),
+  EXPECT_EQ(to_text(GroundTruth{.index = 0, .collides = true, .toi = DoubleInterval{0.25, 0.5}}),
             "collision after 0.25 and before 0.5");
 }
 

@@ -21,16 +21,16 @@ using fast::Verdict;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Truth miss() { return {.index = 7, .collides = false, .toi = std::nullopt}; }
+GroundTruth miss() { return {.index = 7, .collides = false, .toi = std::nullopt}; }
 
-Truth hit(double lower, double upper) {
+GroundTruth hit(double lower, double upper) {
   return {.index = 8, .collides = true, .toi = exact::DoubleInterval{lower, upper}};
 }
 
 double above(double x) { return std::nextafter(x, infinity); }
 double below(double x) { return std::nextafter(x, -infinity); }
 
-Judgement judge(const Truth& truth, const Answer& answer) {
+Judgement judge(const GroundTruth& truth, const Answer& answer) {
   Judgement judgement;
   judgement.add(truth, answer);
   EXPECT_EQ(judgement.queries, 1U);
@@ -45,7 +45,7 @@ std::uint64_t all_faults(const Judgement& judgement) {
 }
 
 TEST(Judge, EveryVerdictHasItsColumn) {
-  const Truth collision = hit(0.5, 0.5);
+  const GroundTruth collision = hit(0.5, 0.5);
   EXPECT_EQ(all_faults(judge(collision, {.verdict = Verdict::yes})), 0U);
   EXPECT_EQ(all_faults(judge(miss(), {.verdict = Verdict::no})), 0U);
 
@@ -62,7 +62,7 @@ TEST(Judge, EveryVerdictHasItsColumn) {
   EXPECT_EQ(false_positive.count(Fault::false_positive), 1U);
   EXPECT_EQ(false_positive.wrong_answers[0].truth, "no collision");
 
-  for (const Truth& truth : {collision, miss()}) {
+  for (const GroundTruth& truth : {collision, miss()}) {
     const Judgement error = judge(truth, {.verdict = Verdict::error});
     EXPECT_EQ(all_faults(error), 1U);
     EXPECT_EQ(error.count(Fault::error), 1U);
@@ -71,7 +71,7 @@ TEST(Judge, EveryVerdictHasItsColumn) {
 
 /// Late by less than a spacing of doubles: the printed end of the enclosure is not the time.
 TEST(Judge, ATimeBesideTheExactOneIsSeenToBeWrong) {
-  const Truth third = hit(0.3333333333333333, 0.33333333333333337);
+  const GroundTruth third = hit(0.3333333333333333, 0.33333333333333337);
   const Judgement late = judge(third, {.verdict = Verdict::yes, .toi_lower = 0.33333333333333337});
   ASSERT_EQ(late.count(Fault::late_toi), 1U);
   EXPECT_EQ(late.wrong_answers[0].answer, "toi_lower 0.33333333333333337");
@@ -122,7 +122,7 @@ TEST(Judge, ATimeThatIsNotFiniteIsAnError) {
 
 TEST(Judge, CountsFailuresByTheirKind) {
   Judgement judgement;
-  const Truth truth = hit(0.25, 0.25);
+  const GroundTruth truth = hit(0.25, 0.25);
   for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
     const solvers::Failure failure{.kind = kind, .number = 3};
     judgement.add(truth, {.verdict = solvers::verdict_of(kind)}, &failure);

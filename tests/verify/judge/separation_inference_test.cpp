@@ -15,9 +15,9 @@ constexpr Separation one_l2{.distance = 1.0, .norm = Norm::l2};
 constexpr Separation two_linf{.distance = 2.0, .norm = Norm::linf};
 
 TEST(Separation, AtDistanceZeroTheNormDoesNotMatter) {
-  EXPECT_TRUE(same_question(contact, contact_l2));
-  EXPECT_FALSE(same_question(one_l2, one_linf));
-  EXPECT_FALSE(same_question(one_linf, two_linf));
+  EXPECT_TRUE(same_separation(contact, contact_l2));
+  EXPECT_FALSE(same_separation(one_l2, one_linf));
+  EXPECT_FALSE(same_separation(one_linf, two_linf));
 }
 
 TEST(Separation, OnlyWhatFollowsIsInferred) {

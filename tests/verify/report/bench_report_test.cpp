@@ -16,8 +16,8 @@ using fast::Promise;
 using fast::Verdict;
 using Words = std::vector<std::string>;
 
-constexpr judge::Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
-const judge::Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
+constexpr judge::GroundTruth miss{.index = 3, .collides = false, .toi = std::nullopt};
+const judge::GroundTruth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
 
 jobs::SolverResult careful() {
   jobs::SolverResult careful;

@@ -28,8 +28,8 @@ std::vector<data::QueryGroup> falling() {
   return groups;
 }
 
-SurveyOptions quick() {
-  SurveyOptions options;
+ExperimentOptions quick() {
+  ExperimentOptions options;
   options.methods = {"certified", "tight_inclusion"};
   options.count = 10;
   options.seconds = 0.02;
@@ -46,7 +46,7 @@ std::size_t settings_in(const std::vector<Trial>& trials, Experiment experiment)
   return count;
 }
 
-TEST(Survey, TrialsAreThoseOfTheMethodsThere) {
+TEST(Experiments, TrialsAreThoseOfTheMethodsThere) {
   const std::vector<std::string> all{"certified", "tight_inclusion", "irf", "uirf", "fprf", "msrf",
                                      "tccd"};
   const std::vector<Trial> trials = trials_of(all);
@@ -62,7 +62,7 @@ TEST(Survey, TrialsAreThoseOfTheMethodsThere) {
   EXPECT_EQ(few[0].settings[0].method->name(), "tccd");
 }
 
-TEST(Survey, EachMeasuresDistanceInItsOwnNorm) {
+TEST(Experiments, EachMeasuresDistanceInItsOwnNorm) {
   const std::vector<std::string> all{"certified", "tight_inclusion", "fprf", "msrf"};
   for (const Trial& trial : trials_of(all)) {
     if (trial.experiment != Experiment::separation) continue;
@@ -78,23 +78,23 @@ TEST(Survey, EachMeasuresDistanceInItsOwnNorm) {
   }
 }
 
-TEST(Survey, DistancesHoldThoseOfThePapersTables) {
+TEST(Experiments, DistancesHoldThoseOfThePapersTables) {
   for (const double distance : {1e-2, 1e-8, 1e-16, 1e-30, 1e-100}) {
     EXPECT_TRUE(std::ranges::count(separation_distances(), distance) == 1) << distance;
   }
   EXPECT_TRUE(std::ranges::is_sorted(separation_distances()));
 }
 
-TEST(Survey, SlowSearchersAreLimitedMore) {
+TEST(Experiments, SlowSearchersAreLimitedMore) {
   const std::vector<std::string> all{"tight_inclusion", "irf"};
   const Trial field = trials_of(all).front();
   EXPECT_EQ(field.settings[0].options.max_checks, 1'000'000);
   EXPECT_EQ(field.settings[1].options.max_checks, 100'000);
 }
 
-TEST(Survey, MeasuresEveryTrialAndTheMapOfStability) {
+TEST(Experiments, MeasuresEveryTrialAndTheMapOfStability) {
   const std::vector<data::QueryGroup> groups = falling();
-  const Measurements result = survey(groups, quick());
+  const Measurements result = run_experiments(groups, quick());
   EXPECT_FALSE(result.interrupted);
   EXPECT_FALSE(result.machine.empty());
   const std::vector<std::string> methods = quick().methods;
@@ -125,12 +125,12 @@ TEST(Survey, MeasuresEveryTrialAndTheMapOfStability) {
   }
 }
 
-TEST(Survey, WithoutNamesAllMethodsTakePart) {
+TEST(Experiments, WithoutNamesAllMethodsTakePart) {
   const std::vector<data::QueryGroup> groups = falling();
-  SurveyOptions options = quick();
+  ExperimentOptions options = quick();
   options.methods.clear();
   options.stability_count = 0;
-  const Measurements result = survey(groups, options);
+  const Measurements result = run_experiments(groups, options);
   std::set<std::string> names;
   for (const Measurement* measurement : of_experiment(result, Experiment::field)) {
     names.insert(measurement->method);
@@ -139,14 +139,14 @@ TEST(Survey, WithoutNamesAllMethodsTakePart) {
   EXPECT_TRUE(result.stability.empty());
 }
 
-TEST(Survey, FiltersAreComparedOnFamiliesAndOverTheScale) {
+TEST(Experiments, FiltersAreComparedOnFamiliesAndOverTheScale) {
   const std::vector<data::QueryGroup> groups = falling();
-  SurveyOptions options = quick();
+  ExperimentOptions options = quick();
   options.methods = {"tight_inclusion", "tight_inclusion_released"};
   options.count = 40;
   options.experiments = {Experiment::filter};
   options.stability_count = 0;
-  const Measurements result = survey(groups, options);
+  const Measurements result = run_experiments(groups, options);
   std::set<double> scales;
   std::map<std::string, std::uint64_t> missed;
   for (const Measurement& m : result.all) {
@@ -164,35 +164,35 @@ TEST(Survey, FiltersAreComparedOnFamiliesAndOverTheScale) {
   EXPECT_GT(missed["tight_inclusion_released"], 0U);
 }
 
-TEST(Survey, OnlyTheChosenExperimentsAreDone) {
+TEST(Experiments, OnlyTheChosenExperimentsAreDone) {
   const std::vector<data::QueryGroup> groups = falling();
-  SurveyOptions options = quick();
+  ExperimentOptions options = quick();
   options.experiments = {Experiment::checks};
   options.stability_count = 0;
-  const Measurements result = survey(groups, options);
+  const Measurements result = run_experiments(groups, options);
   EXPECT_EQ(result.all.size(), 6U);
   EXPECT_EQ(of_experiment(result, Experiment::checks).size(), 6U);
 }
 
-TEST(Survey, StoppedItKeepsWhatIsMeasured) {
+TEST(Experiments, StoppedItKeepsWhatIsMeasured) {
   const std::vector<data::QueryGroup> groups = falling();
   std::atomic<bool> stop = false;
-  SurveyOptions options = quick();
+  ExperimentOptions options = quick();
   options.stop = &stop;
   options.on_progress = [&](double fraction) {
     if (fraction > 0.3) stop = true;
   };
-  const Measurements result = survey(groups, options);
+  const Measurements result = run_experiments(groups, options);
   EXPECT_TRUE(result.interrupted);
   EXPECT_GE(result.all.size(), 2U);
   EXPECT_TRUE(result.stability.empty());
 }
 
-TEST(Survey, UnknownMethodsAreRefused) {
+TEST(Experiments, UnknownMethodsAreRefused) {
   const std::vector<data::QueryGroup> groups = falling();
-  SurveyOptions options = quick();
+  ExperimentOptions options = quick();
   options.methods = {"nonsense"};
-  EXPECT_THROW(static_cast<void>(survey(groups, options)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(run_experiments(groups, options)), std::invalid_argument);
 }
 
 }  // namespace

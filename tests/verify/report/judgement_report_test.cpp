@@ -11,8 +11,8 @@ namespace {
 
 using fast::Verdict;
 
-constexpr judge::Truth miss{.index = 3, .collides = false, .toi = std::nullopt};
-const judge::Truth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
+constexpr judge::GroundTruth miss{.index = 3, .collides = false, .toi = std::nullopt};
+const judge::GroundTruth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
 
 /// 22 false negatives, a false positive, an undecided answer, a late time of impact and an early one, and
 /// an error.

@@ -56,7 +56,7 @@ class Field {
   [[nodiscard]] std::vector<Measurement> run(const data::QueryGroup& group,
                                              const MeasureOptions& options,
                                              const fast::Method& reference) {
-    judge::Truths truths(group);
+    judge::GroundTruthCache truths(group);
     return measure(group, truths, settings_, reference, options);
   }
 
