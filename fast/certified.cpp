@@ -332,7 +332,7 @@ class CertifiedMethod : public Method {
     CertifiedOptions of_call = base_;
     of_call.t_max = options.t_max;
     of_call.max_threads = 1;
-    of_call.separation = {.distance = options.min_separation, .norm = options.norm};
+    of_call.separation = options.separation;
     if (!is_valid(of_call.separation)) {
       std::ranges::fill(answers, Answer{.verdict = Verdict::error});
       return;

@@ -51,9 +51,9 @@ enum class Promise : std::uint8_t {
 struct MethodOptions {
   double tolerance = 1e-6;              ///< of tolerance-driven methods: Tight-Inclusion's δ
   std::int64_t max_checks = 1'000'000;  ///< of iterative methods: Tight-Inclusion's m_I; ≤ 0: none
-  double min_separation = 0.0;          ///< contact is to be this near (d ≥ 0),
-  Norm norm = Norm::linf;  ///< measured so; what can only do L∞ finds all of L2 with it
-  double t_max = 1.0;      ///< only impacts up to this time count (0 to 1)
+  /// Contact is to be this near; a method that can only do L∞ finds all of L2 with it.
+  Separation separation = {};
+  double t_max = 1.0;  ///< only impacts up to this time count (0 to 1)
 };
 
 /// All that is known of a method beside its answers. The registry, reports and help read it here.

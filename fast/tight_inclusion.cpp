@@ -359,7 +359,7 @@ class TightInclusionMethod final : public Method {
     TightInclusionOptions all = base_;
     all.tolerance = options.tolerance;
     all.max_checks = options.max_checks;
-    all.min_separation = options.min_separation;
+    all.min_separation = options.separation.distance;
     all.t_max = options.t_max;
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const TightInclusionResult result = tight_inclusion(kind, queries[i], all);

@@ -584,14 +584,14 @@ TEST(CertifiedMethod, HeedsTMaxAndTheSeparation) {
   EXPECT_EQ(answer.verdict, Verdict::no);
   // At a distance of a half it is at t = 1/4.
   certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
-                            {.min_separation = 0.5, .norm = Norm::l2, .t_max = 0.25});
+                            {.separation = {.distance = 0.5, .norm = Norm::l2}, .t_max = 0.25});
   EXPECT_EQ(answer.verdict, Verdict::yes);
   EXPECT_LT(answer.toi_lower, 0.25);
   EXPECT_GE(answer.toi_upper, 0.25);
   EXPECT_LE(answer.toi_upper, 0.25 + 1e-12);
   for (const double bad : {-1.0, infinity, std::numeric_limits<double>::quiet_NaN()}) {
     certified_method()->solve(Kind::vertex_face, std::span(&query, 1), std::span(&answer, 1),
-                              {.min_separation = bad});
+                              {.separation = {.distance = bad}});
     EXPECT_EQ(answer.verdict, Verdict::error) << bad;
   }
 }

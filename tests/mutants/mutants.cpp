@@ -73,13 +73,13 @@ Make with_filter(Filter filter) {
     return std::make_unique<AlteredMethod>(
         tight_inclusion,
         [filter](Kind kind, const Query& query, const MethodOptions& options) -> Answer {
-          const auto result =
-              fast::tight_inclusion(kind, query,
-                                    {.tolerance = options.tolerance,
-                                     .max_checks = options.max_checks,
-                                     .min_separation = options.min_separation,
-                                     .t_max = options.t_max,
-                                     .scene_filter = filter(kind, query, options.min_separation)});
+          const auto result = fast::tight_inclusion(
+              kind, query,
+              {.tolerance = options.tolerance,
+               .max_checks = options.max_checks,
+               .min_separation = options.separation.distance,
+               .t_max = options.t_max,
+               .scene_filter = filter(kind, query, options.separation.distance)});
           return {.verdict = result.verdict,
                   .toi_lower = result.toi,
                   .toi_upper = Answer::none,
@@ -143,9 +143,7 @@ Make with_alteration(AlteredMethod::Solve solve) {
 }
 
 fast::CertifiedOptions certified_options(const MethodOptions& options) {
-  return {.t_max = options.t_max,
-          .separation = {.distance = options.min_separation, .norm = options.norm},
-          .max_threads = 1};
+  return {.t_max = options.t_max, .separation = options.separation, .max_threads = 1};
 }
 
 /// With another last stage.
@@ -204,7 +202,7 @@ Answer with_upper_for_lower(Kind kind, const Query& query, const MethodOptions& 
 
 Answer in_the_other_norm(Kind kind, const Query& query, const MethodOptions& options) {
   fast::CertifiedOptions all = certified_options(options);
-  all.separation.norm = options.norm == Norm::l2 ? Norm::linf : Norm::l2;
+  all.separation.norm = options.separation.norm == Norm::l2 ? Norm::linf : Norm::l2;
   return verify::fuzz::answer_of(fast::certified(kind, query, all));
 }
 

@@ -52,7 +52,7 @@ double greatest_approach(Kind kind, const Points& displacement) {
 }  // namespace
 
 fast::Answer accd(Kind kind, const Query& query, const fast::MethodOptions& options) {
-  const double separation = options.min_separation;
+  const double separation = options.separation.distance;
   Points x;
   for (std::size_t i = 0; i < moving_points; ++i) x[i] = query.point(0, i);
   if (squared_distance(kind, x) <= separation * separation) {

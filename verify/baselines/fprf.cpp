@@ -120,7 +120,7 @@ std::optional<double> edge_edge_time(const Query& query, double eta) {
 }  // namespace
 
 fast::Answer fprf(Kind kind, const Query& query, const fast::MethodOptions& options) {
-  const double eta = options.min_separation;
+  const double eta = options.separation.distance;
   const auto time =
       kind == Kind::vertex_face ? vertex_face_time(query, eta) : edge_edge_time(query, eta);
   if (!time || *time > options.t_max) return {.verdict = fast::Verdict::no};

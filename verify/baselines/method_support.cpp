@@ -55,7 +55,7 @@ NearestRounding::~NearestRounding() { std::fesetenv(&callers_); }
 
 bool are_valid(const fast::MethodOptions& options) {
   return std::isfinite(options.tolerance) && options.tolerance > 0.0 &&
-         std::isfinite(options.min_separation) && options.min_separation >= 0.0 &&
+         std::isfinite(options.separation.distance) && options.separation.distance >= 0.0 &&
          options.t_max >= 0.0 && options.t_max <= 1.0;
 }
 

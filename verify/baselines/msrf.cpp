@@ -96,7 +96,8 @@ bool msrf_rules_out_zeros(std::span<const double, 7> c) {
 }
 
 fast::Answer msrf(Kind kind, const Query& query, const fast::MethodOptions& options) {
-  const double h = options.min_separation > 0.0 ? options.min_separation : msrf_default_separation;
+  const double h =
+      options.separation.distance > 0.0 ? options.separation.distance : msrf_default_separation;
   const Candidates candidates =
       kind == Kind::vertex_face ? vertex_face_candidates(query, h) : edge_edge_candidates(query, h);
   constexpr double never = 2.0;

@@ -490,8 +490,7 @@ bool seeks(const FuzzOptions& options, FindingKind what) {
 
 fast::MethodOptions method_options(const FuzzOptions& options) {
   fast::MethodOptions result = options.method;
-  result.min_separation = options.separation.distance;
-  result.norm = options.separation.norm;
+  result.separation = options.separation;
   return result;
 }
 

@@ -92,16 +92,12 @@ nlohmann::json solver_json(const SolverCall& solver) {
           {"promise", solvers::to_string(solver.promise)},
           {"tolerance", solver.options.tolerance},
           {"max_checks", solver.options.max_checks},
-          {"min_separation", solver.options.min_separation},
-          {"norm", to_string(solver.options.norm)},
+          {"min_separation", solver.options.separation.distance},
+          {"norm", to_string(solver.options.separation.norm)},
           {"t_max", solver.options.t_max},
           {"query_limit", solver.query_limit_seconds},
           {"memory_limit", solver.limits.memory_bytes},
           {"allow_processes", solver.limits.may_fork}};
-}
-
-Separation separation_of(const SolverCall& solver) {
-  return {.distance = solver.options.min_separation, .norm = solver.options.norm};
 }
 
 }  // namespace
@@ -127,7 +123,7 @@ std::string to_text(const Finding& finding, const SolverCall& asked) {
 
 std::string to_text(const FuzzReport& report) {
   const FuzzResult& result = report.result;
-  const Separation separation = separation_of(report.solver);
+  const Separation separation = report.solver.options.separation;
   std::string text = fmt::format(
       "{} ({}), seed {}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
       "{:.0f} queries a second, {:.0f} without the method's own time; {} judged by the oracle\n\n",
@@ -182,7 +178,7 @@ nlohmann::json to_json(const FuzzReport& report) {
           {"method", report.solver.method},
           {"promise", solvers::to_string(report.solver.promise)},
           {"seed", report.seed},
-          {"separation", judge::to_json(separation_of(report.solver))},
+          {"separation", judge::to_json(report.solver.options.separation)},
           {"asked",
            {{"seconds", report.seconds > 0.0 ? nlohmann::json(report.seconds) : nlohmann::json()},
             {"queries", report.queries != 0 ? nlohmann::json(report.queries) : nlohmann::json()},

@@ -50,8 +50,8 @@ std::string fingerprint(const Reproduction& found) {
     hash = generate::mix(hash + bits + 0x9e3779b97f4a7c15ULL);
   };
   for (const double x : found.failing.query.coordinates) add(std::bit_cast<std::uint64_t>(x));
-  add(std::bit_cast<std::uint64_t>(found.solver.options.min_separation));
-  add(static_cast<std::uint64_t>(found.solver.options.norm));
+  add(std::bit_cast<std::uint64_t>(found.solver.options.separation.distance));
+  add(static_cast<std::uint64_t>(found.solver.options.separation.norm));
   return fmt::format("{:08x}", hash >> 32U);
 }
 
@@ -76,10 +76,11 @@ std::string_view enumerator(Kind kind) {
 std::string options_as_code(const fast::MethodOptions& options) {
   return fmt::format(
       "      .tolerance = {},  // {}\n      .max_checks = {},\n"
-      "      .min_separation = {},  // {}\n      .norm = Norm::{},\n      .t_max = {},  // {}\n",
+      "      .separation = {{.distance = {},  // {}\n                     .norm = Norm::{}}},\n    "
+      "  .t_max = {},  // {}\n",
       hexadecimal(options.tolerance), options.tolerance, options.max_checks,
-      hexadecimal(options.min_separation), options.min_separation, to_string(options.norm),
-      hexadecimal(options.t_max), options.t_max);
+      hexadecimal(options.separation.distance), options.separation.distance,
+      to_string(options.separation.norm), hexadecimal(options.t_max), options.t_max);
 }
 
 /// The test itself: whom it asks.
@@ -119,7 +120,7 @@ std::string options_as_words(const SolverCall& solver) {
                           : fmt::format("--plugin {}", io::shell_word(solver.plugin.string()));
   words += fmt::format(" --tolerance {} --max-checks {} --min-separation {} --norm {}",
                        options.tolerance, std::max<std::int64_t>(options.max_checks, 0),
-                       options.min_separation, to_string(options.norm));
+                       options.separation.distance, to_string(options.separation.norm));
   words += fmt::format(" --query-limit {}", solver.query_limit_seconds);
   if (solver.limits.memory_bytes != solvers::ChildLimits{}.memory_bytes) {
     words += fmt::format(" --memory-limit {}", gibibytes(solver.limits));
@@ -209,9 +210,7 @@ std::string as_cpp_test(const Reproduction& found) {
   result += fmt::format("constexpr Kind kind = {};\n", enumerator(found.kind));
   result += fmt::format("constexpr fast::MethodOptions options{{\n{}}};\n",
                         options_as_code(found.solver.options));
-  result +=
-      "constexpr Separation separation{.distance = options.min_separation, .norm = "
-      "options.norm};\n";
+  result += "constexpr Separation separation = options.separation;\n";
   result += fmt::format("constexpr fast::Promise promise = fast::Promise::{};\n",
                         solvers::to_string(found.solver.promise));
   result += fmt::format("constexpr bool collides = {};\n", found.failing.collides);
@@ -229,7 +228,7 @@ std::string as_command(const Reproduction& found) {
   const std::string file = fmt::format("{}-{}.csv", fingerprint(found), to_string(found.kind));
   // Without more, a label is about contact itself.
   std::optional<bool> label;
-  if (found.solver.options.min_separation == 0.0) label = found.failing.collides;
+  if (found.solver.options.separation.distance == 0.0) label = found.failing.collides;
   return fmt::format("cat > {0} <<'END'\n{1}END\ntouchstone certify {0} {2}\n", file,
                      as_csv(found.failing.query, label), options_as_words(found.solver));
 }

@@ -65,8 +65,7 @@ Trial separation_trial(Methods methods) {
         const fast::MethodInfo& info = method->info();
         if (!info.variant_of.empty() || !info.measures_in(norm)) continue;
         fast::MethodOptions options = options_of(info);
-        options.min_separation = distance;
-        options.norm = norm;
+        options.separation = {.distance = distance, .norm = norm};
         trial.settings.push_back({method, options});
       }
     }

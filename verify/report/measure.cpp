@@ -19,10 +19,6 @@
 namespace touchstone::verify::report {
 namespace {
 
-Separation separation_of(const fast::MethodOptions& options) {
-  return {.distance = options.min_separation, .norm = options.norm};
-}
-
 /// What is asked of which method.
 Measurement of_separation(const data::QueryGroup& group, Experiment experiment,
                           const Setting& setting) {
@@ -34,7 +30,7 @@ Measurement of_separation(const data::QueryGroup& group, Experiment experiment,
   said.promise = setting.method->promise();
   said.tolerance = setting.options.tolerance;
   said.max_checks = setting.options.max_checks;
-  said.separation = separation_of(setting.options);
+  said.separation = setting.options.separation;
   said.group_queries = group.queries().size();
   return said;
 }
@@ -67,7 +63,7 @@ class Run {
         options_(options) {
     for (const Setting& setting : settings) {
       solvers_.push_back(solvers::solver_in_process(*setting.method, setting.options));
-      timed_.emplace_back(*solvers_.back(), group, separation_of(setting.options));
+      timed_.emplace_back(*solvers_.back(), group, setting.options.separation);
     }
   }
 
@@ -231,7 +227,7 @@ std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Groun
   const std::vector<Query>& queries = group.queries();
   std::vector<std::size_t> positions(queries.size());
   std::iota(positions.begin(), positions.end(), std::size_t{0});
-  const std::vector<judge::GroundTruth> known = truths.of(separation_of(options), positions, stop);
+  const std::vector<judge::GroundTruth> known = truths.of(options.separation, positions, stop);
   if (known.size() < queries.size()) return std::nullopt;
   std::vector<fast::Answer> answers(queries.size());
   method.solve(group.kind(), queries, answers, options);

@@ -118,11 +118,12 @@ class PluginMethod final : public fast::Method {
       library_ = open_library(path_);
       solve_ = find_solve(library_, path_);
     });
-    const touchstone_options plugin_options{.tolerance = options.tolerance,
-                                            .max_checks = options.max_checks,
-                                            .min_separation = options.min_separation,
-                                            .t_max = options.t_max,
-                                            .norm = static_cast<std::int32_t>(options.norm)};
+    const touchstone_options plugin_options{
+        .tolerance = options.tolerance,
+        .max_checks = options.max_checks,
+        .min_separation = options.separation.distance,
+        .t_max = options.t_max,
+        .norm = static_cast<std::int32_t>(options.separation.norm)};
     for (std::size_t i = 0; i < queries.size(); ++i) {
       answers[i] = ask(kind, queries[i], plugin_options);
     }

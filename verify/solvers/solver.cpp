@@ -24,8 +24,7 @@ constexpr double span_seconds = 0.01;
 constexpr double longest_span = 1e6;
 
 fast::MethodOptions with_separation(fast::MethodOptions options, const SolveRequest& request) {
-  options.min_separation = request.separation.distance;
-  options.norm = request.separation.norm;
+  options.separation = request.separation;
   return options;
 }
 

@@ -66,7 +66,7 @@ TEST(Accd, TakesMissesForCollisionsWhoseGapShrinksToATenth) {
 }
 
 TEST(Accd, KeepsTheSeparation) {
-  const fast::MethodOptions options{.min_separation = 0.25, .norm = Norm::l2};
+  const fast::MethodOptions options{.separation = {.distance = 0.25, .norm = Norm::l2}};
   for (const bool is_face : {true, false}) {
     const auto comes_down = [&](double from, double to) {
       return answer_to(*method, is_face ? over_triangle(1, 1, from, to) : over_edge(1, 2, from, to),

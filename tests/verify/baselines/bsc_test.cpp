@@ -137,7 +137,8 @@ TEST(BscMethod, HasNoTimeNoSeparationAndNoPromise) {
   EXPECT_EQ(bsc().name(), "bsc");
   EXPECT_EQ(bsc().promise(), fast::Promise::none);
   const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
-  const fast::MethodOptions options{.min_separation = 1.5, .norm = Norm::l2, .t_max = 0.25};
+  const fast::MethodOptions options{.separation = {.distance = 1.5, .norm = Norm::l2},
+                                    .t_max = 0.25};
   EXPECT_EQ(verdict_of(bsc(), hit, options), fast::Verdict::yes);
   EXPECT_EQ(verdict_of(bsc(), near, options), fast::Verdict::no);
   PosedQuery bad = hit;

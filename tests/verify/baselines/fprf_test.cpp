@@ -18,7 +18,7 @@ using tests::over_triangle;
 using tests::Score;
 
 const std::unique_ptr<fast::Method> method = baselines::fprf_method();
-constexpr fast::MethodOptions wide{.min_separation = 1e-3, .norm = Norm::l2};
+constexpr fast::MethodOptions wide{.separation = {.distance = 1e-3, .norm = Norm::l2}};
 constexpr int hits = 2000;
 
 TEST(Fprf, AnswersThePrintedQueriesAsItWasSeenTo) {
@@ -67,7 +67,7 @@ TEST(Fprf, MissesParallelEdges) {
 TEST(Fprf, SeparatesInteriorsOnly) {
   for (const double gap : {0.25, 0.75}) {
     const fast::Verdict expected = gap < 0.5 ? fast::Verdict::yes : fast::Verdict::no;
-    const fast::MethodOptions options{.min_separation = 0.5, .norm = Norm::l2};
+    const fast::MethodOptions options{.separation = {.distance = 0.5, .norm = Norm::l2}};
     EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 2, gap), options).verdict, expected);
     EXPECT_EQ(answer_to(*method, over_edge(1, 2, 2, gap), options).verdict, expected);
     // Beside the primitives at that distance: not seen.

@@ -73,9 +73,9 @@ TEST(BaselineMethod, RefusesOptionsThatMeanNothing) {
   const auto bad = std::to_array<fast::MethodOptions>({{.tolerance = 0.0},
                                                        {.tolerance = nan},
                                                        {.tolerance = infinity},
-                                                       {.min_separation = -1.0},
-                                                       {.min_separation = nan},
-                                                       {.min_separation = infinity},
+                                                       {.separation = {.distance = -1.0}},
+                                                       {.separation = {.distance = nan}},
+                                                       {.separation = {.distance = infinity}},
                                                        {.t_max = -0.5},
                                                        {.t_max = 1.5},
                                                        {.t_max = nan}});
@@ -84,7 +84,7 @@ TEST(BaselineMethod, RefusesOptionsThatMeanNothing) {
     EXPECT_EQ(solve(always_no, Query{}, options).verdict, fast::Verdict::error);
   }
   EXPECT_TRUE(are_valid({}));
-  EXPECT_TRUE(are_valid({.min_separation = 1e-100, .t_max = 0.0}));
+  EXPECT_TRUE(are_valid({.separation = {.distance = 1e-100}, .t_max = 0.0}));
 }
 
 TEST(BaselineMethod, RoundsToNearestWhateverTheCallerDoes) {

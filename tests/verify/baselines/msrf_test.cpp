@@ -21,7 +21,9 @@ using tests::Score;
 const std::unique_ptr<fast::Method> method = baselines::msrf_method();
 constexpr int hits = 4000;
 
-constexpr fast::MethodOptions within(double h) { return {.min_separation = h, .norm = Norm::l2}; }
+constexpr fast::MethodOptions within(double h) {
+  return {.separation = {.distance = h, .norm = Norm::l2}};
+}
 
 TEST(Msrf, AnswersThePrintedQueriesAsItWasSeenTo) {
   EXPECT_EQ(method->name(), "msrf");

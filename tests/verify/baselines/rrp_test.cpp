@@ -112,7 +112,8 @@ TEST(RrpMethod, HasNoTimeNoSeparationAndNoPromise) {
   EXPECT_EQ(rrp().name(), "rrp");
   EXPECT_EQ(rrp().promise(), fast::Promise::none);
   const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
-  const fast::MethodOptions options{.min_separation = 1.5, .norm = Norm::l2, .t_max = 0.25};
+  const fast::MethodOptions options{.separation = {.distance = 1.5, .norm = Norm::l2},
+                                    .t_max = 0.25};
   EXPECT_EQ(verdict_of(rrp(), hit, options), fast::Verdict::yes);
   EXPECT_EQ(verdict_of(rrp(), near, options), fast::Verdict::no);
   PosedQuery bad = hit;

@@ -114,8 +114,9 @@ TEST(Uirf, CountsImpactsUpToTheGivenTime) {
 }
 
 TEST(Uirf, KnowsNoSeparation) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, 0.25), {.min_separation = 0.5}).verdict,
-            fast::Verdict::no);
+  EXPECT_EQ(
+      answer_to(*method, over_triangle(1, 1, 1, 0.25), {.separation = {.distance = 0.5}}).verdict,
+      fast::Verdict::no);
 }
 
 }  // namespace

@@ -15,12 +15,13 @@ namespace {
 
 FuzzReport sample() {
   FuzzReport report;
-  report.solver = {
-      .method = "mine",
-      .plugin = "/tmp/mine.so",
-      .promise = fast::Promise::exact,
-      .options = {.tolerance = 0.25, .max_checks = 9, .min_separation = 0.5, .norm = Norm::l2},
-      .query_limit_seconds = 3.0};
+  report.solver = {.method = "mine",
+                   .plugin = "/tmp/mine.so",
+                   .promise = fast::Promise::exact,
+                   .options = {.tolerance = 0.25,
+                               .max_checks = 9,
+                               .separation = {.distance = 0.5, .norm = Norm::l2}},
+                   .query_limit_seconds = 3.0};
   report.seed = 7;
   report.seconds = 2.0;
   report.result.queries = 3000;

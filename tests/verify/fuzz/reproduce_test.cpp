@@ -56,7 +56,7 @@ Reproduction claim() {
                       .answer = {.verdict = fast::Verdict::yes}},
           .solver = {.method = "certified",
                      .promise = Promise::exact,
-                     .options = {.min_separation = 0.09, .norm = Norm::l2}}};
+                     .options = {.separation = {.distance = 0.09, .norm = Norm::l2}}}};
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -217,8 +217,8 @@ TEST(AsCppTest, asks_with_the_options) {
     void solve(Kind, std::span<const Query>, std::span<Answer> answers,
                const fast::MethodOptions& options) const override {
       const bool wrong = options.tolerance == 0.125 && options.max_checks == 77 &&
-                         options.min_separation == 0.0 && options.norm == Norm::linf &&
-                         options.t_max == 1.0;
+                         options.separation.distance == 0.0 &&
+                         options.separation.norm == Norm::linf && options.t_max == 1.0;
       answers[0].verdict = wrong ? fast::Verdict::no : fast::Verdict::yes;
     }
   };
@@ -279,7 +279,7 @@ TEST(AsCppTest, tells_findings_apart) {
   other.failing.query.coordinates[7] = 5.0;
   EXPECT_NE(name_of(other), name_of(miss()));
   other = miss();
-  other.solver.options.min_separation = 1e-3;
+  other.solver.options.separation.distance = 1e-3;
   EXPECT_NE(name_of(other), name_of(miss()));
   other = miss();
   other.kind = Kind::edge_edge;

@@ -20,11 +20,11 @@ constexpr Kind kind = Kind::edge_edge;
 constexpr fast::MethodOptions options{
       .tolerance = 0x1.0c6f7a0b5ed8dp-20,  // 1e-06
       .max_checks = 1000000,
-      .min_separation = 0x1.70a3d70a3d70ap-4,  // 0.09
-      .norm = Norm::l2,
+      .separation = {.distance = 0x1.70a3d70a3d70ap-4,  // 0.09
+                     .norm = Norm::l2},
       .t_max = 0x1p+0,  // 1
 };
-constexpr Separation separation{.distance = options.min_separation, .norm = options.norm};
+constexpr Separation separation = options.separation;
 constexpr fast::Promise promise = fast::Promise::exact;
 constexpr bool collides = false;
 constexpr Query query{{

@@ -20,11 +20,11 @@ constexpr Kind kind = Kind::vertex_face;
 constexpr fast::MethodOptions options{
       .tolerance = 0x1p-3,  // 0.125
       .max_checks = 77,
-      .min_separation = 0x0p+0,  // 0
-      .norm = Norm::linf,
+      .separation = {.distance = 0x0p+0,  // 0
+                     .norm = Norm::linf},
       .t_max = 0x1p+0,  // 1
 };
-constexpr Separation separation{.distance = options.min_separation, .norm = options.norm};
+constexpr Separation separation = options.separation;
 constexpr fast::Promise promise = fast::Promise::conservative;
 constexpr bool collides = true;
 constexpr Query query{{

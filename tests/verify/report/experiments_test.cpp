@@ -69,8 +69,8 @@ TEST(Experiments, EachMeasuresDistanceInItsOwnNorm) {
     for (const double distance : separation_distances()) {
       std::map<Norm, std::set<std::string>> names;
       for (const auto& [method, options] : trial.settings) {
-        if (options.min_separation != distance) continue;
-        names[options.norm].insert(std::string(method->name()));
+        if (options.separation.distance != distance) continue;
+        names[options.separation.norm].insert(std::string(method->name()));
       }
       EXPECT_EQ(names[Norm::linf], (std::set<std::string>{"certified", "tight_inclusion"}));
       EXPECT_EQ(names[Norm::l2], (std::set<std::string>{"certified", "fprf", "msrf"}));

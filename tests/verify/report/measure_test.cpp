@@ -192,7 +192,7 @@ TEST(Measure, TheTruthIsAboutTheSeparation) {
   const data::QueryGroup group = falling(10);
   Field field;
   field.add(tests::true_answer, Promise::none, "contact only",
-            {.min_separation = 0.5, .norm = Norm::l2});
+            {.separation = {.distance = 0.5, .norm = Norm::l2}});
   field.add(tests::true_answer, Promise::none, "contact");
   const std::vector<Measurement> all = field.run(group);
   ASSERT_EQ(all.size(), 2U);

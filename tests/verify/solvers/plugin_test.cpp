@@ -123,9 +123,10 @@ TEST(BoxOverlap, SaysNoWhereAnAxisSeparatesByTheLeastDouble) {
 TEST(BoxOverlap, TakesTheSeparationIntoAccount) {
   const auto method = load_plugin(box_overlap);
   const PosedQuery posed = tests::over_triangle(1, 1, 2, 1);
-  EXPECT_EQ(ask(*method, posed, {.min_separation = std::nextafter(1.0, 0.0)}).verdict, Verdict::no);
-  EXPECT_EQ(ask(*method, posed, {.min_separation = 1.0}).verdict, Verdict::yes);
-  EXPECT_EQ(ask(*method, posed, {.min_separation = -1.0}).verdict, Verdict::error);
+  EXPECT_EQ(ask(*method, posed, {.separation = {.distance = std::nextafter(1.0, 0.0)}}).verdict,
+            Verdict::no);
+  EXPECT_EQ(ask(*method, posed, {.separation = {.distance = 1.0}}).verdict, Verdict::yes);
+  EXPECT_EQ(ask(*method, posed, {.separation = {.distance = -1.0}}).verdict, Verdict::error);
 }
 
 TEST(BoxOverlap, RefusesNaN) {
@@ -258,7 +259,7 @@ TEST(Plugin, GetsTheOptions) {
   const auto method = load_plugin(misbehaving);
   const Answer answer =
       ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_options),
-          {.tolerance = 0.0625, .max_checks = 77, .min_separation = 0.25, .t_max = 0.5});
+          {.tolerance = 0.0625, .max_checks = 77, .separation = {.distance = 0.25}, .t_max = 0.5});
   EXPECT_EQ(answer.verdict, Verdict::yes);
   EXPECT_EQ(answer.toi_lower, 0.0625);
   EXPECT_EQ(answer.toi_upper, 0.25);
@@ -269,7 +270,7 @@ TEST(Plugin, GetsTheNorm) {
   const auto method = load_plugin(misbehaving);
   for (const Norm norm : {Norm::linf, Norm::l2}) {
     const Answer answer = ask(*method, Kind::vertex_face, query_for(Misbehaviour::repeats_norm),
-                              {.min_separation = 0.25, .norm = norm});
+                              {.separation = {.distance = 0.25, .norm = norm}});
     EXPECT_EQ(answer.toi_lower, norm == Norm::l2 ? 1.0 : 0.0);
   }
 }
@@ -277,8 +278,8 @@ TEST(Plugin, GetsTheNorm) {
 TEST(Plugin, MayBeOfTheVersionBeforeTheNorm) {
   const auto method = load_plugin(tests::plugin_library("old_version"));
   EXPECT_EQ(method->name(), "old_version");
-  const Answer answer =
-      ask(*method, Kind::vertex_face, {}, {.min_separation = 0.25, .norm = Norm::l2, .t_max = 0.5});
+  const Answer answer = ask(*method, Kind::vertex_face, {},
+                            {.separation = {.distance = 0.25, .norm = Norm::l2}, .t_max = 0.5});
   EXPECT_EQ(answer.toi_lower, 0.25);
   EXPECT_EQ(answer.toi_upper, 0.5);
 }

@@ -101,7 +101,7 @@ TEST(Registry, MethodsHeedTheDistancesThatTheySayTheyMeasure) {
     for (const Norm norm : method->info().norms) {
       fast::Answer answer;
       method->solve(Kind::vertex_face, {&query, 1}, {&answer, 1},
-                    {.min_separation = 1.5, .norm = norm});
+                    {.separation = {.distance = 1.5, .norm = norm}});
       EXPECT_EQ(answer.verdict, fast::Verdict::yes) << method->name();
     }
   }

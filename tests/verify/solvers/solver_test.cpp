@@ -247,13 +247,13 @@ TEST(Solver, GivesItsOptionsToTheMethodButTheSeparationOfTheRequest) {
     }
     void solve(Kind, std::span<const Query>, std::span<Answer> answers,
                const fast::MethodOptions& options) const override {
-      std::ranges::fill(answers, Answer{.toi_lower = options.min_separation,
-                                        .toi_upper = static_cast<double>(options.norm),
+      std::ranges::fill(answers, Answer{.toi_lower = options.separation.distance,
+                                        .toi_upper = static_cast<double>(options.separation.norm),
                                         .tolerance = options.tolerance});
     }
   };
   const OptionsMethod method;
-  const fast::MethodOptions options{.tolerance = 0.125, .min_separation = 7.0};
+  const fast::MethodOptions options{.tolerance = 0.125, .separation = {.distance = 7.0}};
   const std::vector<Query> queries(1);
   const auto here = solver_in_process(method, options),
              in_child = solver_in_children(method, options, {});
