@@ -146,7 +146,6 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/certified/stages/only_zero.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/stages/orientation.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/stages/refinement.hpp", "a part of the kernels, tested through them"},
-    {"fast/platform/avx_halves.hpp", "a part of the kernels, tested through them"},
     {"fast/tight_inclusion/box_kernel_on_lanes.hpp", "a part of the kernels, tested through them"},
     {"verify/cli/certificates_file.hpp", "tested through the commands that use it"},
     {"verify/cli/options.hpp", "tested through the commands that use it"},

@@ -7,7 +7,6 @@ extern const BoxKernel scalar_box_kernel;
 extern const BoxKernel scalar_released_box_kernel;
 #ifdef TOUCHSTONE_X86_64
 extern const BoxKernel avx2_box_kernel;
-extern const BoxKernel avx512_box_kernel;
 #endif
 
 namespace {
@@ -31,7 +30,6 @@ std::span<const BoxKernel* const> box_kernels() {
           &scalar_box_kernel,
 #ifdef TOUCHSTONE_X86_64
           &avx2_box_kernel,
-          &avx512_box_kernel,
 #endif
       },
       "kernel", rounds_products);

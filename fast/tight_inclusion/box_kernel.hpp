@@ -72,7 +72,7 @@ struct BoxKernel {
 /// filters::ReleasedEdgeEdge and filters::ReleasedVertexFace: for comparison only.
 [[nodiscard]] const BoxKernel& released_box_kernel();
 
-/// The kernel of an instruction set; nullptr if this processor cannot run it.
+/// The kernel of an instruction set; nullptr if there is none or this processor cannot run it.
 [[nodiscard]] const BoxKernel* find_box_kernel(InstructionSet instructions);
 
 }  // namespace touchstone::fast
