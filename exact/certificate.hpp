@@ -152,7 +152,7 @@ class CertificateLimitError : public std::runtime_error {
 };
 
 struct ProveOptions {
-  /// What to claim of a query that collides: `collision` or `time_of_impact`.
+  /// The claim about a query that collides: `collision` or `time_of_impact`.
   Claim collision_claim = Claim::time_of_impact;
   /// The interval of a time of impact is at most so wide, > 0; without a width its ends are
   /// neighbouring doubles, the upper one the toi itself where that is a double.

@@ -137,10 +137,10 @@ template <class Scalar>
   return value;
 }
 
-/// How the distance of two points is measured: the greatest of its components, or Euclid's.
+/// Norm of a distance: the greatest component of the difference, or Euclid's norm.
 enum class Norm : std::uint8_t { linf, l2 };
 
-/// How near counts as contact. A query *collides at distance d* iff ‖F(t,u,v)‖ ≤ d for some t ∈ [0,1]
+/// Minimum separation. A query *collides at distance d* iff ‖F(t,u,v)‖ ≤ d for some t ∈ [0,1]
 /// and (u,v) in the closed domain; its time of impact is the smallest such t. With d = 0 this is the
 /// collision above, in either norm. ([wang2021], section 5: "minimum separation", in L∞.)
 struct Separation {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What a derived error bound looks like to the code that uses it.
+/// The interface of a derived error bound for the code that uses it.
 
 #include <array>
 #include <cstddef>

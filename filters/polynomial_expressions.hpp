@@ -126,7 +126,7 @@ struct ProjectedGap {
   }
 };
 
-/// What the two expressions of the determinant share. Coordinates: r, p, q at t=0, then at t=1.
+/// Common parts of the two expressions of the determinant. Coordinates: r, p, q at t=0, then at t=1.
 struct DeterminantInputs {
   static constexpr std::size_t coordinates = 18;
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 1, 1, 1, 2, 2, 2,
@@ -173,7 +173,7 @@ struct DeterminantMiddle : DeterminantInputs {
   }
 };
 
-/// What the two expressions of an orientation share. Coordinates: d, then x, y at t=0, then at t=1.
+/// Common parts of the two expressions of an orientation. Coordinates: d, then x, y at t=0, then at t=1.
 struct OrientationInputs {
   static constexpr std::size_t coordinates = 15;
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 1, 1, 1, 2, 2,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What an error bound takes for granted of the arithmetic it was derived for, refused at compile
+/// The assumptions of error bounds about the arithmetic, refused at compile
 /// time where it does not hold: IEEE 754 binary64 and binary32, each operation rounded once to its
 /// own format, no value-changing optimisation. Every file with a filtered expression includes this
 /// one.

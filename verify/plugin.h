@@ -12,7 +12,7 @@
 /// of the primitives counts. With a minimum separation, coming within that distance is contact.
 ///
 /// Version 2 added touchstone_options::norm, behind all else. Plugins of version 1 are still taken:
-/// they are told the distance and not the norm, and judged under the norm that was asked for.
+/// they receive the distance but not the norm, and are judged in the norm that was asked for.
 
 #include <stdint.h>
 
@@ -30,7 +30,7 @@ enum touchstone_kind {
   touchstone_edge_edge = 1     ///< the edge ea0, ea1 and the edge eb0, eb1
 };
 
-/// How the distance of two points is measured.
+/// Norm of the distance of two points.
 enum touchstone_norm {
   touchstone_linf = 0,  ///< the greatest of its components
   touchstone_l2 = 1     ///< Euclid's
@@ -41,7 +41,7 @@ enum touchstone_verdict {
   touchstone_no = 0,
   touchstone_yes = 1,
   touchstone_undecided = 2,  ///< the solver cannot say; taken as a conservative yes
-  touchstone_error = 3       ///< the query or the options are none that the solver accepts
+  touchstone_error = 3       ///< the solver does not accept the query or the options
 };
 
 /// Options that solvers share. One that a solver has no use for, it ignores.
@@ -53,7 +53,7 @@ struct touchstone_options {
   int32_t norm;           ///< one of touchstone_norm: of min_separation; since version 2
 };
 
-/// What a solver fills in. The verdict is touchstone_error and every other field NaN when it gets
+/// The answer, which the solver fills in. The verdict is touchstone_error and every other field NaN when it gets
 /// it; a field that it has no value for, it leaves alone. Times are of interest only with
 /// touchstone_yes, and must then be finite or NaN.
 struct touchstone_answer {

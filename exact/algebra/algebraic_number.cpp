@@ -35,7 +35,7 @@ DyadicCell half(const DyadicCell& cell, bool upper) {
 struct Crowded {
   DyadicCell cell;
   int changes;
-  /// How many bits the next guess of where they are tries to gain.
+  /// Number of bits that the next approximation of their place should gain.
   unsigned long bits;
 };
 

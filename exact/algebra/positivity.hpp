@@ -30,7 +30,7 @@ inline constexpr unsigned long bisection_limit = 128;
 /// The sign (−1, 1) that all of the numbers have; 0 if one is zero or they differ in sign.
 [[nodiscard]] int common_sign(const std::vector<Integer>& numbers);
 
-/// How a proof by bisection ended.
+/// Outcome of a proof by bisection.
 struct BisectionProof {
   enum class Outcome : std::uint8_t {
     positive,  ///< proved

@@ -52,7 +52,7 @@ mpz_class from_digits(std::string_view digits, int base) {
   return number;
 }
 
-/// What stands behind 0x: H[.H]p[±]D, H hexadecimal and D decimal digits.
+/// The text after 0x: H[.H]p[±]D, H hexadecimal and D decimal digits.
 void take_hexadecimal(std::string_view& text, mpq_class& number) {
   std::string digits(take_digits(text, 16));
   const std::size_t whole_digits = digits.size();

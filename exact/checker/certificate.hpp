@@ -35,13 +35,13 @@ struct Rejected {
 
 enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 
-/// What stands on a line of its own and speaks of [from, to].
+/// A statement about [from, to] on a line of its own.
 struct Part {
   std::size_t line = 0;
   mpq_class from, to;
 };
 
-/// What names the direction that separates.
+/// The name of the direction that separates.
 enum class Feature : std::uint8_t { vertex, edge, face, axis, cross };
 
 /// `separate`: no contact in the interval.
@@ -77,7 +77,7 @@ struct Certificate {
   std::string label;
   /// The eight points of the query, x y z each, as listed.
   std::array<mpq_class, 24> coordinates;
-  /// How near is a contact, and by which norm: l2, or else linf.
+  /// The minimum separation and its norm: l2, or else linf.
   mpq_class distance = 0;
   bool is_l2 = false;
   Claim claim = Claim::no_collision;
@@ -122,7 +122,7 @@ class Reader {
   bool at_end_ = false;
   const char* fault_ = nullptr;
   std::string_view text_;
-  /// What was not taken yet: nothing, or a space and what follows it.
+  /// The rest of the line: nothing, or a space and the words after it.
   std::string_view rest_;
 };
 

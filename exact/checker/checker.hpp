@@ -49,7 +49,7 @@
 namespace touchstone::checker {
 
 struct Options {
-  /// How many rejections are kept with their reason; all are counted.
+  /// Number of rejections that are kept with their reason; all are counted.
   std::size_t max_rejections = 100;
 };
 
@@ -63,7 +63,7 @@ struct Rejection {
   std::string reason;
 };
 
-/// What became of the certificates of a stream.
+/// Results for the certificates of a stream.
 struct Report {
   /// Accepted certificates by their claim.
   std::uint64_t no_collision = 0;

@@ -10,7 +10,7 @@
 
 namespace touchstone::checker {
 
-/// How often an interval is halved, at most, to see that a polynomial is positive on it.
+/// The greatest number of times that an interval is halved to prove a polynomial positive on it.
 inline constexpr std::size_t max_bisections = 128;
 /// The size of coordinates and times once they are integers.
 inline constexpr std::size_t max_scaled_bits = 65'536;

@@ -21,7 +21,7 @@ class Conditions {
 
   template <std::size_t degree>
   void add(const Form<degree>& form, int sign) {
-    // What is zero throughout is divided by everything.
+    // A polynomial that is zero throughout is divisible by all others.
     if (form.is_zero()) return;
     (sign == 0 ? zero_ : nonzero_).push_back(to_polynomial(form));
   }

@@ -131,7 +131,7 @@ struct Motion {
   /// w_0..w_2 (vertex_face) or w_0..w_3 (edge_edge), in the order of touchstone::corners.
   std::array<Point, 4> corners;
   std::size_t corner_count;
-  /// How near counts as contact, in the unit of the coordinates; 0 where each axis has its own.
+  /// The minimum separation in units of the coordinates; 0 where each axis has its own.
   Integer distance = 0;
   Norm norm = Norm::l2;
 };

@@ -20,7 +20,7 @@ class StrictFloatingPoint {
 
  private:
 #ifdef __SSE2__
-  unsigned callers_;  ///< MXCSR, which is all that SSE, AVX and AVX-512 heed
+  unsigned callers_;  ///< MXCSR, the register that SSE, AVX and AVX-512 use
 #else
   std::fenv_t callers_;
 #endif

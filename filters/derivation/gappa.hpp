@@ -44,7 +44,7 @@ namespace touchstone::filters {
 enum class GappaGoal : std::uint8_t {
   /// |computed − exact| for coordinates up to 1, without underflow: the last coefficient.
   rounding,
-  /// What the underflows of the products add, in units of η (rounding_model.hpp): coefficient 0.
+  /// The error that underflows of products add, in units of η (rounding_model.hpp): coefficient 0.
   /// Only for expressions of degree 1, whose value is linear in coordinates and underflows, so that
   /// the two parts are proved apart.
   underflow
@@ -56,7 +56,7 @@ class GappaMissing : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What Gappa said to a script.
+/// Gappa's answer to a script.
 struct GappaAnswer {
   bool proved = false;             ///< the goal is proved, or the question has an answer
   std::optional<mpq_class> bound;  ///< the answer, if there was a question

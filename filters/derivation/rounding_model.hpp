@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// How far the value of an expression can be from the truth, proved from its operations.
+/// A bound on the error of an expression's value, proved from its operations.
 ///
 /// **Model.** Operations are rounded to nearest with gradual underflow. With u half the distance of
 /// 1 and the next number, and η half the least subnormal,

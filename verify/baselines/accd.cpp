@@ -21,7 +21,7 @@ double squared_distance(Kind kind, const Points& x) {
                                    : feature_squared_distance(Segment{x[0], x[1]}, {x[2], x[3]});
 }
 
-/// What stands for the squared distance while stepping.
+/// The quantity used as squared distance while stepping.
 double stepping_squared_distance(Kind kind, const Points& x, double separation) {
   const double distance = squared_distance(kind, x);
   if (kind == Kind::vertex_face || distance - separation * separation > 0.0) return distance;

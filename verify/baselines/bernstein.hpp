@@ -29,7 +29,7 @@
 
 namespace touchstone::baselines {
 
-/// What the number types have too, for doubles.
+/// The functions of the number types, for doubles.
 [[nodiscard]] inline double half(double x) { return 0.5 * x; }
 
 template <class Number>
@@ -198,7 +198,7 @@ template <class Number>
   return k[0] * ss * s + three * k[1] * ss * t + three * k[2] * s * tt + k[3] * tt * t;
 }
 
-/// What a cubic's coefficients say of its course on [0,1].
+/// The monotonicity of a cubic on [0,1], as its coefficients show it.
 enum class Course { monotone, one_extremum, inflection };
 
 /// One extremum, or none, of a cubic without an inflection. \param opposite of two signs

@@ -25,7 +25,7 @@
 ///     answer may be wrong either way.
 ///
 /// The published code throws past the restoring of the rounding mode, which then stays upward for
-/// the rest of the process, where its exact arithmetic is none. Here it is restored.
+/// the rest of the process, where its arithmetic is not exact. Here it is restored.
 ///
 /// It promises nothing.
 
@@ -41,7 +41,7 @@ namespace touchstone::baselines {
 /// taken as a collision.
 [[nodiscard]] bool bsc_collides(Kind kind, const Query& query);
 
-/// As a method: its name is `bsc`. It heeds no options.
+/// As a method: its name is `bsc`. It ignores all options.
 [[nodiscard]] std::unique_ptr<fast::Method> bsc_method();
 
 }  // namespace touchstone::baselines

@@ -24,7 +24,7 @@ namespace touchstone::baselines {
 template <std::size_t Dimensions>
 using ParameterBox = std::array<Interval, Dimensions>;
 
-/// How a search ended.
+/// Outcome of a search.
 template <std::size_t Dimensions>
 struct IntervalSearchResult {
   /// yes: a box was accepted. no: all were dropped. undecided: the checks ran out.

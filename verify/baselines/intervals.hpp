@@ -63,7 +63,7 @@ struct DirectedArithmetic : boost::numeric::interval_lib::rounding_control<doubl
   }
 };
 
-/// What overflows becomes infinite.
+/// Overflow gives infinity.
 using Interval =
     boost::numeric::interval<double,
                              boost::numeric::interval_lib::policies<

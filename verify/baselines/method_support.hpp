@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What the baselines have in common as methods: which queries they refuse, the
+/// Common parts of the baselines as methods: which queries they refuse, the
 /// floating-point state they run under, and the rule of the benchmark's harness that whatever a
 /// method throws counts as a collision. ([wang2021]: CCD-Wrapper.)
 

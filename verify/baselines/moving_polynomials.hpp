@@ -111,7 +111,7 @@ template <std::size_t Degree>
   return result;
 }
 
-/// What is left of coefficients, the highest power's first, without the first ones that are exactly
+/// The coefficients, the highest power's first, without the leading ones that are exactly
 /// 0; none if all are.
 [[nodiscard]] inline std::span<const double> without_leading_zeros(
     std::span<const double> coefficients) {

@@ -42,7 +42,7 @@
 
 namespace touchstone::baselines {
 
-/// What h is where no separation is asked for.
+/// The value of h where no separation is asked for.
 inline constexpr double msrf_default_separation = 1e-8;
 
 /// The quick tests before the polynomial of degree 6 is solved: can it have no zero in [0,1]? Of

@@ -88,7 +88,7 @@ struct Signed {
   double estimate;
 };
 
-/// What a segment from 0 does at a triangle.
+/// The position of a segment from 0 relative to a triangle.
 struct Crossing {
   bool is_there = false;
   double weight_of_origin = 0.5;
@@ -99,7 +99,7 @@ struct Crossing {
   }
 };
 
-/// How a try with one segment ends.
+/// Outcome of a trial with one segment.
 enum class Outcome { odd, even, on_surface, spoiled };
 
 /// One segment and the crossings of it.
@@ -254,7 +254,7 @@ class Try {
     return {value.sign(), value.estimate(3L * exact().unit)};
   }
 
-  /// What interval arithmetic cannot tell, in units of a power of two.
+  /// Differences below the resolution of interval arithmetic, in units of a power of two.
   struct Exact {
     int unit;  ///< its exponent
     std::array<ExactPoint, 8> corners;

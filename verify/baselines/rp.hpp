@@ -44,7 +44,7 @@ namespace touchstone::baselines {
 /// collision.
 [[nodiscard]] bool rp_collides(Kind kind, const Query& query);
 
-/// As a method: its name is `rp`. It heeds no options.
+/// As a method: its name is `rp`. It ignores all options.
 [[nodiscard]] std::unique_ptr<fast::Method> rp_method();
 
 }  // namespace touchstone::baselines

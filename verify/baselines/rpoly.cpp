@@ -78,12 +78,12 @@ class ZeroFinder {
   }
 
  private:
-  /// How K relates to the quadratic divisor: decides which of two formulas is stable.
+  /// The relation of K to the quadratic divisor: it decides which of two formulas is stable.
   enum class Scaling { by_c, by_d, almost_factor };
-  /// How an iteration for a real zero ended.
+  /// Outcome of an iteration for a real zero.
   enum class RealEnd { converged, failed, near_double_zero };
 
-  /// What stage 2 knows when a sequence of guesses settles.
+  /// The state of stage 2 when a sequence of approximations settles.
   struct Settled {
     bool linear;
     bool quadratic;

@@ -33,7 +33,7 @@ Rational dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] 
 
 bool has_no_area(const Triangle& t) { return cross(t[1] - t[0], t[2] - t[0]) == Point{}; }
 
-/// What a ray from a point does at a surface.
+/// The number of crossings of a ray from a point with a surface.
 enum class Hit { none, crosses, on_surface, bad_luck, error };
 
 bool settles(Hit hit) {

@@ -35,7 +35,7 @@ namespace touchstone::baselines {
 /// RRP's verdict. \pre all coordinates are finite.
 [[nodiscard]] bool rrp_collides(Kind kind, const Query& query);
 
-/// As a method: its name is `rrp`. It heeds no options.
+/// As a method: its name is `rrp`. It ignores all options.
 [[nodiscard]] std::unique_ptr<fast::Method> rrp_method();
 
 }  // namespace touchstone::baselines

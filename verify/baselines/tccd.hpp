@@ -52,7 +52,7 @@ namespace touchstone::baselines {
 /// TCCD's verdict. \pre all coordinates are finite, and the rounding is to nearest.
 [[nodiscard]] bool tccd_collides(Kind kind, const Query& query);
 
-/// As a method: its name is `tccd`. It heeds no options.
+/// As a method: its name is `tccd`. It ignores all options.
 [[nodiscard]] std::unique_ptr<fast::Method> tccd_method();
 
 }  // namespace touchstone::baselines

@@ -159,7 +159,7 @@ class CertifyRun {
                                to_string(first->kind.value()),
                                first->methods[i].judgement.first_missing.value(), first->name));
     }
-    // What ended early did not ask for all.
+    // A run that ended early did not ask all queries.
     if (sum_.interrupted || sum_.errors != 0) return;
     for (const std::string& warning : solvers_.warnings()) report_warning(warning);
   }

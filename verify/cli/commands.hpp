@@ -8,7 +8,7 @@
 
 namespace touchstone::verify::cli {
 
-/// How a run ended; the process's exit status.
+/// Outcome of a run; the process's exit status.
 enum class Status : int {
   all_well = 0,
   wrong_answers = 1,  ///< a recorded answer is not the truth, or a solver broke its promise

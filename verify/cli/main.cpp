@@ -42,7 +42,7 @@ int run(int argc, char** argv) {
            "touchstone COMMAND --help describes a command.\n"
            "Exit status: 0 all is well, 1 wrong answers, 2 bad input or usage, 130 interrupted.");
   app.set_version_flag("--version", TOUCHSTONE_VERSION, "Print the version");
-  // What was on the command line stands in the message.
+  // The message quotes the command line.
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return touchstone::verify::io::printable(error.what()) +
            "\nRun with --help for more information.\n";
@@ -81,7 +81,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     open_standard_streams();
-    // Then a write to a pipe without a reader fails, which print() knows how to bear.
+    // Then a write to a pipe without a reader fails, which print() handles.
     std::signal(SIGPIPE, SIG_IGN);
     touchstone::fast::require_strict_arithmetic();
     const int status = run(argc, argv);

@@ -30,7 +30,7 @@ inline constexpr std::uint64_t default_seed = 2021;
 /// Accepts finite numbers from 0 on as strtod takes them, hexadecimal ones too, that do not become 0.
 [[nodiscard]] CLI::Validator distance_number();
 
-/// What the user said of the separation.
+/// The separation that the user asked for.
 struct SeparationArguments {
   std::optional<double> distance;
   std::optional<Norm> norm;

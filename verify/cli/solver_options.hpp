@@ -20,7 +20,7 @@
 
 namespace touchstone::verify::cli {
 
-/// What the user said of solvers.
+/// The solvers that the user named, and their options.
 struct SolverArguments {
   std::vector<std::string> methods;
   std::vector<std::filesystem::path> plugins;
@@ -39,13 +39,13 @@ struct SolverArguments {
   /// Files that are read.
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
-  /// What the process of a solver may take.
+  /// Limits of a solver's process.
   [[nodiscard]] solvers::ChildLimits limits() const;
 
   /// The plugin at a path, loaded in a child process. \throws DatasetError as load_plugin does.
   [[nodiscard]] std::unique_ptr<fast::Method> load(const std::filesystem::path& plugin) const;
 
-  /// How the process of a solver is to be used: until interrupted.
+  /// Options of a solver's process: it ends at an interrupt.
   [[nodiscard]] solvers::SolverProcessOptions process() const;
 
   [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
@@ -90,7 +90,7 @@ class Solvers {
 
   [[nodiscard]] std::vector<const solvers::Solver*> all() const;
 
-  /// What they printed since the last call of this. Not to be called while one of them is asked.
+  /// Their output since the last call. Not to be called while one of them is solving.
   void report_output(bool show) const;
 
   /// Files of answers with answers to queries that were never asked: a warning text each.

@@ -24,7 +24,7 @@ class TotalProgress {
   TotalProgress(const std::string& title, std::size_t sources)
       : bar_(title), sources_(static_cast<double>(sources)) {}
 
-  /// What to tell the fraction of source number `index` that is done.
+  /// The callback for the progress of source number `index`.
   [[nodiscard]] std::function<void(double)> of(std::size_t index) {
     return [this, index](double fraction) {
       bar_.update((static_cast<double>(index) + fraction) / sources_);

@@ -16,7 +16,7 @@
 
 namespace touchstone::verify::cli {
 
-/// What the user said of the queries, and of the cores to use on them.
+/// The queries that the user named, and the cores to use on them.
 struct SourceArguments {
   std::vector<std::filesystem::path> paths;
   std::string kind;
@@ -34,7 +34,7 @@ struct SourceArguments {
 /// Adds the options that fill the arguments; these must live until the command line is parsed.
 void add_source_options(CLI::App& command, SourceArguments& arguments);
 
-/// What a command does with sources.
+/// The callbacks of a command for its sources.
 struct SourceHandlers {
   /// Of the progress bar over all sources.
   std::string title;
@@ -48,7 +48,7 @@ struct SourceHandlers {
   std::function<bool(const std::filesystem::path&)> is_output;
 };
 
-/// What counts as contact in a source: what the user said, or what is recorded with the source.
+/// The separation of a source: the user's, or the one recorded with the source.
 /// \throws DatasetError naming both if they contradict each other.
 [[nodiscard]] Separation separation_for(const SourceArguments& arguments,
                                         const data::QuerySource& source);

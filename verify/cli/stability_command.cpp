@@ -1,4 +1,4 @@
-// touchstone stability: how solvers bear hardness.
+// touchstone stability: solvers on queries of growing difficulty.
 
 #include <fmt/format.h>
 

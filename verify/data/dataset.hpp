@@ -20,7 +20,7 @@
 
 namespace touchstone::verify::data {
 
-/// How to read a dataset.
+/// Options for reading a dataset.
 struct DatasetOptions {
   /// The kind of all its queries; without it the path says it.
   std::optional<Kind> kind = std::nullopt;
@@ -41,7 +41,7 @@ using LeftOut = std::function<void(const DatasetError&)>;
 /// *.csv and *.npy below it, in the order of their names. Symbolic links are followed, but no folder
 /// below a path is searched twice. What accompanies datasets is left out: folders called toi,
 /// mma_bool, boxes or frames, and files named *_toi.csv.
-/// \param on_left_out told of all else that is left out, and of files in those folders that have a
+/// \param on_left_out called with everything else that is left out, and of files in those folders that have a
 /// dataset's name
 /// \throws DatasetError for a path that does not exist or cannot be read, or a folder without any
 /// dataset.

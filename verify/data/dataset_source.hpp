@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What the streams of all dataset formats have in common.
+/// Common parts of the streams of all dataset formats.
 ///
 /// A format only says whether there is another query and reads it. Here the queries are numbered,
 /// joined with what their companion files say, and, with keep_going, left out one by one if they

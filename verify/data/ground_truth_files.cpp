@@ -21,7 +21,7 @@ bool is_word_character(int c) {
          c == '-' || c == '.';
 }
 
-/// Splits a line of two columns; false if it is none.
+/// Splits a line of two columns; false if it has another number.
 bool split_fields(std::string_view line, std::array<std::string, 2>& fields) {
   const io::CsvSplit split = io::split_csv(line, fields);
   return split.count == fields.size() && split.fault == io::CsvSplit::Fault::none;

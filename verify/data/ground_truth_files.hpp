@@ -98,7 +98,7 @@ class ToiReader {
   std::optional<DatasetError> broken_;
 };
 
-/// What companion files say about a query.
+/// The ground truth of a query that files beside the dataset record.
 struct RecordedTruth {
   std::optional<bool> collides;
   std::optional<exact::Rational> toi;
@@ -116,7 +116,7 @@ class GroundTruthFiles {
   /// \throws DatasetError if a companion exists but its beginning cannot be read.
   explicit GroundTruthFiles(const std::filesystem::path& dataset);
 
-  /// What is known of a query; numbers must ascend from call to call.
+  /// The recorded ground truth of a query; numbers must ascend from call to call.
   /// \throws DatasetError if what is recorded cannot be read.
   [[nodiscard]] RecordedTruth at(std::uint64_t index);
 

@@ -33,7 +33,7 @@ class QueryGroup {
   [[nodiscard]] const std::vector<Query>& queries() const { return queries_; }
 
   /// Appends the queries of a source, up to its end or until `stopped`.
-  /// \param progress is told now and then the fraction of the source that is read.
+  /// \param progress called now and then with the fraction of the source that is read.
   /// \throws DatasetError as the source does, std::invalid_argument if it is of another kind.
   void read(QuerySource& source, const std::function<void(double)>& progress,
             const std::function<bool()>& stopped);

@@ -24,7 +24,7 @@ struct Track {
   /// Where it is at n/64, in 64ths.
   [[nodiscard]] std::int64_t at(std::int64_t n) const { return (parts - n) * start + n * end; }
 
-  /// How far above that solvers compute it to be, in 64ths.
+  /// How far above that value solvers compute it, in 64ths.
   [[nodiscard]] std::int64_t error(std::int64_t n) const {
     const double t = static_cast<double>(n) / parts;
     const auto a = static_cast<double>(start), b = static_cast<double>(end);
@@ -47,7 +47,7 @@ std::optional<Track> aligned_track(const Track& about, std::int64_t n, std::int6
   return std::nullopt;
 }
 
-/// What decides: the axis with the roundings, and where the contact is.
+/// The deciding parts: the axis with the roundings, and the place of the contact.
 struct Plan {
   std::array<Track, moving_points> tracks;
   std::int64_t n = 0;

@@ -101,7 +101,7 @@ std::array<Vector, moving_points> draw_velocities(Kind kind, Random& random) {
 
 // ---- Level --------------------------------------------------------------------------------------
 
-/// How the projections meet.
+/// Position of the projections relative to each other.
 enum class Spot : std::uint8_t { inside, side, corner };
 
 /// Takes a list in braces, whose draws have an order.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What the fuzzer finds: an answer of a solver that is wrong, or none at all.
+/// Findings of the fuzzer: wrong answers of a solver, or missing ones.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace touchstone::verify::fuzz {
 
-/// What is wrong: an answer, or that there is none.
+/// The kind of a finding: a wrong answer, or a missing one.
 enum class FindingKind : std::uint8_t {
   false_negative,    ///< no, but they collide
   false_positive,    ///< yes of what calls itself exact, but they do not collide
@@ -28,7 +28,7 @@ enum class FindingKind : std::uint8_t {
   exit,        ///< it ends its process with an exit status
   exception,   ///< it throws
   no_verdict,  ///< it answers error to a valid query, or sets no verdict
-  not_finite,  ///< yes with bounds or a tolerance that are none
+  not_finite,  ///< yes with invalid bounds or tolerance
   hang,        ///< it takes longer than the limit
   undecided    ///< of what calls itself exact, though they do not collide
 };
@@ -55,7 +55,7 @@ struct FailingCase {
   std::string certificate = {};
 };
 
-/// What became of the attempt to make a finding's query simpler.
+/// Outcome of the attempt to simplify a finding's query.
 enum class Shrinking : std::uint8_t {
   not_tried,
   complete,        ///< no step leads to a simpler query that fails

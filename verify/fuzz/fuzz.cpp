@@ -39,7 +39,7 @@ constexpr std::size_t block_queries = 256;
 constexpr std::size_t slice_queries = 16;
 /// Queries that are judged together: enough for the kernel, and few enough to end in time.
 constexpr std::size_t judged_together = 64;
-/// What is answered when the time is over has so long to be judged.
+/// The time left to judge answers that were given before the time was over.
 constexpr double seconds_to_judge = 1.0;
 /// Of the time left, the share that may go into making one finding simpler.
 constexpr double shrink_share = 0.1;
@@ -52,7 +52,7 @@ constexpr double oracle_work = 40.0;
 /// About the microseconds of a step that a solver says it took, such as a box.
 constexpr double check_work = 0.05;
 
-/// What a finding is worth beside a query of a new coverage key.
+/// The value of a finding relative to a query of a new coverage key.
 constexpr double finding_reward = 50.0;
 
 /// Far from overflow and underflow: what is made from it is not a query of zeros.
@@ -293,7 +293,7 @@ class Run {
                 {.separation = options_.separation, .max_threads = 1});
   }
 
-  /// What happened at a query, or null.
+  /// The failure at a query, or null.
   [[nodiscard]] const solvers::Failure* failure_at(std::size_t i) const {
     const auto found = std::ranges::lower_bound(failures_, i, {}, &solvers::QueryFailure::position);
     return found != failures_.end() && found->position == i ? &found->failure : nullptr;
@@ -432,7 +432,7 @@ class Run {
     result_.shrink_seconds += seconds() - begin;
   }
 
-  /// What makes two findings alike: who, what, and found in which way.
+  /// The properties that make two findings alike: solver, kind, generator.
   using Class = std::tuple<std::string, FindingKind, Kind, fast::Stage, std::size_t>;
 
   const FuzzOptions& options_;

@@ -35,7 +35,7 @@ struct CorpusQuery {
   Query query;
 };
 
-/// How far a run has come.
+/// Progress of a run.
 struct FuzzProgress {
   double seconds = 0.0;       ///< wall clock
   std::uint64_t queries = 0;  ///< asked
@@ -49,16 +49,16 @@ struct FuzzOptions {
   /// Queries asked, images included; 0: no limit. The run ends exactly there.
   std::uint64_t most_queries = 0;
   std::uint64_t seed = 2021;
-  /// What counts as contact.
+  /// Minimum separation.
   Separation separation = {};
   /// Passed on to the method, with the separation of above; t_max must be 1.
   fast::MethodOptions method = {};
-  /// What the method is held to, if not to its own promise.
+  /// The promise to judge the method by, if not its own.
   std::optional<fast::Promise> promise = std::nullopt;
   /// Wall-clock seconds a query may take; 0: no limit. Exact arithmetic takes one where coordinates from
   /// 2^-1074 to 2^1023 meet a distance in L2.
   double query_limit_seconds = 10.0;
-  /// What the method's process may take.
+  /// Limits of the method's process.
   solvers::ChildLimits limits = {};
   /// Findings that are kept (one or a few of a class) after which the run ends; 0: never.
   std::size_t most_findings = 0;
@@ -87,16 +87,16 @@ struct FuzzOptions {
 /// Is that kind of findings sought?
 [[nodiscard]] bool seeks(const FuzzOptions& options, FindingKind what);
 
-/// What the method of a run is asked with.
+/// Options of the calls to the method.
 [[nodiscard]] fast::MethodOptions method_options(const FuzzOptions& options);
 
-/// What ended a run.
+/// The reason why a run ended.
 enum class FuzzEnd : std::uint8_t { time, queries, findings, interrupt };
 
 /// "time", "queries", "findings" or "interrupt".
 [[nodiscard]] std::string_view to_string(FuzzEnd end);
 
-/// What one generator has brought.
+/// Results of one generator.
 struct GeneratorStatistics {
   std::string name;
   std::uint64_t queries = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What a run of the fuzzer reports: as text for a person, as JSON for a program.
+/// The report of the fuzzer: as text for a person, as JSON for a program.
 
 #include <cstdint>
 #include <nlohmann/json.hpp>

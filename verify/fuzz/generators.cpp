@@ -166,7 +166,7 @@ Query mutate(Kind kind, const GeneratorContext& context, Random& random) {
   return mutated(from_pool(kind, context, random), random);
 }
 
-/// What the exponent of a greatest coordinate may be. Most of the time not far from that of the
+/// Exponents of the greatest coordinate. Most of the time not far from that of the
 /// distance, if there is one: it decides nothing among coordinates of quite another size.
 std::pair<int, int> draw_exponents(const Separation& separation, Random& random) {
   constexpr int most = 1000, near = 30;

@@ -39,7 +39,7 @@ class QueryPool {
   std::size_t oldest_ = 0;
 };
 
-/// What generators draw from.
+/// The input of generators.
 class GeneratorContext {
  public:
   explicit GeneratorContext(const Separation& separation);
@@ -64,7 +64,7 @@ class GeneratorContext {
 struct Generator {
   /// Unique, snake_case.
   std::string_view name;
-  /// What its queries are.
+  /// A description of its queries.
   std::string_view about;
   /// The work of a query: about the microseconds that making and judging it takes.
   double work;

@@ -144,7 +144,7 @@ void simplify(const fast::Method& method, const FuzzOptions& options,
     if (evidence) finding.simplest = std::move(*evidence);
     return evidence.has_value();
   };
-  // What ended the process or took too long was asked alone before.
+  // A query that ended the process or took too long was asked alone before.
   if (!is_confirmed_alone(finding.what) && !fails(finding.original.query)) {
     finding.shrinking = must_end() ? Shrinking::cut_short : Shrinking::not_reproduced;
     return;

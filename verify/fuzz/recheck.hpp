@@ -24,16 +24,16 @@ namespace touchstone::verify::fuzz {
 /// The name of the solver that judges the others.
 [[nodiscard]] inline std::string_view judge_name() { return fast::certified_info().name; }
 
-/// What a method is held to in a run.
+/// The promise and separation that a method is judged by.
 [[nodiscard]] Standard standard_of(const fast::Method& method, const FuzzOptions& options);
 
-/// How a solver's process is used in a run.
+/// Options of a solver's process in a run.
 [[nodiscard]] solvers::SolverProcessOptions process_options(const FuzzOptions& options);
 
 /// For the solver's process: as many seconds by the system's clock, at least a millisecond.
 [[nodiscard]] jobs::Deadline solver_deadline(const jobs::Deadline& deadline);
 
-/// What the judge says, as an answer.
+/// The judge's decision as an answer.
 [[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& judged);
 
 /// The evidence of a fault. \param verdict of the query, at the run's separation
@@ -56,7 +56,7 @@ class Recheck {
                                                const jobs::Deadline& deadline = {});
 
  private:
-  /// What the solver answers alone, or why it does not.
+  /// The solver's answer to this query alone, or the reason why there is none.
   struct Reply {
     fast::Answer answer;
     std::optional<solvers::Failure> failure;

@@ -83,7 +83,7 @@ std::string options_as_code(const fast::MethodOptions& options) {
       to_string(options.separation.norm), hexadecimal(options.t_max), options.t_max);
 }
 
-/// The test itself: whom it asks.
+/// The call in the test.
 std::string call_as_code(const SolverCall& solver) {
   if (solver.plugin.empty()) {
     return fmt::format("expect_no_fault(verify::solvers::find_method({}));",

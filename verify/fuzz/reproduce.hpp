@@ -29,17 +29,17 @@ struct SolverCall {
   std::string method;
   /// The plugin's library; empty for one of methods().
   std::filesystem::path plugin = {};
-  /// What it is held to.
+  /// The promise it is judged by.
   fast::Promise promise = fast::Promise::conservative;
   /// With the separation that counts as contact.
   fast::MethodOptions options = {};
   /// Wall-clock seconds that a query may take; 0: no limit.
   double query_limit_seconds = 0.0;
-  /// What its process may take.
+  /// Limits of its process.
   solvers::ChildLimits limits = {};
 };
 
-/// What a solver answered wrongly.
+/// A query and the wrong answer to it.
 struct Reproduction {
   FindingKind what = FindingKind::false_negative;
   Kind kind = Kind::vertex_face;

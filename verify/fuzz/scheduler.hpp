@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What makes the search go where it pays.
+/// The scheduler directs the search to generators that bring new results.
 ///
 /// Queries fall into sorts, told apart by a *coverage key*: at which stage the judge decided, where
 /// the time of impact is, how far the answer is from it, and so on. A query of a sort that is rare
@@ -17,7 +17,7 @@
 
 namespace touchstone::verify::fuzz {
 
-/// How often each coverage key was seen.
+/// Number of times that each coverage key was seen.
 class CoverageTable {
  public:
   CoverageTable();
@@ -35,7 +35,7 @@ class CoverageTable {
 };
 
 struct SchedulerOptions {
-  /// What was learnt counts so much less after each unit of work learnt later: half after 0.7 /
+  /// The factor by which the weight of earlier results decreases with each unit of later work: half after 0.7 /
   /// this.
   double forgetting = 1e-4;
   /// Share of the draws that goes to all arms alike, 0 to 1.

@@ -94,7 +94,7 @@ std::array<double, 2> with_bits(double x, int bits) {
   return {std::ldexp(down, top - bits), std::ldexp(up, top - bits)};
 }
 
-/// How many bits are tried, fewest first; and one fewer than there are.
+/// Numbers of bits to try, fewest first; then one fewer than there are.
 constexpr std::array bit_counts{1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48};
 
 /// Numbers to try in the place of a positive one, the simplest first.

@@ -29,9 +29,9 @@
 
 namespace touchstone::verify::fuzz {
 
-/// How far a query is from simple: less is simpler. Two queries may be equally simple.
+/// The complexity of a query: less is simpler. Two queries may be equally simple.
 struct Complexity {
-  /// What it takes to write it down. For each magnitude that occurs (0 apart): 8, its significant
+  /// The length of its description. For each magnitude that occurs (0 apart): 8, its significant
   /// bits, the empty binary places between these and the point, and 2 if it is no integer. For each
   /// coordinate: 2 unless it is 0, 1 for a sign, 1 if it moves.
   std::uint64_t length = 0;

@@ -18,12 +18,12 @@ using fast::CertifiedResult;
 using fast::Promise;
 using fast::Verdict;
 
-/// Of a yes: a bound that is infinite, or a tolerance that is none. (NaN says: not given.)
+/// Of a yes: an infinite bound, or an invalid tolerance. (NaN says: not given.)
 bool has_bad_number(const Answer& answer) {
   return std::isinf(answer.toi_lower) || std::isinf(answer.toi_upper) || answer.tolerance < 0.0;
 }
 
-/// How near they come by what a yes claims, if it claims anything.
+/// The distance that a yes claims, if it claims one.
 std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& answer,
                                    const Standard& standard) {
   const Separation claimed =
@@ -32,8 +32,8 @@ std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& 
 }
 
 /// Of a yes to what does not collide; what collides is near enough for any claim.
-std::optional<Diagnosis> accuse_tolerance(Kind kind, const Query& query, const Answer& answer,
-                                          const Standard& standard) {
+std::optional<Diagnosis> tolerance_fault(Kind kind, const Query& query, const Answer& answer,
+                                         const Standard& standard) {
   const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
   if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
   return Diagnosis{FindingKind::beyond_tolerance,
@@ -41,7 +41,7 @@ std::optional<Diagnosis> accuse_tolerance(Kind kind, const Query& query, const A
                                judge::to_text(*claimed))};
 }
 
-std::optional<Diagnosis> accuse_toi(const judge::GroundTruth& truth, const Answer& answer) {
+std::optional<Diagnosis> toi_fault(const judge::GroundTruth& truth, const Answer& answer) {
   const auto [lower, upper] = truth.toi.value();
   // The enclosure's ends are neighbouring doubles, or one: these comparisons are exact.
   if (answer.toi_lower > lower) {
@@ -88,7 +88,7 @@ std::optional<Diagnosis> diagnose(Kind kind, const Query& query, const judge::Gr
     if (answer.verdict == Verdict::no) {
       return Diagnosis{FindingKind::false_negative, "no, but they collide"};
     }
-    return answer.verdict == Verdict::yes ? accuse_toi(truth, answer) : std::nullopt;
+    return answer.verdict == Verdict::yes ? toi_fault(truth, answer) : std::nullopt;
   }
   if (answer.verdict == Verdict::no) return std::nullopt;
   if (standard.promise == Promise::exact) {
@@ -96,7 +96,7 @@ std::optional<Diagnosis> diagnose(Kind kind, const Query& query, const judge::Gr
         answer.verdict == Verdict::yes ? FindingKind::false_positive : FindingKind::undecided,
         to_text(answer) + ", but they do not collide, and it promises exactness"};
   }
-  return answer.verdict == Verdict::yes ? accuse_tolerance(kind, query, answer, standard)
+  return answer.verdict == Verdict::yes ? tolerance_fault(kind, query, answer, standard)
                                         : std::nullopt;
 }
 

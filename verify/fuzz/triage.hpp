@@ -6,7 +6,7 @@
 /// The certified solver decides blocks of queries at speed. Its verdicts and enclosures tell at
 /// once that most answers are right; the others are *doubtful*, and only the oracle says of them
 /// that they are wrong. So a fault of the judge costs a finding, which the oracle's share of all
-/// queries brings to light, and never accuses an innocent solver.
+/// queries brings to light, and no correct solver is reported.
 
 #include <optional>
 #include <string>
@@ -20,7 +20,7 @@
 
 namespace touchstone::verify::fuzz {
 
-/// What a solver is held to.
+/// The promise and separation that a solver is judged by.
 struct Standard {
   fast::Promise promise = fast::Promise::conservative;
   Separation separation = {};
@@ -28,7 +28,7 @@ struct Standard {
   std::optional<fast::ErrorModel> filter = std::nullopt;
 };
 
-/// What is wrong, and in words.
+/// The kind of fault, and a description.
 struct Diagnosis {
   FindingKind what;
   std::string detail;
@@ -40,7 +40,7 @@ struct Diagnosis {
                                    const fast::CertifiedResult& judged, const fast::Answer& answer,
                                    const Standard& standard);
 
-/// What is wrong with the answer to a valid query, if anything is:
+/// The fault of the answer to a valid query, if it has one:
 /// - no_verdict: the verdict is `error`;
 /// - not_finite: yes with an infinite bound, or a tolerance below 0;
 /// - false_negative: no, but they collide;
@@ -53,7 +53,7 @@ struct Diagnosis {
                                                 const fast::Answer& answer,
                                                 const Standard& standard);
 
-/// What is wrong with a solver that gave no answer, or none that can be.
+/// The fault of a solver that gave no answer, or an impossible one.
 /// \param limit_seconds that a query may take
 [[nodiscard]] Diagnosis diagnose_failure(const solvers::Failure& failure, double limit_seconds);
 

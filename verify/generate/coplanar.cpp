@@ -23,7 +23,7 @@ void share_height(Sampler& sampler, Query& query) {
   for (std::size_t point = 0; point < moving_points; ++point) set(query, point, 2, height);
 }
 
-/// How the motion towards the contact ends.
+/// The end of the motion towards the contact.
 enum class Ending : std::uint8_t { passes, stops_short, arrives, starts_there };
 
 /// A line that passes `target`, stops one unit in the last place below it, ends on it, or starts on

@@ -37,7 +37,7 @@ Contact contact_at_zero(Kind kind, const Places& places) {
   return {parameter_of_zero(places[0], places[1]), parameter_of_zero(places[2], places[3])};
 }
 
-/// What becomes of the contact at place 0.
+/// The fate of the contact at place 0.
 enum class Change : std::uint8_t { none, moved_off_line };
 
 /// The query with all points on a line at one moment; see the top of the file.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What the builders of all families share: their input, their outcomes, exact symmetries.
+/// Common parts of the builders of all families: their input, their outcomes, exact symmetries.
 
 #include <array>
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace touchstone::verify::generate {
 
-/// What a builder is asked for.
+/// The input of a builder.
 struct Recipe {
   Kind kind;
   /// Number of the query in its family.
@@ -27,7 +27,7 @@ struct Recipe {
   bool full;
   /// The query's own stream of random numbers.
   Random random;
-  /// What counts as contact, for families that are about it.
+  /// Minimum separation, for families about it.
   Separation separation = {};
   /// Set by a builder whose query must stay as it is printed in the paper: no symmetry is applied.
   bool as_printed = false;

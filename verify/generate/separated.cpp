@@ -40,7 +40,7 @@ namespace {
 using Vector3 = std::array<double, 3>;
 using IntegerVector = std::array<std::int64_t, 3>;
 
-/// How an offset goes, as factors at t=0 and t=1: powers of two or 0, so that products are exact.
+/// The course of an offset, as factors at t=0 and t=1: powers of two or 0, so that products are exact.
 struct Course {
   double start;
   double end;

@@ -25,7 +25,7 @@ constexpr double approach = 2.0;      // way of each patch towards the other
 constexpr double slide = 1.6;         // way of each patch sideways
 constexpr double perturbation = 0.2;  // of each vertex' way, on each axis
 
-/// How high the bowl's rim is above its bottom, in units of the patch's side.
+/// Height of the bowl's rim above its bottom, in units of the patch's side.
 constexpr double bowl = 0.02;
 
 /// One of the two patches. Its own axes are those of the lower one; the upper one is turned by a

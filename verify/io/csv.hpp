@@ -4,7 +4,7 @@
 /// Comma-separated values as RFC 4180 has them: a field with a comma, a quote or a line end in it
 /// stands in quotes, and quotes in it are doubled.
 ///
-/// What is written is printable (printable.hpp), and no formula to a spreadsheet: a text that begins with
+/// The output is printable (printable.hpp), and no formula to a spreadsheet: a text that begins with
 /// = + - or @ and is no number gets an apostrophe in front, and so does one that begins with
 /// apostrophes and then with one of these.
 
@@ -31,7 +31,7 @@ namespace touchstone::verify::io {
 /// csv_field() put in front of a formula. Of what others wrote, the text made printable.
 [[nodiscard]] std::string text_of_field(std::string_view field);
 
-/// What split_csv found.
+/// The result of split_csv.
 struct CsvSplit {
   enum class Fault : std::uint8_t {
     none,

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What a command does with a terminal and its user: print, show progress, and stop when asked.
+/// The terminal: printing, progress, and stopping at an interrupt.
 
 #include <atomic>
 #include <chrono>

@@ -32,7 +32,7 @@
 namespace touchstone::verify::jobs {
 
 struct BenchOptions {
-  /// What counts as contact, for the solvers and for the truth.
+  /// Minimum separation, for the solvers and for the ground truth.
   Separation separation = {};
   /// At least 1.
   std::size_t repetitions = 5;
@@ -79,7 +79,7 @@ struct SolverResult {
   std::vector<data::QueryPlace> wrong_places;
 };
 
-/// What a run on one group found.
+/// Results of a run on one group.
 struct BenchResult {
   std::string name;  ///< of the group
   Kind kind = Kind::vertex_face;

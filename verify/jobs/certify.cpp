@@ -46,7 +46,7 @@ bool within(const exact::AlgebraicNumber& toi, const exact::Rational& recorded,
   return toi >= lower && toi <= upper;
 }
 
-/// How claims are compared with the truth.
+/// The comparison of recorded claims with the ground truth.
 struct Comparison {
   judge::Inference inference;
   exact::Rational tolerance;
@@ -81,7 +81,7 @@ void compare(std::uint64_t index, const Block::Claim& claim, const exact::Verdic
           : Mismatch{Mismatch::Of::toi, index, data::to_decimal(*claim.toi), verdict_text(false)});
 }
 
-/// What the oracle finds in a part of a block.
+/// The oracle's results for a part of a block.
 struct DecidedPart {
   std::vector<Mismatch> mismatches;
   double nanoseconds = 0.0;
@@ -89,7 +89,7 @@ struct DecidedPart {
   ProofCounts proofs;
 };
 
-/// What a solver answers to a part of a block.
+/// A solver's answers to a part of a block.
 struct AnsweredPart {
   std::size_t count = 0;
   solvers::SolveReply reply;

@@ -37,7 +37,7 @@ struct Mismatch {
 };
 
 struct CertifyOptions {
-  /// What counts as contact.
+  /// Minimum separation.
   Separation separation = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
@@ -72,7 +72,7 @@ struct MethodResult {
 struct CertifyResult {
   std::string name;
   Separation separation = {};  ///< what counted as contact; not set in a total
-  /// What of the recorded claims was compared; not set in a total.
+  /// Which recorded claims were compared; not set in a total.
   judge::Inference compared = judge::Inference::all;
   std::optional<Kind> kind;      ///< empty for a total, and for a source that could not be opened
   std::uint64_t queries = 0;     ///< decided

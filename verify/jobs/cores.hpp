@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// How many cores a job uses.
+/// Number of cores of a job.
 
 #include <oneapi/tbb/info.h>
 

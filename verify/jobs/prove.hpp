@@ -21,7 +21,7 @@
 
 namespace touchstone::verify::jobs {
 
-/// What was proved, and what it took.
+/// The proofs, and their cost.
 struct ProofCounts {
   std::uint64_t no_collision = 0;
   std::uint64_t collision = 0;
@@ -53,7 +53,7 @@ void append_certificate(Kind kind, const Query& query, const exact::Verdict& ver
 [[nodiscard]] nlohmann::json to_json(const ProofCounts& counts);
 
 struct SourceProofOptions {
-  /// What counts as contact.
+  /// Minimum separation.
   Separation separation = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
@@ -67,7 +67,7 @@ struct SourceProofOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// What became of one source, or of several.
+/// Results for one source, or for several.
 struct SourceProof {
   ProofCounts counts = {};
   double oracle_nanoseconds = 0.0;  ///< processor time of the oracle, summed over the queries

@@ -18,7 +18,7 @@
 namespace touchstone::verify::jobs {
 
 struct SolveOptions {
-  /// What counts as contact.
+  /// Minimum separation.
   Separation separation = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
@@ -33,7 +33,7 @@ struct SolveOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// How often a solver gave which answer, and what it took.
+/// Counts of a solver's answers by verdict, and their time.
 struct SolveResult {
   std::uint64_t queries = 0;  ///< answered
   std::uint64_t yes = 0;

@@ -37,7 +37,7 @@ class Repetitions {
   std::vector<double> processor_;
 };
 
-/// What one kind of candidates is and says.
+/// Candidates of one kind and their results.
 struct Part {
   Kind kind;
   std::vector<fast::IndexPair> pairs = {};

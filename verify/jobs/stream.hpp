@@ -27,7 +27,7 @@ namespace touchstone::verify::jobs {
 
 /// Some consecutive queries of a source.
 struct Block {
-  /// What the source claims of a query.
+  /// The source's claim about a query.
   struct Claim {
     std::optional<bool> collides;
     std::optional<exact::Rational> toi;
@@ -78,7 +78,7 @@ class Passes {
   std::vector<std::size_t> done_;  // passes that are done with each unit
 };
 
-/// What the work on a block leaves to be done in the order of the queries.
+/// The part of the work on a block that is done in the order of the queries.
 struct BlockResult {
   /// Called once, never from two threads at once.
   std::function<void()> in_order;
@@ -99,7 +99,7 @@ struct StreamOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// How a stream ended.
+/// Outcome of a stream.
 struct StreamResult {
   std::uint64_t skipped = 0;  ///< in error, left out
   std::uint64_t rounded = 0;  ///< coordinates rounded to double

@@ -38,7 +38,7 @@ struct Times {
   [[nodiscard]] double min() const;
 };
 
-/// How large a sample may grow.
+/// Limits of a sample's size.
 struct SampleLimits {
   /// Queries; at least 1.
   std::size_t most = 0;
@@ -92,7 +92,7 @@ class TimedSolver {
  private:
   /// Processor time in nanoseconds, the mean of so many calls.
   double time_calls(const solvers::Solver& solver, std::size_t calls);
-  /// How many times as many queries would take as long as they may, by the pace of these.
+  /// The factor by which a sample may grow within the time allowed, at the pace of these queries.
   double possible_growth(const SampleLimits& limits);
 
   const solvers::Solver* solver_;
@@ -124,7 +124,7 @@ template <class Work>
   return (thread_nanoseconds() - start) / static_cast<double>(calls);
 }
 
-/// What a repetition times, in this order: a rotation of 0, …, `items`−1, so that no item always runs
+/// The order of measurements in a repetition: a rotation of 0, …, `items`−1, so that no item always runs
 /// behind the same other one.
 [[nodiscard]] std::vector<std::size_t> order_of_repetition(std::size_t items,
                                                            std::size_t repetition);

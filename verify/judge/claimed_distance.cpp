@@ -83,7 +83,7 @@ bool is_seen_within(Kind kind, const Query& query, double t, double distance) {
     };
     return is_within_on(0) && is_within_on(1) && is_within_on(2);
   };
-  // What is nearest in L2 is found faster, and mostly near enough.
+  // The closest points in L2 are found faster, and are mostly close enough.
   return is_within(Norm::l2) || is_within(Norm::linf);
 }
 

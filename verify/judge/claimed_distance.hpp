@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// How near the primitives really come by what a yes with a tolerance claims.
+/// The check of the distance that a yes with a tolerance claims.
 ///
 /// In general (verify/plugin.h): a yes with tolerance τ, asked for the separation d in a norm, claims that the
 /// primitives come within d + τ of each other in that norm at some time.
@@ -23,7 +23,7 @@
 
 namespace touchstone::verify::judge {
 
-/// How near, in units of the coordinates and in which norm, the primitives come at some time by what
+/// The distance, in units of the coordinates and in a norm, within which the primitives come at some time by what
 /// a yes to the query claims, rounded up. Infinite, hence no valid separation, where it claims
 /// nothing: without a tolerance, and with a filter for coordinates or separations beyond 2^1016,
 /// which Tight-Inclusion scales down first.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What is true of the queries of a group, decided once by the oracle for all who ask in a run.
+/// Ground truth of the queries of a group, decided once by the oracle for all users in a run.
 
 #include <atomic>
 #include <cstddef>
@@ -27,7 +27,7 @@ class GroundTruthCache {
   /// The truth of the queries at these positions, in their order; `index` is the position. Those that
   /// are not known yet are decided; once *stop is true (it may be null) no more of them, and then only
   /// those before the first unknown one are returned.
-  /// \param on_progress told now and then the fraction that is done, from this thread; may be null
+  /// \param on_progress called now and then with the fraction that is done, from this thread; may be null
   /// \throws std::invalid_argument if a coordinate is not finite, or the separation not valid;
   /// std::out_of_range for a position beyond the group.
   [[nodiscard]] std::vector<GroundTruth> of(

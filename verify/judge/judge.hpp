@@ -30,7 +30,7 @@
 
 namespace touchstone::verify::judge {
 
-/// What an answer can be wrong in.
+/// The faults of an answer.
 enum class Fault : std::uint8_t {
   false_negative,   ///< no, but they collide
   false_positive,   ///< yes or undecided, but they do not collide
@@ -45,7 +45,7 @@ inline constexpr std::size_t fault_count = 6;
 /// tolerance".
 [[nodiscard]] std::string_view to_string(Fault fault);
 
-/// How far toi_lower is from the exact time of impact, of many answers, in bounded memory.
+/// The errors of toi_lower against the exact time of impact, of many answers, in bounded memory.
 ///
 /// A histogram: 64 buckets to a factor of two, so a quantile is known to 1.6%; it is the upper end
 /// of its bucket, never less than the true quantile. Zero and the maximum are exact.

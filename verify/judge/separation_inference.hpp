@@ -20,14 +20,14 @@ namespace touchstone::verify::judge {
 /// Do both ask the same?
 [[nodiscard]] bool same_separation(const Separation& a, const Separation& b);
 
-/// What claims about one separation say about another.
+/// Conclusions from claims about one separation about another.
 enum class Inference : std::uint8_t {
   all,         ///< it is the same separation
   collisions,  ///< a collision is one there too, and no later
   nothing,
 };
 
-/// What a claim about `claimed` says about `asked`.
+/// The conclusion from a claim about `claimed` about `asked`.
 [[nodiscard]] Inference infer(const Separation& claimed, const Separation& asked);
 
 /// The separation of all of a list, if it is one, and more than contact.

@@ -28,7 +28,7 @@ struct MovingMesh {
 [[nodiscard]] MovingMesh read_step(const std::filesystem::path& before,
                                    const std::filesystem::path& after);
 
-/// What the broad phase leaves of all pairs, with all that come within the distance on every axis:
+/// The pairs that the broad phase finds, with all that come within the distance on every axis:
 /// enough for either norm. \param max_threads 0: all cores
 [[nodiscard]] std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind,
                                                            int max_threads = 0,

@@ -129,7 +129,7 @@ class Input {
   /// From here on the file has no lines.
   void begin_binary() { binary_ = true; }
 
-  /// What is read from here on belongs to this element; the name has to outlive it.
+  /// All that is read from here on belongs to this element; the name has to outlive it.
   void begin_element(std::string_view name, std::uint64_t number) {
     element_ = name;
     number_ = number;
@@ -185,7 +185,7 @@ class HeaderReader {
   }
 
  private:
-  /// What is not understood stays in `rest`, or is an error at once.
+  /// Text that is not understood stays in `rest`, or is an error at once.
   void read_statement(std::string_view keyword, std::string_view& rest) {
     if (keyword == "format") {
       read_format(rest);

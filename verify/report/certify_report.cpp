@@ -58,7 +58,7 @@ std::string_view name_of(judge::Inference inference) {
   return inference == judge::Inference::collisions ? "collisions" : "nothing";
 }
 
-/// What the numbers below are about.
+/// The separation of the numbers below.
 std::string separations_text(const std::vector<jobs::CertifyResult>& results) {
   if (!has_separation(results)) return {};
   std::string text;
@@ -126,7 +126,7 @@ std::string wrong_answers_of(const jobs::CertifyResult& result, const jobs::Meth
                             });
 }
 
-/// How often it gave no answer, by kind, if that is for other reasons than its own indecision.
+/// Number of missing answers, by kind, unless the solver itself was undecided.
 std::string failures_text(const jobs::MethodResult& method) {
   const judge::Judgement& judged = method.judgement;
   const auto is_other = [&](solvers::FailureKind kind) {

@@ -36,7 +36,7 @@ constexpr std::int64_t stability_limit = 10'000;
 constexpr std::int64_t filter_limit = 100'000;
 constexpr std::size_t most_of_family = 500, most_of_scale = 10'000;
 
-/// What the experiments on groups take of the whole run, and that on filters; the rest is the map of
+/// The shares of the experiments on groups and on filters in the whole run; the rest is the map of
 /// stability's.
 constexpr double part_of_trials = 0.8, part_of_filters = 0.05;
 

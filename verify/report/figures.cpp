@@ -187,7 +187,7 @@ class Builder {
                          : fmt::format(" Asked fewer of the {} queries: {}.", most, fewer);
   }
 
-  /// How many queries the curves are about.
+  /// Number of queries behind the curves.
   static std::string sample_sentence_of_curves(const Chosen& chosen) {
     std::map<std::string, std::uint64_t> asked;
     for (const Measurement* m : chosen) asked[m->method] = m->asked;

@@ -16,7 +16,7 @@
 
 namespace touchstone::verify::report {
 
-/// How page.js draws a panel.
+/// The form in which page.js draws a panel.
 enum class FigureForm : std::uint8_t {
   points,  ///< named points and curves, with a front
   lines,   ///< curves
@@ -39,7 +39,7 @@ struct FigurePoint {
   friend bool operator==(const FigurePoint&, const FigurePoint&) = default;
 };
 
-/// What is drawn in one colour.
+/// The series drawn in one colour.
 struct FigureSeries {
   std::string name;
   std::string role;  ///< "point", "curve", "hits", "misses", "stage", or the row of a grid

@@ -60,7 +60,7 @@ std::vector<Sum> sums_of(const Measurements& measurements) {
   return sums;
 }
 
-/// What is said of each, by commas; nothing is said of those that do not belong to the list.
+/// The descriptions of the listed items, separated by commas; items that are not in the list are left out.
 template <class List, class Say>
 std::string list(const List& all, const Say& say) {
   std::string text;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What the measurements of a report say, in a few sentences: the page opens with them.
+/// The findings of a report in a few sentences: the page opens with them.
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What is wrong with a method's answers, in words, in tables and as JSON: the same for every command
+/// Faults of a method's answers in words, in tables and as JSON: the same for every command
 /// that judges.
 
 #include <array>
@@ -58,7 +58,7 @@ using FailureCounts = std::array<std::uint64_t, solvers::failure_kinds>;
 /// "1 crash, 2 undecided": how many of each kind; empty if there are none.
 [[nodiscard]] std::string to_text(const FailureCounts& failures);
 
-/// What was not read as it stands, a line each: queries in error, and rounded coordinates. Empty if all
+/// Exceptions from reading, a line each: queries in error, and rounded coordinates. Empty if all
 /// was.
 [[nodiscard]] std::string reading_text(std::uint64_t skipped, std::uint64_t rounded);
 

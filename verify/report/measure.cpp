@@ -19,7 +19,7 @@
 namespace touchstone::verify::report {
 namespace {
 
-/// What is asked of which method.
+/// The method, and the options of the call.
 Measurement of_separation(const data::QueryGroup& group, Experiment experiment,
                           const Setting& setting) {
   Measurement said;

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// What a report is made of: measurements of a method, under some options, on a group of queries.
+/// The record of a report: measurements of a method, under some options, on a group of queries.
 /// Plain data; all that tables and figures show is computed from it and nothing else.
 
 #include <cstdint>

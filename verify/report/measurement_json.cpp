@@ -93,7 +93,7 @@ Separation separation_from(const Json& json) {
           .norm = norm_from_string(json.at("norm").get<std::string>())};
 }
 
-/// What a method was asked, and of whom.
+/// The method, and the options and queries of the call.
 void read_question(const Json& json, Measurement& m) {
   m.experiment = experiment_from_string(json.at("experiment").get<std::string>());
   json.at("group").get_to(m.group);

@@ -118,7 +118,7 @@ class Writer {
         policy, contents_.title, page_style());
   }
 
-  /// What one reads first.
+  /// The beginning of the page.
   void write_opening() {
     text_ += fmt::format("<header>\n<h1>{}</h1>\n<p>{}</p>\n", contents_.title,
                          io::html_escaped(contents_.about));

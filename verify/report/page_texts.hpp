@@ -11,10 +11,10 @@ namespace touchstone::verify::report {
 /// The d3 library, minified, with its licence's notice at the top.
 [[nodiscard]] std::string_view d3_script();
 
-/// What draws the figures of a page.
+/// The script that draws the figures of a page.
 [[nodiscard]] std::string_view page_script();
 
-/// How a page looks.
+/// The style of a page.
 [[nodiscard]] std::string_view page_style();
 
 }  // namespace touchstone::verify::report

@@ -26,11 +26,11 @@ struct PublishedNumbers {
 /// \param dataset "handcrafted" or "simulation"
 [[nodiscard]] std::string_view published_size(std::string_view dataset, Kind kind);
 
-/// What table 1 says of a method, by our name of it; nothing if it is not there.
+/// The entry of a method in table 1, by our name of it; nothing if it is not there.
 [[nodiscard]] std::optional<PublishedNumbers> published_field(std::string_view dataset, Kind kind,
                                                               std::string_view method);
 
-/// What the tables over d say of a method.
+/// The entries of a method in the tables over d.
 [[nodiscard]] std::optional<PublishedNumbers> published_separation(std::string_view dataset,
                                                                    Kind kind,
                                                                    std::string_view method,

@@ -143,7 +143,7 @@ class Writer {
     return names.empty() ? "none" : names;
   }
 
-  /// What the data say, a line a group and kind.
+  /// The findings, a line a group and kind.
   void write_sentences() {
     text_ += "## In sentences\n\n";
     for (const Table& table : field_tables(measurements_)) {

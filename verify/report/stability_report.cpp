@@ -30,7 +30,7 @@ std::string_view name_of(const stability::Outcome& outcome) {
   return outcome.worst ? judge::to_string(*outcome.worst) : std::string_view();
 }
 
-/// What a level's cell looks like in one character.
+/// A level's cell in one character.
 char character_of(const stability::Outcome& outcome) {
   if (!outcome.worst) return '.';
   switch (*outcome.worst) {

@@ -20,7 +20,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// What the columns of the tables below mean, one sentence a line of text.
+/// The meaning of the columns of the tables below, one sentence a line of text.
 [[nodiscard]] std::vector<std::string> column_meanings();
 
 /// Table 1, one for each group and kind: a row a method with its time, that as a multiple of the
@@ -35,7 +35,7 @@ struct Table {
 [[nodiscard]] std::vector<Table> separation_tables(const Measurements& measurements,
                                                    std::string_view method);
 
-/// What Tight-Inclusion misses with each of its filters: the contacts at t=1, a table for each number of
+/// The contacts that Tight-Inclusion misses with each of its filters: the contacts at t=1, a table for each number of
 /// digits with a row a kind and scale; then the built-in families, a row for each and kind of which one
 /// of them misses something. A column a method: how many of the collisions. Empty without measurements.
 [[nodiscard]] std::vector<Table> filter_tables(const Measurements& measurements);

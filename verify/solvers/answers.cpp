@@ -37,7 +37,7 @@ enum class Column : std::uint64_t {
 };
 constexpr std::size_t most_columns = 8;
 
-/// What a record of several lines may have in all: only long names with line ends make such records,
+/// The greatest size of a record of several lines: only long names with line ends make such records,
 /// and a stray quote is to be found before the end of the file.
 constexpr std::size_t longest_record = std::size_t{1} << 16U;
 

@@ -50,7 +50,7 @@ struct RecordedAnswer {
 /// Answers read from such a file. Forty bytes an answer.
 class RecordedAnswers {
  public:
-  /// What the file holds under one name and kind.
+  /// The records of the file under one name and kind.
   struct Group {
     std::string file;
     Kind kind;

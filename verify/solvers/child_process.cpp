@@ -73,7 +73,7 @@ void limit_resource(int resource, std::uint64_t value) {
 }
 
 /// Has the system refuse to make processes, but not threads. What makes a thread is known by the
-/// flags of clone(); those of clone3() lie in memory, so the C library is told to do without it.
+/// flags of clone(); those of clone3() lie in memory, so the C library is made to do without it.
 void forbid_processes() {
 #if defined(__x86_64__) || defined(__aarch64__)
 #if defined(__x86_64__)
@@ -155,7 +155,7 @@ ChildEnds keep_only(const ChildEnds& ends) {
   return {.socket = first_free, .lifeline = first_free + 1, .output = STDOUT_FILENO};
 }
 
-/// What is registered last runs first: the clean-up of the parent's copy is not for this process,
+/// The last registered function runs first: the clean-up of the parent's copy is not for this process,
 /// whose threads it would wait for.
 void leave_without_clean_up() {
   ::on_exit(
@@ -212,7 +212,7 @@ std::pair<int, int> make_sockets() {
   return {ends[0], ends[1]};
 }
 
-/// How long to sleep where the system cannot tell of the child's end.
+/// Time between two looks where the system cannot report the child's end.
 constexpr ChildProcess::Seconds short_sleep(0.005);
 
 }  // namespace
@@ -261,7 +261,7 @@ ChildProcess::ChildProcess(const Work& work, const ChildLimits& limits,
   Descriptor output(own_output);
   const Descriptor other_output(child_output);
   ::fcntl(own_output, F_SETFL, O_NONBLOCK);
-  // What waits to be printed is for this process to print.
+  // Buffered output belongs to this process.
   std::fflush(stdout);
   process_ = ::fork();
   if (process_ == 0) {

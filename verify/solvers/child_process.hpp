@@ -29,7 +29,7 @@
 
 namespace touchstone::verify::solvers {
 
-/// What a child may take.
+/// Limits of a child process.
 struct ChildLimits {
   /// Bytes of memory that it may allocate (heap, stacks, private maps), beyond what it is made with;
   /// 0: no limit. Not under the sanitizers, whose own memory has no bound.
@@ -69,7 +69,7 @@ struct CapturedOutput {
   void append(const char* bytes, std::size_t count);
 };
 
-/// How a child ended.
+/// Outcome of a child process.
 struct ChildEnd {
   /// crash or exit.
   Failure failure = {};
@@ -96,7 +96,7 @@ class ChildChannel {
 class ChildProcess {
  public:
   using Seconds = std::chrono::duration<double>;
-  /// What the child does; it exits with status 0 behind it, with 1 if it throws.
+  /// The work of the child; it exits with status 0 afterwards, with 1 if it throws.
   using Work = std::function<void(const ChildChannel&)>;
 
   /// \throws std::system_error if the system has no process left to give.

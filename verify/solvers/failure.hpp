@@ -64,7 +64,7 @@ struct QueryFailure {
 /// The failure that an answer itself shows: no_verdict, not_finite or undecided.
 [[nodiscard]] std::optional<Failure> failure_of(const fast::Answer& answer);
 
-/// What a query with that failure counts as answered: undecided, a conservative yes, if the solver was
+/// The verdict that a query with that failure counts as: undecided, a conservative yes, if the solver was
 /// undecided or too slow, else error.
 [[nodiscard]] fast::Verdict verdict_of(FailureKind kind);
 

@@ -36,7 +36,7 @@ struct CloseLibrary {
 };
 using Library = std::unique_ptr<void, CloseLibrary>;
 
-/// What the system says of the last failure, without the file's name that it puts in front.
+/// The system's description of the last failure, without the file's name at its front.
 std::string loader_reason(const std::string& file) {
   const char* const text = ::dlerror();
   if (text == nullptr) return "unknown reason";
@@ -84,7 +84,7 @@ std::string read_name(const Library& library, const std::filesystem::path& path)
   return std::string(text);
 }
 
-/// The answer, with an error in place of a verdict that is none.
+/// The answer, with an error in place of an invalid verdict.
 fast::Answer checked(const touchstone_answer& answer) {
   if (answer.verdict < touchstone_no || answer.verdict > touchstone_error) {
     return {.verdict = fast::Verdict::error};
@@ -169,12 +169,12 @@ void load_and_ask(const std::filesystem::path& path, const ChildChannel& channel
   tell(channel, calls, "touchstone_plugin_name()");
   const std::string name = read_name(library, path);
   static_cast<void>(find_solve(library, path));
-  // What its destructors do does not matter.
+  // Its destructors need not run.
   static_cast<void>(library.release());
   tell(channel, named, name);
 }
 
-/// What the child does: every way that this can end by itself has a message.
+/// The work of the child: each of its possible ends has a message.
 void describe(const std::filesystem::path& path, const ChildChannel& channel) {
   try {
     load_and_ask(path, channel);

@@ -17,9 +17,9 @@
 namespace touchstone::verify::solvers {
 
 struct PluginOptions {
-  /// What the library is held to; the interface has no way to say it.
+  /// The promise to judge the library by; the interface does not state one.
   fast::Promise promise = fast::Promise::conservative;
-  /// What the child process may take that asks for the name.
+  /// Limits of the child process that asks for the name.
   ChildLimits limits = {};
   /// Wall-clock seconds that it may take.
   double load_seconds = 60.0;

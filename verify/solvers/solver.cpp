@@ -19,7 +19,7 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-/// What the queries that are asked at once should take.
+/// The time that a batch of queries should take.
 constexpr double span_seconds = 0.01;
 constexpr double longest_span = 1e6;
 

@@ -27,20 +27,20 @@ namespace touchstone::verify::solvers {
 struct SolveRequest {
   Kind kind = Kind::vertex_face;
   std::span<const Query> queries;
-  /// What counts as contact. Methods take it from here, whatever their MethodOptions say.
+  /// Minimum separation. Methods take it from here, whatever their MethodOptions say.
   Separation separation = {};
   /// By which recorded answers are found: the name of the source, and the queries' numbers in it.
   std::string_view source = {};
   std::span<const std::uint64_t> indices = {};
 };
 
-/// What a solver took.
+/// The time of a solver.
 struct SolverTime {
   double processor_nanoseconds = 0.0;  ///< of all its threads
   double wall_seconds = 0.0;
 };
 
-/// What came with the answers.
+/// Data that comes with the answers.
 struct SolveReply {
   /// Where that is not the time of the whole call in this thread: what the solver itself took, without
   /// the making of child processes.
@@ -70,7 +70,7 @@ class Solver {
   [[nodiscard]] const fast::MethodInfo& info() const { return info_; }
   [[nodiscard]] const std::string& name() const { return name_; }
   void rename(std::string name);
-  /// What its answers are judged by: its own promise unless hold_to() says otherwise.
+  /// The promise its answers are judged by: its own unless hold_to() sets another.
   [[nodiscard]] fast::Promise promise() const { return info_.promise; }
   void hold_to(fast::Promise promise) { info_.promise = promise; }
 
@@ -88,12 +88,12 @@ class Solver {
   [[nodiscard]] SolveReply solve_timed(const SolveRequest& request,
                                        std::span<fast::Answer> answers) const;
 
-  /// How many queries to ask at once, by the pace of the latest solve_timed(): as many as take some
+  /// The size of the next batch, by the pace of the latest solve_timed(): as many as take some
   /// milliseconds. Few for slow solvers, so that all cores have work and an interrupt costs little;
   /// many for fast ones, so that neither clock nor child process shows in the time.
   [[nodiscard]] std::size_t good_span() const;
 
-  /// What its child processes printed since the last call of this, which forgets it. Not to be called
+  /// The output of its child processes since the last call, which clears it. Not to be called
   /// while another thread is in solve().
   [[nodiscard]] virtual CapturedOutput take_output() const { return {}; }
 
@@ -138,7 +138,7 @@ struct StageCount {
   friend bool operator==(const StageCount&, const StageCount&) = default;
 };
 
-/// How many of the answers each stage gave, all stages in their order; empty for a method without
+/// Number of answers by stage, all stages in their order; empty for a method without
 /// stages.
 [[nodiscard]] std::vector<StageCount> count_stages(const fast::MethodInfo& info,
                                                    std::span<const fast::Answer> answers);

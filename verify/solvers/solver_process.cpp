@@ -34,7 +34,7 @@ constexpr std::size_t longest_step = 512;
 constexpr double step_share = 0.02;
 /// So many times the limit may pass for what waits for a processor.
 constexpr double patience = 5.0;
-/// How often this process looks even if nothing tells it to: for an interrupt.
+/// The interval at which this process looks for an interrupt without being notified.
 constexpr Seconds longest_sleep(0.25);
 
 [[noreturn]] void fail(const char* what) {
@@ -65,7 +65,7 @@ struct ShortText {
   }
 };
 
-/// What both processes see. The child may have written anything there.
+/// The memory of both processes. The child may have written anything there.
 struct Shared {
   std::atomic<std::size_t> begin;  ///< of the step that the child is at
   std::atomic<std::size_t> end;
@@ -200,7 +200,7 @@ void serve(const fast::Method& method, Shared& shared, const ChildChannel& chann
   while (const auto message = channel.receive()) {
     if (!std::exchange(is_warm, true)) worker.warm_up();
     worker.solve_block();
-    // What it has printed is to come before the answers.
+    // Its output comes before the answers.
     std::fflush(stdout);
     std::cout.flush();
     if (!channel.send(*message)) return;
@@ -236,7 +236,7 @@ class SolverProcess::Impl {
  private:
   using Event = ChildProcess::Event;
 
-  /// How far a child got. If it is not done, it is gone.
+  /// Progress of a child. If it is not done, it has ended.
   struct Stop {
     bool done = false;
     bool hang = false;
@@ -422,7 +422,7 @@ class SolverProcess::Impl {
   std::size_t searched_until_ = 0;
   /// The same, since the step took too long.
   std::size_t slow_until_ = 0;
-  /// What failed alone, and is asked again.
+  /// Queries that failed alone and are asked again.
   std::optional<std::size_t> doubtful_;
 };
 

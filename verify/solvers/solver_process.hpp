@@ -11,7 +11,7 @@
 /// counts as its failure, and the next child goes on behind it. So the time that a solver is measured
 /// to take does not depend on the limit.
 ///
-/// What is limited, and what the child is to this process: child_process.hpp.
+/// Limits and the relation of the child to this process: child_process.hpp.
 
 #include <atomic>
 #include <cstddef>
@@ -39,7 +39,7 @@ struct SolverProcessOptions {
   ChildLimits limits = {};
 };
 
-/// What came of one call.
+/// The result of one call.
 struct SolverRun {
   /// Queries answered, from the first on; those with a failure count. Fewer than were asked if it was
   /// stopped, at the limit of failures, or out of time.
@@ -78,7 +78,7 @@ class SolverProcess {
                                 const fast::MethodOptions& method_options,
                                 const jobs::Deadline& deadline = {});
 
-  /// What its children have printed since the last call of this, which forgets it.
+  /// The output of its child processes since the last call, which clears it.
   [[nodiscard]] CapturedOutput take_output();
 
  private:

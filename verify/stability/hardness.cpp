@@ -56,7 +56,7 @@ constexpr std::array<Hardness, 6> all{{
      {-1000, -800, -600, -400, -200, 0, 200, 400, 600, 800, 1000}},
 }};
 
-/// What a sort of queries is like, in the units of the frame.
+/// The properties of a sort of queries, in the units of the frame.
 struct Setup {
   explicit Setup(const HardSort& sort);
 
@@ -200,7 +200,7 @@ class Scene {
     put(1, x + along, y + across, drift);
   }
 
-  /// How far a vertex slides along the plane.
+  /// The distance that a vertex slides along the plane.
   [[nodiscard]] std::int64_t slide() const { return setup_.size / 5 * 6; }
 
   /// Gives the first primitive its heights over the second.
@@ -211,7 +211,7 @@ class Scene {
                : random_.between(setup_.least_descent, setup_.descent);
     const bool stops_short = !collides_ && !beside;
     const bool just_arrives = collides_ && setup_.near && !beside;
-    // What is left above contact at the end.
+    // The distance from contact at the end.
     const std::int64_t rest = stops_short    ? setup_.gap
                               : just_arrives ? -setup_.gap
                               : slides       ? -draw(0.45, 0.55, down)

@@ -39,9 +39,9 @@ namespace touchstone::verify::stability {
 struct Hardness {
   /// Unique, kebab-case.
   std::string_view name;
-  /// What the number of a level is, in few words.
+  /// The meaning of a level's number, in few words.
   std::string_view measure;
-  /// What its queries are.
+  /// A description of its queries.
   std::string_view reason;
   /// The levels are the powers of two with these exponents, in order.
   std::array<int, 11> exponents;
@@ -57,7 +57,7 @@ struct Hardness {
 /// Are there hard queries about this separation? About contact, and distances up to 2^14.
 [[nodiscard]] bool has_hard_queries(const Separation& separation);
 
-/// What counts as contact in the queries of a level where `separation` was asked for: that, times the
+/// Minimum separation in the queries of a level where `separation` was asked for: that, times the
 /// level's factor where the level scales the coordinates.
 [[nodiscard]] Separation separation_at(const Hardness& hardness, int exponent,
                                        const Separation& separation);

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// How methods bear hardness: each is judged on the hard queries (hardness.hpp) of every sort, level
+/// Judges methods on queries of growing difficulty: each on the hard queries (hardness.hpp) of every sort, level
 /// and kind, one cell of a map each.
 ///
 /// The truth of a query comes twice: from the certified solver as its label, and from the oracle,
@@ -24,7 +24,7 @@
 namespace touchstone::verify::stability {
 
 struct StabilityOptions {
-  /// What counts as contact, where the level does not scale it. \pre has_hard_queries()
+  /// Minimum separation, where the level does not scale it. \pre has_hard_queries()
   Separation separation = {};
   std::uint64_t seed = 0;
   /// Queries a cell, half of them collisions.
@@ -62,13 +62,13 @@ struct StabilityResult {
 [[nodiscard]] StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
                                                 const StabilityOptions& options);
 
-/// What a method got wrong in some queries.
+/// Faults of a method in some queries.
 struct Outcome {
   /// The worst of it, nothing if nothing is wrong: a false negative is worse than a time of impact that
   /// excludes the true one, that than an error, that than a claim of too much nearness, that than a
   /// false positive.
   std::optional<judge::Fault> worst = std::nullopt;
-  /// How often, as a fraction of the queries that it can happen to: of those that collide (false
+  /// The rate of a fault as a fraction of the queries where it is possible: of those that collide (false
   /// negatives, times of impact), of those that do not (false positives, nearness), or of all.
   double rate = 0.0;
 };
@@ -76,7 +76,7 @@ struct Outcome {
 /// The outcome of method number `method` of a result.
 [[nodiscard]] Outcome outcome_of(const jobs::CertifyResult& judged, std::size_t method);
 
-/// How often that happened, as a fraction as above; 0 if there was no query that it can happen to.
+/// The rate of that fault, as above; 0 if there was no query where it is possible.
 [[nodiscard]] double rate_of(judge::Fault fault, const jobs::CertifyResult& judged,
                              std::size_t method);
 

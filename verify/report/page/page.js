@@ -311,7 +311,7 @@
 
   const cellText = (figure, value) => (isTime(figure.y_label) ? shortTimeText(value) : shortText(value));
 
-  /// How a cell looks: its fill, its texts from the longest to the shortest, and the colour of these.
+  /// The look of a cell: its fill, its texts from the longest to the shortest, and the colour of these.
   function markLook(point) {
     if (point.label === "") return { fill: "var(--calm)", texts: [] };
     if (point.label !== "P") {
@@ -329,7 +329,7 @@
   const extentOf = (figure) => d3.extent(figure.panels.flatMap(allPoints).map((point) => point.y)
     .filter((y) => y !== null && y > 0 && Number.isFinite(y)));
 
-  /// How deep a number is on the logarithmic scale of its figure: from 0.1 to 1, and less for zero.
+  /// The place of a number on the logarithmic scale of its figure: from 0.1 to 1, and less for zero.
   function depthOf(value, [least, greatest]) {
     if (value === 0 || least === undefined) return 0.04;
     if (value === Infinity || greatest === least) return 1;
