@@ -14,10 +14,13 @@
 
 namespace touchstone::verify::mesh {
 
+/// Positions of vertices, a row each.
+using Vertices = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 /// A mesh at rest. Wherever a reader made it, it has a vertex, indices are in range and coordinates
 /// finite.
 struct Mesh {
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> vertices;
+  Vertices vertices;
   std::vector<fast::Face> faces;
   /// Those of the faces and those that the file names by themselves, each once: ordered and
   /// numbered as fast::edges_of does.
