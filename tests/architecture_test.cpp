@@ -102,6 +102,7 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/", "gmpxx.h"},
     {"verify/", "nlohmann/"},
     {"verify/", "oneapi/tbb/"},
+    {"verify/", "zip.h"},
     {"verify/", "zstd.h"},
     // POSIX and Linux: files, memory maps, terminals, clocks, processes, shared libraries.
     {"verify/", "dlfcn.h"},
