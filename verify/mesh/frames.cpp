@@ -196,7 +196,7 @@ class ArchivedFrames : public Frames {
     mesh_ = make_mesh({}, elements<3>("F", "(m, 3)"), edges);
     for (const auto& [point] : elements<1>("P", "(p,)")) mesh_.points.push_back(point);
     std::ranges::sort(mesh_.points);
-    mesh_.points.erase(std::ranges::unique(mesh_.points).begin(), mesh_.points.end());
+    mesh_.points.erase(std::unique(mesh_.points.begin(), mesh_.points.end()), mesh_.points.end());
     mesh_.vertices = read_frame(0);
   }
 

@@ -40,7 +40,7 @@ class ObjReader {
     Mesh mesh = make_mesh(vertices_, std::move(faces_), edges_);
     for (const auto& [vertex] : points_) mesh.points.push_back(vertex);
     std::ranges::sort(mesh.points);
-    mesh.points.erase(std::ranges::unique(mesh.points).begin(), mesh.points.end());
+    mesh.points.erase(std::unique(mesh.points.begin(), mesh.points.end()), mesh.points.end());
     if (!group_names_.empty()) mesh.groups = groups(mesh.faces);
     return mesh;
   }
