@@ -40,7 +40,7 @@ int run(int argc, char** argv) {
   use_help_format(app);
   set_help(app, "touchstone certify path/to/queries",
            "touchstone COMMAND --help describes a command.\n"
-           "Exit status: 0 all is well, 1 wrong answers, 2 bad input or usage, 130 interrupted.");
+           "Exit status: 0 all is well, 1 wrong answers or collisions, 2 bad input or usage, 130 interrupted.");
   app.set_version_flag("--version", TOUCHSTONE_VERSION, "Print the version");
   // The message quotes the command line.
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   touchstone::verify::cli::add_prove_command(app, status);
   touchstone::verify::cli::add_generate_command(app, status);
   touchstone::verify::cli::add_candidates_command(app, status);
+  touchstone::verify::cli::add_step_command(app, status);
   touchstone::verify::cli::add_bench_command(app, status);
   touchstone::verify::cli::add_fuzz_command(app, status);
   touchstone::verify::cli::add_stability_command(app, status);
