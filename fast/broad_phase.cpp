@@ -1,25 +1,24 @@
 #include "fast/broad_phase.hpp"
 
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <new>
+#include <numeric>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <tuple>
 
 #include "fast/broad_phase/box_tree.hpp"
+#include "fast/broad_phase/float_bounds.hpp"
+#include "fast/broad_phase/primitive_groups.hpp"
+#include "fast/broad_phase/search.hpp"
+#include "fast/broad_phase/swept_box.hpp"
 #include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -29,10 +28,6 @@ namespace tbb = oneapi::tbb;
 /// So many groups are held against a tree by one task.
 constexpr std::size_t groups_of_chunk = 16;
 
-Primitive primitive_of(std::int32_t vertex) { return {vertex, vertex, vertex}; }
-Primitive primitive_of(const Edge& edge) { return {edge[0], edge[1], edge[1]}; }
-Primitive primitive_of(const Face& face) { return face; }
-
 void require_valid(const BroadPhaseOptions& options) {
   if (!std::isfinite(options.min_separation) || options.min_separation < 0.0) {
     throw std::invalid_argument("min_separation must be finite and not negative");
@@ -40,175 +35,90 @@ void require_valid(const BroadPhaseOptions& options) {
   if (options.max_threads < 0) throw std::invalid_argument("max_threads must not be negative");
 }
 
-void require_countable(std::size_t count, std::string_view name) {
-  if (count <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) return;
-  throw std::length_error(std::string(name) + ": more than 2^31-1 of them");
-}
+/// Decides in double whether swept boxes are within a distance.
+template <class First, class Second>
+struct ExactTest {
+  const MovingVertices& vertices;
+  std::span<const First> first;
+  std::span<const Second> second;
+  double distance;
 
-void require_finite(const MovingVertices& vertices) {
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (!is_finite(vertices[i].start) || !is_finite(vertices[i].end)) {
-      throw std::domain_error("vertex " + std::to_string(i) + ": a coordinate is not finite");
-    }
+  [[nodiscard]] bool operator()(const IndexPair& pair) const {
+    const SweptBox a = swept_box(vertices, primitive_of(first[static_cast<std::size_t>(pair[0])]));
+    const SweptBox b = swept_box(vertices, primitive_of(second[static_cast<std::size_t>(pair[1])]));
+    return widened(a, distance).overlaps(b);
   }
-}
+};
 
-/// Edges or faces as primitives of a tree.
-template <class Element>
-std::vector<Primitive> primitives_of(const MovingVertices& vertices,
-                                     std::span<const Element> elements, std::string_view name) {
-  require_countable(elements.size(), name);
-  std::vector<Primitive> result(elements.size());
-  for (std::size_t i = 0; i < elements.size(); ++i) {
-    for (const std::int32_t vertex : elements[i]) {
-      if (vertex >= 0 && static_cast<std::size_t>(vertex) < vertices.size()) continue;
-      throw std::out_of_range(std::string(name) + " " + std::to_string(i) + ": vertex " +
-                              std::to_string(vertex) + ", but there are " +
-                              std::to_string(vertices.size()));
-    }
-    result[i] = primitive_of(elements[i]);
-  }
-  return result;
-}
-
-std::vector<Primitive> all_vertices(const MovingVertices& vertices) {
-  require_countable(vertices.size(), "vertices");
-  std::vector<Primitive> result(vertices.size());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] = primitive_of(static_cast<std::int32_t>(i));
-  }
-  return result;
-}
-
-/// Holds the groups of one tree against those of another, or against those of the same that come
-/// later and against themselves.
+/// Finds the pairs of a tree and another, or within one tree.
 class Search {
  public:
-  /// \param all The same tree as `some` for pairs of one kind: each is then found once.
-  Search(const BoxTree& some, const BoxTree& all, double separation)
-      : some_(some), all_(all), within_(&some == &all), separation_(separation) {}
+  explicit Search(const SearchInput<1>& input) : input_(input) {}
 
+  /// Counts the pairs first, then writes them where they stay.
   /// \throws TooManyCandidates if there are more than `most`.
   [[nodiscard]] std::vector<IndexPair> run(std::uint64_t most) const {
-    const std::size_t count = (some_.groups().size() + groups_of_chunk - 1) / groups_of_chunk;
-    std::vector<std::vector<IndexPair>> chunks(count);
-    std::atomic<std::uint64_t> found = 0;
-    std::atomic<bool> all_fit = true;
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      const std::uint64_t before = found;
-      if (all_fit && before <= most && collect(i, most - before, chunks[i])) {
-        found += chunks[i].size();
-        return;
-      }
-      all_fit = false;
-      chunks[i] = {};
-      found += count_pairs(i);
+    const std::size_t groups = input_.some->members().size();
+    const std::size_t chunks = (groups + groups_of_chunk - 1) / groups_of_chunk;
+    std::vector<std::uint64_t> begins(chunks + 1, 0);
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t i) {
+      for_each_part(i, [&](std::span<const IndexPair> part) { begins[i + 1] += part.size(); });
     });
-    if (!all_fit || found > most) throw TooManyCandidates(found);
-    return joined(chunks, found);
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::vector<IndexPair> pairs = room_for(begins.back(), most);
+    tbb::parallel_for(std::size_t{0}, chunks, [&](std::size_t i) {
+      auto to = pairs.begin() + static_cast<std::ptrdiff_t>(begins[i]);
+      for_each_part(i, [&](std::span<const IndexPair> part) {
+        to = std::copy(part.begin(), part.end(), to);
+      });
+    });
+    return pairs;
   }
 
  private:
-  /// Calls use(group) with the number of each group of a chunk while it returns true.
-  template <class Use>
-  void for_each_group(std::size_t chunk, const Use& use) const {
+  /// Calls take(pairs) for the pairs of a chunk, some at a time.
+  template <class Take>
+  void for_each_part(std::size_t chunk, Take take) const {
+    const StrictFloatingPoint strict;
+    PairBuffer buffer;
+    buffer.context = &take;
+    buffer.take = [](void* context, std::span<const IndexPair> pairs) {
+      (*static_cast<Take*>(context))(pairs);
+    };
     const std::size_t first = chunk * groups_of_chunk;
-    const std::size_t end = std::min(first + groups_of_chunk, some_.groups().size());
-    for (std::size_t i = first; i < end && use(i); ++i) continue;
+    const std::size_t end = std::min(first + groups_of_chunk, input_.some->members().size());
+    best_search_kernel().find(input_, first, end, buffer);
+    buffer.flush();
   }
 
-  /// Appends the pairs of a chunk. False if they are more than there is room for, or do not fit into
-  /// memory.
-  [[nodiscard]] bool collect(std::size_t chunk, std::uint64_t room,
-                             std::vector<IndexPair>& pairs) const {
-    const StrictFloatingPoint strict;
+  static std::vector<IndexPair> room_for(std::uint64_t count, std::uint64_t most) {
+    if (count > most) throw TooManyCandidates(count);
     try {
-      for_each_group(chunk, [&](std::size_t group) {
-        search(group, [&pairs](const IndexPair& pair) { pairs.push_back(pair); });
-        return pairs.size() <= room;
-      });
-    } catch (const std::bad_alloc&) {
-      return false;
-    }
-    return pairs.size() <= room;
-  }
-
-  [[nodiscard]] std::uint64_t count_pairs(std::size_t chunk) const {
-    const StrictFloatingPoint strict;
-    std::uint64_t count = 0;
-    for_each_group(chunk, [&](std::size_t group) {
-      search(group, [&count](const IndexPair&) { ++count; });
-      return true;
-    });
-    return count;
-  }
-
-  /// The chunks, of so many pairs together, one after the other; they are empty afterwards.
-  [[nodiscard]] static std::vector<IndexPair> joined(std::vector<std::vector<IndexPair>>& chunks,
-                                                     std::uint64_t count) {
-    std::vector<std::size_t> offsets(chunks.size() + 1, 0);
-    for (std::size_t i = 0; i < chunks.size(); ++i) offsets[i + 1] = offsets[i] + chunks[i].size();
-    std::vector<IndexPair> result;
-    try {
-      result.resize(offsets.back());
+      return std::vector<IndexPair>(count);
     } catch (const std::bad_alloc&) {
       throw TooManyCandidates(count);
-    }
-    tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
-      std::ranges::copy(chunks[i], result.begin() + static_cast<std::ptrdiff_t>(offsets[i]));
-      chunks[i] = {};
-    });
-    return result;
-  }
-
-  /// Calls use(pair) for each pair of a group.
-  template <class Use>
-  void search(std::size_t number, const Use& use) const {
-    const Group& group = some_.groups()[number];
-    std::array<Box, Group::capacity> boxes;
-    for (std::size_t lane = 0; lane < group.size; ++lane) {
-      boxes[lane] = widened(group.box(lane), separation_);
-    }
-    const Box around = widened(some_.nodes()[some_.leaf(number)].box, separation_);
-    const std::uint32_t start = within_ ? all_.leaf(number) : 0;
-    for_each_overlapping(all_, start, around, [&](const BoxTree::Node& node, const Group& others) {
-      for (std::size_t lane = 0; lane < group.size; ++lane) {
-        if (!boxes[lane].overlaps(node.box)) continue;
-        unsigned hits = others.overlapping(boxes[lane]);
-        if (&others == &group) hits &= ~0U << (lane + 1);
-        for_each_hit(group, lane, others, hits, use);
-      }
-    });
-  }
-
-  /// Calls use(pair) for a primitive with each of the other group's that are hits.
-  template <class Use>
-  void for_each_hit(const Group& group, std::size_t lane, const Group& others, unsigned hits,
-                    const Use& use) const {
-    for (; hits != 0; hits &= hits - 1) {
-      const auto hit = static_cast<std::size_t>(std::countr_zero(hits));
-      if (share_vertex(group.primitives[lane], others.primitives[hit])) continue;
-      const std::int32_t a = group.indices[lane], b = others.indices[hit];
-      use(within_ && b < a ? IndexPair{b, a} : IndexPair{a, b});
+    } catch (const std::length_error&) {
+      throw TooManyCandidates(count);
     }
   }
 
-  const BoxTree& some_;
-  const BoxTree& all_;
-  bool within_;
-  double separation_;
+  const SearchInput<1>& input_;
 };
 
-/// Calls work() in an arena of so many threads, strictly: it may be in another thread.
-template <class Work>
-std::vector<IndexPair> with_threads(int max_threads, const Work& work) {
-  // More threads than cores would not even be made.
-  const int cores = tbb::info::default_concurrency();
-  tbb::task_arena arena(max_threads == 0 ? cores : std::min(max_threads, cores));
-  return arena.execute([&work] {
-    const StrictFloatingPoint strict;
-    return work();
-  });
+/// The rules for all pairs of a kind within a distance. \param test Is referred to.
+template <class First, class Second>
+PairRules rules_of(const FloatBounds& bounds, const ExactTest<First, Second>& test,
+                   bool are_edges) {
+  const bool is_exact = bounds.are_exact() && test.distance == 0.0;
+  return {.of_edges = are_edges,
+          .distance_above = bounds.scaled_up(test.distance),
+          .distance_below = bounds.scaled_down(test.distance),
+          .certainty = is_exact ? Certainty::all : Certainty::unless_close,
+          .confirms =
+              [](const void* context, const IndexPair& pair) {
+                return (*static_cast<const ExactTest<First, Second>*>(context))(pair);
+              },
+          .context = &test};
 }
 
 }  // namespace
@@ -222,11 +132,19 @@ std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
                                               const BroadPhaseOptions& options) {
   require_valid(options);
   require_finite(vertices);
-  const std::vector<Primitive> corners = all_vertices(vertices);
-  const std::vector<Primitive> triangles = primitives_of(vertices, faces, "face");
+  require_in_range(vertices, faces);
   return with_threads(options.max_threads, [&] {
-    const BoxTree vertex_tree(vertices, corners), face_tree(vertices, triangles);
-    return Search(vertex_tree, face_tree, options.min_separation).run(options.max_candidates);
+    std::vector<std::int32_t> points(vertices.size());
+    std::iota(points.begin(), points.end(), 0);
+    const FloatBounds bounds(vertices);
+    const PrimitiveGroups point_groups(bounds, std::span<const std::int32_t>(points));
+    const PrimitiveGroups face_groups(bounds, faces);
+    BoxTree<1> point_tree(point_groups), face_tree(face_groups);
+    point_tree.fit(bounds);
+    face_tree.fit(bounds);
+    const ExactTest<std::int32_t, Face> test{vertices, points, faces, options.min_separation};
+    const SearchInput<1> input{&point_tree, &face_tree, rules_of(bounds, test, false)};
+    return Search(input).run(options.max_candidates);
   });
 }
 
@@ -235,10 +153,15 @@ std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
                                             const BroadPhaseOptions& options) {
   require_valid(options);
   require_finite(vertices);
-  const std::vector<Primitive> segments = primitives_of(vertices, edges, "edge");
+  require_in_range(vertices, edges);
   return with_threads(options.max_threads, [&] {
-    const BoxTree tree(vertices, segments);
-    return Search(tree, tree, options.min_separation).run(options.max_candidates);
+    const FloatBounds bounds(vertices);
+    const PrimitiveGroups groups(bounds, edges);
+    BoxTree<1> tree(groups);
+    tree.fit(bounds);
+    const ExactTest<Edge, Edge> test{vertices, edges, edges, options.min_separation};
+    const SearchInput<1> input{&tree, &tree, rules_of(bounds, test, true)};
+    return Search(input).run(options.max_candidates);
   });
 }
 

@@ -16,13 +16,14 @@
 /// the sum, so a double is at most the one iff it is at most the other. Likewise lower_a − d is
 /// rounded up. Hence the candidates are *exactly* the pairs whose swept boxes are within d, whatever
 /// the coordinates: none is missed, and none is added by rounding. (Beyond the greatest double the
-/// rounded bound is that double, which no coordinate exceeds.) Boxes of groups of primitives are
-/// unions of the widened boxes: minima and maxima, which are exact too.
+/// rounded bound is that double, which no coordinate exceeds.)
 ///
-/// **How.** A bounding volume hierarchy: primitives are split at the median of their centres along
-/// the axis where these spread most, until eight are left; each group of eight is then held against
-/// the tree of the others. Splitting by rank and not by place makes all trees equally deep, and
-/// memory proportional to the primitives, however large or clustered the boxes are.
+/// **How.** First in float: boxes rounded outwards, in trees of sixteen children a node, sixteen comparisons at a
+/// time (fast/broad_phase/). What overlaps in double overlaps there. What overlaps there does so in
+/// double as well if all coordinates are floats, or by more than the rounding; else the boxes
+/// above are compared. Primitives are split at the median of their centres along the axis where these spread
+/// most. Splitting by rank and not by place makes all trees equally deep, and memory proportional
+/// to the primitives, however large or clustered the boxes are.
 ///
 /// Pairs that share a vertex are left out: they always touch.
 
@@ -42,7 +43,7 @@ struct BroadPhaseOptions {
   double min_separation = 0.0;
   /// Cores to use at most; 0: all of them. The result does not depend on it.
   int max_threads = 0;
-  /// More candidates are an error. Eight bytes each stay, and while they are found up to 24.
+  /// More candidates are an error. They take eight bytes each.
   std::uint64_t max_candidates = std::numeric_limits<std::uint64_t>::max();
 };
 

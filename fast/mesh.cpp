@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -87,6 +88,28 @@ bool are_plainly_in_range(const MovingVertices& vertices, const Candidates& cand
          std::ranges::all_of(candidates.pairs, in_range);
 }
 
+void require_countable(std::size_t count, std::string_view name) {
+  if (count <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) return;
+  throw std::length_error(std::string(name) + ": more than 2^31-1 of them");
+}
+
+/// Elements of a mesh, called so in errors.
+template <std::size_t count>
+void require_elements_in_range(std::size_t vertices,
+                               std::span<const std::array<std::int32_t, count>> elements,
+                               std::string_view name) {
+  require_countable(elements.size(), name);
+  if (are_below(elements, vertices)) return;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    for (const std::int32_t vertex : elements[i]) {
+      if (is_below(vertex, vertices)) continue;
+      throw std::out_of_range(std::string(name) + " " + std::to_string(i) + ": vertex " +
+                              std::to_string(vertex) + ", but there are " +
+                              std::to_string(vertices));
+    }
+  }
+}
+
 }  // namespace
 
 std::array<std::int32_t, moving_points> vertices_of(const Candidates& candidates,
@@ -119,6 +142,32 @@ void require_in_range(const MovingVertices& vertices, const Candidates& candidat
   if (are_plainly_in_range(vertices, candidates)) return;
   const RangeCheck check(vertices, candidates);
   for (std::size_t pair = 0; pair < candidates.pairs.size(); ++pair) check.require(pair);
+}
+
+void require_finite(const MovingVertices& vertices) {
+  require_countable(vertices.size(), "vertices");
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (!is_finite(vertices[i].start) || !is_finite(vertices[i].end)) {
+      throw std::domain_error("vertex " + std::to_string(i) + ": a coordinate is not finite");
+    }
+  }
+}
+
+void require_in_range(const MovingVertices& vertices, std::span<const Edge> edges) {
+  require_elements_in_range(vertices.size(), edges, "edge");
+}
+
+void require_in_range(const MovingVertices& vertices, std::span<const Face> faces) {
+  require_elements_in_range(vertices.size(), faces, "face");
+}
+
+void require_in_range(const MovingVertices& vertices, std::span<const std::int32_t> points) {
+  require_countable(points.size(), "points");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_below(points[i], vertices.size())) continue;
+    throw std::out_of_range("point " + std::to_string(i) + ": vertex " + std::to_string(points[i]) +
+                            ", but there are " + std::to_string(vertices.size()));
+  }
 }
 
 }  // namespace touchstone::fast

@@ -81,4 +81,14 @@ struct Candidates {
 /// is out of range.
 void require_in_range(const MovingVertices& vertices, const Candidates& candidates);
 
+/// \throws std::domain_error naming the first vertex with a coordinate that is NaN or infinite;
+/// std::length_error if there are more than 2^31−1 vertices.
+void require_finite(const MovingVertices& vertices);
+
+/// \throws std::out_of_range naming the first edge, face or codimensional point with an index that is no
+/// vertex's; std::length_error if there are more than 2^31−1.
+void require_in_range(const MovingVertices& vertices, std::span<const Edge> edges);
+void require_in_range(const MovingVertices& vertices, std::span<const Face> faces);
+void require_in_range(const MovingVertices& vertices, std::span<const std::int32_t> points);
+
 }  // namespace touchstone::fast

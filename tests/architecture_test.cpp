@@ -132,6 +132,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"exact/contact/contact_oracle.hpp", "tested through the oracle, in oracle_test.cpp"},
     {"verify/data/query_source.hpp", "an interface without code"},
     {"fast/method.hpp", "an interface without code"},
+    {"fast/broad_phase/search_on_lanes.hpp", "a part of the searches, tested through them"},
     {"fast/platform/avx_rows.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/kernel_on_lanes.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/stages/axis.hpp", "a part of the kernels, tested through them"},

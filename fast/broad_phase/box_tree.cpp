@@ -2,11 +2,9 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <cmath>
-#include <tuple>
+#include <limits>
 
 #include "fast/platform/floating_point_state.hpp"
 
@@ -15,201 +13,148 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// A subtree of so many groups is built by one task.
-constexpr std::size_t groups_of_task = 64;
+/// The boxes of so many nodes of level 1 are fitted by one task.
+constexpr std::size_t nodes_of_task = 4;
 
-/// The greatest double that is not above bound + distance. An infinite bound stays.
-double sum_rounded_down(double bound, double distance) {
-  const double sum = bound + distance;
-  if (sum == Box::infinity) return std::min(bound, std::numeric_limits<double>::max());
-  // To take the greater summand away again is exact [dekker1971], so this compares sum and exact sum.
-  const bool rounded_up =
-      std::abs(bound) >= distance ? sum - bound > distance : sum - distance > bound;
-  return rounded_up ? std::nextafter(sum, -Box::infinity) : sum;
-}
+/// A box at each instant, by rows.
+template <std::size_t instants>
+struct RowBox {
+  std::array<FloatRow, instants> lower;
+  std::array<FloatRow, instants> upper;
 
-/// A task may run in a thread with a floating-point environment of its own.
-template <class Work>
-auto strictly(const Work& work) {
-  return [&work] {
-    const StrictFloatingPoint strict;
-    work();
-  };
-}
-
-/// A primitive on its way into a group.
-struct Seed {
-  std::array<float, 3> centre;
-  std::int32_t index;
-};
-
-/// The axis along which the centres spread most.
-std::size_t widest_axis(std::span<const Seed> seeds) {
-  std::array<float, 3> least = seeds.front().centre, greatest = least;
-  for (const Seed& seed : seeds) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      least[axis] = std::min(least[axis], seed.centre[axis]);
-      greatest[axis] = std::max(greatest[axis], seed.centre[axis]);
-    }
-  }
-  std::size_t widest = 0;
-  for (const std::size_t axis : {1U, 2U}) {
-    if (greatest[axis] - least[axis] > greatest[widest] - least[widest]) widest = axis;
-  }
-  return widest;
-}
-
-void set_lane(Group& group, std::size_t lane, const Box& box) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    group.lower[axis][lane] = box.lower[axis];
-    group.upper[axis][lane] = box.upper[axis];
-  }
-}
-
-/// Fills the parts of a tree.
-class Builder {
- public:
-  Builder(const MovingVertices& vertices, std::span<const Primitive> primitives,
-          std::span<Group> groups, std::span<BoxTree::Node> nodes, std::span<std::uint32_t> leaves)
-      : vertices_(vertices),
-        primitives_(primitives),
-        groups_(groups),
-        nodes_(nodes),
-        leaves_(leaves),
-        seeds_(primitives.size()) {}
-
-  void build() {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seeds_.size()), [this](const auto& range) {
-      const StrictFloatingPoint strict;
-      for (std::size_t i = range.begin(); i < range.end(); ++i) seeds_[i] = seed(i);
-    });
-    build(0, 0, groups_.size());
-  }
-
- private:
-  [[nodiscard]] Seed seed(std::size_t i) const {
-    const Box box = swept_box(vertices_, primitives_[i]);
-    Seed result{.centre = {}, .index = static_cast<std::int32_t>(i)};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      // Halved first: the sum may be beyond the greatest double.
-      result.centre[axis] = static_cast<float>(0.5 * box.lower[axis] + 0.5 * box.upper[axis]);
-    }
+  /// The one that including others makes to theirs.
+  static RowBox empty() {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    RowBox result;
+    result.lower.fill(FloatRow{infinity, infinity, infinity, infinity});
+    result.upper.fill(FloatRow{-infinity, -infinity, -infinity, -infinity});
     return result;
   }
 
-  [[nodiscard]] std::span<Seed> seeds_of(std::size_t first_group, std::size_t end_group) {
-    const std::size_t first = first_group * Group::capacity;
-    const std::size_t end = std::min(end_group * Group::capacity, seeds_.size());
-    return std::span(seeds_).subspan(first, end - first);
-  }
-
-  /// Builds the subtree over these groups with node number `root` at its top.
-  void build(std::size_t root, std::size_t first, std::size_t end) {
-    if (end - first == 1) {
-      build_leaf(root, first);
-      return;
+  void include(const RowBox& other) {
+    for (std::size_t i = 0; i < instants; ++i) {
+      lower[i] = least(lower[i], other.lower[i]);
+      upper[i] = greatest(upper[i], other.upper[i]);
     }
-    const std::size_t middle = first + (end - first) / 2;
-    const std::size_t left = root + 1, right = left + 2 * (middle - first) - 1;
-    split(first, middle, end);
-    const auto build_left = [&] { build(left, first, middle); };
-    const auto build_right = [&] { build(right, middle, end); };
-    if (end - first > groups_of_task) {
-      tbb::parallel_invoke(strictly(build_left), strictly(build_right));
-    } else {
-      build_left();
-      build_right();
-    }
-    BoxTree::Node& node = nodes_[root];
-    node.box = nodes_[left].box;
-    node.box.include(nodes_[right].box);
-    node.behind = static_cast<std::uint32_t>(root + 2 * (end - first) - 1);
-    node.group = BoxTree::Node::inner;
   }
-
-  /// The seeds of the groups before the middle become those with the smaller centres. Equal centres
-  /// go by index, so that nothing depends on the order before.
-  void split(std::size_t first, std::size_t middle, std::size_t end) {
-    const std::span<Seed> seeds = seeds_of(first, end);
-    const std::size_t axis = widest_axis(seeds);
-    const auto nth =
-        seeds.begin() + static_cast<std::ptrdiff_t>((middle - first) * Group::capacity);
-    std::nth_element(seeds.begin(), nth, seeds.end(), [axis](const Seed& a, const Seed& b) {
-      return std::tie(a.centre[axis], a.index) < std::tie(b.centre[axis], b.index);
-    });
-  }
-
-  void build_leaf(std::size_t leaf, std::size_t number) {
-    const std::span<Seed> seeds = seeds_of(number, number + 1);
-    std::ranges::sort(seeds, {}, &Seed::index);
-    Group& group = groups_[number];
-    Box around;
-    group.size = seeds.size();
-    for (std::size_t lane = 0; lane < Group::capacity; ++lane) {
-      Box box;
-      if (lane < seeds.size()) {
-        group.indices[lane] = seeds[lane].index;
-        group.primitives[lane] = primitives_[static_cast<std::size_t>(seeds[lane].index)];
-        box = swept_box(vertices_, group.primitives[lane]);
-      }
-      set_lane(group, lane, box);
-      around.include(box);
-    }
-    nodes_[leaf] = {.box = around,
-                    .behind = static_cast<std::uint32_t>(leaf + 1),
-                    .group = static_cast<std::uint32_t>(number)};
-    leaves_[number] = static_cast<std::uint32_t>(leaf);
-  }
-
-  const MovingVertices& vertices_;
-  std::span<const Primitive> primitives_;
-  std::span<Group> groups_;
-  std::span<BoxTree::Node> nodes_;
-  std::span<std::uint32_t> leaves_;
-  std::vector<Seed> seeds_;
 };
 
-}  // namespace
-
-void Box::include(const Box& other) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    lower[axis] = std::min(lower[axis], other.lower[axis]);
-    upper[axis] = std::max(upper[axis], other.upper[axis]);
+template <std::size_t instants>
+RowBox<instants> box_of(const VertexBounds& vertex) {
+  if constexpr (instants == 2) {
+    return {.lower = vertex.lower, .upper = vertex.upper};
+  } else {
+    return {.lower = {least(vertex.lower[0], vertex.lower[1])},
+            .upper = {greatest(vertex.upper[0], vertex.upper[1])}};
   }
 }
 
-Box widened(const Box& box, double distance) {
-  Box result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.lower[axis] = -sum_rounded_down(-box.lower[axis], distance);
-    result.upper[axis] = sum_rounded_down(box.upper[axis], distance);
+/// The box of a group's primitive.
+template <std::size_t instants>
+RowBox<instants> box_of(const FloatBounds& bounds, const GroupMembers& members, std::size_t lane) {
+  const auto corner = [&](std::size_t k) {
+    return box_of<instants>(bounds[static_cast<std::size_t>(members.vertices[k][lane])]);
+  };
+  RowBox<instants> result = corner(0);
+  result.include(corner(1));
+  result.include(corner(2));
+  return result;
+}
+
+template <std::size_t instants>
+void set_lane(BoxGroup<instants>& group, std::size_t lane, const RowBox<instants>& box) {
+  for (std::size_t i = 0; i < instants; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      group.lower[i][axis][lane] = box.lower[i][axis];
+      group.upper[i][axis][lane] = box.upper[i][axis];
+    }
+  }
+}
+
+template <std::size_t instants>
+RowBox<instants> box_of(const BoxGroup<instants>& group, std::size_t lane) {
+  RowBox<instants> result;
+  for (std::size_t i = 0; i < instants; ++i) {
+    const auto& [lower, upper] = std::tie(group.lower[i], group.upper[i]);
+    result.lower[i] = FloatRow{lower[0][lane], lower[1][lane], lower[2][lane], 0.0F};
+    result.upper[i] = FloatRow{upper[0][lane], upper[1][lane], upper[2][lane], 0.0F};
   }
   return result;
 }
 
-Box swept_box(const MovingVertices& vertices, const Primitive& primitive) {
-  Box box;
-  for (const std::int32_t index : primitive) {
-    const MovingVertex& vertex = vertices[static_cast<std::size_t>(index)];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      box.lower[axis] = std::min({box.lower[axis], vertex.start[axis], vertex.end[axis]});
-      box.upper[axis] = std::max({box.upper[axis], vertex.start[axis], vertex.end[axis]});
+/// Sets the lanes of a group to what box(lane) gives for those of `count` boxes, and returns what is around
+/// all of them. The lanes behind repeat the last.
+template <std::size_t instants, class BoxOf>
+RowBox<instants> fill(BoxGroup<instants>& group, std::size_t count, const BoxOf& box) {
+  RowBox<instants> around = RowBox<instants>::empty(), last = around;
+  for (std::size_t lane = 0; lane < group_size; ++lane) {
+    if (lane < count) {
+      last = box(lane);
+      around.include(last);
+    }
+    set_lane(group, lane, last);
+  }
+  return around;
+}
+
+}  // namespace
+
+template <std::size_t instants>
+BoxTree<instants>::BoxTree(const PrimitiveGroups& primitives) : members_(primitives.members()) {
+  if (members_.empty()) return;
+  std::size_t groups = 0;
+  for (std::size_t boxes = primitives.size();; boxes = levels_.back().size()) {
+    levels_.push_back({.groups = nullptr, .boxes = boxes});
+    groups += levels_.back().size();
+    if (levels_.size() > 1 && levels_.back().size() == 1) break;
+  }
+  groups_ = std::make_unique_for_overwrite<BoxGroup<instants>[]>(groups);
+  const BoxGroup<instants>* next = groups_.get();
+  for (BoxLevel<instants>& level : levels_) {
+    level.groups = next;
+    next += level.size();
+  }
+}
+
+template <std::size_t instants>
+BoxGroup<instants>* BoxTree<instants>::groups_of(std::size_t level) {
+  return groups_.get() + (levels_[level].groups - groups_.get());
+}
+
+template <std::size_t instants>
+void BoxTree<instants>::fit(const FloatBounds& bounds) {
+  if (levels_.empty()) return;
+  const auto boxes_in = [this](std::size_t level, std::size_t group) {
+    return std::min(levels_[level].boxes - group * group_size, group_size);
+  };
+  // A node of level 1 with the groups of primitives below it: these are near each other, and no two
+  // tasks write to one node.
+  const auto fit_node = [&](std::size_t node) {
+    return fill(groups_of(1)[node], boxes_in(1, node), [&](std::size_t child) {
+      const std::size_t group = node * group_size + child;
+      return fill(groups_of(0)[group], boxes_in(0, group), [&](std::size_t lane) {
+        return box_of<instants>(bounds, members_[group], lane);
+      });
+    });
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, levels_[1].size(), nodes_of_task),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      const StrictFloatingPoint strict;
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) fit_node(i);
+                    });
+  for (std::size_t level = 2; level < levels_.size(); ++level) {
+    for (std::size_t group = 0; group < levels_[level].size(); ++group) {
+      fill(groups_of(level)[group], boxes_in(level, group), [&](std::size_t child) {
+        const BoxGroup<instants>& below = groups_of(level - 1)[group * group_size + child];
+        RowBox<instants> around = box_of(below, 0);
+        for (std::size_t lane = 1; lane < group_size; ++lane) around.include(box_of(below, lane));
+        return around;
+      });
     }
   }
-  return box;
 }
 
-Box Group::box(std::size_t lane) const {
-  return {.lower = {lower[0][lane], lower[1][lane], lower[2][lane]},
-          .upper = {upper[0][lane], upper[1][lane], upper[2][lane]}};
-}
-
-BoxTree::BoxTree(const MovingVertices& vertices, std::span<const Primitive> primitives)
-    : groups_((primitives.size() + Group::capacity - 1) / Group::capacity),
-      nodes_(groups_.empty() ? 0 : 2 * groups_.size() - 1),
-      leaves_(groups_.size()) {
-  if (primitives.empty()) return;
-  Builder(vertices, primitives, groups_, nodes_, leaves_).build();
-}
+template class BoxTree<1>;
+template class BoxTree<2>;
 
 }  // namespace touchstone::fast

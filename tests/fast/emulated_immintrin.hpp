@@ -12,6 +12,7 @@
 #include <cmath>
 
 using __mmask8 = simde__mmask8;
+using __mmask16 = simde__mmask16;
 
 /// What this version of SIMDe lacks, from Intel's description: lanes move within halves.
 template <int order>
@@ -22,6 +23,19 @@ simde__m512d permutex_pd(simde__m512d x) {
       simde_mm256_permute4x64_pd(high, order), 1);
 }
 #define _mm512_permutex_pd(x, order) permutex_pd<(order)>(x)
+
+/// Likewise.
+inline simde__m512i widened_to_64(simde__m256i x) {
+  const simde__m256i_private from = simde__m256i_to_private(x);
+  simde__m512i_private result;
+  for (std::size_t i = 0; i < 8; ++i) result.u64[i] = from.u32[i];
+  return simde__m512i_from_private(result);
+}
+#undef _mm512_cvtepu32_epi64
+#define _mm512_cvtepu32_epi64(x) widened_to_64(x)
+#undef _mm512_mask_cmp_ps_mask
+#define _mm512_mask_cmp_ps_mask(mask, a, b, relation) \
+  static_cast<simde__mmask16>((mask)&simde_mm512_cmp_ps_mask(a, b, relation))
 
 /// SIMDe rounds the product where the processor cannot fuse.
 inline simde__m512d fused_multiply_subtract(simde__m512d a, simde__m512d b, simde__m512d c) {

@@ -91,6 +91,11 @@ function(faulty_box_kernel file name)
   faulty(fast/tight_inclusion/box_kernel_scalar.cpp "scalar_box_kernel;scalar_released_box_kernel" ${file} ${name} ${ARGN})
 endfunction()
 
+# faulty_pairs(FILE NAME …): fast::NAME, the scalar search of the broad phase with a fault in one of its files.
+function(faulty_pairs file name)
+  faulty(fast/broad_phase/search_scalar.cpp scalar_search_kernel ${file} ${name} ${ARGN})
+endfunction()
+
 # faulty_search(NAME …): fast::NAME, tight_inclusion_method with a fault in the search.
 function(faulty_search name)
   faulty(fast/tight_inclusion.cpp "tight_inclusion_method;tight_inclusion" fast/tight_inclusion.cpp ${name} ${ARGN})

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "exact/query.hpp"
+#include "fast/broad_phase/search.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/method.hpp"
@@ -18,6 +19,12 @@
 namespace touchstone::fast {
 
 #define TOUCHSTONE_PLANTED __attribute__((weak))
+
+// The search of the broad phase.
+extern const SearchKernel TOUCHSTONE_PLANTED search_of_open_boxes, search_apart_at_one_end,
+    search_apart_either_way, search_without_axis, search_without_lane, search_with_empty_lanes,
+    search_widened_inwards, search_widened_on_one_side, search_without_own_node,
+    search_of_neighbours, search_too_sure;
 
 // Tight-Inclusion's box test.
 extern const BoxKernel TOUCHSTONE_PLANTED box_of_wrong_sign, box_in_float, box_of_squared_width,

@@ -1,0 +1,95 @@
+#pragma once
+
+/// \file
+/// The search for pairs of primitives whose boxes do not exclude a contact, one implementation for each
+/// instruction set. (The algorithm: search_on_lanes.hpp.)
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "fast/broad_phase/box_tree.hpp"
+#include "fast/mesh.hpp"
+#include "fast/platform/instruction_set.hpp"
+
+namespace touchstone::fast {
+
+/// What a search says of pairs that it finds.
+enum class Certainty : std::uint8_t {
+  /// No pair is sure: each is confirmed.
+  none,
+  /// A pair is sure if it is found with boxes two floats smaller as well (float_bounds.hpp).
+  unless_close,
+  /// Every pair is.
+  all,
+};
+
+/// What holds of one kind of pairs in all searches for them.
+struct PairRules {
+  /// Are both primitives edges? Else one of them is a vertex, of which there is one place to look at.
+  bool of_edges = false;
+  /// Boxes that come this near count as overlapping: not below that distance, and not above it.
+  float distance_above = 0.0F;
+  float distance_below = 0.0F;
+  Certainty certainty = Certainty::all;
+  /// Asked about each pair that is not sure, with the primitives' numbers.
+  bool (*confirms)(const void* context, const IndexPair& pair) = nullptr;
+  const void* context = nullptr;
+};
+
+/// Pairs on their way out.
+struct PairBuffer {
+  static constexpr std::size_t capacity = 1024;
+
+  std::size_t count = 0;
+  /// Called with the pairs when the next ones may not fit.
+  void (*take)(void* context, std::span<const IndexPair> pairs) = nullptr;
+  void* context = nullptr;
+  alignas(64) std::array<IndexPair, capacity> pairs;
+
+  void flush() {
+    if (count > 0) take(context, std::span(pairs).first(count));
+    count = 0;
+  }
+};
+
+/// Which groups of a tree are held against another tree.
+template <std::size_t instants>
+struct SearchInput {
+  const BoxTree<instants>* some;
+  /// The same tree for pairs within it: each is then found once, the smaller number first.
+  const BoxTree<instants>* all;
+  PairRules rules;
+};
+
+/// The functions of one instruction set. All sets find the same pairs in the same order.
+struct SearchKernel {
+  InstructionSet instructions;
+  /// Appends the pairs of the groups `first` to `end` − 1 of `some` to the buffer; what is left in it at the
+  /// end is not flushed.
+  void (*find_swept)(const SearchInput<1>& input, std::size_t first, std::size_t end,
+                     PairBuffer& pairs);
+  void (*find_at_ends)(const SearchInput<2>& input, std::size_t first, std::size_t end,
+                       PairBuffer& pairs);
+
+  void find(const SearchInput<1>& input, std::size_t first, std::size_t end,
+            PairBuffer& pairs) const {
+    find_swept(input, first, end, pairs);
+  }
+  void find(const SearchInput<2>& input, std::size_t first, std::size_t end,
+            PairBuffer& pairs) const {
+    find_at_ends(input, first, end, pairs);
+  }
+};
+
+/// Those that this processor can run, slowest first; scalar is always among them.
+[[nodiscard]] std::span<const SearchKernel* const> search_kernels();
+
+/// The fastest of search_kernels().
+[[nodiscard]] const SearchKernel& best_search_kernel();
+
+/// The kernel of an instruction set; nullptr if this processor cannot run it.
+[[nodiscard]] const SearchKernel* find_search_kernel(InstructionSet instructions);
+
+}  // namespace touchstone::fast

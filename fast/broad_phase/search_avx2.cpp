@@ -1,0 +1,109 @@
+// The search in AVX2: sixteen boxes in two vectors; compiled for it, and called on processors that have it
+// only.
+
+#include <immintrin.h>
+
+#include <utility>
+
+#include "fast/broad_phase/search_on_lanes.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+struct Mask {
+  __m256 low, high;
+
+  friend Mask operator|(const Mask& a, const Mask& b) {
+    return {_mm256_or_ps(a.low, b.low), _mm256_or_ps(a.high, b.high)};
+  }
+};
+
+/// For each set of eight lanes, their numbers one after the other, a byte each.
+constexpr std::array<std::uint64_t, 256> make_places() {
+  std::array<std::uint64_t, 256> result{};
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    unsigned shift = 0;
+    for (unsigned lane = 0; lane < 8; ++lane) {
+      if ((bits >> lane & 1U) == 0) continue;
+      result[bits] |= std::uint64_t{lane} << shift;
+      shift += 8;
+    }
+  }
+  return result;
+}
+constexpr std::array<std::uint64_t, 256> places = make_places();
+
+struct Lanes {
+  struct Numbers {
+    __m256 low, high;
+  };
+  using Mask = touchstone::fast::Mask;
+
+  static Numbers load(const float* from) {
+    return {_mm256_load_ps(from), _mm256_load_ps(from + 8)};
+  }
+  static Numbers broadcast(float x) {
+    const __m256 all = _mm256_set1_ps(x);
+    return {all, all};
+  }
+  static Mask none() { return {_mm256_setzero_ps(), _mm256_setzero_ps()}; }
+  static Mask greater(const Numbers& a, const Numbers& b) {
+    return {_mm256_cmp_ps(a.low, b.low, _CMP_GT_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_GT_OQ)};
+  }
+  static Mask greater_where(const Mask& mask, const Numbers& a, const Numbers& b) {
+    const Mask found = greater(a, b);
+    return {_mm256_and_ps(mask.low, found.low), _mm256_and_ps(mask.high, found.high)};
+  }
+  static unsigned bits(const Mask& mask) {
+    return static_cast<unsigned>(_mm256_movemask_ps(mask.low)) |
+           static_cast<unsigned>(_mm256_movemask_ps(mask.high)) << 8U;
+  }
+
+  static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
+    const __m256i all = _mm256_set1_epi32(value);
+    const auto equal = [all](const std::int32_t* from) {
+      return _mm256_castsi256_ps(_mm256_cmpeq_epi32(load_whole(from), all));
+    };
+    return bits({equal(values), equal(values + 8)});
+  }
+
+  template <bool is_ordered>
+  static IndexPair* append(IndexPair* to, std::int32_t number, const std::int32_t* numbers,
+                           unsigned bits) {
+    to = append_half<is_ordered>(to, number, numbers, bits & 0xFFU);
+    return append_half<is_ordered>(to, number, numbers + 8, bits >> 8U);
+  }
+
+ private:
+  static __m256i load_whole(const std::int32_t* from) {
+    return _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+  }
+
+  template <bool is_ordered>
+  static IndexPair* append_half(IndexPair* to, std::int32_t number, const std::int32_t* numbers,
+                                unsigned bits) {
+    const __m256i order =
+        _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(places[bits])));
+    __m256i first = _mm256_set1_epi32(number);
+    __m256i second = _mm256_permutevar8x32_epi32(load_whole(numbers), order);
+    if constexpr (is_ordered) {
+      const __m256i less = _mm256_min_epi32(first, second);
+      second = _mm256_max_epi32(first, second);
+      first = less;
+    }
+    // Pairs 0, 1, 4, 5 and 2, 3, 6, 7.
+    const __m256i even = _mm256_unpacklo_epi32(first, second);
+    const __m256i odd = _mm256_unpackhi_epi32(first, second);
+    auto* const place = reinterpret_cast<__m256i*>(to);
+    _mm256_storeu_si256(place, _mm256_permute2x128_si256(even, odd, 0x20));
+    _mm256_storeu_si256(place + 1, _mm256_permute2x128_si256(even, odd, 0x31));
+    return to + __builtin_popcount(bits);
+  }
+};
+
+}  // namespace
+
+extern const SearchKernel avx2_search_kernel;
+const SearchKernel avx2_search_kernel = search_kernel_on<Lanes>(InstructionSet::avx2);
+
+}  // namespace touchstone::fast

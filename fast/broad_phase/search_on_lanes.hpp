@@ -1,0 +1,283 @@
+#pragma once
+
+/// \file
+/// The search for pairs in two trees of boxes (box_tree.hpp), written once for sixteen lanes: each lane
+/// has a box. For the kernels alone: one file an instruction set includes this one (search_*.cpp).
+///
+/// A group of sixteen primitives walks down the other tree at once, with the box around all of them: at a
+/// node, that box is compared with the sixteen of the node's children. Where it comes to a
+/// group of primitives, those of its own that are not apart from the group's box are each
+/// compared with the sixteen there. So every comparison is of one box with sixteen; nothing but
+/// comparisons decides, and pairs come in the same order from all instruction sets.
+///
+/// Within one tree a group meets itself and the groups behind it. Nodes in front of it are left out: a
+/// node's first group and its last one follow from its place.
+///
+/// **With a distance** d, the box that is compared is moved outwards by d: its lower bound becomes
+/// the float before fl(lower − d'), where d' ≥ d is a float. A difference is rounded to one of the two
+/// floats around it, so that is not above lower − d.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "fast/broad_phase/search.hpp"
+
+namespace touchstone::fast::search {
+
+/// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has
+/// - Numbers and Mask: a float and a truth value in each of sixteen lanes;
+/// - load and broadcast: sixteen floats, or one sixteen times;
+/// - greater(a, b), and greater_where(mask, a, b), false where the mask is;
+/// - bits(mask);
+/// - equal_bits(values, value): which of sixteen whole numbers are that value;
+/// - append<is_ordered>(to, number, numbers, bits): writes the pairs of a number with those of sixteen that
+///   the bits name, if is_ordered the smaller one first, and returns the place behind them. It may write
+///   sixteen pairs.
+template <class Lanes, std::size_t instants, bool of_edges>
+class Search {
+ public:
+  Search(const SearchInput<instants>& input, PairBuffer& pairs)
+      : some_(*input.some),
+        all_(*input.all),
+        within_(input.some == input.all),
+        rules_(input.rules),
+        pairs_(pairs) {}
+
+  void run(std::size_t first, std::size_t end) {
+    for (std::size_t group = first; group < end; ++group) {
+      set_own(group);
+      walk(group);
+    }
+  }
+
+ private:
+  using Numbers = typename Lanes::Numbers;
+  using Mask = typename Lanes::Mask;
+  using Boxes = BoxGroup<instants>;
+
+  // ---- The group that searches ----
+
+  /// A box of a group.
+  struct Place {
+    const Boxes* group;
+    std::size_t lane;
+  };
+
+  void set_own(std::size_t group) {
+    const BoxLevel<instants>&boxes = some_.levels()[0], &parents = some_.levels()[1];
+    own_ = &boxes.groups[group];
+    own_lanes_ = boxes.lanes(group);
+    around_ = {&parents.groups[group / group_size], group % group_size};
+    if (rules_.certainty == Certainty::unless_close) set_inner();
+    if (rules_.distance_above > 0.0F) widen_own();
+  }
+
+  void widen_own() {
+    widened_ = *own_;
+    own_ = &widened_;
+    const std::size_t lane = around_.lane;
+    widened_around_ = *around_.group;
+    around_ = {&widened_around_, lane};
+    for (std::size_t instant = 0; instant < instants; ++instant) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (Boxes* const boxes : {&widened_, &widened_around_}) {
+          for (float& x : boxes->lower[instant][axis]) x = float_before(x - rules_.distance_above);
+          for (float& x : boxes->upper[instant][axis]) x = float_after(x + rules_.distance_above);
+        }
+      }
+    }
+  }
+
+  /// Boxes that are so much smaller than the exact ones that whatever overlaps them, overlaps these.
+  void set_inner() {
+    const float distance = rules_.distance_below;
+    for (std::size_t instant = 0; instant < instants; ++instant) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t lane = 0; lane < group_size; ++lane) {
+          float lower = float_after(own_->lower[instant][axis][lane]);
+          float upper = float_before(own_->upper[instant][axis][lane]);
+          if (distance > 0.0F) {
+            lower = float_after(lower - distance);
+            upper = float_before(upper + distance);
+          }
+          inner_.lower[instant][axis][lane] = float_after(lower);
+          inner_.upper[instant][axis][lane] = float_before(upper);
+        }
+      }
+    }
+  }
+
+  // ---- Comparing ----
+
+  struct Loaded {
+    std::array<std::array<Numbers, 3>, instants> lower;
+    std::array<std::array<Numbers, 3>, instants> upper;
+  };
+
+  static Loaded load(const Boxes& boxes) {
+    Loaded result;
+    for (std::size_t instant = 0; instant < instants; ++instant) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        result.lower[instant][axis] = Lanes::load(boxes.lower[instant][axis].data());
+        result.upper[instant][axis] = Lanes::load(boxes.upper[instant][axis].data());
+      }
+    }
+    return result;
+  }
+
+  /// Which of sixteen boxes are not apart from one of a group: not on any axis at all instants, the same
+  /// way round.
+  static unsigned not_apart(const Loaded& boxes, const Boxes& group, std::size_t lane) {
+    Mask apart = Lanes::none();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto lower = [&](std::size_t i) {
+        return Lanes::broadcast(group.lower[i][axis][lane]);
+      };
+      const auto upper = [&](std::size_t i) {
+        return Lanes::broadcast(group.upper[i][axis][lane]);
+      };
+      Mask above = Lanes::greater(lower(0), boxes.upper[0][axis]);
+      Mask below = Lanes::greater(boxes.lower[0][axis], upper(0));
+      if constexpr (instants == 2) {
+        above = Lanes::greater_where(above, lower(1), boxes.upper[1][axis]);
+        below = Lanes::greater_where(below, boxes.lower[1][axis], upper(1));
+      }
+      apart = apart | above | below;
+    }
+    return ~Lanes::bits(apart);
+  }
+
+  // ---- The walk ----
+
+  struct Node {
+    std::size_t level;
+    std::size_t number;
+  };
+
+  void walk(std::size_t group) {
+    static constexpr std::size_t most_levels = 8;
+    std::array<Node, most_levels * group_size> waiting;
+    std::size_t count = 0;
+    waiting[count++] = {all_.levels().size() - 1, 0};
+    while (count > 0) {
+      const Node node = waiting[--count];
+      const BoxLevel<instants>& level = all_.levels()[node.level];
+      const Boxes& boxes = level.groups[node.number];
+      unsigned near =
+          not_apart(load(boxes), *around_.group, around_.lane) & level.lanes(node.number);
+      if (within_) near &= from_group_on(group, node);
+      if (node.level == 1) {
+        for (; near != 0; near &= near - 1) {
+          const auto lane = static_cast<std::size_t>(__builtin_ctz(near));
+          meet(group, node.number * group_size + lane, {&boxes, lane});
+        }
+        continue;
+      }
+      // The last child first: it waits longest.
+      while (near != 0) {
+        const auto lane = static_cast<std::size_t>(31 - __builtin_clz(near));
+        near ^= 1U << lane;
+        waiting[count++] = {node.level - 1, node.number * group_size + lane};
+      }
+    }
+  }
+
+  /// The children of a node that have that group of level 0 or one behind it.
+  static unsigned from_group_on(std::size_t group, const Node& node) {
+    // Where the group is among the boxes of the node's level.
+    const std::size_t place = group >> (4 * (node.level - 1));
+    return place / group_size == node.number ? ~0U << (place % group_size) : ~0U;
+  }
+
+  /// Holds the own primitives against those of another group, which has that box.
+  void meet(std::size_t group, std::size_t other, const Place& box) {
+    unsigned rows = not_apart(load(*own_), *box.group, box.lane) & own_lanes_;
+    if (rows == 0) return;
+    const BoxLevel<instants>& boxes = all_.levels()[0];
+    const GroupMembers &own = some_.members()[group], &others = all_.members()[other];
+    const Loaded loaded = load(boxes.groups[other]);
+    const unsigned lanes = boxes.lanes(other);
+    const bool is_self = within_ && group == other;
+    for (; rows != 0; rows &= rows - 1) {
+      const auto row = static_cast<std::size_t>(__builtin_ctz(rows));
+      unsigned hits = not_apart(loaded, *own_, row) & lanes;
+      if (is_self) hits &= ~0U << (row + 1);
+      if (hits == 0) continue;
+      hits &= ~sharing(own, row, others);
+      if (rules_.certainty != Certainty::all) hits = confirmed(own, row, others, loaded, hits);
+      append(own.numbers[row], others.numbers, hits);
+    }
+  }
+
+  /// Which of sixteen primitives share a vertex with one.
+  static unsigned sharing(const GroupMembers& own, std::size_t row, const GroupMembers& others) {
+    unsigned result = 0;
+    for (std::size_t i = 0; i < (of_edges ? 2U : 1U); ++i) {
+      for (std::size_t k = 0; k < (of_edges ? 2U : 3U); ++k) {
+        result |= Lanes::equal_bits(others.vertices[k].data(), own.vertices[i][row]);
+      }
+    }
+    return result;
+  }
+
+  /// Those of the hits that are sure, and those that are confirmed.
+  unsigned confirmed(const GroupMembers& own, std::size_t row, const GroupMembers& others,
+                     const Loaded& boxes, unsigned hits) const {
+    const unsigned sure =
+        rules_.certainty == Certainty::unless_close ? not_apart(boxes, inner_, row) : 0U;
+    unsigned result = hits & sure;
+    for (unsigned rest = hits & ~sure; rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+      const IndexPair pair{own.numbers[row], others.numbers[lane]};
+      if (rules_.confirms(rules_.context, pair)) result |= 1U << lane;
+    }
+    return result;
+  }
+
+  void append(std::int32_t number, const IndexLanes& numbers, unsigned hits) {
+    if (pairs_.count + group_size > PairBuffer::capacity) pairs_.flush();
+    IndexPair* const to = pairs_.pairs.data() + pairs_.count;
+    const IndexPair* const end =
+        within_ ? Lanes::template append<true>(to, number, numbers.data(), hits)
+                : Lanes::template append<false>(to, number, numbers.data(), hits);
+    pairs_.count = static_cast<std::size_t>(end - pairs_.pairs.data());
+  }
+
+  const BoxTree<instants>& some_;
+  const BoxTree<instants>& all_;
+  const bool within_;
+  const PairRules& rules_;
+  PairBuffer& pairs_;
+
+  const Boxes* own_ = nullptr;  ///< perhaps widened
+  unsigned own_lanes_ = 0;
+  Place around_{};
+  Boxes widened_;
+  Boxes widened_around_;
+  Boxes inner_;
+};
+
+template <class Lanes, std::size_t instants>
+void find(const SearchInput<instants>& input, std::size_t first, std::size_t end,
+          PairBuffer& pairs) {
+  if (input.all->levels().empty()) return;
+  if (input.rules.of_edges) {
+    Search<Lanes, instants, true>(input, pairs).run(first, end);
+  } else {
+    Search<Lanes, instants, false>(input, pairs).run(first, end);
+  }
+}
+
+}  // namespace touchstone::fast::search
+
+namespace touchstone::fast {
+
+template <class Lanes>
+constexpr SearchKernel search_kernel_on(InstructionSet instructions) {
+  return {.instructions = instructions,
+          .find_swept = search::find<Lanes, 1>,
+          .find_at_ends = search::find<Lanes, 2>};
+}
+
+}  // namespace touchstone::fast

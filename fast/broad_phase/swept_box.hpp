@@ -1,0 +1,39 @@
+#pragma once
+
+/// \file
+/// Swept boxes in double, which decide exactly what the boxes in float leave open.
+///
+/// Their bounds are minima and maxima of coordinates: exact. So is every comparison here.
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "fast/broad_phase/primitive_groups.hpp"
+#include "fast/mesh.hpp"
+
+namespace touchstone::fast {
+
+/// An axis-aligned box, closed. As it is made, the empty one, which overlaps no other.
+struct SweptBox {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  std::array<double, 3> lower{infinity, infinity, infinity};
+  std::array<double, 3> upper{-infinity, -infinity, -infinity};
+
+  /// Have they a point in common?
+  [[nodiscard]] bool overlaps(const SweptBox& other) const;
+
+  friend bool operator==(const SweptBox&, const SweptBox&) = default;
+};
+
+/// The box of all positions of a primitive's vertices at t=0 and at t=1.
+[[nodiscard]] SweptBox swept_box(const MovingVertices& vertices, const Primitive& primitive);
+
+/// The box with its bounds moved outwards by a distance ≥ 0, each rounded *inwards*, to the nearest
+/// double that is not beyond the exact sum. It overlaps a box of doubles iff the exact one does:
+/// a double is at most the sum iff it is at most the greatest double that is. The empty box stays
+/// empty.
+[[nodiscard]] SweptBox widened(const SweptBox& box, double distance);
+
+}  // namespace touchstone::fast

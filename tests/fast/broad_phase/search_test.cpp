@@ -1,0 +1,370 @@
+/// \file
+/// The searches against each other and against all pairs one by one, and with planted faults.
+
+#include "fast/broad_phase/search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/faults/planted_faults.hpp"
+#include "tests/support/random.hpp"
+
+namespace touchstone::fast {
+
+extern const SearchKernel emulated_avx512_search_kernel;
+
+namespace {
+
+using tests::Random;
+using Pairs = std::vector<IndexPair>;
+
+std::vector<const SearchKernel*> all_kernels() {
+  std::vector<const SearchKernel*> kernels(search_kernels().begin(), search_kernels().end());
+  kernels.push_back(&emulated_avx512_search_kernel);
+  return kernels;
+}
+
+/// Vertices, edges and faces that move.
+struct Scene {
+  Eigen::MatrixX3d start, end;
+  std::vector<Edge> edges;
+  std::vector<Face> faces;
+  std::vector<std::int32_t> vertices;
+};
+
+/// Triangles of a size in a cube; their coordinates are multiples of `grain`, so that boxes often touch.
+Scene random_scene(Random& random, int faces, double size, double grain) {
+  Scene scene{.start = Eigen::MatrixX3d(3 * faces, 3),
+              .end = Eigen::MatrixX3d(3 * faces, 3),
+              .edges = {},
+              .faces = {},
+              .vertices = {}};
+  const auto on_grid = [grain](double x) {
+    return grain == 0.0 ? x : std::round(x / grain) * grain;
+  };
+  for (int i = 0; i < faces; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double centre = random.uniform(-1, 1), motion = random.uniform(-size, size);
+      for (int k = 3 * i; k < 3 * i + 3; ++k) {
+        scene.start(k, axis) = on_grid(centre + random.uniform(-size, size));
+        scene.end(k, axis) =
+            on_grid(scene.start(k, axis) + motion + random.uniform(-size, size) / 4);
+      }
+    }
+    const int other = random.between(0, 3 * i + 2);
+    scene.faces.push_back({3 * i, 3 * i + 1, random.coin() ? 3 * i + 2 : other});
+    scene.edges.push_back({3 * i, random.coin() ? 3 * i + 1 : other});
+    scene.edges.push_back({3 * i + 1, 3 * i + 2});
+  }
+  for (int i = 0; i < 3 * faces; ++i) scene.vertices.push_back(i);
+  return scene;
+}
+
+/// The trees of a scene.
+template <std::size_t instants>
+struct Trees {
+  explicit Trees(const Scene& scene)
+      : moving(scene.start, scene.end),
+        bounds(moving),
+        vertex_groups(bounds, std::span<const std::int32_t>(scene.vertices)),
+        edge_groups(bounds, std::span<const Edge>(scene.edges)),
+        face_groups(bounds, std::span<const Face>(scene.faces)),
+        vertices(vertex_groups),
+        edges(edge_groups),
+        faces(face_groups) {
+    vertices.fit(bounds);
+    edges.fit(bounds);
+    faces.fit(bounds);
+  }
+
+  MovingVertices moving;
+  FloatBounds bounds;
+  PrimitiveGroups vertex_groups, edge_groups, face_groups;
+  BoxTree<instants> vertices, edges, faces;
+};
+
+template <std::size_t instants>
+Pairs found(const SearchKernel& kernel, const SearchInput<instants>& input) {
+  Pairs result;
+  const auto buffer = std::make_unique<PairBuffer>();
+  buffer->context = &result;
+  buffer->take = [](void* context, std::span<const IndexPair> pairs) {
+    EXPECT_LE(pairs.size(), PairBuffer::capacity);
+    EXPECT_GT(pairs.size(), 0U);
+    auto& all = *static_cast<Pairs*>(context);
+    all.insert(all.end(), pairs.begin(), pairs.end());
+  };
+  kernel.find(input, 0, input.some->members().size(), *buffer);
+  buffer->flush();
+  return result;
+}
+
+// ---- All pairs one by one -----------------------------------------------------------------------
+
+/// Is x − y > d? Exactly: the rounded difference and its error are together the true one.
+bool exceeds(double x, double y, double distance) {
+  const double difference = x - y, part = difference - x;
+  const double error = (x - (difference - part)) - (y + part);
+  return difference > distance || (difference == distance && error > 0.0);
+}
+
+/// Are two primitives apart by more than d, on some axis, at both ends the same way round (two instants), or all
+/// the time (one)? Exact.
+template <std::size_t instants>
+bool are_apart(const Scene& scene, const Primitive& a, const Primitive& b, double distance) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::array<bool, 2> above{true, true}, below{true, true};
+    for (std::size_t at_a = 0; at_a < 2; ++at_a) {
+      for (std::size_t at_b = 0; at_b < 2; ++at_b) {
+        if (instants == 2 && at_a != at_b) continue;
+        for (const std::int32_t i : a) {
+          for (const std::int32_t k : b) {
+            const double x = (at_a == 0 ? scene.start : scene.end)(i, axis);
+            const double y = (at_b == 0 ? scene.start : scene.end)(k, axis);
+            above[at_a] &= exceeds(x, y, distance);
+            below[at_a] &= exceeds(y, x, distance);
+          }
+        }
+      }
+    }
+    if ((above[0] && above[1]) || (below[0] && below[1])) return true;
+  }
+  return false;
+}
+
+bool share_vertex(const Primitive& a, const Primitive& b) {
+  return std::ranges::any_of(a, [&](std::int32_t i) { return std::ranges::count(b, i) > 0; });
+}
+
+template <std::size_t instants, class First, class Second>
+Pairs all_pairs(const Scene& scene, std::span<const First> first, std::span<const Second> second,
+                double distance) {
+  const bool within = static_cast<const void*>(first.data()) == second.data();
+  Pairs result;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    for (std::size_t k = within ? i + 1 : 0; k < second.size(); ++k) {
+      const Primitive a = primitive_of(first[i]), b = primitive_of(second[k]);
+      if (share_vertex(a, b) || are_apart<instants>(scene, a, b, distance)) continue;
+      result.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(k)});
+    }
+  }
+  return result;
+}
+
+Pairs sorted(Pairs pairs) {
+  std::ranges::sort(pairs);
+  return pairs;
+}
+
+/// A pair that is not sure is confirmed by the truth.
+template <std::size_t instants, class First, class Second>
+struct Truth {
+  const Scene& scene;
+  std::span<const First> first;
+  std::span<const Second> second;
+  double distance;
+  bool of_edges;
+
+  static bool confirms(const void* context, const IndexPair& pair) {
+    const auto& truth = *static_cast<const Truth*>(context);
+    return !are_apart<instants>(
+        truth.scene, primitive_of(truth.first[static_cast<std::size_t>(pair[0])]),
+        primitive_of(truth.second[static_cast<std::size_t>(pair[1])]), truth.distance);
+  }
+
+  [[nodiscard]] PairRules rules(const FloatBounds& bounds, Certainty certainty) const {
+    return {.of_edges = of_edges,
+            .distance_above = bounds.scaled_up(distance),
+            .distance_below = bounds.scaled_down(distance),
+            .certainty = certainty,
+            .confirms = &Truth::confirms,
+            .context = this};
+  }
+};
+
+/// What a search of a scene says that is not so, or nothing.
+template <std::size_t instants>
+std::string fault(const SearchKernel& kernel, const Scene& scene, double distance,
+                  Certainty certainty) {
+  const Trees<instants> trees(scene);
+  const Truth<instants, std::int32_t, Face> of_faces{scene, scene.vertices, scene.faces, distance,
+                                                     false};
+  const Truth<instants, Edge, Edge> of_edges{scene, scene.edges, scene.edges, distance, true};
+  const SearchInput<instants> with_faces{&trees.vertices, &trees.faces,
+                                         of_faces.rules(trees.bounds, certainty)};
+  const SearchInput<instants> of_one_tree{&trees.edges, &trees.edges,
+                                          of_edges.rules(trees.bounds, certainty)};
+  if (sorted(found(kernel, with_faces)) !=
+      all_pairs<instants, std::int32_t, Face>(scene, scene.vertices, scene.faces, distance)) {
+    return "vertices and faces";
+  }
+  if (sorted(found(kernel, of_one_tree)) !=
+      all_pairs<instants, Edge, Edge>(scene, scene.edges, scene.edges, distance)) {
+    return "edges";
+  }
+  return "";
+}
+
+/// The first fault in random scenes, or nothing.
+std::string first_fault(const SearchKernel& kernel) {
+  Random random(21);
+  const auto name = [](std::string what, double grain, double distance) {
+    return what.empty() ? what
+                        : what + ", grain " + std::to_string(grain) + ", distance " +
+                              std::to_string(distance);
+  };
+  for (int round = 0; round < 6; ++round) {
+    for (const double size : {0.03, 0.2, 1.0}) {
+      // Floats, and multiples of 0.1, which are none.
+      for (const double grain : {0.0625, 0.1, 0.0}) {
+        const Scene scene = random_scene(random, 10 + 12 * round, size, grain);
+        const Certainty certainty = grain == 0.0625 ? Certainty::all : Certainty::unless_close;
+        const std::string swept = fault<1>(kernel, scene, 0.0, certainty);
+        if (!swept.empty()) return name(swept, grain, 0);
+        if (grain == 0.0625) {
+          const std::string at_ends = fault<2>(kernel, scene, 0.0, certainty);
+          if (!at_ends.empty()) return name(at_ends + " at both ends", grain, 0);
+        }
+      }
+      for (const double distance : {0.0625, 0.1, 1e-10}) {
+        const Scene scene = random_scene(random, 10 + 12 * round, size, 0.0625);
+        for (const Certainty certainty : {Certainty::unless_close, Certainty::none}) {
+          const std::string swept = fault<1>(kernel, scene, distance, certainty);
+          if (!swept.empty()) return name(swept, 0.0625, distance);
+          const std::string at_ends = fault<2>(kernel, scene, distance, certainty);
+          if (!at_ends.empty()) return name(at_ends + " at both ends", 0.0625, distance);
+        }
+      }
+    }
+  }
+  return "";
+}
+
+TEST(Search, FindsExactlyThePairsThatAreNotApart) {
+  for (const SearchKernel* const kernel : all_kernels()) {
+    EXPECT_EQ(first_fault(*kernel), "") << to_string(kernel->instructions);
+  }
+}
+
+TEST(Search, MissesNothingWithoutConfirmation) {
+  // What is sure where nothing is asked may be more than the truth, and never less.
+  Random random(22);
+  for (const double distance : {0.0, 0.1, 1e-10}) {
+    for (const double grain : {0.1, 0.0}) {
+      const Scene scene = random_scene(random, 60, 0.2, grain);
+      const Trees<2> trees(scene);
+      const PairRules rules{.of_edges = true, .distance_above = trees.bounds.scaled_up(distance)};
+      const Pairs some = all_pairs<2, Edge, Edge>(scene, scene.edges, scene.edges, distance);
+      for (const SearchKernel* const kernel : all_kernels()) {
+        const Pairs more = sorted(found<2>(*kernel, {&trees.edges, &trees.edges, rules}));
+        EXPECT_TRUE(std::ranges::includes(more, some));
+        EXPECT_LT(more.size(), some.size() + some.size() / 4 + 20);
+      }
+    }
+  }
+}
+
+template <std::size_t instants>
+void expect_same_order(const Scene& scene) {
+  const Trees<instants> trees(scene);
+  for (const float distance : {0.0F, 0.05F}) {
+    const PairRules rules{.distance_above = distance};
+    PairRules of_edges = rules;
+    of_edges.of_edges = true;
+    const SearchInput<instants> with_faces{&trees.vertices, &trees.faces, rules};
+    const SearchInput<instants> of_one_tree{&trees.edges, &trees.edges, of_edges};
+    const Pairs vertex_face = found(*search_kernels().front(), with_faces);
+    const Pairs edge_edge = found(*search_kernels().front(), of_one_tree);
+    EXPECT_GT(vertex_face.size(), PairBuffer::capacity);
+    for (const SearchKernel* const kernel : all_kernels()) {
+      EXPECT_EQ(found(*kernel, with_faces), vertex_face) << to_string(kernel->instructions);
+      EXPECT_EQ(found(*kernel, of_one_tree), edge_edge) << to_string(kernel->instructions);
+    }
+  }
+}
+
+TEST(Search, GivesTheSamePairsInTheSameOrder) {
+  Random random(23);
+  for (const double grain : {0.0, 0.01}) {
+    const Scene scene = random_scene(random, 2000, 0.08, grain);
+    expect_same_order<1>(scene);
+    expect_same_order<2>(scene);
+  }
+}
+
+TEST(Search, OfPartsIsThatOfTheWhole) {
+  Random random(24);
+  const Scene scene = random_scene(random, 300, 0.1, 0.0);
+  const Trees<2> trees(scene);
+  const SearchInput<2> input{&trees.edges, &trees.edges, {.of_edges = true}};
+  for (const SearchKernel* const kernel : all_kernels()) {
+    const Pairs whole = found(*kernel, input);
+    Pairs parts;
+    const auto buffer = std::make_unique<PairBuffer>();
+    buffer->context = &parts;
+    buffer->take = [](void* context, std::span<const IndexPair> pairs) {
+      auto& all = *static_cast<Pairs*>(context);
+      all.insert(all.end(), pairs.begin(), pairs.end());
+    };
+    const std::size_t groups = trees.edges.members().size();
+    for (std::size_t i = 0; i < groups; ++i) kernel->find(input, i, i + 1, *buffer);
+    buffer->flush();
+    EXPECT_EQ(parts, whole);
+  }
+}
+
+TEST(Search, OfNothingFindsNothing) {
+  Random random(25);
+  Scene scene = random_scene(random, 5, 0.5, 0.0);
+  scene.faces.clear();
+  scene.edges.clear();
+  const Trees<1> trees(scene);
+  for (const SearchKernel* const kernel : all_kernels()) {
+    EXPECT_TRUE(found<1>(*kernel, {&trees.vertices, &trees.faces, {}}).empty());
+    EXPECT_TRUE(found<1>(*kernel, {&trees.faces, &trees.vertices, {}}).empty());
+    EXPECT_TRUE(found<1>(*kernel, {&trees.edges, &trees.edges, {.of_edges = true}}).empty());
+  }
+}
+
+TEST(SearchKernels, AreFoundByTheirInstructions) {
+  EXPECT_EQ(search_kernels().front()->instructions, InstructionSet::scalar);
+  EXPECT_EQ(&best_search_kernel(), search_kernels().back());
+  for (const SearchKernel* const kernel : search_kernels()) {
+    EXPECT_EQ(find_search_kernel(kernel->instructions), kernel);
+  }
+}
+
+TEST(Search, FaultsInItAreFound) {
+  const std::map<std::string, const SearchKernel*> faults{
+      {"touching is apart", &search_of_open_boxes},
+      {"apart at one end", &search_apart_at_one_end},
+      {"apart either way round", &search_apart_either_way},
+      {"an axis is forgotten", &search_without_axis},
+      {"a lane is forgotten", &search_without_lane},
+      {"lanes that are none", &search_with_empty_lanes},
+      {"widened inwards", &search_widened_inwards},
+      {"the distance is forgotten on one side", &search_widened_on_one_side},
+      {"groups behind", &search_without_own_node},
+      {"shared vertices", &search_of_neighbours},
+      {"sure too early", &search_too_sure}};
+  int planted = 0;
+  for (const auto& [name, kernel] : faults) {
+    if (kernel == nullptr) continue;  // not planted in this build
+    ++planted;
+    EXPECT_NE(first_fault(*kernel), "") << name;
+  }
+  EXPECT_GE(planted, tests::least_planted(3));
+}
+
+}  // namespace
+}  // namespace touchstone::fast
