@@ -108,6 +108,7 @@ BoxTree<instants>::BoxTree(const PrimitiveGroups& primitives) : members_(primiti
     groups += levels_.back().size();
     if (levels_.size() > 1 && levels_.back().size() == 1) break;
   }
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
   groups_ = std::make_unique_for_overwrite<BoxGroup<instants>[]>(groups);
   const BoxGroup<instants>* next = groups_.get();
   for (BoxLevel<instants>& level : levels_) {

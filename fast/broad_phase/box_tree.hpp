@@ -90,6 +90,7 @@ class BoxTree {
   [[nodiscard]] BoxGroup<instants>* groups_of(std::size_t level);
 
   std::span<const GroupMembers> members_;
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
   std::unique_ptr<BoxGroup<instants>[]> groups_;
   std::vector<BoxLevel<instants>> levels_;
 };

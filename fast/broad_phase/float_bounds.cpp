@@ -91,6 +91,7 @@ float rounded_down(double x) {
 }
 
 FloatBounds::FloatBounds(const MovingVertices& vertices, double end)
+    // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
     : size_(vertices.size()), bounds_(std::make_unique_for_overwrite<VertexBounds[]>(size_)) {
   scale_ = scale_for(greatest_coordinate(vertices));
   exact_ = over_vertices(

@@ -81,6 +81,7 @@ class FloatBounds {
   bool set(VertexBounds& bounds, const MovingVertex& vertex, double end) const;
 
   std::size_t size_;
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
   std::unique_ptr<VertexBounds[]> bounds_;
   double scale_ = 1.0;  ///< a power of two
   bool exact_ = true;

@@ -218,6 +218,7 @@ void for_each_strictly(std::size_t count, std::size_t of_task, const Work& work)
 template <class Element>
 PrimitiveGroups::PrimitiveGroups(const FloatBounds& bounds, std::span<const Element> elements)
     : size_(elements.size()), members_((elements.size() + group_size - 1) / group_size) {
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
   const auto seeds = std::make_unique_for_overwrite<Seed[]>(size_);
   for_each_strictly(size_, groups_of_task * group_size, [&](std::size_t i) {
     seeds[i] = seed_of(bounds, primitive_of(elements[i]), static_cast<std::int32_t>(i));

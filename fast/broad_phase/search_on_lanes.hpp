@@ -40,9 +40,9 @@ class Search {
   Search(const SearchInput<instants>& input, PairBuffer& pairs)
       : some_(*input.some),
         all_(*input.all),
-        within_(input.some == input.all),
         rules_(input.rules),
-        pairs_(pairs) {}
+        pairs_(pairs),
+        within_(input.some == input.all) {}
 
   void run(std::size_t first, std::size_t end) {
     for (std::size_t group = first; group < end; ++group) {
@@ -285,19 +285,19 @@ class Search {
     pairs_.count = static_cast<std::size_t>(end - pairs_.pairs.data());
   }
 
-  const BoxTree<instants>& some_;
-  const BoxTree<instants>& all_;
-  const bool within_;
-  const PairRules& rules_;
-  PairBuffer& pairs_;
-
-  const Boxes* own_ = nullptr;  ///< perhaps widened
-  unsigned own_lanes_ = 0;
-  Place around_{};
-  std::int32_t own_body_ = BodyTree::mixed;
   Boxes widened_;
   Boxes widened_around_;
   Boxes inner_;
+  const Boxes* own_ = nullptr;  ///< perhaps widened
+  Place around_{};
+
+  const BoxTree<instants>& some_;
+  const BoxTree<instants>& all_;
+  const PairRules& rules_;
+  PairBuffer& pairs_;
+  unsigned own_lanes_ = 0;
+  std::int32_t own_body_ = BodyTree::mixed;
+  const bool within_;
 };
 
 template <class Lanes, std::size_t instants>

@@ -51,6 +51,7 @@ namespace touchstone::tests {
   verify::report::Measurements report;
   report.command = "touchstone report handcrafted --out 'a <page>.html'";
   report.machine = "a machine";
+  report.date = "2026-01-31";
   verify::report::Measurement certified = measured("handcrafted", "certified", 10.0);
   certified.toi_error = verify::report::Spread{.count = 20, .median = 0.0, .max = 1e-13};
   certified.stages = {{"axis", 75}, {"exact", 25}};

@@ -4,9 +4,7 @@
 /// NumPy's .npy files of queries: little-endian float64 of shape (N, 8, 3), in C order.
 ///
 /// Such an array has the layout of N consecutive Query objects, so its bytes *are* the queries:
-/// nothing is parsed. An array of no queries, shape (0, 8, 3), is one as well. The file begins with "\x93NUMPY", two bytes of version (1 to 3),
-/// the length of the header (2 bytes in version 1, else 4, little-endian) and the header: a Python
-/// dictionary of exactly descr, fortran_order and shape.
+/// nothing is parsed. An array of no queries, shape (0, 8, 3), is one as well.
 
 #include <cstddef>
 #include <cstdint>

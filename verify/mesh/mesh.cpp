@@ -42,6 +42,17 @@ Mesh make_mesh(std::span<const std::array<double, 3>> coordinates, std::vector<f
   return mesh;
 }
 
+bool is_mesh_file(const std::filesystem::path& path) {
+  const std::string extension = lower_case(path.extension().string());
+  return extension == ".ply" || extension == ".obj";
+}
+
+bool same_elements(const Mesh& a, const Mesh& b) {
+  return a.vertices.rows() == b.vertices.rows() && a.faces == b.faces && a.edges == b.edges &&
+         a.points == b.points && a.groups.names == b.groups.names &&
+         a.groups.of_vertex == b.groups.of_vertex;
+}
+
 Mesh read_mesh(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
   if (extension == ".ply") return read_ply(path);

@@ -6,22 +6,39 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fast/mesh.hpp"
 
 namespace touchstone::verify::mesh {
 
+/// Positions of vertices, a row each.
+using Vertices = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// The groups of vertices that a file names.
+struct Groups {
+  std::vector<std::string> names;
+  /// Of each vertex, an index of `names`; empty where the file names no group.
+  std::vector<std::int32_t> of_vertex;
+  /// Why the groups cannot be used, with the place in the file; empty if they can.
+  std::string error;
+};
+
 /// A mesh at rest. Wherever a reader made it, it has a vertex, indices are in range and coordinates
 /// finite.
 struct Mesh {
-  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> vertices;
+  Vertices vertices;
   std::vector<fast::Face> faces;
   /// Those of the faces and those that the file names by themselves, each once: ordered and
   /// numbered as fast::edges_of does.
   std::vector<fast::Edge> edges;
+  /// The vertices that the file names as points by themselves, ascending, each once.
+  std::vector<std::int32_t> points;
+  Groups groups;
 };
 
 /// A mesh from what a file holds: the edges of the faces join those that the file names, in
@@ -31,6 +48,12 @@ struct Mesh {
 [[nodiscard]] Mesh make_mesh(std::span<const std::array<double, 3>> coordinates,
                              std::vector<fast::Face> faces,
                              std::span<const fast::Edge> named_edges);
+
+/// Does the file's extension name a format that read_mesh knows?
+[[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);
+
+/// Have they as many vertices, and the same faces, edges, points and groups?
+[[nodiscard]] bool same_elements(const Mesh& a, const Mesh& b);
 
 /// Reads a mesh in the format that the file's extension names, in either case: .ply or .obj.
 /// \throws DatasetError if the extension is another, the file cannot be read or is in error.

@@ -9,8 +9,7 @@ namespace touchstone::verify::mesh {
 MovingMesh read_step(const std::filesystem::path& before, const std::filesystem::path& after) {
   Mesh start = read_mesh(before);
   const Mesh end = read_mesh(after);
-  if (start.vertices.rows() != end.vertices.rows() || start.faces != end.faces ||
-      start.edges != end.edges) {
+  if (!same_elements(start, end)) {
     throw data::DatasetError(after, {}, "is not the same mesh as " + before.string());
   }
   return {.name = before.stem().string() + "-" + after.stem().string(),

@@ -16,6 +16,7 @@
 namespace touchstone::verify::mesh {
 namespace {
 
+constexpr std::int32_t no_group = -1;
 constexpr std::size_t most_vertices = std::numeric_limits<std::int32_t>::max();
 
 /// Reads line by line. A corner may name a vertex that comes later, so these are checked at the end.
@@ -33,14 +34,28 @@ class ObjReader {
       throw data::DatasetError(path_, {},
                                "no vertex (a line \"v x y z\"): an empty mesh, or not an OBJ file");
     }
-    require_vertices(faces_, face_lines_);
-    require_vertices(edges_, edge_lines_);
-    return make_mesh(vertices_, std::move(faces_), edges_);
+    require_vertices(faces_, face_places_);
+    require_vertices(edges_, edge_places_);
+    require_vertices(points_, point_places_);
+    Mesh mesh = make_mesh(vertices_, std::move(faces_), edges_);
+    for (const auto& [vertex] : points_) mesh.points.push_back(vertex);
+    std::ranges::sort(mesh.points);
+    mesh.points.erase(std::unique(mesh.points.begin(), mesh.points.end()), mesh.points.end());
+    if (!group_names_.empty()) mesh.groups = groups(mesh.faces);
+    return mesh;
   }
 
  private:
+  /// Where an element stands.
+  struct Place {
+    std::uint64_t line;
+    std::int32_t group;
+  };
+
   void read_line(std::string_view line) {
     const std::string_view keyword = take_word(line);
+    if (keyword == "o" || keyword == "g") begin_group(line);
+    if (keyword == "p") read_points(line);
     if (keyword == "v") read_vertex(line);
     if (keyword == "f") read_face(line);
     if (keyword == "l") read_polyline(line);
@@ -58,6 +73,57 @@ class ObjReader {
       coordinate = *value;
     }
     vertices_.push_back(vertex);
+    group_of_line_.push_back(group_);
+  }
+
+  /// What stands before the first group is in one without a name.
+  void begin_group(std::string_view name) {
+    if (group_names_.empty()) group_names_.emplace_back();
+    const std::string trimmed(io::trimmed(name));
+    const auto found = std::ranges::find(group_names_, trimmed);
+    group_ = static_cast<std::int32_t>(found - group_names_.begin());
+    if (found == group_names_.end()) group_names_.push_back(trimmed);
+  }
+
+  [[nodiscard]] Place place() const { return {.line = line_, .group = group_}; }
+
+  void read_points(std::string_view line) {
+    for (auto word = take_word(line); !word.empty(); word = take_word(line)) {
+      points_.push_back({read_corner(word)});
+      point_places_.push_back(place());
+    }
+  }
+
+  [[nodiscard]] Groups groups(const std::vector<fast::Face>& faces) const {
+    Groups result{.names = group_names_,
+                  .of_vertex = std::vector<std::int32_t>(vertices_.size(), no_group),
+                  .error = {}};
+    add_to(result, faces, face_places_);
+    add_to(result, edges_, edge_places_);
+    add_to(result, points_, point_places_);
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      if (result.of_vertex[i] == no_group) result.of_vertex[i] = group_of_line_[i];
+    }
+    return result;
+  }
+
+  template <class Element>
+  void add_to(Groups& groups, const std::vector<Element>& elements,
+              const std::vector<Place>& places) const {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      for (const std::int32_t vertex : elements[i]) {
+        std::int32_t& group = groups.of_vertex[static_cast<std::size_t>(vertex)];
+        if (group == no_group) group = places[i].group;
+        if (group == places[i].group || !groups.error.empty()) continue;
+        groups.error =
+            data::DatasetError(
+                path_, {.line = places[i].line},
+                "vertex " + std::to_string(std::int64_t{vertex} + 1) + " is in two groups, " +
+                    data::quote(group_names_[static_cast<std::size_t>(group)]) + " and " +
+                    data::quote(group_names_[static_cast<std::size_t>(places[i].group)]))
+                .what();
+      }
+    }
   }
 
   void read_face(std::string_view line) {
@@ -72,7 +138,7 @@ class ObjReader {
       fail("a face with " + std::to_string(corners) + " corners; only triangles are read");
     }
     faces_.push_back(face);
-    face_lines_.push_back(line_);
+    face_places_.push_back(place());
   }
 
   void read_polyline(std::string_view line) {
@@ -82,7 +148,7 @@ class ObjReader {
       const std::int32_t corner = read_corner(word);
       if (last) {
         edges_.push_back({*last, corner});
-        edge_lines_.push_back(line_);
+        edge_places_.push_back(place());
       }
       last = corner;
       ++corners;
@@ -104,12 +170,11 @@ class ObjReader {
   }
 
   template <class Element>
-  void require_vertices(const std::vector<Element>& elements,
-                        const std::vector<std::uint64_t>& lines) {
+  void require_vertices(const std::vector<Element>& elements, const std::vector<Place>& places) {
     for (std::size_t i = 0; i < elements.size(); ++i) {
       const std::int32_t greatest = *std::ranges::max_element(elements[i]);
       if (static_cast<std::size_t>(greatest) < vertices_.size()) continue;
-      line_ = lines[i];
+      line_ = places[i].line;
       fail("corner " + std::to_string(std::int64_t{greatest} + 1) + ", but there are " +
            std::to_string(vertices_.size()) + " vertices");
     }
@@ -124,9 +189,14 @@ class ObjReader {
   std::uint64_t line_ = 0;
   std::vector<std::array<double, 3>> vertices_;
   std::vector<fast::Face> faces_;
-  std::vector<std::uint64_t> face_lines_;
+  std::vector<Place> face_places_;
   std::vector<fast::Edge> edges_;
-  std::vector<std::uint64_t> edge_lines_;
+  std::vector<Place> edge_places_;
+  std::vector<std::array<std::int32_t, 1>> points_;
+  std::vector<Place> point_places_;
+  std::int32_t group_ = 0;
+  std::vector<std::string> group_names_;
+  std::vector<std::int32_t> group_of_line_;  // of each vertex
 };
 
 }  // namespace

@@ -3,9 +3,11 @@
 /// \file
 /// Wavefront OBJ: a text of lines, each a keyword and its words.
 ///
-/// Read are `v x y z` (what follows, a weight or a colour, is not), `f a b c` and `l a b …`. A
+/// Read are `v x y z` (what follows, a weight or a colour, is not), `f a b c`, `l a b …` and `p a …`. A
 /// corner is the number of a vertex, counted from 1, or from the last vertex before it backwards
-/// (−1); numbers of a texture and of a normal may follow after '/'. All else is passed over.
+/// (−1); numbers of a texture and of a normal may follow after '/'. `o` and `g` begin a group with the
+/// name that the rest of the line is: a vertex is in the group of the faces, lines and points that have it, or, where
+/// it is in none, in the group of its own line. All else is passed over.
 
 #include <filesystem>
 

@@ -1,7 +1,10 @@
 #include "verify/report/experiments.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -124,6 +127,13 @@ std::string processor() {
   return "unknown processor";
 }
 
+std::string today() {
+  const auto now = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  const std::chrono::year_month_day day(now);
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(day.year()),
+                     static_cast<unsigned>(day.month()), static_cast<unsigned>(day.day()));
+}
+
 class Run {
  public:
   Run(std::span<const data::QueryGroup> groups, const ExperimentOptions& options)
@@ -134,6 +144,7 @@ class Run {
 
   [[nodiscard]] Measurements result() {
     result_.machine = processor();
+    result_.date = today();
     const std::vector<Trial> trials = chosen_trials();
     for (std::size_t group = 0; group < groups_.size(); ++group) {
       judge::GroundTruthCache truths(groups_[group], options_.threads);

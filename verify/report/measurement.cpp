@@ -68,10 +68,18 @@ std::vector<const Measurement*> of_experiment(const Measurements& measurements,
   return chosen;
 }
 
+std::string origin_text(const Measurements& measurements) {
+  std::string text;
+  if (!measurements.machine.empty()) text += " on " + measurements.machine;
+  if (!measurements.date.empty()) text += ", " + measurements.date;
+  return text;
+}
+
 Measurements with_printable_texts(Measurements measurements) {
   const auto clean = [](std::string& text) { text = io::printable(text); };
   clean(measurements.command);
   clean(measurements.machine);
+  clean(measurements.date);
   for (Measurement& measurement : measurements.all) {
     clean(measurement.group);
     clean(measurement.method);

@@ -143,10 +143,14 @@ struct StabilityMark {
 struct Measurements {
   std::string command;  ///< the command line that made them
   std::string machine;  ///< the processor they were made on
+  std::string date;     ///< the day they were made, YYYY-MM-DD in UTC; empty if not known
   std::vector<Measurement> all;
   std::vector<StabilityMark> stability;
   bool interrupted = false;
 };
+
+/// Where and when they were made, for a sentence: " on PROCESSOR, 2026-01-31"; empty if not known.
+[[nodiscard]] std::string origin_text(const Measurements& measurements);
 
 /// The same with all names and texts printable (printable.hpp): for what people read.
 [[nodiscard]] Measurements with_printable_texts(Measurements measurements);

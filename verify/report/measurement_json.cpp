@@ -191,6 +191,8 @@ Measurements read(const Json& json) {
   Measurements measurements;
   json.at("command").get_to(measurements.command);
   json.at("machine").get_to(measurements.machine);
+  // (Earlier files have no date.)
+  measurements.date = json.value("date", measurements.date);
   json.at("interrupted").get_to(measurements.interrupted);
   for (const Json& one : json.at("measurements")) {
     measurements.all.push_back(measurement_from(one));
@@ -206,9 +208,13 @@ Json to_json(const Measurements& measurements) {
   for (const Measurement& measurement : measurements.all) all.push_back(json_of(measurement));
   Json stability = Json::array();
   for (const StabilityMark& mark : measurements.stability) stability.push_back(json_of(mark));
-  return {{"format", format_name},           {"command", measurements.command},
-          {"machine", measurements.machine}, {"interrupted", measurements.interrupted},
-          {"measurements", std::move(all)},  {"stability", std::move(stability)}};
+  return {{"format", format_name},
+          {"command", measurements.command},
+          {"machine", measurements.machine},
+          {"date", measurements.date},
+          {"interrupted", measurements.interrupted},
+          {"measurements", std::move(all)},
+          {"stability", std::move(stability)}};
 }
 
 Measurements measurements_from_json(const Json& json) {

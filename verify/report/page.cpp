@@ -72,7 +72,7 @@ struct Contents {
   std::vector<Section> further_tables;
   /// Where the numbers are from; texts are printable.
   std::string command;
-  std::string machine;
+  std::string origin;  ///< as origin_text() gives it
   bool interrupted = false;
 };
 
@@ -134,10 +134,8 @@ class Writer {
   }
 
   void write_navigation() {
-    text_ +=
-        fmt::format("<p>Made{} by</p>\n<pre class=\"command\">{}</pre>\n",
-                    contents_.machine.empty() ? "" : " on " + io::html_escaped(contents_.machine),
-                    io::html_escaped(contents_.command));
+    text_ += fmt::format("<p>Made{} by</p>\n<pre class=\"command\">{}</pre>\n",
+                         io::html_escaped(contents_.origin), io::html_escaped(contents_.command));
     text_ += "<nav aria-label=\"Contents\"><ul>\n";
     for (const Section& section : contents_.top_tables) write_link(section.id, section.title);
     for (const Figure& figure : contents_.figures) write_link(figure.id, figure.title);
@@ -242,7 +240,7 @@ std::string report_page(const Measurements& measured) {
                     .top_tables = {{"table_1", "Table 1: all methods", field_tables(measurements)}},
                     .further_tables = separation_sections(measurements),
                     .command = measurements.command,
-                    .machine = measurements.machine,
+                    .origin = origin_text(measurements),
                     .interrupted = measurements.interrupted};
   contents.findings = findings_of(measurements, contents.figures);
   return Writer(contents).page();
@@ -250,7 +248,7 @@ std::string report_page(const Measurements& measured) {
 
 std::string stability_page(const stability::StabilityResult& result, const std::string& command) {
   const Measurements measurements = with_printable_texts(
-      {.command = command, .machine = {}, .all = {}, .stability = marks_of(result)});
+      {.command = command, .machine = {}, .date = {}, .all = {}, .stability = marks_of(result)});
   Contents contents{
       .title = "Stability of solvers",
       .about = result.cells.empty()
@@ -267,7 +265,7 @@ std::string stability_page(const stability::StabilityResult& result, const std::
       .top_tables = {{"overview", "Overview", {overview_of(result)}, false}},
       .further_tables = {},
       .command = measurements.command,
-      .machine = {},
+      .origin = {},
       .interrupted = result.total.interrupted};
   for (const jobs::MethodResult& method : result.total.methods) {
     contents.findings.push_back(promise_text(method) + ".");

@@ -7,7 +7,7 @@
 /// A report opens with its findings (findings.hpp) and the first figure of time against error; tables and
 /// further figures follow. The tables are in the page as they are; the figures are drawn by d3 in the browser from the data that
 /// stand in the page. Every table and figure has a link to its numbers as CSV, inside the page too, and
-/// the command that made them. It fits screens from a telephone's on, and paper, and follows the reader's
+/// the command that made them; every figure has one to itself as an SVG file. It fits screens from a telephone's on, and paper, and follows the reader's
 /// light or dark scheme.
 
 #include <string>

@@ -61,9 +61,8 @@ constexpr auto differences = std::to_array<Difference>({
      "2, those on the handcrafted data nearly those of d = 1e-100."},
     {"tight_inclusion",
      "Runs with our derived filter, which is narrower than the published one "
-     "(`tight_inclusion_published`), and vectorised. On the handcrafted data a few dozen queries "
-     "that "
-     "reach 1,000,000 checks make its mean time."},
+     "(`tight_inclusion_published`), and vectorised. On the handcrafted data the few queries that "
+     "reach its limit of checks make its mean time."},
 });
 
 /// tests/fast/tight_inclusion_test.cpp asks it.
@@ -111,8 +110,8 @@ class Writer {
 
   [[nodiscard]] std::string document() {
     text_ = "# Results\n\n";
-    text_ += fmt::format("Written by `./run results`; not edited by hand. Made on {} by\n\n{}\n",
-                         io::markdown_escaped(measurements_.machine),
+    text_ += fmt::format("Written by `./run results`; not edited by hand. Made{} by\n\n{}\n",
+                         io::markdown_escaped(origin_text(measurements_)),
                          io::markdown_code_block(without_folders(measurements_.command)));
     if (measurements_.interrupted) text_ += "**Interrupted: not all is here.**\n\n";
     text_ +=
@@ -225,8 +224,7 @@ class Writer {
     text_ +=
         "## Why the numbers differ from the published ones\n\n"
         "- The data: of the published sets of 60 million queries a sample is public. Its "
-        "handcrafted part has 4,884 queries. Its simulation part here is the 5,007 pairs of two "
-        "steps "
+        "simulation part here is the pairs of two steps "
         "that a conservative solver called colliding, so nearly all of them collide; the published "
         "sets are all candidates. Rates and mean times over them are not comparable, and slow "
         "methods look slower here: colliding pairs are the dear ones.\n"

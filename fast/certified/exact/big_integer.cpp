@@ -5,16 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "fast/certified/exact/fixed_integer.hpp"
+
 namespace touchstone::fast::exact_stage {
 namespace {
 
 constexpr long limb_bits = 64;
 
-// NOLINTNEXTLINE(modernize-use-using): only a typedef can say that the extension is meant
-__extension__ typedef unsigned __int128 DoubleLimb;
-
-constexpr std::uint64_t low(DoubleLimb x) { return static_cast<std::uint64_t>(x); }
-constexpr std::uint64_t high(DoubleLimb x) { return static_cast<std::uint64_t>(x >> limb_bits); }
+constexpr std::uint64_t low(WideLimb x) { return static_cast<std::uint64_t>(x); }
+constexpr std::uint64_t high(WideLimb x) { return static_cast<std::uint64_t>(x >> limb_bits); }
 
 /// 1/x modulo 2^64, by Newton's iteration: x is right in 3 bits, each step doubles them.
 /// \pre x is odd.
@@ -95,7 +94,7 @@ std::int64_t BigInteger::truncated(long shift) const {
 
 std::uint64_t BigInteger::residue(std::uint64_t modulus) const {
   const std::uint64_t* const limb = limbs();
-  DoubleLimb rest = 0;
+  WideLimb rest = 0;
   for (std::size_t i = size_; i-- > 0;) rest = ((rest << limb_bits) | limb[i]) % modulus;
   const std::uint64_t magnitude = low(rest);
   return negative_ && magnitude != 0 ? modulus - magnitude : magnitude;
@@ -117,7 +116,7 @@ BigInteger BigInteger::divided_exactly(const BigInteger& divisor) const {
     limb[i] = rest[i] * inverse_factor;
     std::uint64_t carry = 0;
     for (std::size_t j = 0; i + j < left.size_ && (j < odd.size_ || carry != 0); ++j) {
-      const DoubleLimb product = DoubleLimb{limb[i]} * (j < odd.size_ ? factor[j] : 0) + carry;
+      const WideLimb product = WideLimb{limb[i]} * (j < odd.size_ ? factor[j] : 0) + carry;
       carry = high(product) + (rest[i + j] < low(product) ? 1 : 0);
       rest[i + j] -= low(product);
     }
@@ -143,7 +142,7 @@ void BigInteger::add_magnitude(const BigInteger& other) {
   const std::uint64_t* const b = other.limbs();
   std::uint64_t carry = 0;
   for (std::size_t i = 0; i < count || carry != 0; ++i) {
-    const DoubleLimb sum = DoubleLimb{a[i]} + (i < count ? b[i] : 0) + carry;
+    const WideLimb sum = WideLimb{a[i]} + (i < count ? b[i] : 0) + carry;
     a[i] = low(sum);
     carry = high(sum);
   }
@@ -157,7 +156,7 @@ void BigInteger::set_difference(const BigInteger& larger, const BigInteger& smal
   const std::uint64_t *const a = larger.limbs(), *const b = smaller.limbs();
   std::uint64_t borrow = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    const DoubleLimb difference = DoubleLimb{a[i]} - (i < count ? b[i] : 0) - borrow;
+    const WideLimb difference = WideLimb{a[i]} - (i < count ? b[i] : 0) - borrow;
     result[i] = low(difference);
     borrow = high(difference) != 0 ? 1 : 0;
   }
@@ -222,7 +221,7 @@ BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   for (std::size_t i = 0; i < a.size_; ++i) {
     std::uint64_t carry = 0;
     for (std::size_t j = 0; j < b.size_; ++j) {
-      const DoubleLimb sum = DoubleLimb{x[i]} * y[j] + result[i + j] + carry;
+      const WideLimb sum = WideLimb{x[i]} * y[j] + result[i + j] + carry;
       result[i + j] = low(sum);
       carry = high(sum);
     }

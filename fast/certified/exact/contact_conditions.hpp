@@ -72,23 +72,37 @@ struct Motion {
   std::array<int, 3> unit{};
 };
 
-template <class Number, std::size_t size>
-[[nodiscard]] bool is_zero(const std::array<Number, size>& form) {
-  return std::ranges::all_of(form, [](const Number& c) { return c.sign() == 0; });
+template <class AnyForm>
+[[nodiscard]] bool is_zero(const AnyForm& form) {
+  return std::ranges::all_of(form, [](const auto& c) { return c.sign() == 0; });
 }
 
-template <class Number, std::size_t size>
-[[nodiscard]] std::array<Number, size> difference(const std::array<Number, size>& a,
-                                                  const std::array<Number, size>& b) {
-  std::array<Number, size> result = a;
-  for (std::size_t k = 0; k < size; ++k) result[k] -= b[k];
-  return result;
+// Sums and differences are those of forms, and of vectors of forms.
+template <class Part, std::size_t size>
+std::array<Part, size>& operator+=(std::array<Part, size>& a, const std::array<Part, size>& b) {
+  for (std::size_t k = 0; k < size; ++k) a[k] += b[k];
+  return a;
+}
+template <class Part, std::size_t size>
+std::array<Part, size>& operator-=(std::array<Part, size>& a, const std::array<Part, size>& b) {
+  for (std::size_t k = 0; k < size; ++k) a[k] -= b[k];
+  return a;
+}
+template <class Part, std::size_t size>
+[[nodiscard]] std::array<Part, size> operator-(std::array<Part, size> a,
+                                               const std::array<Part, size>& b) {
+  return a -= b;
 }
 
-template <class Number>
-[[nodiscard]] MovingVector<Number> difference(const MovingVector<Number>& a,
-                                              const MovingVector<Number>& b) {
-  return {difference(a[0], b[0]), difference(a[1], b[1]), difference(a[2], b[2])};
+template <class A, std::size_t a_size, class B, std::size_t b_size>
+[[nodiscard]] auto operator*(const std::array<A, a_size>& a, const std::array<B, b_size>& b) {
+  std::array<decltype(A() * B()), a_size + b_size - 1> product;
+  for (std::size_t k = 0; k < product.size(); ++k) {
+    std::size_t i = k < b_size ? 0 : k - b_size + 1;
+    product[k] = a[i] * b[k - i];
+    while (++i < a_size && i <= k) product[k] += a[i] * b[k - i];
+  }
+  return product;
 }
 
 /// Component k of a × b.
@@ -96,20 +110,15 @@ template <class Number>
 [[nodiscard]] Form<Square<Number>, 2> cross(const MovingVector<Number>& a,
                                             const MovingVector<Number>& b, std::size_t k) {
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-  return {a[i][0] * b[j][0] - a[j][0] * b[i][0],
-          a[i][0] * b[j][1] + a[i][1] * b[j][0] - a[j][0] * b[i][1] - a[j][1] * b[i][0],
-          a[i][1] * b[j][1] - a[j][1] * b[i][1]};
+  return a[i] * b[j] - a[j] * b[i];
 }
 
-template <class Number>
-[[nodiscard]] Form<Square<Number>, 2> dot(const MovingVector<Number>& a,
-                                          const MovingVector<Number>& b) {
-  Form<Square<Number>, 2> sum{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    sum[0] += a[k][0] * b[k][0];
-    sum[1] += a[k][0] * b[k][1] + a[k][1] * b[k][0];
-    sum[2] += a[k][1] * b[k][1];
-  }
+/// a · b, of vectors of any forms.
+template <class A, class B>
+[[nodiscard]] auto dot(const std::array<A, 3>& a, const std::array<B, 3>& b) {
+  auto sum = a[0] * b[0];
+  sum += a[1] * b[1];
+  sum += a[2] * b[2];
   return sum;
 }
 
@@ -126,14 +135,7 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Form<Cube<Number>, 3> determinant(const Motion<Number>& motion,
                                                 const MovingNormal<Number>& normal) {
-  Form<Cube<Number>, 3> sum{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      sum[i] += normal[k][i] * motion.r[k][0];
-      sum[i + 1] += normal[k][i] * motion.r[k][1];
-    }
-  }
-  return sum;
+  return dot(normal, motion.r);
 }
 
 /// Component k of N and of its bounds, the first of which are U and V.
@@ -160,9 +162,9 @@ template <class Number>
                                                      std::size_t k) {
   const auto u = cross(motion.r, motion.q, k), v = cross(motion.p, motion.r, k);
   if (motion.kind == Kind::vertex_face) {
-    return {n, {u, v, difference(difference(n, u), v), {}}, 3};
+    return {n, {u, v, n - u - v, {}}, 3};
   }
-  return {n, {u, v, difference(n, u), difference(n, v)}, 4};
+  return {n, {u, v, n - u, n - v}, 4};
 }
 
 /// A corner of the polygon.
@@ -175,11 +177,10 @@ struct MovingCorner {
 /// The corners in cyclic order.
 template <class Number>
 [[nodiscard]] std::vector<MovingCorner<Number>> moving_corners(const Motion<Number>& motion) {
-  const MovingVector<Number> u_corner = difference(motion.r, motion.p);
-  const MovingVector<Number> v_corner = difference(motion.r, motion.q);
+  const auto u_corner = motion.r - motion.p, v_corner = motion.r - motion.q;
   std::vector<MovingCorner<Number>> result{{motion.r, false, false}, {u_corner, true, false}};
   if (motion.kind == Kind::edge_edge) {
-    result.push_back({difference(u_corner, motion.q), true, true});
+    result.push_back({u_corner - motion.q, true, true});
   }
   result.push_back({v_corner, false, true});
   return result;
@@ -199,14 +200,12 @@ using ContactOf = ContactForms<Form<Square<Number>, 2>>;
 template <class Number>
 [[nodiscard]] ContactOf<Number> contact_on_side(const MovingCorner<Number>& a,
                                                 const MovingCorner<Number>& b) {
-  const auto side = difference(b.w, a.w);
-  const auto weight_a = dot(b.w, side), weight_b = dot(difference(a.w, b.w), a.w);
+  const auto side = b.w - a.w;
+  const auto weight_a = dot(b.w, side), weight_b = dot(a.w - b.w, a.w);
   const auto weighted = [&](bool at_a, bool at_b) {
     Form<Square<Number>, 2> sum{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (at_a) sum[k] += weight_a[k];
-      if (at_b) sum[k] += weight_b[k];
-    }
+    if (at_a) sum += weight_a;
+    if (at_b) sum += weight_b;
     return sum;
   };
   return {weighted(a.u, b.u), weighted(a.v, b.v), dot(side, side)};

@@ -733,11 +733,6 @@ class Decision {
 
 }  // namespace
 
-QuickAnswer quick_first_impact(const Motion<ShortInteger>& motion, std::uint64_t latest,
-                               std::uint64_t step) {
-  return Decision<ShortInteger>(motion, latest, step).run();
-}
-
 QuickAnswer quick_first_impact(const Motion<FixedInteger<1>>& motion, std::uint64_t latest,
                                std::uint64_t step) {
   return Decision<FixedInteger<1>>(motion, latest, step).run();

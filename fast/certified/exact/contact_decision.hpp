@@ -34,9 +34,7 @@ struct QuickAnswer {
 
 /// The first contact not later than the double in [0,1] of bits `latest`. Its enclosure is at most
 /// `step` spacings of doubles wide. \pre the magnitudes of the coordinates of r, p, q and of the
-/// corners are at most 2^61 or, with two limbs, 2^125, or short, 2^29; 1 ≤ step.
-[[nodiscard]] QuickAnswer quick_first_impact(const Motion<ShortInteger>& motion,
-                                             std::uint64_t latest, std::uint64_t step);
+/// corners are at most 2^61 or, with two limbs, 2^125; 1 ≤ step.
 [[nodiscard]] QuickAnswer quick_first_impact(const Motion<FixedInteger<1>>& motion,
                                              std::uint64_t latest, std::uint64_t step);
 [[nodiscard]] QuickAnswer quick_first_impact(const Motion<FixedInteger<2>>& motion,

@@ -12,64 +12,19 @@
 namespace touchstone::fast::exact_stage {
 namespace {
 
-// ---- Forms of any degree ------------------------------------------------------------------------
-
-/// Σ c_k x^(n−k) y^k. Unlike a Polynomial it keeps its roots at t=0 and t=1.
-using AnyForm = std::vector<BigInteger>;
-using AnyVector = std::array<AnyForm, 3>;
-
-AnyForm operator-(AnyForm a, const AnyForm& b) {
-  for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
-  return a;
-}
-
-AnyForm operator-(AnyForm a) {
-  for (BigInteger& c : a) c = -std::move(c);
-  return a;
-}
-
-AnyForm operator*(const AnyForm& a, const AnyForm& b) {
-  AnyForm product(a.size() + b.size() - 1);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t k = 0; k < b.size(); ++k) product[i + k] += a[i] * b[k];
-  }
-  return product;
-}
-
-AnyForm operator*(AnyForm a, const BigInteger& factor) {
-  for (BigInteger& c : a) c = c * factor;
-  return a;
-}
-
-AnyForm operator<<(AnyForm a, long bits) {
-  for (BigInteger& c : a) c <<= bits;
-  return a;
-}
-
-AnyForm dot(const AnyVector& a, const AnyVector& b) {
-  AnyForm sum = a[0] * b[0];
-  for (std::size_t axis : {1U, 2U}) {
-    const AnyForm term = a[axis] * b[axis];
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += term[k];
-  }
-  return sum;
-}
+using Vector = std::array<Polynomial, 3>;
 
 template <std::size_t degree>
-AnyVector any_vector(const std::array<std::array<BigInteger, degree>, 3>& v) {
-  return {AnyForm(v[0].begin(), v[0].end()), AnyForm(v[1].begin(), v[1].end()),
-          AnyForm(v[2].begin(), v[2].end())};
+Vector vector_of(const std::array<std::array<BigInteger, degree>, 3>& v) {
+  return {Polynomial(v[0].begin(), v[0].end()), Polynomial(v[1].begin(), v[1].end()),
+          Polynomial(v[2].begin(), v[2].end())};
 }
 
 /// a (x + y): the same function of time with a degree more.
-AnyForm raised(AnyForm a) {
+Polynomial raised(Polynomial a) {
   a.push_back(a.back());
   for (std::size_t k = a.size() - 2; k > 0; --k) a[k] += a[k - 1];
   return a;
-}
-
-bool vanishes(const AnyForm& a) {
-  return std::ranges::all_of(a, [](const BigInteger& c) { return c.sign() == 0; });
 }
 
 // ---- Separators ---------------------------------------------------------------------------------
@@ -81,18 +36,16 @@ using Signs = std::array<int, 3>;
 /// spreads are known, the sum of their magnitudes is the greatest. For l2 there are no spreads, and
 /// the values are the forms.
 struct Separator {
-  std::vector<AnyForm> values;
-  std::vector<AnyForm> spreads;
+  std::vector<Polynomial> values;
+  std::vector<Polynomial> spreads;
 
-  [[nodiscard]] AnyForm form(std::size_t value, const Signs& signs) const {
-    AnyForm result = values[value];
+  [[nodiscard]] Polynomial form(std::size_t value, const Signs& signs) const {
+    Polynomial result = values[value];
     for (std::size_t i = 0; i < spreads.size(); ++i) {
-      for (std::size_t k = 0; k < result.size(); ++k) {
-        if (signs[i] < 0) {
-          result[k] += spreads[i][k];
-        } else {
-          result[k] -= spreads[i][k];
-        }
+      if (signs[i] < 0) {
+        result += spreads[i];
+      } else {
+        result -= spreads[i];
       }
     }
     return result;
@@ -110,7 +63,7 @@ struct Separator {
 /// Both directions of an axis.
 void add_both(std::vector<Separator>& to, Separator separator) {
   Separator opposite = separator;
-  for (AnyForm& value : opposite.values) value = -std::move(value);
+  for (Polynomial& value : opposite.values) value = -std::move(value);
   to.push_back(std::move(separator));
   to.push_back(std::move(opposite));
 }
@@ -119,56 +72,52 @@ void add_both(std::vector<Separator>& to, Separator separator) {
 struct Setting {
   Setting(const Motion<BigInteger>& motion, const ScaledDistance& d)
       : kind(motion.kind), distance(d.numerator), exponent(d.exponent) {
-    for (const auto& corner : moving_corners(motion)) corners.push_back(any_vector(corner.w));
+    for (const auto& corner : moving_corners(motion)) corners.push_back(vector_of(corner.w));
     const auto n = exact_stage::normal(motion);
-    normal = any_vector(n);
+    normal = vector_of(n);
     const auto det = exact_stage::determinant(motion, n);
-    determinant = AnyForm(det.begin(), det.end());
+    determinant = Polynomial(det.begin(), det.end());
   }
 
   [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % corners.size(); }
 
   /// value − d² · square · (x + y)², times 2^(2 exponent).
-  [[nodiscard]] AnyForm beyond(const AnyForm& value, const AnyForm& square) const {
+  [[nodiscard]] Polynomial beyond(const Polynomial& value, const Polynomial& square) const {
     return (value << 2 * exponent) - raised(raised(square * (distance * distance)));
   }
 
   Kind kind;
-  std::vector<AnyVector> corners;  // in cyclic order
-  AnyVector normal;
-  AnyForm determinant;  // normal · corner, for every corner
-  BigInteger distance;  // times 2^-exponent
+  std::vector<Vector> corners;  // in cyclic order
+  Vector normal;
+  Polynomial determinant;  // normal · corner, for every corner
+  BigInteger distance;     // times 2^-exponent
   long exponent;
 };
 
 /// The axis a for linf, with its products with the corners that differ.
-Separator cube_separator(const Setting& setting, const AnyVector& axis,
-                         const std::vector<AnyForm>& products) {
+Separator cube_separator(const Setting& setting, const Vector& axis,
+                         const std::vector<Polynomial>& products) {
   Separator result;
-  for (const AnyForm& product : products) result.values.push_back(product << setting.exponent);
-  for (const AnyForm& component : axis) {
-    if (!vanishes(component)) result.spreads.push_back(raised(component * setting.distance));
+  for (const Polynomial& product : products) result.values.push_back(product << setting.exponent);
+  for (const Polynomial& component : axis) {
+    if (!is_zero(component)) result.spreads.push_back(raised(component * setting.distance));
   }
   return result;
 }
 
 /// ±e_c, for both norms.
 void add_axes(const Setting& setting, std::vector<Separator>& to) {
-  const AnyForm spread{setting.distance, setting.distance};
+  const Polynomial spread{setting.distance, setting.distance};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const bool negative : {false, true}) {
       Separator separator;
-      for (const AnyVector& corner : setting.corners) {
-        const AnyForm product = corner[axis] << setting.exponent;
+      for (const Vector& corner : setting.corners) {
+        const Polynomial product = corner[axis] << setting.exponent;
         separator.values.push_back((negative ? -product : product) - spread);
       }
       to.push_back(std::move(separator));
     }
   }
-}
-
-AnyVector operator-(const AnyVector& a, const AnyVector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
 /// ±N and ±(e_c × e). Opposite sides of a parallelogram have one direction, and a·w is the same at
@@ -179,9 +128,9 @@ std::vector<Separator> cube_separators(const Setting& setting) {
   const std::size_t sides = setting.kind == Kind::vertex_face ? 3 : 2;
   for (std::size_t i = 0; i < sides; ++i) {
     const std::size_t j = setting.next(i), k = setting.next(j);
-    const AnyVector e = setting.corners[j] - setting.corners[i];
+    const Vector e = setting.corners[j] - setting.corners[i];
     for (std::size_t c = 0; c < 3; ++c) {
-      AnyVector axis;
+      Vector axis;
       axis[c] = {0, 0};
       axis[(c + 1) % 3] = -e[(c + 2) % 3];
       axis[(c + 2) % 3] = e[(c + 1) % 3];
@@ -197,7 +146,7 @@ std::vector<Separator> cube_separators(const Setting& setting) {
 /// w_i·w_k, the numbers that the directions of vertices and sides are made of.
 class Gram {
  public:
-  explicit Gram(const std::vector<AnyVector>& w) : size_(w.size()), products_(size_ * size_) {
+  explicit Gram(const std::vector<Vector>& w) : size_(w.size()), products_(size_ * size_) {
     for (std::size_t i = 0; i < size_; ++i) {
       for (std::size_t k = 0; k <= i; ++k) {
         products_[i * size_ + k] = products_[k * size_ + i] = dot(w[i], w[k]);
@@ -205,28 +154,28 @@ class Gram {
     }
   }
 
-  [[nodiscard]] const AnyForm& operator()(std::size_t i, std::size_t k) const {
+  [[nodiscard]] const Polynomial& operator()(std::size_t i, std::size_t k) const {
     return products_[i * size_ + k];
   }
 
  private:
   std::size_t size_;
-  std::vector<AnyForm> products_;
+  std::vector<Polynomial> products_;
 };
 
 /// A side: |e|², C, a·w_k for the other corners (the same for both of a parallelogram), and
 /// C − d²|e|².
 struct Side {
-  AnyForm square, area, other, beyond;
+  Polynomial square, area, other, beyond;
 };
 
 Side side(const Setting& setting, const Gram& gram, std::size_t i) {
   const std::size_t j = setting.next(i), k = setting.next(j);
-  const AnyForm from = gram(i, j) - gram(i, i), to = gram(j, j) - gram(i, j);  // w_i·e, w_j·e
-  AnyForm square = to - from;
-  AnyForm area = gram(i, i) * gram(j, j) - gram(i, j) * gram(i, j);
-  AnyForm other = square * gram(i, k) - from * (gram(j, k) - gram(i, k));
-  AnyForm beyond = setting.beyond(area, square);
+  const Polynomial from = gram(i, j) - gram(i, i), to = gram(j, j) - gram(i, j);  // w_i·e, w_j·e
+  Polynomial square = to - from;
+  Polynomial area = gram(i, i) * gram(j, j) - gram(i, j) * gram(i, j);
+  Polynomial other = square * gram(i, k) - from * (gram(j, k) - gram(i, k));
+  Polynomial beyond = setting.beyond(area, square);
   return {std::move(square), std::move(area), std::move(other), std::move(beyond)};
 }
 
@@ -241,7 +190,7 @@ struct BallParts {
 
   Gram gram;
   std::vector<Side> sides;
-  std::vector<AnyForm> vertices_beyond;  // |w_i|² − d²
+  std::vector<Polynomial> vertices_beyond;  // |w_i|² − d²
 };
 
 /// The coordinate axes, the vertices and sides with low forms, and the face.
@@ -257,8 +206,8 @@ std::vector<Separator> low_ball_separators(const Setting& setting, const BallPar
     }
     result.push_back(std::move(vertex));
   }
-  const AnyForm &det = setting.determinant, square = dot(setting.normal, setting.normal);
-  const AnyForm face = setting.beyond(det * det, square);
+  const Polynomial &det = setting.determinant, square = dot(setting.normal, setting.normal);
+  const Polynomial face = setting.beyond(det * det, square);
   result.push_back({{det, face}, {}});
   result.push_back({{-det, face}, {}});
   return result;
@@ -278,7 +227,7 @@ std::vector<Separator> ball_separators_at(Instant& now, const Setting& setting,
     Separator vertex{{parts.vertices_beyond[i]}, {}};
     for (std::size_t k = 0; k < setting.corners.size(); ++k) {
       if (k == i) continue;
-      const AnyForm& product = parts.gram(i, k);
+      const Polynomial& product = parts.gram(i, k);
       vertex.values.push_back(product);
       vertex.values.push_back(setting.beyond(product * product, parts.gram(i, i)));
     }
@@ -304,7 +253,7 @@ bool all_forms(const Separator& separator, std::size_t value, Signs signs, Test&
 
 /// Is every form positive? Every value is the mean of forms, so values are asked first.
 bool holds(const Separator& separator, Instant& at) {
-  const auto is_positive = [&](const AnyForm& form) { return at.sign_of(form) > 0; };
+  const auto is_positive = [&](const Polynomial& form) { return at.sign_of(form) > 0; };
   if (!std::ranges::all_of(separator.values, is_positive)) return false;
   if (separator.spreads.empty()) return true;
   const Signs signs = separator.signs_between(at.lower(), at.upper());
@@ -318,7 +267,7 @@ bool holds(const Separator& separator, Instant& at) {
 using End = std::optional<Instant>;
 
 /// Makes `end` the first root of the form between `from` and the horizon, if that is earlier.
-void shorten(End& end, Instant& from, const Dyadic& horizon, const AnyForm& form) {
+void shorten(End& end, Instant& from, const Dyadic& horizon, const Polynomial& form) {
   // The sign first: to find it narrows the end, and up to there the form is looked at.
   if (end && end->sign_of(form) > 0 && is_positive_between(form, from.upper(), end->lower()))
     return;
@@ -340,7 +289,7 @@ End end_of(const Separator& separator, Instant& from, const Dyadic& horizon) {
       static_cast<std::size_t>(std::ranges::count_if(signs, [](int sign) { return sign != 0; }));
   if (signs == first && known == separator.spreads.size()) return end;
   for (std::size_t value = 0; value < separator.values.size(); ++value) {
-    static_cast<void>(all_forms(separator, value, signs, [&](const AnyForm& form) {
+    static_cast<void>(all_forms(separator, value, signs, [&](const Polynomial& form) {
       shorten(end, from, horizon, form);
       return true;
     }));

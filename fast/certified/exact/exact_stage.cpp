@@ -21,8 +21,8 @@ namespace {
 
 using namespace exact_stage;
 
-/// Coordinates below 2^28 have differences below 2^29, and so on.
-constexpr int short_bits = 28, one_limb_bits = 60, two_limb_bits = 124;
+/// Coordinates below 2^60 have differences below 2^61, and so on.
+constexpr int one_limb_bits = 60, two_limb_bits = 124;
 
 /// The eight coordinates of one axis.
 struct Axis {
@@ -107,9 +107,7 @@ std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64
   int bits = 0;
   for (const Axis& axis : axes) bits = std::max(bits, axis.highest - axis.lowest);
   QuickAnswer quick;
-  if (bits <= short_bits) {
-    quick = quick_first_impact(motion_of<ShortInteger, std::int64_t>(kind, axes), latest, step);
-  } else if (bits <= one_limb_bits) {
+  if (bits <= one_limb_bits) {
     quick = quick_first_impact(motion_of<FixedInteger<1>, std::int64_t>(kind, axes), latest, step);
   } else if (bits <= two_limb_bits) {
     quick =

@@ -130,10 +130,6 @@ class FixedInteger {
 
   template <std::size_t other_size>
   [[nodiscard]] FixedInteger<size + other_size> times(const FixedInteger<other_size>& b) const {
-    if constexpr (size == 1 && other_size == 1) {
-      return FixedInteger<2>(SignedWideLimb{static_cast<std::int64_t>(limb_[0])} *
-                             static_cast<std::int64_t>(b.limb_[0]));
-    }
     if constexpr (size == 2 && other_size == 2) return times_of_two(b);
     FixedInteger<size + other_size> product{};
     for (std::size_t i = 0; i < size; ++i) {
@@ -181,27 +177,6 @@ class FixedInteger {
   }
 
   std::array<std::uint64_t, size> limb_;
-};
-
-/// An integer whose square has one limb, and whose cube has two. \pre |value| ≤ 2^31.
-class ShortInteger {
- public:
-  constexpr ShortInteger() = default;
-  constexpr explicit ShortInteger(std::int64_t value) : value_(value) {}
-
-  ShortInteger& operator-=(const ShortInteger& other) {
-    value_ -= other.value_;
-    return *this;
-  }
-  friend FixedInteger<1> operator*(const ShortInteger& a, const ShortInteger& b) {
-    return FixedInteger<1>(a.value_ * b.value_);
-  }
-  friend FixedInteger<2> operator*(const FixedInteger<1>& a, const ShortInteger& b) {
-    return a * FixedInteger<1>(b.value_);
-  }
-
- private:
-  std::int64_t value_;
 };
 
 }  // namespace touchstone::fast::exact_stage

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 
+#include "fast/certified/exact/fixed_integer.hpp"
+
 namespace touchstone::fast::exact_stage {
 namespace {
-
-// NOLINTNEXTLINE(modernize-use-using): only a typedef can say that the extension is meant
-__extension__ typedef __int128 WideProduct;
 
 constexpr std::int64_t one = std::int64_t{1} << RoughForm::fraction_bits;
 
@@ -15,7 +14,7 @@ using Coefficients = std::array<std::int64_t, RoughForm::largest_degree + 1>;
 /// One step of de Casteljau's on the first `size` coefficients, which leaves one fewer.
 void step(Coefficients& b, std::size_t size, std::int64_t t) {
   for (std::size_t k = 0; k + 1 < size; ++k) {
-    const WideProduct sum = WideProduct{b[k]} * (one - t) + WideProduct{b[k + 1]} * t;
+    const SignedWideLimb sum = SignedWideLimb{b[k]} * (one - t) + SignedWideLimb{b[k + 1]} * t;
     b[k] = static_cast<std::int64_t>(sum >> RoughForm::fraction_bits);
   }
 }

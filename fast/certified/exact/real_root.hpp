@@ -3,8 +3,7 @@
 /// \file
 /// Instants in [0,1] that are roots of polynomials, and exact signs of other polynomials there.
 ///
-/// A polynomial is a form Σ c_k x^(n−k) y^k at t = y/(x+y) (contact_conditions.hpp) whose first and last
-/// coefficients are not 0: this drops only roots at t=0 and t=1, which are asked for by themselves.
+/// Polynomials here are inner ones (polynomial.hpp): roots at t=0 and t=1 are asked for by themselves.
 /// On an interval from (x0,y0) to (x1,y1) it becomes the form f(X x0 + Y x1, X y0 + Y y1), whose sign
 /// changes bound the number of roots inside (Descartes), and equal it if they are none or one,
 /// multiples counted. Of a squarefree polynomial, intervals that are small enough have none or one
@@ -17,10 +16,6 @@
 /// number of sign changes; if it is not 0, halving the interval brings the first case about. Two
 /// instants are equal iff the divisor of their polynomials has a root in both intervals.
 ///
-/// The divisor is seldom needed: if the polynomials have no common factor modulo some prime that
-/// does not divide the first one's top coefficient, they have none. For a primitive factor's top
-/// coefficient divides that one, so it keeps its degree modulo the prime, where it divides both.
-///
 /// Most signs are seen in fixed point already: fixed_point_filter.hpp.
 ///
 /// Narrowing guesses the root in floating point and asks for two exact signs around it; a wrong
@@ -30,34 +25,12 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "fast/certified/exact/big_integer.hpp"
 #include "fast/certified/exact/contact_conditions.hpp"
+#include "fast/certified/exact/polynomial.hpp"
 
 namespace touchstone::fast::exact_stage {
-
-/// c_0, …, c_n with c_0 and c_n not 0; empty for the zero polynomial.
-using Polynomial = std::vector<BigInteger>;
-
-/// A form as a polynomial, without its roots at t=0 and t=1.
-[[nodiscard]] Polynomial inner_polynomial(Polynomial coefficients);
-
-template <std::size_t size>
-[[nodiscard]] Polynomial inner_polynomial(const std::array<BigInteger, size>& form) {
-  return inner_polynomial(Polynomial(form.begin(), form.end()));
-}
-
-/// Do the polynomials certainly have no common factor? False if that is not known.
-/// \pre neither is zero.
-[[nodiscard]] bool surely_coprime(const Polynomial& a, const Polynomial& b);
-
-/// The greatest common divisor, up to a constant that keeps it as short as about the longer one of
-/// the two. \pre neither is zero.
-[[nodiscard]] Polynomial common_divisor(Polynomial a, Polynomial b);
-
-/// A polynomial with the same roots, each simple. \pre not zero.
-[[nodiscard]] Polynomial squarefree(const Polynomial& f);
 
 /// numerator / 2^exponent, in [0,1].
 struct Dyadic {

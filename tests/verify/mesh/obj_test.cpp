@@ -58,6 +58,35 @@ TEST(ReadObj, AMeshMustHaveAVertex) {
   }
 }
 
+TEST(ReadObj, ReadsPoints) {
+  const MeshFolder folder;
+  EXPECT_EQ(folder.mesh("a.obj", four_vertices + "p 4 2\np -1\n").points,
+            (std::vector<std::int32_t>{1, 3}));
+  EXPECT_TRUE(folder.mesh("a.obj", four_vertices + "f 1 2 3\n").points.empty());
+  EXPECT_EQ(folder.error("a.obj", four_vertices + "p 5\n"),
+            "a.obj:5: corner 5, but there are 4 vertices");
+}
+
+TEST(ReadObj, ReadsTheGroupsOfVertices) {
+  const MeshFolder folder;
+  const Groups groups = folder
+                            .mesh("a.obj", "v 9 9 9\no cloth \n" + four_vertices +
+                                               "f 2 3 4\ng the ball\nv 5 5 5\nv 6 6 6\np 5\nl 6 7\n"
+                                               "o cloth\nv 7 7 7\n")
+                            .groups;
+  EXPECT_EQ(groups.names, (std::vector<std::string>{"", "cloth", "the ball"}));
+  EXPECT_EQ(groups.of_vertex, (std::vector<std::int32_t>{0, 1, 1, 1, 2, 2, 2, 1}));
+  EXPECT_EQ(groups.error, "");
+  EXPECT_TRUE(folder.mesh("a.obj", four_vertices).groups.of_vertex.empty());
+}
+
+TEST(ReadObj, SaysWhyGroupsCannotBeUsed) {
+  const MeshFolder folder;
+  const Groups groups = folder.mesh("a.obj", four_vertices + "g a\nf 1 2 3\ng b\nf 2 3 4\n").groups;
+  EXPECT_TRUE(groups.error.ends_with("a.obj:8: vertex 2 is in two groups, \"a\" and \"b\""))
+      << groups.error;
+}
+
 TEST(ReadObj, NamesTheLineAndTheReason) {
   const MeshFolder folder;
   const auto error = [&folder](const std::string& line) {

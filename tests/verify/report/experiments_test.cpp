@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <map>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -97,6 +98,7 @@ TEST(Experiments, MeasuresEveryTrialAndTheMapOfStability) {
   const Measurements result = run_experiments(groups, quick());
   EXPECT_FALSE(result.interrupted);
   EXPECT_FALSE(result.machine.empty());
+  EXPECT_TRUE(std::regex_match(result.date, std::regex(R"(\d{4}-\d\d-\d\d)"))) << result.date;
   const std::vector<std::string> methods = quick().methods;
   std::size_t settings = 0;
   for (const Trial& trial : trials_of(methods)) settings += trial.settings.size();

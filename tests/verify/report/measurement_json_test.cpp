@@ -46,6 +46,7 @@ Measurements example() {
   Measurements measurements;
   measurements.command = "touchstone report 'a b'";
   measurements.machine = "a machine";
+  measurements.date = "2026-01-31";
   measurements.interrupted = true;
   measurements.all = {with_all_fields(), Measurement{}};
   measurements.stability.push_back({.method = "certified",
@@ -74,6 +75,7 @@ TEST(MeasurementJson, ComesBackWithoutLoss) {
   const nlohmann::json written = to_json(example());
   const Measurements read = measurements_from_json(nlohmann::json::parse(written.dump()));
   EXPECT_EQ(read.command, "touchstone report 'a b'");
+  EXPECT_EQ(read.date, "2026-01-31");
   EXPECT_TRUE(read.interrupted);
   ASSERT_EQ(read.all.size(), 2U);
   const Measurement& m = read.all[0];
@@ -112,10 +114,12 @@ TEST(MeasurementJson, KeepsWhatIsInfinite) {
   EXPECT_EQ(read.all[0].achieved_tolerance, measurements.all[0].achieved_tolerance);
 }
 
-TEST(MeasurementJson, ReadsMeasurementsFromBeforeThereWasAScale) {
+TEST(MeasurementJson, ReadsMeasurementsFromBeforeThereWereScaleAndDate) {
   nlohmann::json earlier = to_json(example());
   earlier["measurements"][0].erase("scale");
+  earlier.erase("date");
   EXPECT_FALSE(measurements_from_json(earlier).all[0].scale.has_value());
+  EXPECT_EQ(measurements_from_json(earlier).date, "");
 }
 
 TEST(MeasurementJson, ReadsMapsFromBeforeTheyHadAllCounts) {

@@ -53,6 +53,15 @@ TEST(Measurements, AreChosenByExperimentInTheirOrder) {
   EXPECT_TRUE(of_experiment(measurements, Experiment::checks).empty());
 }
 
+TEST(Measurements, SayWhereAndWhenTheyWereMade) {
+  Measurements measurements;
+  EXPECT_EQ(origin_text(measurements), "");
+  measurements.machine = "a processor";
+  EXPECT_EQ(origin_text(measurements), " on a processor");
+  measurements.date = "2026-01-31";
+  EXPECT_EQ(origin_text(measurements), " on a processor, 2026-01-31");
+}
+
 TEST(Measurements, HaveWrongAnswersIfOnePromiseIsBroken) {
   Measurements measurements;
   measurements.all.resize(2);

@@ -77,6 +77,36 @@ TEST_F(Browser, FitsATelephone) {
   EXPECT_GE(std::stod(size[1]), 280.0);
 }
 
+/// The links to pictures give files of their own, which a parser of XML reads.
+TEST_F(Browser, GivesEveryFigureAsAPicture) {
+  const Measurements measurements = tests::small_report();
+  std::string page = report_page(measurements);
+  page.insert(page.rfind("</body>"), R"(<p id="pictures"></p><script>
+const describe = (link) => {
+  link.addEventListener("click", (event) => event.preventDefault());
+  link.click();
+  const text = decodeURIComponent(link.href.replace(/^data:image.svg.xml,/, ""));
+  const picture = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
+  const panels = Array.from(picture.querySelectorAll("desc"), (desc) => desc.parentNode);
+  const isStyled = picture.querySelector("style").textContent.includes("prefers-color-scheme: dark");
+  const bottom = Math.max(...panels.map((p) => Number(p.getAttribute("y")) + Number(p.getAttribute("height"))));
+  const isLarge = bottom > 0 && bottom <= Number(picture.getAttribute("height"));
+  return `${link.download}: ${picture.localName}, panels ${panels.length}, ${isStyled} ${isLarge}.`;
+};
+document.getElementById("pictures").textContent =
+  Array.from(document.querySelectorAll("a.svg"), describe).join(" ");
+</script>)");
+  const std::string dom = load(page);
+  EXPECT_EQ(complaints(), "");
+  for (const Figure& figure : figures_of(measurements)) {
+    const std::string expected =
+        figure.id + ".svg: svg, panels " + std::to_string(figure.panels.size()) + ", true true.";
+    EXPECT_EQ(count(dom, expected), 1U)
+        << expected << "\n"
+        << dom.substr(std::min(dom.find("<p id=\"pictures\""), dom.size()), 2000);
+  }
+}
+
 /// The tolerances that a method is said to have achieved.
 Spread& achieved(Measurements& measurements) {
   for (Measurement& m : measurements.all) {

@@ -89,7 +89,7 @@ TEST(Page, NumbersAreDownloadedAsCsv) {
 
 TEST(Page, SaysWhatMadeItAndEscapesIt) {
   const std::string page = report_page(tests::small_report());
-  EXPECT_TRUE(contains(page, "Made on a machine by"));
+  EXPECT_TRUE(contains(page, "Made on a machine, 2026-01-31 by"));
   EXPECT_FALSE(contains(page, "<page>"));
   EXPECT_TRUE(contains(page, "a &lt;page&gt;.html"));
   Measurements hostile = tests::small_report();

@@ -130,28 +130,38 @@
       .style("stroke-width", width).style("opacity", opacity);
   }
 
-  /// Puts each name beside its point, where it hides no point and no other name.
-  function drawNames(svg, places, box) {
-    const taken = places.map(({ x, y }) => [x - 7, y - 7, x + 7, y + 7]);
+  /// Where a name of some width may stand around a point, within the frame, the nearest first: its box, what anchors
+  /// the text in it, and the end of a line that leads to it.
+  function placesOfName(x, y, width, frame) {
+    const sides = [9, 24, 48, 72].flatMap((dx) => [["start", dx], ["end", -dx - width]]).concat([["middle", -width / 2]]);
+    const places = d3.cross(d3.range(-90, 91, 15), sides, (dy, [anchor, dx]) => {
+      const left = Math.max(frame.left, Math.min(x + dx, frame.right + margin.right - width));
+      const box = [left, y + dy - 6, left + width, y + dy + 6];
+      const end = [Math.min(Math.max(x, box[0]), box[2]), Math.min(Math.max(y, box[1]), box[3])];
+      return { box, anchor, end, distance: Math.hypot(end[0] - x, end[1] - y) };
+    });
+    const rank = ({ anchor, distance }) => distance + (anchor === "middle" ? 4 : 0);
+    const isInside = ([, top, , bottom]) => top >= frame.top - 10 && bottom <= frame.bottom + 2;
+    return d3.sort(places.filter((place) => isInside(place.box) && place.distance >= 6), rank);
+  }
+
+  /// Puts each name beside its point, where it hides no point, no other name and none of the further boxes; a
+  /// line, which crosses no other name if that can be, leads to a name that is not next to its point.
+  function drawNames(svg, names, box, further) {
+    const taken = names.map(({ x, y }) => [x - 9, y - 9, x + 9, y + 9]).concat(further);
+    const drawn = [];
     const overlaps = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
-    for (const { x, y, text, strong } of places) {
-      const width = 6.6 * text.length + 4;
-      const tries = [];
-      for (const dy of [4, -9, 18, -22, 31, -35, 44, -48, 57, -61]) {
-        tries.push([x + 9, y + dy, "start"], [x - 9, y + dy, "end"]);
-      }
-      const boxOf = ([tx, ty, anchor]) => {
-        const left = anchor === "start" ? tx : tx - width;
-        return [left, ty - 11, left + width, ty + 3];
-      };
-      const isFree = (place) => {
-        const own = boxOf(place);
-        return own[0] >= box.left && own[2] <= box.right + margin.right && own[1] >= 0 &&
-          own[3] <= box.bottom + 4 && !taken.some((other) => overlaps(own, other));
-      };
-      const place = tries.find(isFree) || tries[0];
-      taken.push(boxOf(place));
-      write(svg, place[0], place[1], text, place[2], "name").style("font-weight", strong ? 700 : 400);
+    for (const { x, y, text, strong } of d3.sort(names, (name) => -name.text.length)) {
+      const isFree = ({ box: own }) => !taken.concat(drawn).some((other) => overlaps(own, other));
+      const isCrossed = ({ end }) => d3.range(0, 1, 0.05)
+        .map((s) => [x + s * (end[0] - x), y + s * (end[1] - y)])
+        .some(([px, py]) => drawn.some((other) => overlaps([px, py, px, py], other)));
+      const places = placesOfName(x, y, 6.8 * text.length + 2, box);
+      const place = places.find((one) => isFree(one) && !isCrossed(one)) || places.find(isFree) || places[0];
+      drawn.push(place.box);
+      if (place.distance > 14) rule(svg, x, y, ...place.end, "leader");
+      const at = { start: place.box[0], middle: (place.box[0] + place.box[2]) / 2, end: place.box[2] }[place.anchor];
+      write(svg, at, place.box[1] + 10, text, place.anchor, "name").style("font-weight", strong ? 700 : 400);
     }
   }
 
@@ -187,8 +197,9 @@
     return { svg, box, x, y };
   }
 
+  /// Draws the front; the boxes of its lines.
   function drawFront(svg, front, x, y, box) {
-    if (front.length === 0) return;
+    if (front.length === 0) return [];
     const corners = [[x.place(front[0].x), box.top]];
     front.forEach((point, i) => {
       if (i > 0) corners.push([x.place(point.x), corners[corners.length - 1][1]]);
@@ -196,11 +207,13 @@
     });
     corners.push([box.right, corners[corners.length - 1][1]]);
     svg.append("path").attr("class", "front").attr("d", d3.line()(corners));
+    return d3.pairs(corners, (a, b) => [Math.min(a[0], b[0]) - 1, Math.min(a[1], b[1]) - 1,
+      Math.max(a[0], b[0]) + 1, Math.max(a[1], b[1]) + 1]);
   }
 
   function drawPoints(figure, panel, parent, width) {
     const { svg, box, x, y } = drawPlane(figure, panel, parent, width);
-    drawFront(svg, panel.front, x, y, box);
+    const front = drawFront(svg, panel.front, x, y, box);
     const names = [];
     for (const series of panel.series) {
       const places = series.points.map((p) => [x.place(p.x), y.place(p.y)]);
@@ -213,7 +226,7 @@
         }
       });
     }
-    drawNames(svg, names, box);
+    drawNames(svg, names, box, front);
   }
 
   function drawLines(figure, panel, parent, width) {
@@ -405,50 +418,109 @@
   const forms = { points: drawPoints, lines: drawLines, ridges: drawRidges, bars: drawBars, marks: drawGrid,
     shades: drawGrid };
 
+  /// Is what stands along its y axis said above it?
+  const hasYCaption = (figure) => figure.y_label !== "" && ![drawRidges, drawGrid].includes(forms[figure.form]);
+
   // ---- Legends ----------------------------------------------------------------------------------
 
-  function addSwatch(legend, tone, name, shape, opacity) {
-    const item = legend.append("span");
-    const svg = item.append("svg").attr("width", 16).attr("height", 14).attr("aria-hidden", "true");
-    svg.append("path").attr("d", shape || "M-7,-5H7V5H-7Z").attr("transform", "translate(8,7)")
-      .style("fill", tone).style("opacity", opacity || 1);
-    item.append("b").style("font-weight", 400).text(name);
-  }
+  const legendsOfForms = {
+    ridges: [["var(--miss)", "do not collide (above)"], ["var(--hit)", "collide (below)"]],
+    marks: [["var(--calm)", "nothing wrong"], ["var(--bad)", "N false negatives"], ["var(--toi)", "T time of impact"],
+      ["var(--error)", "E errors"], ["var(--beyond)", "B beyond its tolerance"],
+      [shade("mild", 0.35), "some false positives"], [shade("mild", 1), "all misses are"]],
+  };
 
-  function drawLegend(figure, element) {
-    const legend = d3.select(element);
-    if (figure.form === "ridges") {
-      addSwatch(legend, "var(--miss)", "do not collide (above)");
-      addSwatch(legend, "var(--hit)", "collide (below)");
-      return;
-    }
-    if (figure.form === "marks") {
-      addSwatch(legend, "var(--calm)", "nothing wrong");
-      addSwatch(legend, "var(--bad)", "N false negatives");
-      addSwatch(legend, "var(--toi)", "T time of impact");
-      addSwatch(legend, "var(--error)", "E errors");
-      addSwatch(legend, "var(--beyond)", "B beyond its tolerance");
-      addSwatch(legend, shade("mild", 0.35), "some false positives");
-      addSwatch(legend, shade("mild", 1), "all misses are");
-      return;
-    }
+  /// What a figure's colours mean: of each its tone and name, and perhaps its symbol and opacity.
+  function legendOf(figure) {
+    if (figure.form in legendsOfForms) return legendsOfForms[figure.form];
     if (figure.form === "shades") {
       const extent = extentOf(figure);
-      for (const value of extent.filter((one) => one !== undefined)) {
-        addSwatch(legend, shade("number", depthOf(value, extent)), cellText(figure, value));
-      }
-      return;
+      return extent.filter((one) => one !== undefined)
+        .map((value) => [shade("number", depthOf(value, extent)), cellText(figure, value)]);
     }
     const seen = new Map();
     for (const series of figure.panels.flatMap((panel) => panel.series)) {
       if (!seen.has(series.name)) seen.set(series.name, series);
     }
-    const bySlot = Array.from(seen).sort((a, b) => a[1].slot - b[1].slot);
-    for (const [name, series] of bySlot) {
-      const isBar = figure.form === "bars";
-      addSwatch(legend, color(series.slot + (isBar ? 1 : 0)), name, isBar ? null : symbol(series.slot, 70),
-        isSecond(series) ? 0.45 : 1);
+    const isBar = figure.form === "bars";
+    return Array.from(seen.values()).sort((a, b) => a.slot - b.slot)
+      .map((series) => [color(series.slot + (isBar ? 1 : 0)), series.name,
+        isBar ? null : symbol(series.slot, 70), isSecond(series) ? 0.45 : 1]);
+  }
+
+  function drawSwatch(svg, x, y, tone, shape, opacity) {
+    svg.append("path").attr("d", shape || "M-7,-5H7V5H-7Z").attr("transform", `translate(${x},${y})`)
+      .style("fill", tone).style("opacity", opacity || 1);
+  }
+
+  function drawLegend(figure, element) {
+    for (const [tone, name, shape, opacity] of legendOf(figure)) {
+      const item = d3.select(element).append("span");
+      const svg = item.append("svg").attr("width", 16).attr("height", 14).attr("aria-hidden", "true");
+      drawSwatch(svg, 8, 7, tone, shape, opacity);
+      item.append("b").style("font-weight", 400).text(name);
     }
+  }
+
+  // ---- Pictures ---------------------------------------------------------------------------------
+
+  const pictureStyle = document.querySelector("style").textContent.split("/* ---- The page")[0];
+
+  /// Draws a legend into a picture; the height that it takes.
+  function drawPictureLegend(svg, figure, width) {
+    const isNamed = figure.panels.every((panel) => panel.series.every((series) => series.role === "point"));
+    if (isNamed) return 0;
+    let x = 8;
+    let y = 10;
+    for (const [tone, name, shape, opacity] of legendOf(figure)) {
+      const wide = 6.6 * name.length + 34;
+      if (x > 8 && x + wide > width) [x, y] = [8, y + 18];
+      drawSwatch(svg, x, y, tone, shape, opacity);
+      write(svg, x + 13, y + 4, name, "start", "name");
+      x += wide;
+    }
+    return y + 14;
+  }
+
+  /// A figure as an SVG file of its own, which brings its style along: its legend, where the points have no
+  /// names, and its panels, two abreast.
+  function pictureOf(figure) {
+    const wide = 440;
+    const gap = 24;
+    const head = hasYCaption(figure) ? 40 : 24;
+    const across = Math.min(figure.panels.length, 2);
+    const width = across * wide + (across + 1) * gap;
+    const svg = d3.create("svg").attr("role", "img").attr("aria-label", figure.title);
+    svg.append("style").text(pictureStyle);
+    const paper = svg.append("rect").attr("class", "paper").attr("width", width);
+    const inside = svg.append("svg").attr("x", gap).attr("y", gap / 2);
+    let bottom = drawPictureLegend(inside, figure, width - 2 * gap);
+    let top = bottom;
+    const before = drawings;
+    drawings = 0;  // so that the names of its parts are always the same
+    figure.panels.forEach((panel, i) => {
+      const x = (i % across) * (wide + gap);
+      if (i % across === 0) top = bottom;
+      write(inside, x, top + 16, panel.title, "start", "title");
+      if (hasYCaption(figure)) write(inside, x, top + 34, `↑ ${axisTitle(figure.y_label)}`, "start", "axis");
+      forms[figure.form](figure, panel, inside.node(), wide);
+      const height = Number(inside.node().lastChild.getAttribute("viewBox").split(" ")[3]);
+      d3.select(inside.node().lastChild).attr("x", x).attr("y", top + head).attr("width", wide).attr("height", height);
+      bottom = Math.max(bottom, top + head + height + gap / 2);
+    });
+    drawings = before;
+    const height = bottom + gap / 2;
+    paper.attr("height", height);
+    svg.attr("width", width).attr("height", height).attr("viewBox", `0 0 ${width} ${height}`);
+    // Elements stand on lines of their own, so that two pictures can be compared.
+    return new XMLSerializer().serializeToString(svg.node()).replace(/></g, ">\n<") + "\n";
+  }
+
+  /// A link to the figure as a picture, beside that to its numbers; it is drawn when it is asked for.
+  function addPictureLink(figure) {
+    const link = d3.select(`#${figure.id} .origin`).insert("a", "code").attr("class", "svg")
+      .attr("download", `${figure.id}.svg`).attr("href", "#").text("SVG");
+    link.on("click", () => link.attr("href", `data:image/svg+xml,${encodeURIComponent(pictureOf(figure))}`));
   }
 
   // ---- The page ---------------------------------------------------------------------------------
@@ -466,7 +538,7 @@
       const heading = document.createElement("h3");
       heading.textContent = panel.title;
       element.appendChild(heading);
-      if (figure.y_label !== "" && ![drawRidges, drawGrid].includes(forms[figure.form])) {
+      if (hasYCaption(figure)) {
         const axis = document.createElement("figcaption");
         axis.textContent = `↑ ${axisTitle(figure.y_label)}`;
         element.appendChild(axis);
@@ -482,6 +554,7 @@
 
   const drawAll = () => figures.forEach(drawFigure);
   drawAll();
+  figures.forEach(addPictureLink);
   let drawnWidth = window.innerWidth;
   window.addEventListener("resize", () => {
     if (window.innerWidth === drawnWidth) return;

@@ -117,16 +117,5 @@ TEST(FixedInteger, RoundsWithin50BitsInEveryMode) {
   EXPECT_EQ(FixedInteger<1>(std::int64_t{INT64_MIN}).rounded(), -0x1p63);
 }
 
-TEST(ShortInteger, MultipliesExactlyUpToItsBound) {
-  constexpr std::int64_t most = std::int64_t{1} << 31U;
-  for (const std::int64_t a : {-most, std::int64_t{-3}, std::int64_t{0}, most}) {
-    for (const std::int64_t b : {-most, std::int64_t{5}, most}) {
-      const auto square = ShortInteger(a) * ShortInteger(b);
-      EXPECT_TRUE(square == FixedInteger<1>(a * b));
-      EXPECT_TRUE(square * ShortInteger(b) == fixed<2>(Integer(a) * Integer(b) * Integer(b)));
-    }
-  }
-}
-
 }  // namespace
 }  // namespace touchstone::fast::exact_stage::fixed_integer_test

@@ -11,26 +11,20 @@
 #include <vector>
 
 #include "fast/certified/exact/enclosing_doubles.hpp"
+#include "tests/fast/certified/forms.hpp"
 
 namespace touchstone::fast::exact_stage::real_root_test {
 namespace {
 
-using Quadratic = Form<BigInteger, 2>;
+using tests::cubic;
+using tests::in_time;
+using tests::polynomial;
+using tests::Quadratic;
 
 std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
 
-/// a + b t + c t² as a form: t = y/(x+y).
-Quadratic in_time(std::int64_t a, std::int64_t b, std::int64_t c) {
-  return {a, 2 * a + b, a + b + c};
-}
-
 /// (m − n t)(x+y), a root at m/n.
 Quadratic root_at(std::int64_t m, std::int64_t n) { return in_time(m, -n, 0); }
-
-/// a + b t + c t² + d t³.
-Polynomial cubic(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
-  return inner_polynomial(Polynomial{a, 3 * a + b, 3 * a + 2 * b + c, a + b + c + d});
-}
 
 double value(const Dyadic& t) {
   return std::ldexp(t.numerator.approximation().significand,
@@ -142,41 +136,9 @@ TEST(AlgebraicInstant, SplitsBetweenTheEndsAndQuicklyTowardsThem) {
   }
 }
 
-TEST(AlgebraicInstant, FindsCommonDivisors) {
-  const Polynomial both = inner_polynomial(in_time(2, -9, 9));  // (1−3t)(2−3t)
-  const Polynomial other = cubic(1, -8, 21, -18);               // (1−3t)²(1−2t)
-  EXPECT_EQ(common_divisor(both, other).size(), 2U);
-  EXPECT_EQ(common_divisor(both, inner_polynomial(in_time(1, 0, -2))).size(), 1U);
-  EXPECT_EQ(common_divisor(other, other).size(), 4U);
-  EXPECT_EQ(squarefree(other).size(), 3U);
-  EXPECT_EQ(squarefree(both).size(), 3U);
-}
-
-TEST(AlgebraicInstant, SeesThatThereIsNoCommonFactor) {
-  const Polynomial both = inner_polynomial(in_time(2, -9, 9));  // (1−3t)(2−3t)
-  EXPECT_TRUE(surely_coprime(both, inner_polynomial(in_time(1, 0, -2))));
-  EXPECT_FALSE(surely_coprime(both, cubic(1, -8, 21, -18)));
-  EXPECT_TRUE(surely_coprime({1}, both));
-}
-
-/// The product of the factors.
-Polynomial with_roots(const std::vector<Quadratic>& factors) {
-  Polynomial product{1};
-  for (const Quadratic& factor : factors) {
-    Polynomial next(product.size() + 2);
-    for (std::size_t i = 0; i < product.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) next[i + k] += product[i] * factor[k];
-    }
-    product = next;
-  }
-  return product;
-}
-
 TEST(AlgebraicInstant, HandlesDegreeEight) {
-  const Quadratic a = in_time(1, 0, -2), b = in_time(2, -9, 9), c = in_time(1, 1, 1);
-  const Polynomial f = with_roots({a, a, b, c}), g = with_roots({a, b, b});
-  EXPECT_EQ(common_divisor(f, g).size(), 5U);  // a b
-  EXPECT_EQ(squarefree(f).size(), 7U);         // a b c
+  const Polynomial a = polynomial(in_time(1, 0, -2)), b = polynomial(in_time(2, -9, 9));
+  const Polynomial f = a * a * b * polynomial(in_time(1, 1, 1));
   expect_roots(inner_polynomial(f), {1.0 / 3.0, 2.0 / 3.0, std::sqrt(0.5)});
 }
 
@@ -184,20 +146,17 @@ TEST(AlgebraicInstant, TellsRootsThatAreHardlyApart) {
   // (3t − 1)² = 2^-400, and a double root where they nearly are.
   const BigInteger large = BigInteger(1) << 400;
   const Quadratic square = in_time(1, -6, 9);
-  Polynomial pair(square.begin(), square.end());
-  for (BigInteger& c : pair) c = c * large;
-  const Quadratic one = in_time(1, 0, 0);
-  for (std::size_t k = 0; k < 3; ++k) pair[k] -= one[k];
+  const Polynomial pair = polynomial(square) * large - polynomial(in_time(1, 0, 0));
   expect_roots(pair, {1.0 / 3.0, 1.0 / 3.0});
   Instant start(Dyadic{0, 0});
   auto first = first_root_after(start, {1, 0}, pair);
   ASSERT_TRUE(first.has_value());
   Instant third(cubic(1, -3, 0, 0), {0, 0}, {1, 0});
   EXPECT_EQ(compare(*first, third), -1);
-  auto second = first_root_after(third, {1, 0}, with_roots({in_time(2, -3, 0)}));
+  auto second = first_root_after(third, {1, 0}, in_time(2, -3, 0));
   ASSERT_TRUE(second.has_value());
   EXPECT_EQ(compare(*second, third), 1);
-  expect_roots(Polynomial(square.begin(), square.end()), {1.0 / 3.0});
+  expect_roots(polynomial(square), {1.0 / 3.0});
 }
 
 /// Found by the fuzzer: what doubles cannot reach was guessed as 0, and narrowing took minutes.

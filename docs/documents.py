@@ -1,0 +1,330 @@
+#!/usr/bin/env python3
+"""Makes the numbers of the documents: `./run results`.
+
+docs/data holds what the tool measured, as JSON: of each file the commands, the day, and their results. All numbers of
+docs/results.md, docs/results.svg and the marked parts of README.md and docs/benchmarks.md come from there. A marked part
+stands between <!-- made by ./run results: NAME --> and <!-- end -->; the function NAME below writes it.
+"""
+
+import argparse
+import datetime
+import glob
+import json
+import pathlib
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import urllib.parse
+
+DATA = ["handcrafted", "simulation", ""]  # "": the built-in queries
+STEPS = {"cloth-ball": ["", *(f" --min-separation {d} --norm {norm}" for d in ("1e-8", "1e-2") for norm in ("linf", "l2"))],
+         "armadillo-rollers": [""]}
+
+# The commands of each file of data. They run in the folder of the public data.
+COMMANDS = {
+    "results": ["report handcrafted simulation --count 1000000 --seconds 12 --experiment field "
+                "--experiment separation --experiment filter --stability 0"],
+    "certify": [f"certify {data} --method certified --method tight_inclusion --method tight_inclusion_published "
+                "--method tight_inclusion_released" if data else "certify" for data in DATA],
+    "files": ["bench handcrafted/*/*/*.csv simulation/*/queries/*.csv --method certified --method tccd "
+              "--method rp --repetitions 15"],
+    "patches": ["bench --repetitions 9"],
+    "steps": [f"bench --step simulation/{step}/frames/*.ply --method certified --method tight_inclusion --judge 0 "
+              f"--repetitions 7{separation}" for step, separations in STEPS.items() for separation in separations],
+    "bounds": ["derive"],
+    "certificates": [f"prove {data} --threads 1".replace("  ", " ") for data in DATA],
+}
+
+# What no document shows.
+DROPPED = {"wrong_answers", "failures", "mismatches", "files", "worst_input", "single"}
+
+
+class Problem(Exception):
+    """What a user can mend."""
+
+
+# ---- Measuring -------------------------------------------------------------------------------------------------------
+
+
+def run(command, **options):
+    """What the command prints."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
+    if done.returncode != 0:
+        raise Problem(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stderr}")
+    return done.stdout
+
+
+def reduced(value):
+    if isinstance(value, dict):
+        return {key: reduced(part) for key, part in value.items() if key not in DROPPED}
+    return [reduced(part) for part in value] if isinstance(value, list) else value
+
+
+def compact(value):
+    return json.dumps(value, sort_keys=True, separators=(",", ":"))
+
+
+def check_certificates(checker, proofs):
+    """How many touchstone-check accepts, and its processor time."""
+    text = proofs.with_suffix("")
+    run(["zstd", "-q", "-d", "-f", proofs, "-o", text])
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    printed = run([checker, text])
+    return {"accepted": int(re.search(r"accepted +(\d+)", printed)[1]),
+            "checking_s": resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before}
+
+
+def measure_one(name, command, options, folder):
+    """Runs a command of the tool; the command with its result."""
+    if options.quick:
+        command = re.sub(r"--repetitions \d+", "--repetitions 1", re.sub(r"--seconds \d+", "--seconds 0.1", command))
+    print(f"touchstone {command}", flush=True)
+    out, proofs = folder / "run.json", folder / "proofs.cert.zst"
+    words = [path for word in command.split()
+             for path in (sorted(glob.glob(word, root_dir=options.data)) if "*" in word else [word])]
+    words += ["--json", out] + (["--out", proofs] if name == "certificates" else [])
+    printed = run([options.tool, *words], cwd=options.data)
+    result = {"command": f"touchstone {command}", "result": reduced(json.loads(out.read_text()))}
+    if command == "certify":
+        result["printed"] = printed.splitlines()
+    if name == "certificates":
+        result["result"].update(check_certificates(options.tool.with_name("touchstone-check"), proofs))
+    return result
+
+
+def measure(name, options, folder):
+    """Writes docs/data/NAME.json anew, with a line a run, or a line a measurement."""
+    rows = [measure_one(name, command, options, folder) for command in COMMANDS[name]]
+    key, data = "runs", {"date": datetime.datetime.now(datetime.timezone.utc).date().isoformat()}
+    if name == "results":  # as `touchstone report --from` reads it
+        key, data = "measurements", rows[0]["result"] | {"command": rows[0]["command"]}
+        rows = [row if row["experiment"] == "field" else row | {"hit_times": [], "miss_times": []}  # drawn of the field
+                for row in data.pop(key)]
+    lines = ",\n".join(compact(row) for row in rows)
+    text = f'{compact(data)[:-1]},"{key}":[\n{lines}\n]}}\n'
+    (options.root / f"docs/data/{name}.json").write_text(text)
+
+
+# ---- The marked parts ------------------------------------------------------------------------------------------------
+
+
+def rounded(x):
+    """Two digits that count: 0.97, 1.0, 12, 1,300."""
+    digits = 1 - int(f"{x:.1e}".split("e")[1])
+    return f"{round(x, digits):,.{max(digits, 0)}f}"
+
+
+def table(columns, rows):
+    lines = [f"| {' | '.join(columns)} |", "|" + "---|" * len(columns)]
+    return lines + [f"| {' | '.join(map(str, row))} |" for row in rows]
+
+
+def made_by(data, command=None):
+    return [f"`{command or data['runs'][0]['command']}`, {data['date']}:", ""]
+
+
+def by_name(group):
+    return {m["name"]: m for m in group["methods"]}
+
+
+def results(data):
+    field = [m for m in data["measurements"] if m["experiment"] == "field"]
+    places = dict.fromkeys((m["group"], m["kind"]) for m in field)
+    cells = {}
+    for m in field:
+        time = rounded(m["ns_per_query"] / m["certified_ns_per_query"]) + "*" * (m["asked"] < m["group_queries"])
+        cells.setdefault(m["method"], {})[m["group"], m["kind"]] = (
+            f"{m['false_negatives']} / {m['false_positives']} / {time}")
+    return made_by(data, data["command"]) + table(
+        ["method", *map(", ".join, places)],
+        [[f"`{method}`", *(of.get(place, "–") for place in places)] for method, of in cells.items()])
+
+
+def printed(data):
+    lines = data["runs"][-1]["printed"]
+    total = next(i for i, line in enumerate(lines) if line.startswith("total"))
+    return made_by(data, "./run certify") + ["```", *lines[:2], "…", *lines[total:], "```"]
+
+
+def judged(data):
+    rows = []
+    for name, of in zip(DATA, (one["result"] for one in data["runs"])):
+        truth = [name or "built-in, hard on purpose", f"{of['queries']:,}", f"{of['collisions']:,}",
+                 f"{of['label_mismatches']} of {of['labels']:,}", f"{of['toi_mismatches']} of {of['tois']:,}"]
+        for m in of["methods"]:
+            rows.append([*truth, f"`{m['name']}`", m["false_negatives"], m["late_toi"], f"{m['false_positives']:,}"])
+            truth = [""] * len(truth)
+    return made_by(data, "touchstone certify …") + table(
+        ["data", "queries", "collisions", "wrong labels", "wrong recorded times", "method", "false negatives",
+         "late times of impact", "false positives"], rows)
+
+
+def files(data):
+    scenes = {}
+    for group in data["runs"][0]["result"]["groups"]:
+        scenes.setdefault(group["name"].split("/")[1], {})[group["kind"]] = by_name(group)
+
+    def cells(of):
+        if not of:
+            return [""] * 3
+        tccd, rp = (rounded(of[method]["passes"] / of["certified"]["passes"]) for method in ("tccd", "rp"))
+        return [tccd, of["tccd"]["false_positives"], rp]
+
+    return made_by(data) + table(
+        ["scene", *(f"{text}, {kind}" for kind in ("vertex-face", "edge-edge")
+                    for text in ("`tccd`", "its false positives", "`rp`"))],
+        [[scene, *cells(kinds.get("vertex-face")), *cells(kinds.get("edge-edge"))] for scene, kinds in scenes.items()])
+
+
+def patches(data):
+    rows = []
+    for group in data["runs"][0]["result"]["groups"]:
+        what = f"{group['name']}, {group['kind']}, {group['queries']:,}"
+        for m in group["methods"]:
+            sample = "" if m["queries"] == group["queries"] else f", {m['queries']:,} of them"
+            rows.append([what, f"`{m['name']}`{sample}", rounded(m["passes"]), m["false_negatives"],
+                         m["false_positives"], f"{m['toi_error']['p50']:.1e} / {m['toi_error']['max']:.1e}"])
+            what = ""
+    return made_by(data) + table(["queries", "method", "passes", "false negatives", "false positives",
+                                  "error of the time of impact, median / greatest"], rows)
+
+
+def steps(data):
+    rows = []
+    for one in data["runs"]:
+        step = re.search(r"simulation/([^/]*)", one["command"])[1]
+        separation = re.search(r"--min-separation (\S+) --norm (\S+)", one["command"])
+        d = f"{separation[1]} {'L2' if separation[2] == 'l2' else 'L∞'}" if separation else 0
+        for group in one["result"]["groups"]:
+            counts, methods = one["result"]["step"][group["kind"].replace("-", "_")], by_name(group)
+            ended = (f"{100 * methods['certified']['stages'][stage] / group['queries']:.1f}"
+                     for stage in ("axis", "direction", "determinant", "bisection"))
+            rows.append([f"{step}, {group['kind']}", d, f"{counts['candidates']:,}", f"{counts['collisions']:,}",
+                         *(rounded(methods[name]["passes"])
+                           for name in ("certified", "certified_queries", "certified_pairs", "tight_inclusion")),
+                         " / ".join(ended) + " %"])
+    return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
+        ["step", "d", "candidates", "collisions", "`certified`", "`certified_queries`", "`certified_pairs`",
+         "`tight_inclusion`", "ended by axis / direction / determinant / bisection"], rows)
+
+
+def bounds(data):
+    rows = [[row["expression"], row["precision"], row["published_constant"] or "",
+             *(f"{row[of]:.4g} u" if row[of] else ""
+               for of in ("published_units", "rigorous_units", "gappa_units", "observed_units")),
+             f"{row['tightness']:.2f}"]
+            for row in data["runs"][0]["result"]["bounds"] if not row["expression"].startswith("paper_")]
+    return made_by(data) + table(["expression", "precision", "published constant", "its model", "our bound", "Gappa's",
+                                  "worst observed", "tightness"], rows)
+
+
+def certificates(data):
+    rows = []
+    for name, of in zip(DATA, (one["result"] for one in data["runs"])):
+        count, pieces = of["certificates"], {int(number): amount for number, amount in of["pieces"].items()}
+        shown = [*(pieces.get(i, 0) for i in range(4)), sum(amount for i, amount in pieces.items() if i > 3)]
+        times = of["oracle_us_per_query"], of["us_per_certificate"], 1e6 * of["checking_s"] / count
+        rows.append([name or "built-in, hard on purpose", f"{count:,}", f"{of['accepted']:,}",
+                     f"{of['no_collision']:,}", f"{of['time_of_impact']:,}", " / ".join(f"{n:,}" for n in shown),
+                     f"{of['bytes_per_certificate']:.0f} ({of['file_bytes'] / count:.0f})",
+                     *(f"{rounded(time)} µs" for time in times)])
+    return made_by(data, "touchstone prove …") + table(
+        ["data", "certificates", "accepted", "no collision", "time of impact", "pieces: none / 1 / 2 / 3 / more",
+         "bytes each (compressed)", "deciding", "proving", "checking"], rows)
+
+
+# The marked parts of the documents, in their order, each with its file of data.
+PARTS = {"README.md": [(printed, "certify"), (results, "results")],
+         "docs/benchmarks.md": [(judged, "certify"), (files, "files"), (patches, "patches"), (steps, "steps"),
+                                (bounds, "bounds"), (certificates, "certificates")]}
+
+
+# ---- Documents -------------------------------------------------------------------------------------------------------
+
+
+def with_parts(document, text, root):
+    """The text of a document with its marked parts made anew."""
+    parts = {part.__name__: (part, data) for part, data in PARTS[document]}
+    mark = re.compile(r"(<!-- made by \./run results: (\w+) -->)\n.*?<!-- end -->", re.DOTALL)
+    found = [name for _, name in mark.findall(text)]
+    if found != list(parts):
+        raise Problem(f"{document}: marked are the parts {found}, not {list(parts)}")
+
+    def made(match):
+        part, data = parts[match[2]]
+        lines = part(json.loads((root / f"docs/data/{data}.json").read_text()))
+        return "\n".join([match[1], "", *lines, "", "<!-- end -->"])
+
+    return mark.sub(made, text)
+
+
+def picture(page, folder):
+    """The figure of time against error, as the link below it on the report's page gives it."""
+    page.write_text(page.read_text().replace("</body>", """<script>
+const link = document.querySelector("#speed_false_positives a.svg");
+link.addEventListener("click", (event) => event.preventDefault());
+link.click();
+</script></body>"""))
+    dom = run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+               "--virtual-time-budget=10000", f"--user-data-dir={folder}/profile", "--dump-dom", page.as_uri()])
+    link = re.search(r'href="data:image/svg\+xml,([^"]*)"', dom)
+    if not link:
+        raise Problem("the page of the report gives no picture")
+    return urllib.parse.unquote(link[1])
+
+
+def documents(options, folder):
+    """All documents by name, as they are to be."""
+    made = {document: with_parts(document, (options.root / document).read_text(), options.root) for document in PARTS}
+    page, text = folder / "page.html", folder / "results.md"
+    run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page, "--results", text])
+    return made | {"docs/results.md": text.read_text(), "docs/results.svg": picture(page, folder)}
+
+
+def differences(root, made):
+    """The first line of each document that is not what it is to be."""
+    for document, text in made.items():
+        file = root / document
+        old, new = (file.read_text() if file.exists() else "").split("\n"), text.split("\n")
+        for i in range(max(len(old), len(new))):
+            if old[i:i + 1] != new[i:i + 1]:
+                yield f"{document}:{i + 1}: the data gives: {''.join(new[i:i + 1])}"
+                break
+
+
+def main():
+    here = pathlib.Path(__file__).resolve().parent.parent
+    parser = argparse.ArgumentParser(prog="./run results", description="Measures, and writes the documents' numbers.")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"measure only: {' '.join(COMMANDS)} (default: all)")
+    parser.add_argument("--check", action="store_true", help="measure and write nothing: do data and documents agree?")
+    parser.add_argument("--write", action="store_true", help="measure nothing: write the documents from docs/data")
+    parser.add_argument("--quick", action="store_true", help="measure times briefly, to try it out")
+    parser.add_argument("--data", type=pathlib.Path, default=here / "../shared/datasets", help="the public data")
+    parser.add_argument("--tool", type=pathlib.Path, default=here / "build/release/touchstone")
+    parser.add_argument("--root", type=pathlib.Path, default=here, help="the folder of the documents")
+    options = parser.parse_args()
+    options.tool = options.tool.resolve()  # commands run in another folder
+    if not set(options.names) <= set(COMMANDS):
+        parser.error(f"NAME is one of {' '.join(COMMANDS)}")
+    with tempfile.TemporaryDirectory() as name:
+        if not options.check and not options.write:
+            for data in options.names or COMMANDS:
+                measure(data, options, pathlib.Path(name))
+        made = documents(options, pathlib.Path(name))
+    if options.check:
+        found = list(differences(options.root, made))
+        print("\n".join(found) or f"{len(made)} documents agree with their data")
+        return 1 if found else 0
+    for document, text in made.items():
+        (options.root / document).write_text(text)
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except (Problem, OSError, ValueError) as problem:
+        print(f"./run results: {problem}", file=sys.stderr)
+        sys.exit(2)

@@ -1,0 +1,182 @@
+#include "verify/mesh/frames.hpp"
+
+#include <gtest/gtest.h>
+#include <zip.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/support/mesh_files.hpp"
+#include "verify/data/dataset_error.hpp"
+#include "verify/data/npy_header.hpp"
+
+namespace touchstone::verify::mesh::frames_test {
+namespace {
+
+namespace fs = std::filesystem;
+using tests::MeshFolder;
+
+/// An .npy file of these numbers.
+template <class Number>
+std::string array(const std::string& descr, std::vector<std::uint64_t> shape,
+                  const std::vector<Number>& numbers) {
+  const std::uint64_t count = shape.front();
+  shape.erase(shape.begin());
+  std::string bytes = data::npy_header_text(descr, count, shape);
+  const void* const begin = numbers.data();
+  return bytes.append(static_cast<const char*>(begin), numbers.size() * sizeof(Number));
+}
+
+/// Writes an archive of these members.
+fs::path archive(const fs::path& path, const std::map<std::string, std::string>& members,
+                 bool is_compressed = true) {
+  int error = 0;
+  zip_t* const zip = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error);
+  for (const auto& [name, bytes] : members) {
+    const zip_int64_t index = zip_file_add(
+        zip, name.c_str(), zip_source_buffer(zip, bytes.data(), bytes.size(), 0), ZIP_FL_ENC_UTF_8);
+    zip_set_file_compression(zip, static_cast<zip_uint64_t>(index),
+                             is_compressed ? ZIP_CM_DEFLATE : ZIP_CM_STORE, 0);
+  }
+  EXPECT_EQ(zip_close(zip), 0);
+  return path;
+}
+
+std::unique_ptr<Frames> open(const std::vector<fs::path>& paths) { return open_frames(paths); }
+
+std::string error_of(const MeshFolder& folder, const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const data::DatasetError& error) {
+    const std::string text = error.what(), prefix = folder.path().string() + "/";
+    return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
+  }
+  return "";
+}
+
+std::string triangle(int height) {
+  const std::string z = " " + std::to_string(height) + "\n";
+  return "v 0 0" + z + "v 1 0" + z + "v 0 1" + z + "f 1 2 3\n";
+}
+
+TEST(Frames, OfAFolderAreInTheOrderOfTheirNumbers) {
+  const MeshFolder folder;
+  for (const int i : {10, 9, 100, 1})
+    (void)folder.file("frame" + std::to_string(i) + ".obj", triangle(i));
+  (void)folder.file("notes.txt", "");
+  const auto frames = open({folder.path()});
+  ASSERT_EQ(frames->count(), 4U);
+  std::vector<double> heights;
+  std::string names;
+  for (std::size_t i = 0; i < frames->count(); ++i) {
+    heights.push_back(frames->next()(0, 2));
+    names += frames->name(i) + " ";
+  }
+  EXPECT_EQ(heights, (std::vector<double>{1, 9, 10, 100}));
+  EXPECT_EQ(names, "frame1.obj frame9.obj frame10.obj frame100.obj ");
+}
+
+TEST(Frames, OfFilesAreInTheirOrder) {
+  const MeshFolder folder;
+  const auto frames = open({folder.file("b.obj", triangle(2)), folder.file("a.obj", triangle(1))});
+  EXPECT_EQ(frames->mesh().faces.size(), 1U);
+  EXPECT_EQ(frames->next()(0, 2), 2.0);
+  EXPECT_EQ(frames->next()(0, 2), 1.0);
+}
+
+TEST(Frames, OfAnotherMeshAreAnError) {
+  const MeshFolder folder;
+  const std::vector<std::string> others{triangle(1) + "v 1 1 1\n", triangle(1) + "f 3 2 1\n",
+                                        triangle(1) + "p 1\n", "o x\n" + triangle(1)};
+  for (const std::string& other : others) {
+    const auto frames = open({folder.file("a.obj", triangle(0)), folder.file("b.obj", other)});
+    (void)frames->next();
+    const std::string error = error_of(folder, [&] { (void)frames->next(); });
+    EXPECT_TRUE(error.starts_with("b.obj: is not the same mesh as ")) << error;
+  }
+}
+
+TEST(Frames, OfAnArchiveHaveItsElements) {
+  const MeshFolder folder;
+  for (const bool is_compressed : {false, true}) {
+    const auto frames = open({archive(
+        folder.path() / "a.npz",
+        {{"V.npy", array<float>("<f4", {2, 4, 3}, {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5,  //
+                                                   0, 0, 1, 1, 0, 1, 0, 1, 1, 6, 6, 0.1F})},
+         {"F.npy", array<std::int64_t>("<i8", {1, 3}, {0, 1, 2})},
+         {"E.npy", array<std::int32_t>("<i4", {1, 2}, {3, 0})},
+         {"P.npy", array<std::int32_t>("<i4", {2}, {3, 1})}},
+        is_compressed)});
+    ASSERT_EQ(frames->count(), 2U);
+    EXPECT_EQ(frames->mesh().faces, (std::vector<fast::Face>{{0, 1, 2}}));
+    EXPECT_EQ(frames->mesh().edges, (std::vector<fast::Edge>{{0, 1}, {0, 2}, {1, 2}, {0, 3}}));
+    EXPECT_EQ(frames->mesh().points, (std::vector<std::int32_t>{1, 3}));
+    EXPECT_EQ(frames->next()(3, 2), 5.0);
+    EXPECT_EQ(frames->next()(3, 2), static_cast<double>(0.1F));
+    EXPECT_EQ(frames->name(1), "1");
+  }
+}
+
+TEST(Frames, OfALargeArchiveAreReadInParts) {
+  const MeshFolder folder;
+  constexpr std::size_t vertices = 50'000;
+  std::vector<double> numbers(2 * 3 * vertices);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<double>(i);
+  const auto frames = open({archive(folder.path() / "a.npz",
+                                    {{"V.npy", array<double>("<f8", {2, vertices, 3}, numbers)}})});
+  EXPECT_EQ(frames->next()(vertices - 1, 2), 3.0 * vertices - 1);
+  EXPECT_EQ(frames->next()(vertices - 1, 2), 6.0 * vertices - 1);
+}
+
+TEST(Frames, SayWhatIsWrongWithAnArchive) {
+  const MeshFolder folder;
+  const std::string square = array<double>("<f8", {1, 1, 3}, {0, 0, 0});
+  const auto error = [&](const std::map<std::string, std::string>& members) {
+    return error_of(folder, [&] { (void)open({archive(folder.path() / "a.npz", members)}); });
+  };
+  EXPECT_EQ(error({{"x.npy", square}}), "a.npz: no array V of positions, of shape (T, n, 3)");
+  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 3}, {0, 0, 0})}}),
+            "a.npz: V: shape (1, 3), expected (T, n, 3)");
+  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {0, 1, 3}, {})}}),
+            "a.npz: V: no frame, or no vertex");
+  EXPECT_EQ(error({{"V.npy", array<std::int32_t>("<i4", {1, 1, 3}, {0, 0, 0})}}),
+            "a.npz: V: dtype \"<i4\", expected <f4 or <f8");
+  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 2, 3}, {0, 0, 0})}}),
+            "a.npz: V: the array ends early");
+  const std::uint64_t huge = 2'000'000'000;
+  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, huge, 3}, {0, 0, 0})}}),
+            "a.npz: V: the array ends early");
+  EXPECT_EQ(error({{"V.npy", array<double>("<f8", {1, 1, 3},
+                                           {0, 0, std::numeric_limits<double>::infinity()})}}),
+            "a.npz: V: frame 0: a coordinate must be finite");
+  EXPECT_EQ(error({{"V.npy", "nonsense"}}), "a.npz: V: not a NumPy file");
+  EXPECT_EQ(error({{"V.npy", square}, {"F.npy", array<std::int32_t>("<i4", {1, 3}, {0, 0, 1})}}),
+            "a.npz: F: row 0: vertex 1, but there are 1, counted from 0");
+  EXPECT_EQ(error({{"V.npy", square}, {"E.npy", array<std::int32_t>("<i4", {1, 3}, {0, 0, 0})}}),
+            "a.npz: E: shape (1, 3), expected (k, 2)");
+  EXPECT_EQ(error_of(folder, [&] { (void)open({folder.file("b.npz", "PK nothing")}); }),
+            "b.npz: cannot open: Not a zip archive");
+}
+
+TEST(Frames, ThatDoNotGoTogetherAreAnError) {
+  const MeshFolder folder;
+  const fs::path file = folder.file("a.obj", triangle(0));
+  EXPECT_EQ(error_of(folder,
+                     [&] {
+                       (void)open({file, folder.path() / "b.npz"});
+                     }),
+            "b.npz: an archive or a folder is named alone");
+  fs::create_directory(folder.path() / "empty");
+  EXPECT_EQ(error_of(folder, [&] { (void)open({folder.path() / "empty"}); }),
+            "empty: no .ply or .obj file in this folder");
+}
+
+}  // namespace
+}  // namespace touchstone::verify::mesh::frames_test

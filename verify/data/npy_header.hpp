@@ -1,0 +1,52 @@
+#pragma once
+
+/// \file
+/// The header of NumPy's .npy files: "\x93NUMPY", two bytes of version (1 to 3), the length of the dictionary (2 bytes
+/// in version 1, else 4, little-endian) and the dictionary, of exactly descr, fortran_order and shape; then the data.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace touchstone::verify::data {
+
+/// A file that begins with no such header, or with that of another array; what() is the reason.
+class NpyHeaderError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What the header says of the array.
+struct NpyHeader {
+  std::string descr;           ///< the type: "<f8" is little-endian float64
+  bool fortran_order = false;  ///< columns first
+  std::vector<std::uint64_t> shape;
+  /// Bytes before the data.
+  std::size_t size = 0;
+};
+
+/// Fills the buffer, or less at the end of the file; returns the number of bytes.
+using ReadBytes = std::function<std::size_t(std::span<char>)>;
+
+/// Reads the header and no byte more.
+/// \throws NpyHeaderError; whatever `read` throws.
+[[nodiscard]] NpyHeader read_npy_header(const ReadBytes& read);
+
+/// \throws NpyHeaderError unless the array is in C order.
+void require_c_order(const NpyHeader& header);
+
+/// "(3, 8, 3)"
+[[nodiscard]] std::string shape_text(const NpyHeader& header);
+
+/// The header of an array in C order whose first extent is `count`, 128 bytes whatever that is, so that it can be
+/// written again when the number is known.
+/// \param descr the type \param extents the further extents
+[[nodiscard]] std::string npy_header_text(std::string_view descr, std::uint64_t count,
+                                          std::span<const std::uint64_t> extents);
+
+}  // namespace touchstone::verify::data

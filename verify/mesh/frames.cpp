@@ -1,0 +1,292 @@
+#include "verify/mesh/frames.hpp"
+
+#include <fmt/format.h>
+#include <zip.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "verify/data/dataset_error.hpp"
+#include "verify/data/npy_header.hpp"
+
+namespace touchstone::verify::mesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+static_assert(std::endian::native == std::endian::little, "arrays are read as they are stored");
+
+// ---- Files ----
+
+/// Names in the order of the numbers in them: "2.ply" before "10.ply".
+bool is_before(std::string_view a, std::string_view b) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  while (!a.empty() && !b.empty()) {
+    if (is_digit(a.front()) && is_digit(b.front())) {
+      const auto number = [&](std::string_view& text) {
+        const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
+        std::string_view digits = text.substr(0, end);
+        text.remove_prefix(end);
+        digits.remove_prefix(std::min(digits.find_first_not_of('0'), digits.size()));
+        return digits;
+      };
+      const std::string_view x = number(a), y = number(b);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+    } else {
+      if (a.front() != b.front()) return a.front() < b.front();
+      a.remove_prefix(1);
+      b.remove_prefix(1);
+    }
+  }
+  return a.size() < b.size();
+}
+
+std::vector<fs::path> mesh_files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && is_mesh_file(entry.path())) files.push_back(entry.path());
+  }
+  if (files.empty()) throw data::DatasetError(folder, {}, "no .ply or .obj file in this folder");
+  std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
+    const std::string x = a.filename().string(), y = b.filename().string();
+    return is_before(x, y) || (!is_before(y, x) && x < y);
+  });
+  return files;
+}
+
+class FileFrames : public Frames {
+ public:
+  explicit FileFrames(std::vector<fs::path> files)
+      : files_(std::move(files)), mesh_(read_mesh(files_.front())) {}
+
+  [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
+  [[nodiscard]] std::size_t count() const override { return files_.size(); }
+  [[nodiscard]] std::string name(std::size_t i) const override {
+    return files_.at(i).filename().string();
+  }
+
+  [[nodiscard]] Vertices next() override {
+    const fs::path& file = files_.at(next_++);
+    if (next_ == 1) return mesh_.vertices;
+    Mesh mesh = read_mesh(file);
+    if (!same_elements(mesh, mesh_)) {
+      throw data::DatasetError(file, {}, "is not the same mesh as " + files_.front().string());
+    }
+    return std::move(mesh.vertices);
+  }
+
+ private:
+  std::vector<fs::path> files_;
+  Mesh mesh_;
+  std::size_t next_ = 0;
+};
+
+// ---- Archives ----
+
+struct CloseArchive {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+struct CloseMember {
+  void operator()(zip_file_t* member) const { zip_fclose(member); }
+};
+using Archive = std::unique_ptr<zip_t, CloseArchive>;
+
+/// One array of an archive, read front to back.
+class ArchivedArray {
+ public:
+  /// \throws data::DatasetError if it is no array of numbers in C order.
+  ArchivedArray(zip_t& archive, fs::path path, std::string name)
+      : path_(std::move(path)),
+        name_(std::move(name)),
+        member_(zip_fopen(&archive, (name_ + ".npy").c_str(), 0)) {
+    if (!member_) fail(zip_strerror(&archive));
+    try {
+      header_ = data::read_npy_header([this](std::span<char> buffer) { return read(buffer); });
+      data::require_c_order(header_);
+    } catch (const data::NpyHeaderError& error) {
+      fail(error.what());
+    }
+  }
+
+  [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return header_.shape; }
+
+  /// The next numbers, of the type that the header names: one of `Stored`.
+  /// \throws data::DatasetError if the type is another, or the array ends before.
+  template <class Number, class... Stored>
+  void take(std::span<Number> numbers,
+            const std::array<std::string_view, sizeof...(Stored)>& names) {
+    std::size_t i = 0;
+    const bool found =
+        ((header_.descr == names[i++] && (take_stored<Stored>(numbers), true)) || ...);
+    if (!found) {
+      fail(fmt::format("dtype {}, expected {}", data::quote(header_.descr),
+                       fmt::join(names, " or ")));
+    }
+  }
+
+  /// \throws data::DatasetError unless the shape has so many extents, the last ones as given.
+  void require_shape(std::size_t extents, std::span<const std::uint64_t> last,
+                     std::string_view expected) const {
+    const std::vector<std::uint64_t>& shape = header_.shape;
+    if (shape.size() == extents &&
+        std::equal(last.begin(), last.end(),
+                   shape.end() - static_cast<std::ptrdiff_t>(last.size()))) {
+      return;
+    }
+    fail("shape " + data::shape_text(header_) + ", expected " + std::string(expected));
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw data::DatasetError(path_, {}, name_ + ": " + reason);
+  }
+
+ private:
+  std::size_t read(std::span<char> buffer) {
+    const zip_int64_t count = zip_fread(member_.get(), buffer.data(), buffer.size());
+    if (count < 0) fail(zip_file_strerror(member_.get()));
+    return static_cast<std::size_t>(count);
+  }
+
+  template <class Stored, class Number>
+  void take_stored(std::span<Number> numbers) {
+    // A bounded part at a time: what the header announces is believed as far as data follows.
+    std::array<Stored, 4096> part{};
+    while (!numbers.empty()) {
+      const std::size_t count = std::min(part.size(), numbers.size());
+      std::span<char> bytes(static_cast<char*>(static_cast<void*>(part.data())),
+                            count * sizeof(Stored));
+      while (!bytes.empty()) {
+        const std::size_t got = read(bytes);
+        if (got == 0) fail("the array ends early");
+        bytes = bytes.subspan(got);
+      }
+      for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<Number>(part[i]);
+      numbers = numbers.subspan(count);
+    }
+  }
+
+  fs::path path_;
+  std::string name_;
+  std::unique_ptr<zip_file_t, CloseMember> member_;
+  data::NpyHeader header_;
+};
+
+class ArchivedFrames : public Frames {
+ public:
+  explicit ArchivedFrames(fs::path path) : path_(std::move(path)), archive_(open(path_)) {
+    if (!has("V"))
+      throw data::DatasetError(path_, {}, "no array V of positions, of shape (T, n, 3)");
+    vertices_.emplace(*archive_, path_, "V");
+    constexpr std::array<std::uint64_t, 1> axes{3};
+    vertices_->require_shape(3, axes, "(T, n, 3)");
+    count_ = vertices_->shape()[0];
+    vertex_count_ = vertices_->shape()[1];
+    if (count_ == 0 || vertex_count_ == 0) vertices_->fail("no frame, or no vertex");
+    if (vertex_count_ > std::numeric_limits<std::int32_t>::max())
+      vertices_->fail("more than 2^31-1 vertices");
+    const std::vector<fast::Edge> edges = elements<2>("E", "(k, 2)");
+    mesh_ = make_mesh({}, elements<3>("F", "(m, 3)"), edges);
+    for (const auto& [point] : elements<1>("P", "(p,)")) mesh_.points.push_back(point);
+    std::ranges::sort(mesh_.points);
+    mesh_.points.erase(std::unique(mesh_.points.begin(), mesh_.points.end()), mesh_.points.end());
+    mesh_.vertices = read_frame(0);
+  }
+
+  [[nodiscard]] const Mesh& mesh() const override { return mesh_; }
+  [[nodiscard]] std::size_t count() const override { return count_; }
+  [[nodiscard]] std::string name(std::size_t i) const override { return std::to_string(i); }
+  [[nodiscard]] Vertices next() override {
+    return next_++ == 0 ? mesh_.vertices : read_frame(next_ - 1);
+  }
+
+ private:
+  static Archive open(const fs::path& path) {
+    int error = 0;
+    Archive archive(zip_open(path.c_str(), ZIP_RDONLY, &error));
+    if (archive) return archive;
+    zip_error_t reason;
+    zip_error_init_with_code(&reason, error);
+    const std::string text = zip_error_strerror(&reason);
+    zip_error_fini(&reason);
+    throw data::DatasetError(path, {}, "cannot open: " + text);
+  }
+
+  [[nodiscard]] bool has(const std::string& name) const {
+    return zip_name_locate(archive_.get(), (name + ".npy").c_str(), 0) >= 0;
+  }
+
+  Vertices read_frame(std::size_t number) {
+    // Grown as data follows, not as the header says.
+    std::vector<double> numbers;
+    constexpr std::size_t part = std::size_t{1} << 16U;
+    for (std::size_t left = 3 * vertex_count_; left > 0;) {
+      const std::size_t count = std::min(part, left);
+      numbers.resize(numbers.size() + count);
+      vertices_->take<double, float, double>(std::span(numbers).last(count), {"<f4", "<f8"});
+      left -= count;
+    }
+    if (!std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); })) {
+      vertices_->fail(fmt::format("frame {}: a coordinate must be finite", number));
+    }
+    return Eigen::Map<const Vertices>(numbers.data(), static_cast<Eigen::Index>(vertex_count_), 3);
+  }
+
+  template <std::size_t corners>
+  std::vector<std::array<std::int32_t, corners>> elements(const std::string& name,
+                                                          std::string_view expected) {
+    std::vector<std::array<std::int32_t, corners>> result;
+    if (!has(name)) return result;
+    ArchivedArray array(*archive_, path_, name);
+    constexpr std::array<std::uint64_t, 1> last{corners};
+    array.require_shape(corners == 1 ? 1 : 2, std::span(last).first(corners == 1 ? 0 : 1),
+                        expected);
+    for (std::uint64_t i = 0; i < array.shape()[0]; ++i) {
+      std::array<std::int64_t, corners> element{};
+      array.take<std::int64_t, std::int32_t, std::int64_t>(element, {"<i4", "<i8"});
+      for (std::size_t k = 0; k < corners; ++k) {
+        if (element[k] < 0 || element[k] >= static_cast<std::int64_t>(vertex_count_)) {
+          array.fail(fmt::format("row {}: vertex {}, but there are {}, counted from 0", i,
+                                 element[k], vertex_count_));
+        }
+      }
+      result.emplace_back();
+      std::ranges::transform(element, result.back().begin(),
+                             [](std::int64_t x) { return static_cast<std::int32_t>(x); });
+    }
+    return result;
+  }
+
+  fs::path path_;
+  Archive archive_;
+  std::optional<ArchivedArray> vertices_;
+  std::size_t count_ = 0;
+  std::size_t vertex_count_ = 0;
+  std::size_t next_ = 0;
+  Mesh mesh_;
+};
+
+}  // namespace
+
+std::unique_ptr<Frames> open_frames(std::span<const fs::path> paths) {
+  if (paths.size() == 1) {
+    const fs::path& path = paths.front();
+    if (fs::is_directory(path)) return std::make_unique<FileFrames>(mesh_files_in(path));
+    if (path.extension() == ".npz") return std::make_unique<ArchivedFrames>(path);
+  }
+  for (const fs::path& path : paths) {
+    if (path.extension() == ".npz" || fs::is_directory(path)) {
+      throw data::DatasetError(path, {}, "an archive or a folder is named alone");
+    }
+  }
+  return std::make_unique<FileFrames>(std::vector<fs::path>(paths.begin(), paths.end()));
+}
+
+}  // namespace touchstone::verify::mesh

@@ -1,0 +1,45 @@
+#pragma once
+
+/// \file
+/// A mesh over time: frames with the same elements and other positions of the vertices.
+///
+/// They come from mesh files (.ply, .obj; a file each, or all of a folder in the order of the numbers in their names), or
+/// from one .npz archive as NumPy's `savez` and `savez_compressed` write it: `V`, float32 or float64 of shape (T, n, 3);
+/// `F`, faces, int32 or int64 of shape (m, 3); `E`, edges of their own, of shape (k, 2); and `P`, points, of shape (p,).
+/// F, E and P may be missing. Of `V` one frame is in memory at a time.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "verify/mesh/mesh.hpp"
+
+namespace touchstone::verify::mesh {
+
+/// A sequence of frames, read from the first to the last.
+class Frames {
+ public:
+  Frames() = default;
+  Frames(const Frames&) = delete;
+  Frames& operator=(const Frames&) = delete;
+  Frames(Frames&&) = delete;
+  Frames& operator=(Frames&&) = delete;
+  virtual ~Frames() = default;
+
+  /// The elements of all frames, and the vertices of the first.
+  [[nodiscard]] virtual const Mesh& mesh() const = 0;
+  /// At least 1.
+  [[nodiscard]] virtual std::size_t count() const = 0;
+  /// What a user calls frame `i`: its file's name without a folder, or its number.
+  [[nodiscard]] virtual std::string name(std::size_t i) const = 0;
+  /// The vertices of the next frame, the first one first. \pre it was called less than count() times.
+  /// \throws data::DatasetError if it cannot be read, or its mesh is another.
+  [[nodiscard]] virtual Vertices next() = 0;
+};
+
+/// Opens mesh files, one folder of them, or one archive. \throws data::DatasetError naming what is in error.
+[[nodiscard]] std::unique_ptr<Frames> open_frames(std::span<const std::filesystem::path> paths);
+
+}  // namespace touchstone::verify::mesh

@@ -1,0 +1,45 @@
+#pragma once
+
+/// \file
+/// Edges that pierce faces in a frame.
+///
+/// A mesh can intersect itself with nothing touching at any time of a step: an edge through a face from the start to the
+/// end. So a step is safe only if its first frame is free of such pairs *and* nothing touches on the way. Two surfaces
+/// of triangles intersect iff an edge of one meets a triangle of the other.
+///
+/// **What counts.** An edge without a vertex in common with a face pierces it iff the closed segment and the closed
+/// triangle have a point in common. (Where this is a touch only, the step finds a contact at t=0 as well.) An edge that
+/// starts at a corner of the face pierces it iff they have a further point in common: then the edge lies in the face's
+/// plane and points into the angle at the corner. An edge of the face itself never counts.
+///
+/// **Exact.** Signs of orientations in CGAL's kernel of exact predicates; boxes of coordinates choose the pairs (CGAL's
+/// box_intersection_d), and comparing coordinates is exact.
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "fast/mesh.hpp"
+#include "verify/mesh/mesh.hpp"
+
+namespace touchstone::verify::mesh {
+
+/// An edge and the face that it pierces, by their numbers.
+struct Piercing {
+  std::int32_t edge = 0;
+  std::int32_t face = 0;
+
+  friend auto operator<=>(const Piercing&, const Piercing&) = default;
+};
+
+/// Which pairs count: called with the numbers of an edge and a face; empty: all.
+using PiercingFilter = std::function<bool(std::int32_t edge, std::int32_t face)>;
+
+/// All pairs of an edge and a face that it pierces, in ascending order.
+/// \param vertices n×3, finite. \pre indices are in range.
+[[nodiscard]] std::vector<Piercing> find_piercings(const Vertices& vertices,
+                                                   std::span<const fast::Edge> edges,
+                                                   std::span<const fast::Face> faces,
+                                                   const PiercingFilter& filter = nullptr);
+
+}  // namespace touchstone::verify::mesh
