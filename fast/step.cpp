@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -26,8 +27,8 @@ static_assert(PairBuffer::capacity <= kernel_block);
 /// So many groups are a task's.
 constexpr std::size_t groups_of_part = 16;
 
-/// The end of the interval [0, t] that the boxes are of, for contacts up to a time: the least power of two that is not below
-/// it, and not far below the rounding of places in float.
+/// Up to which time boxes are made, for contacts up to a time: the least power of two that is not
+/// below it, but not so small that the rounding of places in float would be greater than the motion.
 double horizon_of(double time) {
   constexpr double least_horizon = 0x1p-40;
   if (time <= least_horizon) return least_horizon;
@@ -58,7 +59,7 @@ void collect(const Scene& scene, const Trees<2>& trees, const SearchPart& part,
   std::vector<std::pair<std::size_t, StepCollision>> of_block;
   for_each_block(scene, trees, part, [&](std::span<const IndexPair> pairs) {
     of_block.clear();
-    scene.decide(part.kind, pairs, part.is_listed, scene.certified().t_max,
+    scene.decide(part.kind, pairs, scene.certified().t_max,
                  [&](std::size_t place, const StepCollision& collision) {
                    of_block.emplace_back(place, collision);
                  });
@@ -89,7 +90,7 @@ bool has_collision(const Scene& scene) {
     if (found) return;
     for_each_block(scene, trees, parts[i], [&](std::span<const IndexPair> pairs) {
       if (found) return;
-      scene.decide(parts[i].kind, pairs, parts[i].is_listed, scene.certified().t_max,
+      scene.decide(parts[i].kind, pairs, scene.certified().t_max,
                    [&](std::size_t, const StepCollision&) { found = true; });
     });
   });
@@ -98,8 +99,9 @@ bool has_collision(const Scene& scene) {
 
 // ---- The earliest -------------------------------------------------------------------------------
 
-/// Looks for the earliest impact: first among a few of the groups, which are all over the scene, then among more, then all.
-/// What comes later than one that is known is of no interest, so boxes are fitted anew in between, to the time up to it.
+/// Looks for the earliest impact: first with a few of the groups, which are all over the scene, then
+/// with more, then with all. In between, the boxes are fitted anew to the time up to the earliest
+/// impact that is known.
 class EarliestSearch {
  public:
   explicit EarliestSearch(const Scene& scene)
@@ -109,7 +111,7 @@ class EarliestSearch {
         parts_(scene.parts(groups_of_part)) {}
 
   [[nodiscard]] std::optional<StepImpact> run() {
-    // Of so many groups in a row, one is searched for; not again what was one of more.
+    // Every so many-th group, without those of the round before.
     static constexpr std::array<std::size_t, 3> strides{64, 8, 1};
     for (std::size_t i = 0; i < strides.size(); ++i) {
       if (i > 0) look_nearer();
@@ -123,7 +125,7 @@ class EarliestSearch {
  private:
   using Found = std::vector<StepCollision>;
 
-  /// Contacts after it are of no interest.
+  /// Contacts after this time are of no interest.
   [[nodiscard]] double limit() const {
     const CertifiedOptions& options = scene_.certified();
     return std::min(options.t_max,
@@ -139,7 +141,7 @@ class EarliestSearch {
     scene_.fit(trees_, horizon);
   }
 
-  /// Searches for each `stride`-th group, but for each `before`-th.
+  /// Searches with every stride-th group but every before-th, if `before` is not 0.
   void search(SearchPart part, std::size_t stride, std::size_t before) {
     const auto is_wanted = [&](std::size_t group) {
       return group % stride == 0 && (before == 0 || group % before != 0);
@@ -153,7 +155,7 @@ class EarliestSearch {
       part.end = part.first + 1;
       while (part.end < end && is_wanted(part.end)) ++part.end;
       for_each_block(scene_, trees_, part, [&](std::span<const IndexPair> pairs) {
-        scene_.decide(part.kind, pairs, part.is_listed, limit(),
+        scene_.decide(part.kind, pairs, limit(),
                       [this](std::size_t, const StepCollision& collision) { add(collision); });
       });
       part.first = part.end;
@@ -200,6 +202,84 @@ class EarliestSearch {
   tbb::enumerable_thread_specific<Found> found_;
 };
 
+// ---- The step that is taken ---------------------------------------------------------------------
+
+/// \pre strict floating point
+MovingVertices scaled_vertices(const MovingVertices& vertices, double alpha) {
+  using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const auto count = static_cast<Eigen::Index>(vertices.size());
+  Places start(count, 3), end(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const MovingVertex& vertex = vertices[static_cast<std::size_t>(i)];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double from = vertex.start[static_cast<std::size_t>(axis)];
+      const double to = vertex.end[static_cast<std::size_t>(axis)];
+      const double part = alpha * (to - from);
+      start(i, axis) = from;
+      end(i, axis) = from + part;
+    }
+  }
+  return {start, end};
+}
+
+/// Searches the doubles of [0,1] for one that is free while the next one is not.
+template <class IsFree>
+class StepSizeSearch {
+ public:
+  explicit StepSizeSearch(const IsFree& is_free) : is_free_(is_free) {}
+
+  /// \param guess in [0,1]; the search begins there.
+  [[nodiscard]] std::optional<double> run(double guess) {
+    if (is_free_(1.0)) return 1.0;
+    high_ = std::min(std::bit_cast<std::uint64_t>(guess), high_ - 1);
+    if (is_free(high_)) {
+      low_ = std::exchange(high_, std::bit_cast<std::uint64_t>(1.0));
+      go_up();
+    } else if (!go_down()) {
+      return std::nullopt;
+    }
+    while (high_ - low_ > 1) {
+      const std::uint64_t middle = low_ + (high_ - low_) / 2;
+      (is_free(middle) ? low_ : high_) = middle;
+    }
+    return std::bit_cast<double>(low_);
+  }
+
+ private:
+  static constexpr std::uint64_t growth = 8;
+
+  [[nodiscard]] bool is_free(std::uint64_t bits) const {
+    return is_free_(std::bit_cast<double>(bits));
+  }
+
+  /// Moves both up, in growing strides, as far as what comes is free.
+  void go_up() {
+    for (std::uint64_t stride = 1; stride < high_ - low_; stride *= growth) {
+      if (!is_free(low_ + stride)) {
+        high_ = low_ + stride;
+        return;
+      }
+      low_ += stride;
+    }
+  }
+
+  /// Moves both down until the lower one is free. Is there one?
+  bool go_down() {
+    for (std::uint64_t stride = 1; high_ > 0; stride *= growth) {
+      low_ = high_ - std::min(stride, high_);
+      if (is_free(low_)) return true;
+      high_ = low_;
+    }
+    return false;
+  }
+
+  const IsFree& is_free_;
+  /// The bits of doubles, which are in the order of positive doubles. At the end, the step is free
+  /// with the one, and not with the other.
+  std::uint64_t low_ = 0;
+  std::uint64_t high_ = std::bit_cast<std::uint64_t>(1.0);
+};
+
 }  // namespace
 
 // ---- Interface ----------------------------------------------------------------------------------
@@ -219,12 +299,15 @@ std::string_view to_string(PairKind kind) {
 }
 
 Step::Step(MovingVertices vertices, const MeshElements& elements, const StepOptions& options) {
-  if (options.max_threads < 0)
+  if (options.max_threads < 0) {
     throw std::invalid_argument("step: max_threads must not be negative");
+  }
   scene_ = with_threads(options.max_threads, [&] {
     return std::make_unique<const Scene>(std::move(vertices), elements, options);
   });
 }
+
+Step::Step(std::unique_ptr<const Scene> scene) : scene_(std::move(scene)) {}
 
 Step::~Step() = default;
 Step::Step(Step&& other) noexcept = default;
@@ -243,20 +326,33 @@ bool Step::is_free() const {
   return with_threads(scene_->certified().max_threads, [this] { return !has_collision(*scene_); });
 }
 
+Step Step::scaled(double alpha) const {
+  // Written so that NaN fails too.
+  if (!(alpha >= 0.0 && alpha <= 1.0)) {
+    throw std::invalid_argument("step: the step size must be in [0,1]");
+  }
+  return Step(with_threads(scene_->certified().max_threads, [&] {
+    return std::make_unique<const Scene>(scaled_vertices(scene_->vertices(), alpha), *scene_);
+  }));
+}
+
+std::optional<double> Step::free_step_size() const {
+  const std::optional<StepImpact> impact = earliest();
+  const auto is_free = [this](double alpha) { return scaled(alpha).is_free(); };
+  return StepSizeSearch(is_free).run(impact ? impact->toi_lower : 1.0);
+}
+
 void Step::candidates(const std::function<void(const StepCandidates&)>& take) const {
   with_threads(scene_->certified().max_threads, [&] {
     const Trees<1> trees = scene_->trees<1>(1.0);
     const std::vector<SearchPart> parts = scene_->parts(groups_of_part);
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
       const PairKind kind = parts[i].kind;
-      std::vector<IndexPair> numbers;
+      std::vector<IndexPair> reported;
       for_each_block(*scene_, trees, parts[i], [&](std::span<const IndexPair> pairs) {
-        if (kind == PairKind::vertex_edge) {
-          numbers.clear();
-          for (const IndexPair& pair : pairs) numbers.push_back(scene_->reported(kind, pair));
-          pairs = numbers;
-        }
-        take({.kind = kind, .pairs = pairs});
+        reported.clear();
+        for (const IndexPair& pair : pairs) reported.push_back(scene_->reported(kind, pair));
+        take({.kind = kind, .pairs = reported});
       });
     });
   });

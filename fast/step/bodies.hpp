@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// Which collision groups of a scene meet (fast/step.hpp). The search calls a group of vertices a body, since it has groups
-/// of its own.
+/// Which collision groups of a scene meet (fast/step.hpp). The search calls a group of vertices a
+/// body, since it has groups of its own.
 
 #include <array>
 #include <cstddef>
@@ -16,7 +16,8 @@ namespace touchstone::fast {
 
 class Bodies {
  public:
-  /// \throws std::invalid_argument unless there is a group for each vertex, or for none, and groups are not negative.
+  /// \throws std::invalid_argument unless there is a group for each vertex, or for none, and groups
+  /// are not negative.
   Bodies(std::size_t vertices, const CollisionGroups& groups);
 
   /// Do all meet all?

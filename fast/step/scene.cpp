@@ -37,24 +37,12 @@ const auto& at(const Items& items, std::int32_t index) {
   return items[static_cast<std::size_t>(index)];
 }
 
-Face face_of(const Edge& edge) { return {edge[0], edge[1], edge[0]}; }
-Face face_of(std::int32_t vertex) { return {vertex, vertex, vertex}; }
-
 /// make(item) of each sort.
 template <class Item, class Make>
 auto each(const OfPrimitives<Item>& items, const Make& make) {
   return OfPrimitives<decltype(make(items.vertices))>{make(items.vertices), make(items.edges),
-                                                      make(items.faces), make(items.isolated),
+                                                      make(items.faces), make(items.points),
                                                       make(items.bare_edges)};
-}
-
-template <std::size_t instants>
-void fit_all(Trees<instants>& trees, const FloatBounds& bounds) {
-  trees.vertices.fit(bounds);
-  trees.edges.fit(bounds);
-  trees.faces.fit(bounds);
-  trees.isolated.fit(bounds);
-  trees.bare_edges.fit(bounds);
 }
 
 /// What is held against what.
@@ -66,56 +54,85 @@ std::pair<const Item&, const Item&> sides(const OfPrimitives<Item>& of, PairKind
     case PairKind::edge_edge:
       return {of.edges, of.edges};
     case PairKind::vertex_edge:
-      return {of.isolated, of.bare_edges};
+      return {of.points, of.bare_edges};
     case PairKind::vertex_vertex:
       break;
   }
-  return {of.isolated, of.isolated};
+  return {of.points, of.points};
+}
+
+template <std::size_t instants>
+void fit_all(Trees<instants>& trees, const FloatBounds& bounds) {
+  trees.vertices.fit(bounds);
+  trees.edges.fit(bounds);
+  trees.faces.fit(bounds);
+  trees.points.fit(bounds);
+  trees.bare_edges.fit(bounds);
+}
+
+/// Codimensional parts as the certified solver gets them.
+std::vector<Face> as_faces(std::span<const std::int32_t> points) {
+  std::vector<Face> result;
+  result.reserve(points.size());
+  for (const std::int32_t point : points) result.push_back({point, point, point});
+  return result;
+}
+std::vector<Face> as_faces(std::span<const std::int32_t> numbers, std::span<const Edge> edges) {
+  std::vector<Face> result;
+  result.reserve(numbers.size());
+  for (const std::int32_t number : numbers) {
+    const auto [a, b] = at(edges, number);
+    result.push_back({a, b, a});
+  }
+  return result;
+}
+
+template <class Element>
+PrimitiveGroups groups_of(const FloatBounds& bounds, const std::vector<Element>& elements) {
+  return PrimitiveGroups(bounds, std::span<const Element>(elements));
 }
 
 }  // namespace
 
-Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOptions& options)
-    : vertices_(checked(std::move(vertices), elements)),
-      edges_of_faces_(elements.edges.empty() ? edges_of(elements.faces) : std::vector<Edge>()),
-      elements_{.edges = elements.edges.empty() ? edges_of_faces_ : elements.edges,
-                .faces = elements.faces,
-                .points = elements.points},
-      certified_(certified_options(options)),
-      search_(options.search != nullptr ? *options.search : best_search_kernel()),
-      classes_(pair_classes(vertices_.size(), elements_)),
-      bodies_(vertices_.size(), options.groups),
-      bounds_(vertices_) {
-  list_edges_and_points();
-  std::vector<Edge> bare_edges;
-  if (!classes_.isolated.empty()) {
-    for (const std::int32_t edge : classes_.bare_edges)
-      bare_edges.push_back(at(elements_.edges, edge));
-  }
-  using Numbers = std::span<const std::int32_t>;
-  groups_.emplace(PrimitiveGroups(bounds_, Numbers(classes_.vertices)),
-                  PrimitiveGroups(bounds_, elements_.edges),
-                  PrimitiveGroups(bounds_, elements_.faces),
-                  PrimitiveGroups(bounds_, Numbers(classes_.isolated)),
-                  PrimitiveGroups(bounds_, std::span<const Edge>(bare_edges)));
-  if (!bodies_.all_meet()) {
-    bodies_of_groups_ = each(*groups_, [this](const PrimitiveGroups& groups) {
-      return BodyTree(groups, bodies_.of_vertices());
-    });
-  }
-  for (const PairKind kind : all_kinds) asked_[static_cast<std::size_t>(kind)] = {this, kind};
+// ---- The mesh -----------------------------------------------------------------------------------
+
+SceneMesh::SceneMesh(std::size_t vertex_count, const FloatBounds& bounds, const MeshElements& given,
+                     const CollisionGroups& collision_groups)
+    : edges_of_faces(given.edges.empty() ? edges_of(given.faces) : std::vector<Edge>()),
+      elements{.edges = given.edges.empty() ? edges_of_faces : given.edges,
+               .faces = given.faces,
+               .points = given.points},
+      vertices(vertices_of(vertex_count, elements)),
+      codimensional(fast::codimensional(vertex_count, vertices, elements)),
+      points_as_faces(as_faces(codimensional.points)),
+      edges_as_faces(as_faces(codimensional.edges, elements.edges)),
+      bodies(vertex_count, collision_groups),
+      groups{groups_of(bounds, vertices), PrimitiveGroups(bounds, elements.edges),
+             PrimitiveGroups(bounds, elements.faces), groups_of(bounds, points_as_faces),
+             groups_of(bounds, edges_as_faces)} {
+  if (bodies.all_meet()) return;
+  bodies_of_groups = each(
+      groups, [this](const PrimitiveGroups& some) { return BodyTree(some, bodies.of_vertices()); });
 }
 
-void Scene::list_edges_and_points() {
-  edge_numbers_ = classes_.bare_edges;
-  for (const IndexPair& fold : classes_.folds) edge_numbers_.push_back(fold[1]);
-  for (const std::int32_t edge : edge_numbers_) {
-    edges_as_faces_.push_back(face_of(at(elements_.edges, edge)));
-  }
-  points_ = classes_.isolated;
-  for (const IndexPair& ends : classes_.lone_ends) points_.push_back(ends[1]);
-  std::ranges::sort(points_);
-  for (const std::int32_t vertex : points_) points_as_faces_.push_back(face_of(vertex));
+// ---- The scene ----------------------------------------------------------------------------------
+
+Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOptions& options)
+    : vertices_(checked(std::move(vertices), elements)),
+      certified_(certified_options(options)),
+      search_(options.search != nullptr ? *options.search : best_search_kernel()),
+      bounds_(vertices_),
+      mesh_(
+          std::make_shared<const SceneMesh>(vertices_.size(), bounds_, elements, options.groups)) {}
+
+Scene::Scene(MovingVertices vertices, const Scene& other)
+    : vertices_(std::move(vertices)),
+      certified_(other.certified_),
+      search_(other.search_),
+      bounds_(vertices_),
+      mesh_(other.mesh_) {
+  require_finite(vertices_);
+  certified_.t_max = 1.0;
 }
 
 // ---- Searching ----------------------------------------------------------------------------------
@@ -123,7 +140,7 @@ void Scene::list_edges_and_points() {
 template <std::size_t instants>
 Trees<instants> Scene::trees(double end) const {
   Trees<instants> result =
-      each(*groups_, [](const PrimitiveGroups& groups) { return BoxTree<instants>(groups); });
+      each(mesh_->groups, [](const PrimitiveGroups& groups) { return BoxTree<instants>(groups); });
   if (end == 1.0) {
     fit_all(result, bounds_);
   } else {
@@ -138,92 +155,54 @@ template Trees<2> Scene::trees<2>(double end) const;
 void Scene::fit(Trees<2>& trees, double end) const { fit_all(trees, FloatBounds(vertices_, end)); }
 
 std::vector<SearchPart> Scene::parts(std::size_t groups_of_part) const {
-  static constexpr std::size_t listed_of_part = 256;
   std::vector<SearchPart> result;
-  const auto append = [&result](SearchPart part, std::size_t of_part) {
-    for (const std::size_t end = part.end; part.first < end; part.first = part.end) {
-      part.end = std::min(part.first + of_part, end);
-      result.push_back(part);
-    }
-  };
   for (const PairKind kind : all_kinds) {
-    const auto& [some, all] = sides(*groups_, kind);
+    const auto& [some, all] = sides(mesh_->groups, kind);
     if (all.size() == 0) continue;
-    append({.kind = kind, .first = 0, .end = some.members().size()}, groups_of_part);
+    const std::size_t groups = some.members().size();
+    for (std::size_t first = 0; first < groups; first += groups_of_part) {
+      result.push_back(
+          {.kind = kind, .first = first, .end = std::min(first + groups_of_part, groups)});
+    }
   }
-  append({.kind = PairKind::vertex_edge,
-          .first = 0,
-          .end = classes_.hubs.size() + classes_.folds.size(),
-          .is_listed = true},
-         listed_of_part);
-  append({.kind = PairKind::vertex_vertex,
-          .first = 0,
-          .end = classes_.lone_ends.size(),
-          .is_listed = true},
-         listed_of_part);
   return result;
 }
 
 template <std::size_t instants>
-PairRules Scene::rules(PairKind kind) const {
+PairRules Scene::rules(const Asked& asked) const {
   const double distance = certified_.separation.distance;
   const bool is_sure = instants == 2 || (bounds_.are_exact() && is_contact(certified_.separation));
-  PairRules rules{.of_edges = kind == PairKind::edge_edge,
+  PairRules rules{.of_edges = asked.kind == PairKind::edge_edge,
                   .distance_above = bounds_.scaled_up(distance),
                   .distance_below = bounds_.scaled_down(distance),
                   .certainty = is_sure ? Certainty::all : Certainty::unless_close,
                   .confirms =
                       [](const void* context, const IndexPair& pair) {
-                        const auto& asked = *static_cast<const Asked*>(context);
-                        return asked.scene->are_near(asked.kind, pair);
+                        const auto& of = *static_cast<const Asked*>(context);
+                        return of.scene->are_near(of.kind, pair);
                       },
-                  .context = &asked_[static_cast<std::size_t>(kind)]};
-  if (!bodies_of_groups_) return rules;
-  const auto& [some, all] = sides(*bodies_of_groups_, kind);
+                  .context = &asked};
+  if (!mesh_->bodies_of_groups) return rules;
+  const auto& [some, all] = sides(*mesh_->bodies_of_groups, asked.kind);
   rules.some_bodies = &some;
   rules.all_bodies = &all;
   rules.bodies_meet = [](const void* context, std::int32_t a, std::int32_t b) {
-    return static_cast<const Asked*>(context)->scene->bodies_.meet(a, b);
+    return static_cast<const Asked*>(context)->scene->mesh_->bodies.meet(a, b);
   };
   rules.primitives_meet = [](const void* context, const IndexPair& pair) {
-    const auto& asked = *static_cast<const Asked*>(context);
-    return asked.scene->may_meet(asked.kind, pair);
+    const auto& of = *static_cast<const Asked*>(context);
+    const auto [a, b] = of.scene->primitives_of(of.kind, pair);
+    return of.scene->mesh_->bodies.meet(a, b);
   };
   return rules;
 }
 
-template <class Use>
-void Scene::for_each_listed(const SearchPart& part, const Use& use) const {
-  for (std::size_t i = part.first; i < part.end; ++i) {
-    if (part.kind == PairKind::vertex_vertex) {
-      use(classes_.lone_ends[i]);
-    } else if (i >= classes_.hubs.size()) {
-      const std::size_t fold = i - classes_.hubs.size();
-      use({classes_.folds[fold][0], static_cast<std::int32_t>(classes_.bare_edges.size() + fold)});
-    } else {
-      for (const std::int32_t leaf : classes_.hubs[i].leaves) {
-        for (const std::int32_t edge : classes_.hubs[i].edges) {
-          if (std::ranges::count(at(edges_as_faces_, edge), leaf) == 0) use({leaf, edge});
-        }
-      }
-    }
-  }
-}
-
 template <std::size_t instants>
 void Scene::find(const Trees<instants>& trees, const SearchPart& part, PairBuffer& pairs) const {
-  if (!part.is_listed) {
-    const auto& [some, all] = sides(trees, part.kind);
-    search_.find(SearchInput<instants>{&some, &all, rules<instants>(part.kind)}, part.first,
-                 part.end, pairs);
-    return;
-  }
-  for_each_listed(part, [&](const IndexPair& pair) {
-    if (!may_meet(part.kind, pair)) return;
-    if (instants == 1 && !are_near(part.kind, pair)) return;
-    if (pairs.count == PairBuffer::capacity) pairs.flush();
-    pairs.pairs[pairs.count++] = pair;
-  });
+  const Asked asked{.scene = this, .kind = part.kind};
+  const auto& [some, all] = sides(trees, part.kind);
+  search_.find(SearchInput<instants>{&some, &all, rules<instants>(asked)}, part.first, part.end,
+               pairs);
 }
 
 template void Scene::find(const Trees<1>& trees, const SearchPart& part, PairBuffer& pairs) const;
@@ -232,23 +211,26 @@ template void Scene::find(const Trees<2>& trees, const SearchPart& part, PairBuf
 // ---- Pairs --------------------------------------------------------------------------------------
 
 IndexPair Scene::reported(PairKind kind, const IndexPair& pair) const {
-  return kind == PairKind::vertex_edge ? IndexPair{pair[0], at(edge_numbers_, pair[1])} : pair;
+  const Codimensional& parts = mesh_->codimensional;
+  if (kind == PairKind::vertex_edge) return {at(parts.points, pair[0]), at(parts.edges, pair[1])};
+  if (kind == PairKind::vertex_vertex) {
+    return {at(parts.points, pair[0]), at(parts.points, pair[1])};
+  }
+  return pair;
 }
 
 Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
                                 PairRoom& room) const {
   Candidates result{.kind = Step::kind_of(kind),
                     .pairs = pairs,
-                    .edges = elements_.edges,
-                    .faces = elements_.faces};
-  if (kind == PairKind::vertex_edge) result.faces = edges_as_faces_;
-  if (kind != PairKind::vertex_vertex) return result;
+                    .edges = elements().edges,
+                    .faces = elements().faces};
+  if (kind == PairKind::vertex_face || kind == PairKind::edge_edge) return result;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto point = std::ranges::lower_bound(points_, pairs[i][1]);
-    room[i] = {pairs[i][0], static_cast<std::int32_t>(point - points_.begin())};
+    room[i] = {at(mesh_->codimensional.points, pairs[i][0]), pairs[i][1]};
   }
   result.pairs = std::span(room).first(pairs.size());
-  result.faces = points_as_faces_;
+  result.faces = kind == PairKind::vertex_edge ? mesh_->edges_as_faces : mesh_->points_as_faces;
   return result;
 }
 
@@ -265,43 +247,42 @@ StepCollision Scene::collision(PairKind kind, const IndexPair& pair,
 }
 
 Query Scene::query_of(PairKind kind, const IndexPair& pair) const {
-  const auto of_face = [&](const Face& face) {
-    const Candidates of_one{
-        .kind = Kind::vertex_face, .pairs = {}, .edges = {}, .faces = {&face, 1}};
-    return fast::query_of(vertices_, of_one, {pair[0], 0});
-  };
-  if (kind == PairKind::vertex_edge) return of_face(face_of(at(elements_.edges, pair[1])));
-  if (kind == PairKind::vertex_vertex) return of_face(face_of(pair[1]));
-  const Candidates all{
-      .kind = Step::kind_of(kind), .pairs = {}, .edges = elements_.edges, .faces = elements_.faces};
-  return fast::query_of(vertices_, all, pair);
+  const Candidates of_all{.kind = Step::kind_of(kind),
+                          .pairs = {},
+                          .edges = elements().edges,
+                          .faces = elements().faces};
+  if (kind == PairKind::vertex_face || kind == PairKind::edge_edge) {
+    return fast::query_of(vertices_, of_all, pair);
+  }
+  Candidates of_one = of_all;
+  Face face{pair[1], pair[1], pair[1]};
+  if (kind == PairKind::vertex_edge) {
+    const auto [a, b] = at(elements().edges, pair[1]);
+    face = {a, b, a};
+  }
+  of_one.faces = std::span<const Face>(&face, 1);
+  return fast::query_of(vertices_, of_one, {pair[0], 0});
 }
 
 std::array<Primitive, 2> Scene::primitives_of(PairKind kind, const IndexPair& pair) const {
+  const MeshElements& mesh = elements();
   switch (kind) {
     case PairKind::vertex_face:
-      return {primitive_of(pair[0]), primitive_of(at(elements_.faces, pair[1]))};
+      return {primitive_of(pair[0]), primitive_of(at(mesh.faces, pair[1]))};
     case PairKind::edge_edge:
-      return {primitive_of(at(elements_.edges, pair[0])),
-              primitive_of(at(elements_.edges, pair[1]))};
+      return {primitive_of(at(mesh.edges, pair[0])), primitive_of(at(mesh.edges, pair[1]))};
     case PairKind::vertex_edge:
-      return {primitive_of(pair[0]), at(edges_as_faces_, pair[1])};
+      return {at(mesh_->points_as_faces, pair[0]), at(mesh_->edges_as_faces, pair[1])};
     case PairKind::vertex_vertex:
       break;
   }
-  return {primitive_of(pair[0]), primitive_of(pair[1])};
+  return {at(mesh_->points_as_faces, pair[0]), at(mesh_->points_as_faces, pair[1])};
 }
 
 bool Scene::are_near(PairKind kind, const IndexPair& pair) const {
   const auto [a, b] = primitives_of(kind, pair);
   return widened(swept_box(vertices_, a), certified_.separation.distance)
       .overlaps(swept_box(vertices_, b));
-}
-
-bool Scene::may_meet(PairKind kind, const IndexPair& pair) const {
-  if (bodies_.all_meet()) return true;
-  const auto [a, b] = primitives_of(kind, pair);
-  return bodies_.meet(a, b);
 }
 
 }  // namespace touchstone::fast
