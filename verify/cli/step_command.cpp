@@ -122,7 +122,7 @@ class StepRun {
   void check_frame(std::size_t i, const mesh::Vertices& vertices) {
     report::FrameRecord frame{.name = frames_->name(i), .piercings = {}, .time = {}};
     const mesh::Mesh& mesh = frames_->mesh();
-    frame.time = jobs::time_of([&] {
+    frame.time = jobs::work_time_of([&] {
       frame.piercings = mesh::find_piercings(
           vertices, mesh.edges, mesh.faces,
           [&](std::int32_t edge, std::int32_t face) { return can_meet(edge, face); });
@@ -205,6 +205,12 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
       .add_option("--t-max", arguments.check.step.t_max, "Only contacts up to this time of a step")
       ->type_name("T")
       ->capture_default_str()
+      ->check(real_number(0.0, 1.0));
+  command
+      .add_option("--alpha", arguments.check.alpha,
+                  "Judge the step that a simulator takes with this step size: to the rounded "
+                  "x0 + alpha (x1 - x0); and say how large it may be")
+      ->type_name("A")
       ->check(real_number(0.0, 1.0));
   command.add_option("--threads", arguments.check.step.max_threads, "Cores to use (0: all)")
       ->type_name("N")

@@ -4,12 +4,13 @@
 #include <atomic>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace touchstone::verify::jobs {
 namespace {
 
 PairCounts count_candidates(const fast::Step& step) {
-  std::array<std::atomic<std::uint64_t>, fast::pair_kinds> counts{};
+  std::array<std::atomic<std::uint64_t>, pair_kinds.size()> counts{};
   step.candidates([&counts](const fast::StepCandidates& some) {
     counts.at(static_cast<std::size_t>(some.kind)).fetch_add(some.pairs.size());
   });
@@ -72,15 +73,20 @@ PairCounts counts_of(const std::vector<fast::StepCollision>& collisions) {
 StepCheck check_step(const mesh::Mesh& mesh, const mesh::Vertices& before,
                      const mesh::Vertices& after, const StepCheckOptions& options) {
   StepCheck check;
-  std::optional<fast::Step> step;
-  check.broad_phase = time_of([&] {
+  std::optional<fast::Step> step, whole;
+  check.broad_phase = work_time_of([&] {
     step.emplace(
         before, after,
         fast::MeshElements{.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
         options.step);
+    if (options.alpha) {
+      whole = std::move(step);
+      step.emplace(whole->scaled(*options.alpha));
+    }
     check.candidates = count_candidates(*step);
   });
-  check.narrow_phase = time_of([&] { answer(*step, options.question, check); });
+  check.narrow_phase = work_time_of([&] { answer(*step, options.question, check); });
+  if (whole) check.free_alpha = whole->free_step_size();
   return check;
 }
 

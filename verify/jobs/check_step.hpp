@@ -28,13 +28,17 @@ enum class StepQuestion : std::uint8_t {
 struct StepCheckOptions {
   StepQuestion question = StepQuestion::all;
   fast::StepOptions step = {};
-  /// Instead of the whole step the part that a simulator takes with this factor, in [0,1]: to the positions
-  /// x0 + α (x1 − x0), rounded (fast::Step::scaled).
+  /// Instead of the whole step, the one that a simulator takes with this step size: to the rounded
+  /// positions x0 + α (x1 − x0) (fast::Step::scaled).
   std::optional<double> alpha = std::nullopt;
 };
 
-/// So many pairs of each kind, by fast::PairKind.
-using PairCounts = std::array<std::uint64_t, fast::pair_kinds>;
+/// The kinds of pairs, in the order of fast::PairKind.
+inline constexpr std::array pair_kinds{fast::PairKind::vertex_face, fast::PairKind::edge_edge,
+                                       fast::PairKind::vertex_edge, fast::PairKind::vertex_vertex};
+
+/// So many pairs of each kind, in that order.
+using PairCounts = std::array<std::uint64_t, pair_kinds.size()>;
 
 struct StepCheck {
   /// Pairs whose swept boxes are within the separation.
@@ -44,8 +48,9 @@ struct StepCheck {
   std::optional<fast::StepImpact> earliest;
   /// Those that touch, if all were asked for; by kinds, then by numbers.
   std::optional<std::vector<fast::StepCollision>> collisions;
-  /// With alpha: the largest one whose rounded step is free (fast::Step::largest_free_scale).
-  std::optional<double> largest_free_alpha;
+  /// With alpha: a step size as large as can be that is free (fast::Step::free_step_size); nothing
+  /// if something touches at the start.
+  std::optional<double> free_alpha;
   /// Boxes, their trees and all candidates, counted.
   WorkTime broad_phase;
   /// The answer, with the trees there.

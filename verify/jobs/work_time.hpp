@@ -24,7 +24,7 @@ struct WorkTime {
 
 /// Does the work and says how long it took.
 template <class Work>
-[[nodiscard]] WorkTime time_of(const Work& work) {
+[[nodiscard]] WorkTime work_time_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   const double processor_start = process_seconds();
   work();

@@ -19,6 +19,7 @@ std::int32_t number_of(const Groups& groups, const std::string& name) {
   }
   std::string names;
   for (const std::string& known : groups.names) {
+    if (known.empty()) continue;
     names += (names.empty() ? "" : ", ") + data::quote(known);
   }
   throw std::invalid_argument(fmt::format("no group {}; there are: {}", data::quote(name), names));

@@ -20,10 +20,6 @@ namespace {
 /// Of what is found, so many lines are printed.
 constexpr std::size_t most_printed = 10;
 
-constexpr std::array<fast::PairKind, fast::pair_kinds> all_kinds{
-    fast::PairKind::vertex_face, fast::PairKind::edge_edge, fast::PairKind::vertex_edge,
-    fast::PairKind::vertex_vertex};
-
 std::uint64_t count_of(const jobs::PairCounts& counts, fast::PairKind kind) {
   return counts.at(static_cast<std::size_t>(kind));
 }
@@ -60,7 +56,7 @@ std::string_view name_of(jobs::StepQuestion question) {
 /// Kinds that have a candidate in some step, and the two of every mesh.
 std::vector<fast::PairKind> kinds_in(const StepReport& report) {
   std::vector<fast::PairKind> kinds;
-  std::ranges::copy_if(all_kinds, std::back_inserter(kinds), [&](fast::PairKind kind) {
+  std::ranges::copy_if(jobs::pair_kinds, std::back_inserter(kinds), [&](fast::PairKind kind) {
     return kind == fast::PairKind::vertex_face || kind == fast::PairKind::edge_edge ||
            std::ranges::any_of(report.steps, [kind](const StepRecord& step) {
              return count_of(step.candidates, kind) != 0;
@@ -89,7 +85,7 @@ io::TextTable table_of(const StepReport& report) {
     if (has_counts) columns.push_back({"touch", 7});
   }
   columns.push_back({"earliest", 11});
-  if (report.alpha) columns.push_back({"free alpha", 10});
+  if (report.alpha) columns.push_back({"free alpha", 20});
   columns.push_back({"pierced", 7});
   columns.push_back({"seconds", 8});
   io::TextTable table(std::move(columns));
@@ -103,7 +99,7 @@ io::TextTable table_of(const StepReport& report) {
       if (has_counts) row.push_back(std::to_string(count_of(touching, kind)));
     }
     row.push_back(earliest_text(report, step));
-    if (report.alpha) row.push_back(io::number_text(step.largest_free_alpha, "{:.6g}"));
+    if (report.alpha) row.push_back(io::number_text(step.free_alpha, "{}"));
     row.push_back(std::to_string(pierced_in(report, i)));
     row.push_back(io::number_text((step.broad_phase + step.narrow_phase).wall, "{:.3f}"));
     table.add(std::move(row));
@@ -160,7 +156,7 @@ void append_collisions(std::string& text, const StepReport& report, std::size_t 
 
 void append_piercings(std::string& text, const StepReport& report, const FrameRecord& frame) {
   if (frame.piercings.empty()) return;
-  text += fmt::format("\n{}: the mesh intersects itself: {} times an edge pierces a face\n",
+  text += fmt::format("\n{}: the mesh intersects itself; edges that pierce faces: {}\n",
                       io::printable(frame.name), frame.piercings.size());
   const std::size_t printed = std::min(frame.piercings.size(), most_printed);
   for (const mesh::Piercing& piercing : std::span(frame.piercings).first(printed)) {
@@ -192,7 +188,7 @@ std::string key_of(fast::PairKind kind) {
 
 nlohmann::json json_of(const jobs::PairCounts& counts) {
   nlohmann::json json = nlohmann::json::object();
-  for (const fast::PairKind kind : all_kinds) json[key_of(kind)] = count_of(counts, kind);
+  for (const fast::PairKind kind : jobs::pair_kinds) json[key_of(kind)] = count_of(counts, kind);
   return json;
 }
 
@@ -244,7 +240,7 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
       {"pierced", pierced_in(report, i)},
       {"seconds", seconds_of(step, &jobs::WorkTime::wall)},
       {"processor_seconds", seconds_of(step, &jobs::WorkTime::processor)}};
-  if (report.alpha) json["largest_free_alpha"] = io::number_to_json(step.largest_free_alpha);
+  if (report.alpha) json["free_alpha"] = io::number_to_json(step.free_alpha);
   return json;
 }
 

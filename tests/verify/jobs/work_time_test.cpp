@@ -7,7 +7,7 @@ namespace {
 
 TEST(WorkTime, IsOfTheWorkThatIsDone) {
   bool is_done = false;
-  const WorkTime time = time_of([&] {
+  const WorkTime time = work_time_of([&] {
     is_done = true;
     // Until the clocks of both have moved.
     const double start = process_seconds();
