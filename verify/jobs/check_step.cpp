@@ -4,7 +4,6 @@
 #include <atomic>
 #include <limits>
 #include <tuple>
-#include <utility>
 
 namespace touchstone::verify::jobs {
 namespace {
@@ -73,20 +72,18 @@ PairCounts counts_of(const std::vector<fast::StepCollision>& collisions) {
 StepCheck check_step(const mesh::Mesh& mesh, const mesh::Vertices& before,
                      const mesh::Vertices& after, const StepCheckOptions& options) {
   StepCheck check;
-  std::optional<fast::Step> step, whole;
+  std::optional<fast::Step> whole, part;
   check.broad_phase = work_time_of([&] {
-    step.emplace(
+    whole.emplace(
         before, after,
         fast::MeshElements{.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
         options.step);
-    if (options.alpha) {
-      whole = std::move(step);
-      step.emplace(whole->scaled(*options.alpha));
-    }
-    check.candidates = count_candidates(*step);
+    if (options.alpha) part.emplace(whole->scaled(*options.alpha));
+    check.candidates = count_candidates(part ? *part : *whole);
   });
-  check.narrow_phase = work_time_of([&] { answer(*step, options.question, check); });
-  if (whole) check.free_alpha = whole->free_step_size();
+  check.narrow_phase =
+      work_time_of([&] { answer(part ? *part : *whole, options.question, check); });
+  if (options.alpha) check.free_alpha = whole->free_step_size();
   return check;
 }
 
