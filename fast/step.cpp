@@ -25,7 +25,7 @@ namespace tbb = oneapi::tbb;
 static_assert(PairBuffer::capacity <= kernel_block);
 
 /// So many groups are a task's.
-constexpr std::size_t groups_of_part = 16;
+constexpr std::size_t groups_of_part = 32;
 
 /// Up to which time boxes are made, for contacts up to a time: the least power of two that is not
 /// below it, but not so small that the rounding of places in float would be greater than the motion.

@@ -1,10 +1,11 @@
 #pragma once
 
 /// \file
-/// To which bodies the primitives of a tree belong: vertices that are in one collision group (fast/step.hpp) are a body.
+/// To which bodies the primitives of a tree belong. The vertices of one collision group
+/// (fast/step.hpp) are a body.
 ///
-/// A primitive is of the body that all of its vertices are of, or *mixed*; likewise a group of primitives, and a node. So a
-/// search leaves out whole nodes of a body that does not meet its own.
+/// A primitive is of the body that all of its vertices are of, or *mixed*; likewise a group of
+/// primitives, and a node. So a search leaves out whole nodes of a body that does not meet its own.
 
 #include <cstddef>
 #include <cstdint>

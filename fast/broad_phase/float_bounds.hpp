@@ -12,9 +12,10 @@
 /// b' the least from b on, and let x⁺ be the float after x. Then a < a'⁺, and b is greater than
 /// the float before b'. So a'⁺⁺ ≤ b' implies a < b: two floats farther on, the comparison is sure.
 ///
-/// **Part of a step.** The end of an interval [0, t] may be before 1. Where a point is then is computed, with an error that
-/// is bounded by e (filters::Position): it is in [p − e, p + e]. A difference p − 2e is rounded by less than e, so it is
-/// below that, and is rounded down to float as coordinates are.
+/// **Part of a step.** The end of an interval [0, t] may be before 1. Where a point is then is
+/// computed with an error of at most e (filters::Position), so it is in [p − e, p + e]. The bound e
+/// is greater than what the rounding of p ∓ 2e and of scaled coordinates adds. So these are on
+/// either side, and are rounded to float as coordinates are.
 ///
 /// The scale is 1 for scenes of a usual size. Else it brings the greatest coordinate to between 1 and 2,
 /// so nothing overflows; what underflows is rounded outwards as well.
@@ -62,8 +63,8 @@ struct alignas(64) VertexBounds {
 
 class FloatBounds {
  public:
-  /// Of the vertices at t=0 and at the time `end`, a power of two from 2^-52 to 1. Uses the threads of the task
-  /// arena that it is called in.
+  /// Of the vertices at t=0 and at the time `end`, a power of two from 2^-52 to 1. Uses the threads
+  /// of the task arena that it is called in.
   /// \pre their coordinates are finite.
   explicit FloatBounds(const MovingVertices& vertices, double end = 1.0);
 

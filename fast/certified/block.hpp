@@ -27,9 +27,9 @@ void require_valid(const CertifiedOptions& options);
 /// A time such that a contact after it has an enclosure whose ends are both above toi_upper.
 [[nodiscard]] double limit_after(double toi_upper, double tolerance);
 
-/// Runs the kernel on a block whose queries are named, with contacts after t_limit of no interest, and
-/// hands on the results of queries that may have a contact: report(index, result). Under strict floating
-/// point. \param query_of(index) a query of the block
+/// Runs the kernel on a block whose queries are named, with contacts after t_limit of no interest,
+/// and hands on the results of queries that may have a contact: report(index, result). Under strict
+/// floating point. \param query_of(index) a query of the block
 template <class QueryOf, class Report>
 const KernelOutput& decide_block(KernelInput block, double t_limit, const CertifiedOptions& options,
                                  const QueryOf& query_of, const Report& report) {

@@ -29,8 +29,8 @@ struct KernelInput {
   const Edge* edges = nullptr;
   const Face* faces = nullptr;
   const IndexPair* pairs = nullptr;
-  /// Is it known that coordinates are finite and no axis separates a query, or of no use to look for one? Then the
-  /// first stage is left out.
+  /// Are coordinates known to be finite, and queries not to be separated on an axis, but for few?
+  /// Then the first stage is left out.
   bool axis_is_done = false;
   /// Contact is to be this near.
   Separation separation = {};

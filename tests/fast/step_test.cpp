@@ -743,8 +743,8 @@ Scene falling_vertex(double height) {
 }
 
 TEST(FreeStepSize, IsTheLargestWhereRoundingIsMonotone) {
-  // One coordinate moves, and its rounded place falls with α. So the largest α is the last whose rounded
-  // place is above 0. Of height 3, with a motion of 4: fl(3 − 4 α) > 0 iff α < 3/4.
+  // One coordinate moves, and its rounded place falls with α. So the largest α is the last whose
+  // rounded place is above 0. Of height 3, with a motion of 4: fl(3 − 4 α) > 0 iff α < 3/4.
   EXPECT_EQ(falling_vertex(3.0).step().free_step_size(), std::nextafter(0.75, 0.0));
   // 1 − 2 α, α < 1/2: the double before it gives 2^-53, which is exact.
   EXPECT_EQ(falling_vertex(1.0).step().free_step_size(), std::nextafter(0.5, 0.0));
@@ -806,8 +806,8 @@ std::uint64_t address_space() {
 }
 
 TEST(Step, DoesNotStoreCandidates) {
-  // Edges beside each other along a diagonal: all boxes overlap, and none touch. Four and a half million
-  // pairs of eight bytes each, and room for 24 MiB.
+  // Edges beside each other along a diagonal: all boxes overlap, and none touch. Four and a half
+  // million pairs of eight bytes each, and room for 24 MiB.
   const auto search = [] {
     static constexpr std::int32_t count = 3000;
     Places places(2 * count, 3);
