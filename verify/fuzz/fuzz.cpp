@@ -93,6 +93,13 @@ struct Block {
   }
 };
 
+std::vector<double> explored_parts(const std::vector<Generator>& generators) {
+  std::vector<double> parts;
+  parts.reserve(generators.size());
+  for (const Generator& generator : generators) parts.push_back(generator.explored);
+  return parts;
+}
+
 /// Makes blocks, one kind after the other.
 class BlockMaker {
  public:
@@ -100,7 +107,7 @@ class BlockMaker {
       : kinds_(options.kinds),
         generators_(generators),
         context_(options.separation),
-        scheduler_(generators.size(), generate::mix(options.seed) + 1),
+        scheduler_(explored_parts(generators), generate::mix(options.seed) + 1),
         random_(generate::mix(options.seed)) {
     for (const CorpusQuery& query : options.corpus) context_.pool(query.kind).keep(query.query);
   }
