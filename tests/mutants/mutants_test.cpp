@@ -149,7 +149,7 @@ TEST(Plugin, with_min_for_max_in_its_filter_is_found) {
   EXPECT_EQ(WEXITSTATUS(status), 1);
   const auto plugin = verify::solvers::load_plugin(tests::plugin_library("min_for_max"));
   const verify::fuzz::FuzzResult result =
-      verify::fuzz::fuzz(*plugin, {.most_queries = 20'000, .seed = 1, .most_findings = 1});
+      verify::fuzz::fuzz(*plugin, {.most_queries = 20'000, .seed = 1, .most_groups = 1});
   ASSERT_FALSE(result.findings.empty());
   EXPECT_TRUE(result.findings.front().original.collides);
 }
