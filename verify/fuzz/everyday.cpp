@@ -35,9 +35,13 @@ class Scene {
  public:
   Scene(Kind kind, std::int64_t size, Random& random) : kind_(kind), size_(size), random_(random) {}
 
-  [[nodiscard]] Touch draw_touch() {
+  [[nodiscard]] Touch draw_touch(bool is_inside) {
     Touch touch;
     for (Place& place : touch.places) place = draw_place();
+    if (is_inside) {
+      touch_in_a_plane(touch.places);
+      return touch;
+    }
     switch (below(random_, 3)) {
       case 0:
         touch_at_a_point(touch);
@@ -63,6 +67,18 @@ class Scene {
     if (touch.shared && random_.coin())
       result.at((*touch.shared)[0]) = result.at((*touch.shared)[1]);
     return result;
+  }
+
+  /// The first primitive lower or higher by up to a size, the second one where it is.
+  [[nodiscard]] std::array<Places, 2> crossing(const Touch& touch) {
+    std::array<Places, 2> ends{touch.places, touch.places};
+    const std::int64_t height = between(size_ / 4 + 1, size_ + 1);
+    const std::int64_t down = random_.coin() ? height : -height;
+    for (std::size_t point = 0; point < second(); ++point) {
+      ends[0].at(point)[2] += down;
+      ends[1].at(point)[2] -= down;
+    }
+    return ends;
   }
 
   /// The first primitive's points begin with 0, the second one's with this.
@@ -130,12 +146,6 @@ class Scene {
   Random& random_;
 };
 
-std::int64_t power_of_ten(int exponent) {
-  std::int64_t power = 1;
-  for (int i = 0; i < exponent; ++i) power *= 10;
-  return power;
-}
-
 /// Numbers of a unit that is a power of ten: to the nearest double, or to the nearest float as one
 /// prints it.
 struct Notation {
@@ -144,7 +154,7 @@ struct Notation {
 
   [[nodiscard]] double operator()(std::int64_t units) const {
     const auto whole = static_cast<double>(units);
-    const double power = static_cast<double>(power_of_ten(std::abs(places)));
+    const auto power = static_cast<double>(power_of_ten(std::abs(places)));
     // Powers and units are exact, so that this is the decimal rounded once.
     const double x = places > 0 ? whole / power : whole * power;
     return as_float ? static_cast<double>(static_cast<float>(x)) : x;
@@ -162,38 +172,65 @@ Query in_another_order(Kind kind, const Query& query, Random& random) {
 constexpr int most_digits = 6;
 constexpr int least_exponent = -3, greatest_exponent = 4;
 
-Query draw(Kind kind, bool is_missed, Random& random) {
-  const int digits = 1 + static_cast<int>(below(random, most_digits));
-  // Places are sums of up to four draws: the first, its motion, its own motion, the frame.
-  Scene scene(kind, power_of_ten(digits) / 4, random);
-  Touch touch = scene.draw_touch();
-  const std::size_t end = below(random, 2);
+std::array<Places, 2> draw_ends(Kind kind, const EverydayScene& options, Random& random) {
+  // Places are sums of up to four draws: the first, two of the shape, and a motion.
+  Scene scene(kind, power_of_ten(options.digits) / 4, random);
+  const Touch touch = scene.draw_touch(options.time == TouchTime::between);
   std::array<Places, 2> ends;
-  ends.at(end) = touch.places;
-  ends.at(1 - end) = scene.moved(touch);
-  if (is_missed) {
-    const std::size_t axis = below(random, 3);
-    const std::int64_t step = random.coin() ? 1 : -1;
-    for (std::size_t point = 0; point < scene.second(); ++point)
-      ends.at(end).at(point).at(axis) += step;
+  if (options.time == TouchTime::between) {
+    ends = scene.crossing(touch);
+  } else {
+    const std::size_t end = options.time == TouchTime::at_start ? 0 : 1;
+    ends.at(end) = touch.places;
+    ends.at(1 - end) = scene.moved(touch);
   }
-  const auto exponent = static_cast<int>(random.between(least_exponent, greatest_exponent));
-  const Notation notation{.places = digits - exponent, .as_float = one_in(random, 3)};
+  if (options.clearance == 0) return ends;
+  const std::size_t axis = below(random, 3);
+  const std::int64_t away = random.coin() ? options.clearance : -options.clearance;
+  for (Places& places : ends) {
+    for (std::size_t point = 0; point < scene.second(); ++point) places.at(point).at(axis) += away;
+  }
+  return ends;
+}
+
+EverydayScene draw_scene(Random& random) {
+  return {.digits = 1 + static_cast<int>(below(random, most_digits)),
+          .exponent = static_cast<int>(random.between(least_exponent, greatest_exponent)),
+          .as_float = one_in(random, 3),
+          .time = random.coin() ? TouchTime::at_start : TouchTime::at_end,
+          .clearance = 0};
+}
+
+}  // namespace
+
+std::int64_t power_of_ten(int exponent) {
+  std::int64_t power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
+}
+
+Query everyday_query(Kind kind, const EverydayScene& scene, Random& random) {
+  const std::array<Places, 2> ends = draw_ends(kind, scene, random);
+  const Notation notation{.places = scene.digits - scene.exponent, .as_float = scene.as_float};
   Query query{};
-  for (std::size_t e = 0; e < 2; ++e) {
+  for (std::size_t end = 0; end < 2; ++end) {
     for (std::size_t point = 0; point < moving_points; ++point) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        query.at(e, point, axis) = notation(ends.at(e).at(point).at(axis));
+        query.at(end, point, axis) = notation(ends.at(end).at(point).at(axis));
       }
     }
   }
   return in_another_order(kind, query, random);
 }
 
-}  // namespace
+Query everyday_contact(Kind kind, Random& random) {
+  return everyday_query(kind, draw_scene(random), random);
+}
 
-Query everyday_contact(Kind kind, Random& random) { return draw(kind, false, random); }
-
-Query everyday_near_miss(Kind kind, Random& random) { return draw(kind, true, random); }
+Query everyday_near_miss(Kind kind, Random& random) {
+  EverydayScene scene = draw_scene(random);
+  scene.clearance = 1;
+  return everyday_query(kind, scene, random);
+}
 
 }  // namespace touchstone::verify::fuzz

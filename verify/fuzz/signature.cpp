@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <ranges>
 
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
@@ -35,8 +36,8 @@ class ScaleSearch {
   }
 
   [[nodiscard]] std::optional<int> end_below() {
-    for (auto scale = scales_to_ask.rbegin(); scale != scales_to_ask.rend(); ++scale) {
-      if (*scale >= least_ && *scale < exponent_ && is_right_at(*scale)) return *scale;
+    for (const int scale : scales_to_ask | std::views::reverse) {
+      if (scale >= least_ && scale < exponent_ && is_right_at(scale)) return scale;
     }
     return std::nullopt;
   }

@@ -92,5 +92,25 @@ TEST(EverydayNearMiss, is_a_miss_mostly_and_a_unit_away) {
   EXPECT_LT(misses, tests::trials(1000));
 }
 
+TEST(EverydayQuery, is_of_its_scene) {
+  Random random(2);
+  for (const Kind kind : both_kinds) {
+    for (int i = 0; i < tests::trials(100); ++i) {
+      const Query inside =
+          everyday_query(kind, {.digits = 4, .exponent = 2, .time = TouchTime::between}, random);
+      const exact::Verdict verdict = exact::decide(kind, inside);
+      ASSERT_TRUE(verdict.collides());
+      EXPECT_NEAR(verdict.toi->enclosure().lower, 0.5, 1e-9);
+      for (const double x : magnitudes(inside)) {
+        EXPECT_GE(shortest_decimal(x).exponent, -2) << x;
+        EXPECT_LT(x, 100.0);
+      }
+      const Query far = everyday_query(
+          kind, {.digits = 4, .exponent = 2, .clearance = 8 * power_of_ten(4)}, random);
+      EXPECT_FALSE(exact::decide(kind, far).collides());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace touchstone::verify::fuzz::everyday_test
