@@ -34,7 +34,7 @@ verify::fuzz::FuzzOptions fuzz_options(const Mutant& mutant) {
   verify::fuzz::FuzzOptions options;
   options.separation = mutant.separation;
   options.method.max_checks = most_checks;
-  options.most_findings = 1;
+  options.most_groups = 1;
   return options;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -22,9 +23,11 @@
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/separation_file.hpp"
+#include "verify/fuzz/finding_page.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/fuzz_report.hpp"
 #include "verify/fuzz/reproduce.hpp"
+#include "verify/fuzz/standalone.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -53,6 +56,8 @@ struct Arguments {
   std::vector<fs::path> corpus;
   std::string out_file;
   std::string json_file;
+  fs::path page_folder;
+  std::string calls;
 
   [[nodiscard]] std::vector<Kind> kinds() const {
     if (kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
@@ -187,6 +192,11 @@ class FuzzRun {
         json_(arguments.json_file),
         found_(arguments, arguments.separation.given()),
         bar_("fuzz") {
+    if (!arguments.page_folder.empty() && fs::exists(arguments.page_folder) &&
+        !fs::is_empty(arguments.page_folder)) {
+      throw std::runtime_error(arguments.page_folder.string() +
+                               ": is not an empty folder; name a new one");
+    }
     load_method();
     options_.seconds = arguments.seconds;
     if (arguments.seconds == 0.0 && arguments.queries == 0) options_.seconds = default_seconds;
@@ -197,7 +207,7 @@ class FuzzRun {
     if (arguments.solver.exact) options_.promise = fast::Promise::exact;
     options_.query_limit_seconds = arguments.solver.query_limit;
     options_.limits = arguments.solver.limits();
-    options_.most_findings = arguments.most_findings;
+    options_.most_groups = arguments.most_findings;
     options_.shrink_seconds = shrink_seconds;
     options_.only = arguments.sought();
     options_.corpus = read_corpus(arguments);
@@ -223,7 +233,8 @@ class FuzzRun {
     bar_.clear();
     report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
     report_output(asked_.method, report.result.output, arguments_.solver.show_output);
-    const std::vector<fs::path> written = found_.close();
+    std::vector<fs::path> written = found_.close();
+    for (fs::path& page : write_pages(report)) written.push_back(std::move(page));
     if (json_) json_.write(io::json_document(fuzz::to_json(report)));
     json_.close();
     io::print(out(), fuzz::to_text(report));
@@ -233,6 +244,14 @@ class FuzzRun {
   }
 
  private:
+  [[nodiscard]] std::vector<fs::path> write_pages(const fuzz::FuzzReport& report) const {
+    if (arguments_.page_folder.empty()) return {};
+    const auto interface = arguments_.calls.empty()
+                               ? fuzz::usual_interface(asked_)
+                               : fuzz::call_interface_from_string(arguments_.calls).value();
+    return fuzz::write_pages(report, interface, arguments_.page_folder);
+  }
+
   void load_method() {
     const SolverArguments& solver = arguments_.solver;
     if (solver.methods.size() + solver.plugins.size() != 1) {
@@ -259,8 +278,12 @@ class FuzzRun {
   }
 
   void add(const fuzz::Finding& finding) {
-    bar_.clear();
-    io::print(out(), fuzz::to_text(finding, asked_));
+    if (finding.group == groups_) {
+      ++groups_;
+      bar_.clear();
+      io::print(stderr,
+                fmt::format("after {:.1f} s: {}\n", finding.seconds, fuzz::to_line(finding)));
+    }
     const fuzz::FailingCase& simplest = finding.simplest;
     const fuzz::FailingCase& original = finding.original;
     found_.write(finding.kind, simplest.query, simplest.collides);
@@ -293,6 +316,7 @@ class FuzzRun {
   const fast::Method* method_ = nullptr;
   fuzz::FuzzOptions options_;
   fuzz::SolverCall asked_;
+  std::size_t groups_ = 0;  ///< of findings, so far
 };
 
 std::vector<std::string> finding_kind_names() {
@@ -317,7 +341,7 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
   add_seed_option(command, arguments.seed, "Seed of all queries");
   command
       .add_option("--most-findings", arguments.most_findings,
-                  "End after so many different findings (0: never)")
+                  "End after so many groups of findings (0: never)")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(0, UINT32_MAX));
@@ -340,6 +364,18 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       .add_option("--out", arguments.out_file,
                   "Write the queries found, with their truth, as a dataset, a file for each kind")
       ->type_name("FILE.csv");
+  command
+      .add_option("--write", arguments.page_folder,
+                  "Write a page for an issue tracker a group of findings, with a program, a "
+                  "certificate and a test, and findings.json")
+      ->type_name("FOLDER");
+  command
+      .add_option(
+          "--calls", arguments.calls,
+          "What the programs of --write call: plugin, ticcd or ipc-toolkit (default: plugin, "
+          "or the public code that the method follows)")
+      ->type_name("INTERFACE")
+      ->check(CLI::IsMember({"plugin", "ticcd", "ipc-toolkit"}).description(""));
   add_json_option(command, arguments.json_file);
 }
 
@@ -353,17 +389,18 @@ void add_fuzz_command(CLI::App& app, Status& status) {
   add_exact_flag(*command, arguments->solver);
   add_search_options(*command, *arguments);
   add_output_options(*command, *arguments);
-  set_help(*command,
-           "touchstone fuzz --plugin ./libsolver.so --only false_negative --seconds 600\n"
-           "touchstone fuzz --plugin ./libsolver.so --exact --out found.csv --corpus data",
-           "The one solver runs in a child process. A finding is simplified and printed as points, "
-           "as a command that "
-           "asks again, and as a C++ test. The same --seed and --queries give the same findings. "
-           "What is searched "
-           "and who judges: docs/testing.md.\n"
-           "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, or nothing judged, 130 "
-           "interrupted with "
-           "nothing found.");
+  set_help(
+      *command,
+      "touchstone fuzz --plugin ./libsolver.so --only false_negative --seconds 600\n"
+      "touchstone fuzz --plugin ./libsolver.so --exact --write findings --corpus data",
+      "The one solver runs in a child process. Findings are simplified, grouped by what can be "
+      "told of their cause, and printed with one example a group; --write makes pages, programs "
+      "and tests of them. The same --seed and --queries give the same findings. "
+      "What is searched "
+      "and who judges: docs/testing.md.\n"
+      "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, or nothing judged, 130 "
+      "interrupted with "
+      "nothing found.");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);
     status = FuzzRun(*arguments).run();

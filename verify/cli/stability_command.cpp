@@ -143,8 +143,9 @@ void add_stability_command(CLI::App& app, Status& status) {
   add_options(*command, *arguments);
   std::string list;
   for (const stability::Hardness& hardness : stability::hardnesses()) {
-    list += fmt::format("{}{} ({}, 2^{} to 2^{})", list.empty() ? "" : "; ", hardness.name,
-                        hardness.measure, hardness.exponents.front(), hardness.exponents.back());
+    list += fmt::format("{}{} ({}, {} to {})", list.empty() ? "" : "; ", hardness.name,
+                        hardness.measure, stability::level_text(hardness, hardness.levels.front()),
+                        stability::level_text(hardness, hardness.levels.back()));
   }
   set_help(*command, "touchstone stability --method tight_inclusion --picture stability.html",
            "Queries that are hard in one way, at eleven levels: " + list +

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "exact/algebra/number.hpp"
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/solvers/failure.hpp"
@@ -47,7 +48,9 @@ inline constexpr std::size_t finding_kinds = 13;
 struct FailingCase {
   Query query{};
   fast::Answer answer = {};
-  bool collides = false;    ///< the truth
+  bool collides = false;  ///< the truth
+  /// Neighbouring doubles around the exact time of impact, or one; nothing if they do not collide.
+  std::optional<exact::DoubleInterval> toi = std::nullopt;
   std::string truth = {};   ///< "no collision", or "collision between … and …"
   std::string detail = {};  ///< what is wrong, in words
   /// The proof of the truth, as a stream of one certificate (exact/CERTIFICATES.md); empty if beyond
@@ -74,6 +77,13 @@ struct MissingBounds {
   [[nodiscard]] bool any() const { return lower || upper; }
 };
 
+/// Binary exponents of the greatest coordinate around a finding's at which, times a power of two, the
+/// query is not answered wrongly any more: the nearest ones that were asked, nothing where none is known.
+struct ScaleRange {
+  std::optional<int> end_below = std::nullopt;
+  std::optional<int> end_above = std::nullopt;
+};
+
 /// Something that a solver does wrong, confirmed by the oracle.
 struct Finding {
   FindingKind what = FindingKind::false_negative;
@@ -86,6 +96,9 @@ struct Finding {
   Shrinking shrinking = Shrinking::not_tried;
   /// Of what is wrong only in that.
   MissingBounds missing = {};
+  /// Of the simplest query.
+  ScaleRange scales = {};
+  std::size_t group = 0;      ///< in FuzzResult::groups
   double seconds = 0.0;       ///< wall-clock time of the run when it was found
   std::uint64_t queries = 0;  ///< asked by then, itself included
   std::string generator;      ///< that made the query

@@ -4,19 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <map>
 #include <span>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include "fast/certified.hpp"
 #include "verify/fuzz/coverage.hpp"
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/generators.hpp"
+#include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
 #include "verify/fuzz/scheduler.hpp"
+#include "verify/fuzz/signature.hpp"
 #include "verify/fuzz/symmetry.hpp"
 #include "verify/fuzz/triage.hpp"
 #include "verify/jobs/deadline.hpp"
@@ -45,9 +47,6 @@ constexpr double seconds_to_judge = 1.0;
 constexpr double shrink_share = 0.1;
 /// One in so many queries is asked again as an image.
 constexpr std::size_t queries_an_image = 8;
-/// Of a class of findings so many are kept.
-constexpr std::uint64_t kept_of_class = 2;
-
 constexpr double oracle_work = 40.0;
 /// About the microseconds of a step that a solver says it took, such as a box.
 constexpr double check_work = 0.05;
@@ -93,6 +92,13 @@ struct Block {
   }
 };
 
+std::vector<double> explored_parts(const std::vector<Generator>& generators) {
+  std::vector<double> parts;
+  parts.reserve(generators.size());
+  for (const Generator& generator : generators) parts.push_back(generator.explored);
+  return parts;
+}
+
 /// Makes blocks, one kind after the other.
 class BlockMaker {
  public:
@@ -100,7 +106,7 @@ class BlockMaker {
       : kinds_(options.kinds),
         generators_(generators),
         context_(options.separation),
-        scheduler_(generators.size(), generate::mix(options.seed) + 1),
+        scheduler_(explored_parts(generators), generate::mix(options.seed) + 1),
         random_(generate::mix(options.seed)) {
     for (const CorpusQuery& query : options.corpus) context_.pool(query.kind).keep(query.query);
   }
@@ -169,6 +175,11 @@ class BoundHabit {
   std::uint64_t missing_ = 0;
 };
 
+bool is_plainer(const Finding& a, const Finding& b) {
+  return plainness(a.kind, a.simplest.query, a.original.query) <
+         plainness(b.kind, b.simplest.query, b.original.query);
+}
+
 /// Do two answers to what is the same question contradict each other?
 bool contradict(const Answer& a, const Answer& b, bool same_time) {
   const bool both_decided = (a.verdict == Verdict::yes || a.verdict == Verdict::no) &&
@@ -227,7 +238,7 @@ class Run {
   }
 
   [[nodiscard]] bool has_found_enough() const {
-    return options_.most_findings != 0 && result_.findings.size() >= options_.most_findings;
+    return options_.most_groups != 0 && result_.groups.size() >= options_.most_groups;
   }
 
   void run_block() {
@@ -398,12 +409,18 @@ class Run {
     ++result_.generators[block_.arms[i]].findings;
     const Class what{std::string(charge.method), charge.diagnosis.what, block_.kind,
                      judged_[i].stage, block_.arms[i]};
-    const std::uint64_t before = classes_[what]++;
-    if (before < kept_of_class && !has_found_enough()) keep(i, charge, verdict);
-    return finding_reward / (1.0 + static_cast<double>(before));
+    const auto [known, is_new] = classes_.try_emplace(what);
+    Class::Seen& seen = known->second;
+    if (!is_new) {
+      ++result_.groups[seen.group].count;
+    } else if (!has_found_enough()) {
+      seen.group = keep(i, charge, verdict);
+    }
+    return finding_reward / static_cast<double>(++seen.count);
   }
 
-  void keep(std::size_t i, const Charge& charge, const exact::Verdict& verdict) {
+  /// Returns the finding's group.
+  std::size_t keep(std::size_t i, const Charge& charge, const exact::Verdict& verdict) {
     const bool of_judge = charge.method == judge_name() && name_ != judge_name();
     const std::string& generator = result_.generators[block_.arms[i]].name;
     Finding finding{.what = charge.diagnosis.what,
@@ -419,21 +436,50 @@ class Run {
                     .generator = generator};
     finding.simplest = finding.original;
     make_simpler(finding);
+    finding.group = add_to_group(finding);
     result_.findings.push_back(std::move(finding));
     if (options_.on_finding) options_.on_finding(result_.findings.back());
+    return result_.findings.back().group;
   }
 
+  /// Counts a finding that is about to be kept in its group, which may be a new one.
+  std::size_t add_to_group(const Finding& finding) {
+    const auto [known, is_new] = groups_.try_emplace(signature_of(finding), result_.groups.size());
+    if (is_new) result_.groups.push_back({.count = 0, .best = result_.findings.size()});
+    FindingGroup& group = result_.groups[known->second];
+    ++group.count;
+    if (!is_new && is_plainer(finding, result_.findings[group.best])) {
+      group.best = result_.findings.size();
+    }
+    return known->second;
+  }
+
+  /// Makes its query simpler, and looks at what scales it is wrong.
   void make_simpler(Finding& finding) {
     if (options_.shrink_seconds == 0.0) return;
     const double begin = seconds();
     const double most =
         std::min(options_.shrink_seconds, shrink_share * judging_end_.seconds_left());
     simplify(method_, options_, judging_end_.at_most(most), finding);
+    finding.scales = scale_range(method_, options_, judging_end_.at_most(most), finding);
     result_.shrink_seconds += seconds() - begin;
   }
 
-  /// The properties that make two findings alike: solver, kind, generator.
-  using Class = std::tuple<std::string, FindingKind, Kind, fast::Stage, std::size_t>;
+  /// The properties that make two findings alike at first sight.
+  struct Class {
+    std::string method;
+    FindingKind what;
+    Kind kind;
+    fast::Stage stage;
+    std::size_t arm;
+
+    friend auto operator<=>(const Class&, const Class&) = default;
+
+    struct Seen {
+      std::uint64_t count = 0;
+      std::size_t group = 0;  ///< of the first one, which was kept
+    };
+  };
 
   const FuzzOptions& options_;
   const fast::Method& method_;
@@ -452,7 +498,8 @@ class Run {
   CoverageTable coverage_;
   BoundHabit lower_habit_;
   BoundHabit upper_habit_;
-  std::map<Class, std::uint64_t> classes_;
+  std::map<Class, Class::Seen> classes_;
+  std::map<Signature, std::size_t> groups_;
   FuzzResult result_;
   // Of the block at hand.
   Block block_;
@@ -476,7 +523,7 @@ void check(const FuzzOptions& options) {
   if (!is_valid(options.separation)) {
     throw std::invalid_argument("fuzz: the separation must be finite and not negative");
   }
-  if (options.seconds == 0.0 && options.most_queries == 0 && options.most_findings == 0 &&
+  if (options.seconds == 0.0 && options.most_queries == 0 && options.most_groups == 0 &&
       options.stop == nullptr) {
     throw std::invalid_argument("fuzz: nothing ends the run");
   }

@@ -60,8 +60,8 @@ struct FuzzOptions {
   double query_limit_seconds = 10.0;
   /// Limits of the method's process.
   solvers::ChildLimits limits = {};
-  /// Findings that are kept (one or a few of a class) after which the run ends; 0: never.
-  std::size_t most_findings = 0;
+  /// Groups of findings after which the run ends; 0: never.
+  std::size_t most_groups = 0;
   /// Wall-clock seconds for making the query of a finding simpler, or a tenth of what is left of the
   /// run if that is less; 0: it stays as it is.
   double shrink_seconds = 0.0;
@@ -78,7 +78,7 @@ struct FuzzOptions {
   const std::atomic<bool>* stop = nullptr;
   /// Called now and then.
   std::function<void(const FuzzProgress&)> on_progress = nullptr;
-  /// Called with every finding that is kept, when it is found and made simpler.
+  /// Called with every finding that is kept, when it is found, made simpler and in a group.
   std::function<void(const Finding&)> on_finding = nullptr;
   /// The clock of all times above but the query limit's.
   jobs::SecondsClock clock = jobs::steady_seconds;
@@ -105,6 +105,14 @@ struct GeneratorStatistics {
   std::uint64_t findings = 0;       ///< all, kept or not
 };
 
+/// Findings of one cause, as far as it can be told from outside (signature.hpp).
+struct FindingGroup {
+  /// All of them. Those that are like a kept finding in solver, kind of finding, kind of query,
+  /// generator and the judge's stage are not looked at closer, and counted in its group.
+  std::uint64_t count = 0;
+  std::size_t best = 0;  ///< in FuzzResult::findings: the plainest kept finding
+};
+
 struct FuzzResult {
   std::uint64_t queries = 0;           ///< asked and judged, images included
   std::uint64_t unjudged = 0;          ///< answered, but the run was over before they were judged
@@ -116,7 +124,8 @@ struct FuzzResult {
   double method_seconds = 0.0;         ///< of these, waiting for the method
   double shrink_seconds = 0.0;         ///< of these, making findings simpler
   double other_seconds = 0.0;          ///< generating and judging: the rest
-  std::vector<Finding> findings;       ///< in order; the first of each class
+  std::vector<Finding> findings;       ///< in order; those that were kept
+  std::vector<FindingGroup> groups;    ///< in the order of their first findings
   std::uint64_t all_findings = 0;      ///< kept or not
   std::uint64_t other_findings = 0;    ///< of kinds that were not sought, beside all these
   /// Times the method ended its process at queries none of which does it alone.

@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <string_view>
 
+#include "verify/fuzz/signature.hpp"
 #include "verify/fuzz/triage.hpp"
 #include "verify/io/json.hpp"
+#include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/answers.hpp"
@@ -20,20 +25,6 @@ nlohmann::json coordinates_of(const Query& query) {
   return list;
 }
 
-std::string generator_table(const FuzzResult& result) {
-  io::TextTable table({io::word_column("generator", 17),
-                       {"queries", 10},
-                       {"collisions", 10},
-                       {"coverage_keys", 10},
-                       {"findings", 8}});
-  for (const GeneratorStatistics& generator : result.generators) {
-    table.add({std::string(generator.name), std::to_string(generator.queries),
-               std::to_string(generator.collisions), std::to_string(generator.coverage_keys),
-               std::to_string(generator.findings)});
-  }
-  return table.text();
-}
-
 /// Whether the simplest query is the simplest there is, where that needs to be said.
 std::string_view shrinking_text(Shrinking shrinking) {
   switch (shrinking) {
@@ -46,9 +37,47 @@ std::string_view shrinking_text(Shrinking shrinking) {
   }
 }
 
-std::string case_text(Kind kind, const FailingCase& failing) {
-  return fmt::format("  {}\n  answer: {}\n  truth: {}\n\n{}", failing.detail,
-                     to_text(failing.answer), failing.truth, as_points(kind, failing.query));
+std::string kind_text(const std::optional<Kind>& kind) {
+  return kind ? std::string(to_string(*kind)) : "any";
+}
+
+std::string group_table(const FuzzResult& result) {
+  io::TextTable table({{"group", 5},
+                       io::word_column("finding", 14),
+                       {"count", 6},
+                       io::word_column("scale", 9),
+                       io::word_column("kind", 11),
+                       io::word_column("shape", 9),
+                       io::word_column("contact", 7),
+                       {"first after queries", 8}});
+  for (std::size_t i = 0; i < result.groups.size(); ++i) {
+    const FindingGroup& group = result.groups[i];
+    const Signature signature = signature_of(result.findings.at(group.best));
+    const auto first = std::ranges::find(result.findings, i, &Finding::group);
+    table.add({std::to_string(i + 1), std::string(to_string(signature.what)),
+               std::to_string(group.count), to_text(signature.ends), kind_text(signature.kind),
+               to_text(signature.shape), to_text(signature.time), std::to_string(first->queries)});
+  }
+  return table.text();
+}
+
+std::string example_text(std::size_t number, const Finding& finding, const SolverCall& asked) {
+  std::string text = fmt::format("\ngroup {}: {}\n  truth: {}\n  {}\n", number, to_line(finding),
+                                 finding.simplest.truth, scale_text(finding, asked));
+  text += shrinking_text(finding.shrinking);
+  return text + as_short_points(finding.kind, finding.simplest.query);
+}
+
+std::string findings_text(const FuzzReport& report) {
+  const FuzzResult& result = report.result;
+  if (result.all_findings == 0) return "\nno findings\n";
+  std::string text =
+      fmt::format("\n{} findings, in {} groups by what can be told of their cause\n\n{}",
+                  result.all_findings, result.groups.size(), group_table(result));
+  for (std::size_t i = 0; i < result.groups.size(); ++i) {
+    text += example_text(i + 1, result.findings.at(result.groups[i].best), report.solver);
+  }
+  return text;
 }
 
 /// Why the run ended, if it ended before all was done that was asked for.
@@ -68,6 +97,22 @@ std::string end_text(const FuzzReport& report) {
         fmt::format("\n{} queries more were asked, and not answered in time\n", result.unanswered);
   }
   return text;
+}
+
+nlohmann::json number_or_null(const std::optional<int>& number) {
+  return number ? nlohmann::json(*number) : nlohmann::json();
+}
+
+nlohmann::json group_json(const FuzzResult& result, const FindingGroup& group) {
+  const Signature signature = signature_of(result.findings.at(group.best));
+  return {{"what", to_string(signature.what)},
+          {"method", signature.method},
+          {"count", group.count},
+          {"best", group.best},
+          {"scale", to_text(signature.ends)},
+          {"kind", signature.kind ? nlohmann::json(to_string(*signature.kind)) : nlohmann::json()},
+          {"shape", to_text(signature.shape)},
+          {"time", to_text(signature.time)}};
 }
 
 nlohmann::json answer_json(const fast::Answer& answer) {
@@ -102,23 +147,28 @@ nlohmann::json solver_json(const SolverCall& solver) {
 
 }  // namespace
 
-std::string to_text(const Finding& finding, const SolverCall& asked) {
+std::string scale_text(const Finding& finding, const SolverCall& asked) {
+  const auto& [below, above] = finding.scales;
+  if (!below && !above) {
+    const bool is_asked = finding.what != FindingKind::hang && is_contact(finding.separation) &&
+                          finding.shrinking == Shrinking::complete;
+    if (!is_asked) return "not asked at other scales";
+    return fmt::format("wrong at any scale from 2^{} to 2^{}", least_scale(asked.options.tolerance),
+                       greatest_scale);
+  }
+  std::string text = "wrong while the greatest coordinate is";
+  if (below) text += fmt::format(" above 2^{}", *below + 1);
+  if (above) text += fmt::format("{} below 2^{}", below ? " and" : "", *above);
+  return text;
+}
+
+std::string to_line(const Finding& finding) {
   std::string about(to_string(finding.kind));
   if (!is_contact(finding.separation)) {
     about += " at minimum separation " + judge::to_text(finding.separation);
   }
-  std::string text =
-      fmt::format("{} of {}, {} ({}, after {:.2f} s and {} queries)\n", to_string(finding.what),
-                  finding.method, about, finding.generator, finding.seconds, finding.queries);
-  text += case_text(finding.kind, finding.simplest);
-  text += shrinking_text(finding.shrinking);
-  if (finding.simplest.query != finding.original.query) {
-    text += fmt::format("\nMade simpler from\n{}", case_text(finding.kind, finding.original));
-  }
-  const Reproduction reproduction = reproduction_of(finding, asked);
-  text += fmt::format("\nTo ask again:\n{}\nAs a test:\n{}\n", as_command(reproduction),
-                      as_cpp_test(reproduction));
-  return text;
+  return fmt::format("{} of {}, {}: {}", to_string(finding.what), io::printable(finding.method),
+                     about, finding.simplest.detail);
 }
 
 std::string to_text(const FuzzReport& report) {
@@ -126,16 +176,13 @@ std::string to_text(const FuzzReport& report) {
   const Separation separation = report.solver.options.separation;
   std::string text = fmt::format(
       "{} ({}), seed {}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
-      "{:.0f} queries a second, {:.0f} without the method's own time; {} judged by the oracle\n\n",
+      "{:.0f} queries a second, {:.0f} without the method's own time; {} judged by the oracle\n",
       report.solver.method, solvers::to_string(report.solver.promise), report.seed,
       is_contact(separation) ? "" : ", minimum separation " + judge::to_text(separation),
       result.queries, result.seconds, result.images, result.collisions, result.queries_per_second(),
       result.judged_per_second(), result.judged_by_oracle);
-  text += generator_table(result);
   text += end_text(report);
-  text += result.all_findings == 0 ? "\nno findings\n"
-                                   : fmt::format("\n{} findings, {} with all that are like them\n",
-                                                 result.findings.size(), result.all_findings);
+  text += findings_text(report);
   if (result.other_findings != 0) {
     text += fmt::format("{} of kinds that were not sought\n", result.other_findings);
   }
@@ -153,6 +200,10 @@ nlohmann::json to_json(const Finding& finding, const SolverCall& asked) {
                {"seconds", finding.seconds},
                {"queries", finding.queries},
                {"shrinking", to_string(finding.shrinking)},
+               {"group", finding.group},
+               {"wrong_until",
+                {{"below", number_or_null(finding.scales.end_below)},
+                 {"above", number_or_null(finding.scales.end_above)}}},
                {"original", case_json(finding.original)},
                {"solver", solver_json(reproduction.solver)},
                {"command", as_command(reproduction)}});
@@ -174,6 +225,8 @@ nlohmann::json to_json(const FuzzReport& report) {
   for (const Finding& finding : result.findings) {
     findings.push_back(to_json(finding, report.solver));
   }
+  nlohmann::json groups = nlohmann::json::array();
+  for (const FindingGroup& group : result.groups) groups.push_back(group_json(result, group));
   return {{"solver", solver_json(report.solver)},
           {"method", report.solver.method},
           {"promise", solvers::to_string(report.solver.promise)},
@@ -201,7 +254,8 @@ nlohmann::json to_json(const FuzzReport& report) {
           {"unplaced_crashes", result.unplaced_crashes},
           {"interrupted", result.ended_by == FuzzEnd::interrupt},
           {"generators", generators},
-          {"findings", findings}};
+          {"findings", findings},
+          {"groups", groups}};
 }
 
 }  // namespace touchstone::verify::fuzz

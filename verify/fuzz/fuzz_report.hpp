@@ -25,14 +25,16 @@ struct FuzzReport {
   FuzzResult result;
 };
 
-/// "false_negative of METHOD, vertex-face (contact_on_grid, after 1.5 s and 3200 queries)", then of the
-/// simplest query what is wrong, the truth and the points, and of the original one too if that is
-/// another; then the simplest one as a command that asks again, and as a C++ test.
-[[nodiscard]] std::string to_text(const Finding& finding, const SolverCall& asked);
+/// Where the finding's query is wrong when it is multiplied by powers of two: "wrong while the greatest
+/// coordinate is below 2^-3", "wrong at any scale from 2^-16 to 2^40".
+[[nodiscard]] std::string scale_text(const Finding& finding, const SolverCall& asked);
 
-/// The numbers of a run: queries a second with and without the method's time, how many the oracle
-/// judged, a line for each generator, why it ended where not all is done that was asked for, and last
-/// how many findings there are.
+/// "false_negative of METHOD, edge-edge: no, but they collide", for when a group is found.
+[[nodiscard]] std::string to_line(const Finding& finding);
+
+/// The numbers of a run, why it ended where not all is done that was asked for, a table of the groups of
+/// findings, and of each group the plainest finding in about ten lines: what is wrong, the truth, at
+/// what scales, and the points.
 [[nodiscard]] std::string to_text(const FuzzReport& report);
 
 /// An object of `what`, `kind`, `separation` (`min_separation`, `norm`), `method`, `generator`,
@@ -41,7 +43,8 @@ struct FuzzReport {
 /// `toi_lower`, `toi_upper` and `tolerance`, as number_to_json of io/json.hpp writes them), `collides`, `truth`, `detail` and
 /// `certificate` (a stream that touchstone-check takes; null if there is none), and the same in
 /// `original`, an object, of the query as it was found; `solver` (see below) and `command`, which asks
-/// again.
+/// again; `group`, its number in `groups` from 0, and `wrong_until`, the ends of its scales, `below` and
+/// `above` (binary exponents of the greatest coordinate; null where none is known).
 [[nodiscard]] nlohmann::json to_json(const Finding& finding, const SolverCall& asked);
 
 /// An object of `solver` (`method`, `plugin` or null, `promise`, `tolerance`, `max_checks`,
@@ -50,7 +53,9 @@ struct FuzzReport {
 /// "interrupt"), `queries`, `unjudged`, `unanswered`, `images`, `collisions`, `judged_by_oracle`, `seconds`,
 /// `method_seconds`, `shrink_seconds`, `other_seconds`, `queries_per_second`, `judged_per_second`,
 /// `all_findings`, `other_findings`, `unplaced_crashes`, `interrupted`, `generators` (a list of `name`, `queries`,
-/// `collisions`, `coverage_keys`, `findings`) and `findings`, a list as above.
+/// `collisions`, `coverage_keys`, `findings`), `findings`, a list as above, and `groups`, a list of `what`,
+/// `method`, `count`, `best` (a number in `findings`), `scale`, `kind`, `shape` and `time` (signature.hpp, in
+/// words; `kind` null where it does not matter).
 [[nodiscard]] nlohmann::json to_json(const FuzzReport& report);
 
 }  // namespace touchstone::verify::fuzz

@@ -9,6 +9,7 @@
 #include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/fuzz/contact.hpp"
 #include "verify/fuzz/draws.hpp"
+#include "verify/fuzz/everyday.hpp"
 #include "verify/fuzz/mutation.hpp"
 #include "verify/judge/separation_inference.hpp"
 
@@ -121,6 +122,13 @@ Query contact_aligned(Kind kind, const GeneratorContext& context, Random& random
   return kind == Kind::edge_edge ? aligned_contact(random) : contact_rounded(kind, context, random);
 }
 
+Query everyday(Kind kind, const GeneratorContext& /*context*/, Random& random) {
+  if (one_in(random, 8)) return everyday_near_miss(kind, random);
+  Query query = everyday_contact(kind, random);
+  if (one_in(random, 8)) nudge(query, random);
+  return query;
+}
+
 Query apart(Kind kind, const GeneratorContext& context, Random& random) {
   Query query = contact_apart(kind, context.separation(), random);
   if (one_in(random, 4)) overshoot(kind, query, random);
@@ -203,7 +211,11 @@ Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
   return result;
 }
 
-constexpr std::array<Generator, 15> all_generators{{
+/// What a solver's users have is worth more than what else may be found: about an eighth of the
+/// queries from the start.
+constexpr double explored_everyday = 5.0;
+
+constexpr std::array<Generator, 16> all_generators{{
     {"family", "a query of the built-in set (touchstone generate --list), any seed", 20.0, family},
     {"few_bits", "small integers times a power of two", 1.0, few_bits},
     {"grid", "a few numbers an axis with full significands", 3.0, grid},
@@ -213,6 +225,8 @@ constexpr std::array<Generator, 15> all_generators{{
     {"contact_central", "the centres meet at an end, along the normal", 3.5, contact_central},
     {"contact_rounded", "one point solved for contact and rounded, nudged", 6.0, contact_rounded},
     {"contact_aligned", "contact of edges whose roundings add up", 38.0, contact_aligned},
+    {"everyday", "contact at t=0, t=1 or a shared point, in short decimals", 2.0, everyday, false,
+     explored_everyday},
     {"sliding", "nearly parallel and nearly touching", 2.5, slide},
     {"mutated", "a query of the corpus or a recent one, changed", 9.0, mutate},
     {"scaled", "such a query times 2^-1000 to 2^1000", 15.0, scaled},

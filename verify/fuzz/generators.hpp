@@ -72,6 +72,8 @@ struct Generator {
   Query (*make)(Kind kind, const GeneratorContext& context, generate::Random& random);
   /// Does it need a separation that is more than contact?
   bool needs_distance = false;
+  /// Its part of what is explored (scheduler.hpp), whatever it has brought so far.
+  double explored = 1.0;
 };
 
 /// All generators, always in the same order.

@@ -73,9 +73,12 @@ Answer answer_of(const CertifiedResult& judged) {
 FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
                          const exact::Verdict& verdict, std::string detail,
                          std::string_view label) {
+  std::optional<exact::DoubleInterval> toi;
+  if (verdict.collides()) toi = verdict.toi->enclosure();
   return {.query = query,
           .answer = answer,
           .collides = verdict.collides(),
+          .toi = toi,
           .truth = judge::to_text(judge::truth_of(0, verdict)),
           .detail = std::move(detail),
           .certificate = certificate(kind, query, verdict, label)};

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 
 #include "verify/data/csv_dataset.hpp"
 #include "verify/fuzz/recheck.hpp"
@@ -19,12 +18,6 @@
 
 namespace touchstone::verify::fuzz {
 namespace {
-
-std::string_view point_name(Kind kind, std::size_t point) {
-  static constexpr std::array<std::string_view, moving_points> of_face{"v", "f0", "f1", "f2"};
-  static constexpr std::array<std::string_view, moving_points> of_edges{"ea0", "ea1", "eb0", "eb1"};
-  return kind == Kind::vertex_face ? of_face.at(point) : of_edges.at(point);
-}
 
 /// As C++ reads it too.
 std::string hexadecimal(double x) { return fmt::format("{:a}", x); }
@@ -166,6 +159,12 @@ void expect_no_fault(const fast::Method& method) {
 
 }  // namespace
 
+std::string_view point_name(Kind kind, std::size_t point) {
+  static constexpr std::array<std::string_view, moving_points> of_face{"v", "f0", "f1", "f2"};
+  static constexpr std::array<std::string_view, moving_points> of_edges{"ea0", "ea1", "eb0", "eb1"};
+  return kind == Kind::vertex_face ? of_face.at(point) : of_edges.at(point);
+}
+
 std::string as_points(Kind kind, const Query& query) {
   std::string result;
   for (std::size_t end = 0; end < 2; ++end) {
@@ -175,6 +174,18 @@ std::string as_points(Kind kind, const Query& query) {
       result += fmt::format("{:<3} at t={}  ({}, {}, {}) = ({}, {}, {})\n", point_name(kind, point),
                             end, x, y, z, hexadecimal(x), hexadecimal(y), hexadecimal(z));
     }
+  }
+  return result;
+}
+
+std::string as_short_points(Kind kind, const Query& query) {
+  std::string result;
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    const auto place = [&](std::size_t end) {
+      return fmt::format("({}, {}, {})", query.at(end, point, 0), query.at(end, point, 1),
+                         query.at(end, point, 2));
+    };
+    result += fmt::format("{:<3}  {} → {}\n", point_name(kind, point), place(0), place(1));
   }
   return result;
 }

@@ -4,9 +4,11 @@
 /// A query as a person reads it, as a dataset holds it, and as a test and a command that show what is
 /// wrong.
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
@@ -15,9 +17,15 @@
 
 namespace touchstone::verify::fuzz {
 
+/// "v", "f0" and so on of a vertex and a triangle, "ea0" and so on of two edges.
+[[nodiscard]] std::string_view point_name(Kind kind, std::size_t point);
+
 /// A line a point, at t=0 and then at t=1: its name in the kind, and its coordinates in decimal and in
 /// hexadecimal. Both give the very doubles.
 [[nodiscard]] std::string as_points(Kind kind, const Query& query);
+
+/// The same in decimal only, each point at t=0 and at t=1 on one line.
+[[nodiscard]] std::string as_short_points(Kind kind, const Query& query);
 
 /// The eight rows that a dataset has for it (csv_dataset.hpp), with the label where there is one.
 /// \throws std::invalid_argument if a coordinate is not finite.

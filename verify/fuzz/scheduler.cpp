@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace touchstone::verify::fuzz {
 namespace {
@@ -26,8 +27,12 @@ std::uint32_t CoverageTable::add(std::uint64_t coverage_key) {
   return before;
 }
 
-Scheduler::Scheduler(std::size_t arms, std::uint64_t seed, const SchedulerOptions& options)
-    : random_(generate::mix(seed)), options_(options), arms_(arms) {}
+Scheduler::Scheduler(const std::vector<double>& parts, std::uint64_t seed,
+                     const SchedulerOptions& options)
+    : random_(generate::mix(seed)), options_(options) {
+  const double sum = std::accumulate(parts.begin(), parts.end(), 0.0);
+  for (const double part : parts) arms_.push_back({.explored = options.explored * part / sum});
+}
 
 double Scheduler::rate(const Arm& arm) {
   return (arm.reward + first_reward) / (arm.work + first_work);
@@ -36,17 +41,15 @@ double Scheduler::rate(const Arm& arm) {
 double Scheduler::share(std::size_t arm) const {
   double sum = 0.0;
   for (const Arm& other : arms_) sum += rate(other);
-  return options_.explored / static_cast<double>(arms_.size()) +
-         (1.0 - options_.explored) * rate(arms_.at(arm)) / sum;
+  return arms_.at(arm).explored + (1.0 - options_.explored) * rate(arms_.at(arm)) / sum;
 }
 
 std::size_t Scheduler::choose() {
   double sum = 0.0;
   for (const Arm& arm : arms_) sum += rate(arm);
-  const double alike = options_.explored / static_cast<double>(arms_.size());
   double left = random_.unit();
   for (std::size_t i = 0; i + 1 < arms_.size(); ++i) {
-    left -= alike + (1.0 - options_.explored) * rate(arms_[i]) / sum;
+    left -= arms_[i].explored + (1.0 - options_.explored) * rate(arms_[i]) / sum;
     if (left < 0.0) return i;
   }
   return arms_.size() - 1;

@@ -7,7 +7,8 @@
 /// the time of impact is, how far the answer is from it, and so on. A query of a sort that is rare
 /// so far is worth more than one of many. The *scheduler* is a bandit: it draws arms (generators)
 /// with a probability that grows with their worth by the work they took, most recent work counting
-/// most, and leaves to every arm a small share, so that one that pays late is found.
+/// most, and leaves to every arm a small share, so that one that pays late is found; a greater one to
+/// arms whose finds matter more.
 
 #include <cstddef>
 #include <cstdint>
@@ -38,15 +39,16 @@ struct SchedulerOptions {
   /// The factor by which the weight of earlier results decreases with each unit of later work: half after 0.7 /
   /// this.
   double forgetting = 1e-4;
-  /// Share of the draws that goes to all arms alike, 0 to 1.
+  /// Share of the draws that goes to the arms by their parts of it, whatever they bring, 0 to 1.
   double explored = 0.25;
 };
 
 /// Chooses among arms. The same calls give the same choices everywhere.
 class Scheduler {
  public:
-  /// \pre arms > 0
-  Scheduler(std::size_t arms, std::uint64_t seed, const SchedulerOptions& options = {});
+  /// \param parts by arm: its part of what is explored, relative to the others'. \pre not empty, each > 0
+  Scheduler(const std::vector<double>& parts, std::uint64_t seed,
+            const SchedulerOptions& options = {});
 
   /// The arm to play next.
   [[nodiscard]] std::size_t choose();
@@ -59,6 +61,7 @@ class Scheduler {
 
  private:
   struct Arm {
+    double explored = 0.0;  ///< the share of all draws that it has for nothing
     double reward = 0.0;
     double work = 0.0;
   };

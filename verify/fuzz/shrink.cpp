@@ -5,12 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <limits>
-#include <span>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "verify/fuzz/plainness.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz {
@@ -22,60 +23,6 @@ constexpr std::size_t coordinate_count = axes * query_points;
 /// Distance of a point's coordinate at t=0 from the one at t=1.
 constexpr std::size_t to_other_end = axes * moving_points;
 
-// ---- Complexity ---------------------------------------------------------------------------------
-
-/// A number as its significant bits and where they stand: they begin below 2^top, and are all
-/// multiples of 2^lowest.
-struct Places {
-  int top;
-  int lowest;
-};
-
-/// \pre x is finite and not 0.
-Places places(double x) {
-  int top = 0;
-  const double fraction = std::frexp(x, &top);
-  const auto significand = static_cast<std::int64_t>(std::ldexp(std::abs(fraction), 53));
-  return {top, top - 53 + std::countr_zero(static_cast<std::uint64_t>(significand))};
-}
-
-std::uint64_t writing_length(double magnitude) {
-  const auto [top, lowest] = places(magnitude);
-  const int bits = top - lowest, empty = std::max({lowest, -top, 0});
-  return static_cast<std::uint64_t>(bits + empty + (lowest < 0 ? 2 : 0));
-}
-
-/// The magnitudes that occur, 0 apart, least first.
-std::vector<double> magnitudes(const Query& query) {
-  std::vector<double> result;
-  for (const double x : query.coordinates) {
-    if (x != 0.0) result.push_back(std::abs(x));
-  }
-  std::ranges::sort(result);
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
-}
-
-using PointPair = std::array<std::size_t, 2>;
-
-/// The pairs of points whose order does not matter.
-std::span<const PointPair> exchangeable(Kind kind) {
-  static constexpr std::array<PointPair, 3> of_face{{{1, 2}, {1, 3}, {2, 3}}};
-  static constexpr std::array<PointPair, 2> of_edges{{{0, 1}, {2, 3}}};
-  if (kind == Kind::vertex_face) return of_face;
-  return of_edges;
-}
-
-bool is_greater(const Query& query, const PointPair& pair) {
-  for (std::size_t end = 0; end < ends; ++end) {
-    for (std::size_t axis = 0; axis < axes; ++axis) {
-      const double first = query.at(end, pair[0], axis), second = query.at(end, pair[1], axis);
-      if (first != second) return first > second;
-    }
-  }
-  return false;
-}
-
 std::uint64_t hash_of(const Query& query) {
   std::uint64_t result = 0;
   for (const double x : query.coordinates) {
@@ -84,35 +31,59 @@ std::uint64_t hash_of(const Query& query) {
   return result;
 }
 
-// ---- Simpler numbers ----------------------------------------------------------------------------
+// ---- Plainer numbers ----------------------------------------------------------------------------
 
-/// The number rounded to so many bits, towards 0 and away from it. \pre x is finite and not 0.
-std::array<double, 2> with_bits(double x, int bits) {
-  int top = 0;
-  const double scaled = std::ldexp(std::frexp(x, &top), bits);
-  const double down = std::trunc(scaled), up = down + std::copysign(1.0, x);
-  return {std::ldexp(down, top - bits), std::ldexp(up, top - bits)};
+constexpr std::uint64_t power_of_ten(int exponent) {
+  std::uint64_t power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
 }
 
-/// Numbers of bits to try, fewest first; then one fewer than there are.
-constexpr std::array bit_counts{1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 28, 32, 40, 48};
+double with_sign_of(double x, double magnitude) { return x < 0.0 ? 0.0 - magnitude : magnitude; }
 
-/// Numbers to try in the place of a positive one, the simplest first.
-std::vector<double> simpler_numbers(double magnitude) {
+/// The decimals of so many digits below and above a positive number; itself if it has no more.
+std::array<double, 2> with_digits(double x, int digits) {
+  const Decimal decimal = shortest_decimal(x);
+  const int dropped = decimal.count - digits;
+  if (dropped <= 0) return {x, x};
+  const std::uint64_t down = decimal.digits / power_of_ten(dropped);
+  return {from_decimal(down, decimal.exponent + dropped),
+          from_decimal(down + 1, decimal.exponent + dropped)};
+}
+
+/// The nearest decimal of so many digits, of any number.
+double to_digits(double x, int digits) {
+  if (x == 0.0) return 0.0;
+  const auto [down, up] = with_digits(std::abs(x), digits);
+  return with_sign_of(x, std::abs(x) - down <= up - std::abs(x) ? down : up);
+}
+
+/// Numbers of digits to try, fewest first; then one fewer than there are.
+constexpr std::array digit_counts{1, 2, 3, 4, 5, 6, 8, 10, 12, 14};
+
+/// What roundings of sums leave of a decimal, with them removed.
+constexpr int digits_of_sums = 14;
+
+/// Numbers to try in the place of a positive one, the plainest first.
+std::vector<double> plainer_numbers(double magnitude) {
   std::vector<double> result{0.0, 1.0, 2.0, 3.0, 0.5};
-  const auto [top, lowest] = places(magnitude);
-  const int bits = top - lowest;
-  result.push_back(std::ldexp(magnitude, -lowest));  // the odd integer of the same bits
-  result.push_back(std::ldexp(magnitude, 1 - top));  // between 1 and 2
+  const Decimal decimal = shortest_decimal(magnitude);
+  for (const std::uint64_t digit : {1U, 2U, 5U}) {
+    for (const int more : {0, 1}) {
+      result.push_back(from_decimal(digit, decimal.exponent + decimal.count - 1 + more));
+    }
+  }
+  result.push_back(from_decimal(decimal.digits, 0));
+  result.push_back(from_decimal(decimal.digits, 1 - decimal.count));
   result.push_back(std::trunc(magnitude));
   result.push_back(std::ceil(magnitude));
   const auto add_rounded = [&](int count) {
-    for (const double x : with_bits(magnitude, count)) result.push_back(x);
+    for (const double x : with_digits(magnitude, count)) result.push_back(x);
   };
-  for (const int count : bit_counts) {
-    if (count + 1 < bits) add_rounded(count);
+  for (const int count : digit_counts) {
+    if (count + 1 < decimal.count) add_rounded(count);
   }
-  if (bits > 1) add_rounded(bits - 1);
+  if (decimal.count > 1) add_rounded(decimal.count - 1);
   result.push_back(magnitude - 1.0);
   result.push_back(magnitude / 2.0);
   return result;
@@ -120,7 +91,7 @@ std::vector<double> simpler_numbers(double magnitude) {
 
 // ---- The search ---------------------------------------------------------------------------------
 
-/// One run: the simplest query so far, and the steps from it.
+/// One run: the plainest query so far, and the steps from it.
 class Shrinker {
  public:
   Shrinker(Kind kind, const Query& query, const std::function<bool(const Query&)>& still_fails,
@@ -128,25 +99,28 @@ class Shrinker {
       : kind_(kind),
         still_fails_(still_fails),
         options_(options),
+        original_(query),
+        of_original_(plainness(kind, query, query)),
         query_(query),
-        complexity_(complexity(kind, query)) {
+        plainness_(of_original_) {
     seen_.insert(hash_of(query));
   }
 
   Query run() {
-    Complexity before;
+    Plainness before;
     do {
-      before = complexity_;
+      before = plainness_;
       scale();
       translate();
       follow_points();
       round_all();
+      space_evenly();
       simplify_axes();
       simplify_points();
       simplify_values();
       simplify_coordinates();
       exchange_points();
-    } while (complexity_ < before && !is_over());
+    } while (plainness_ < before && !is_over());
     return query_;
   }
 
@@ -156,49 +130,49 @@ class Shrinker {
     return over_;
   }
 
-  /// Keeps the query if it is simpler and still fails.
-  bool attempt(const Query& simpler) {
-    if (over_ || !is_finite(simpler)) return false;
-    const Complexity of_simpler = complexity(kind_, simpler);
-    if (of_simpler >= complexity_ || is_over()) return false;
-    if (!seen_.insert(hash_of(simpler)).second) return false;
+  /// Keeps the query if it is plainer and still fails.
+  bool attempt(const Query& plainer) {
+    if (over_ || !is_finite(plainer)) return false;
+    const Plainness of_plainer = plainness(kind_, plainer, original_);
+    if (of_plainer >= plainness_ || of_plainer.is_worse_somewhere(of_original_) || is_over()) {
+      return false;
+    }
+    if (!seen_.insert(hash_of(plainer)).second) return false;
     ++calls_;
-    if (!still_fails_(simpler)) return false;
-    query_ = simpler;
-    complexity_ = of_simpler;
+    if (!still_fails_(plainer)) return false;
+    query_ = plainer;
+    plainness_ = of_plainer;
     return true;
   }
 
   /// Attempts the query with `change` applied to each coordinate of an axis.
   template <class Change>
   bool attempt_axis(std::size_t axis, const Change& change) {
-    Query simpler = query_;
+    Query plainer = query_;
     for (std::size_t i = axis; i < coordinate_count; i += axes) {
-      simpler.coordinates[i] = change(simpler.coordinates[i]);
+      plainer.coordinates[i] = change(plainer.coordinates[i]);
     }
-    return attempt(simpler);
+    return attempt(plainer);
   }
 
   // ---- The whole ----
 
-  /// By powers of two: so that the greatest magnitude is between 1 and 2, and so that all are
-  /// integers; in steps too, where only some of the way is possible.
+  /// By powers of two: to the original's size or one near it, if that is everyday; else to any that is,
+  /// those near 1 first, or some of the way.
   void scale() {
-    const std::vector<double> all = magnitudes(query_);
-    if (all.empty()) return;
-    int lowest = std::numeric_limits<int>::max();
-    for (const double x : all) lowest = std::min(lowest, places(x).lowest);
-    const int top = places(all.back()).top;
-    for (const int shift : {-lowest, 1 - top, (1 - top) / 2, (1 - top) / 4, top > 1 ? -1 : 1}) {
-      scale_by(shift);
+    const int size = size_exponent(query_);
+    for (const int target : {0, 1, -1, 2, -2, 3, -3, 4, -4, 6, -6, 9, -9}) scale_by(target - size);
+    for (const int part : {2, 4, 8}) {
+      while (scale_by(-size_exponent(query_) / part)) {
+      }
     }
     for (std::size_t axis = 0; axis < axes; ++axis) scale_axis(axis);
   }
 
-  void scale_by(int shift) {
-    Query simpler = query_;
-    for (double& x : simpler.coordinates) x = std::ldexp(x, shift);
-    attempt(simpler);
+  bool scale_by(int shift) {
+    Query plainer = query_;
+    for (double& x : plainer.coordinates) x = std::ldexp(x, shift);
+    return attempt(plainer);
   }
 
   void scale_axis(std::size_t axis) {
@@ -207,7 +181,7 @@ class Shrinker {
       greatest = std::max(greatest, std::abs(query_.coordinates[i]));
     }
     if (greatest == 0.0) return;
-    const int shift = 1 - places(greatest).top;
+    const int shift = size_exponent(query_) - std::ilogb(greatest);
     attempt_axis(axis, [&](double x) { return std::ldexp(x, shift); });
     attempt_axis(axis, [&](double x) { return x / greatest; });
     attempt_axis(axis, [](double x) { return x / 2.0; });
@@ -218,7 +192,9 @@ class Shrinker {
   void translate() {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
       const double origin = query_.coordinates[i];
-      if (origin != 0.0) attempt_axis(i % axes, [&](double x) { return x - origin; });
+      if (origin == 0.0) continue;
+      attempt_axis(i % axes, [&](double x) { return x - origin; });
+      attempt_axis(i % axes, [&](double x) { return to_digits(x - origin, digits_of_sums); });
     }
   }
 
@@ -227,29 +203,79 @@ class Shrinker {
     for (std::size_t point = 0; point < moving_points; ++point) {
       for (std::size_t axis = 0; axis < axes; ++axis) {
         const double motion = query_.at(1, point, axis) - query_.at(0, point, axis);
-        Query simpler = query_;
+        Query plainer = query_;
         for (std::size_t other = 0; other < moving_points; ++other) {
-          simpler.at(1, other, axis) -= motion;
+          plainer.at(1, other, axis) -= motion;
         }
-        if (motion != 0.0) attempt(simpler);
+        if (motion != 0.0) attempt(plainer);
       }
     }
   }
 
-  /// All coordinates to so many bits, and to so many binary places of the greatest one.
+  /// All coordinates, and those of each axis, to so many digits, and to so many places of the greatest
+  /// one. Equal ones stay equal, and the order too.
   void round_all() {
-    const std::vector<double> all = magnitudes(query_);
-    if (all.empty()) return;
-    const int top = places(all.back()).top;
-    for (const int bits : bit_counts) {
-      Query shorter = query_, on_grid = query_;
-      for (double& x : shorter.coordinates) {
-        if (x != 0.0) x = with_bits(x, bits + 1)[0];
+    for (std::size_t axis = 0; axis <= axes; ++axis) {
+      double greatest = 0.0;
+      for_each_of(axis, query_, [&](double& x) { greatest = std::max(greatest, std::abs(x)); });
+      if (greatest == 0.0) continue;
+      const Decimal decimal = shortest_decimal(greatest);
+      const int top = decimal.exponent + decimal.count;
+      for (const int digits : digit_counts) {
+        const double unit = from_decimal(1, top - digits);
+        Query shorter = query_, on_grid = query_;
+        for_each_of(axis, shorter, [&](double& x) { x = to_digits(x, digits); });
+        for_each_of(axis, on_grid, [&](double& x) {
+          // No −0, and no digits that the product has by rounding.
+          x = to_digits(std::nearbyint(x / unit) * unit + 0.0, digits);
+        });
+        if (attempt(on_grid) || attempt(shorter)) break;
       }
-      for (double& x : on_grid.coordinates) {
-        x = std::ldexp(std::nearbyint(std::ldexp(x, bits - top)), top - bits) + 0.0;  // no −0
+    }
+  }
+
+  /// The values of all coordinates, and of those of each axis, in their order with equal steps between:
+  /// what is decided by order and equality stays so.
+  void space_evenly() {
+    for (std::size_t axis = 0; axis <= axes; ++axis) {
+      std::vector<double> values;
+      for_each_of(axis, query_, [&](double& x) { values.push_back(x); });
+      std::ranges::sort(values);
+      values.erase(std::unique(values.begin(), values.end()), values.end());
+      const double greatest = std::max(std::abs(values.front()), std::abs(values.back()));
+      if (greatest == 0.0) continue;
+      const Decimal decimal = shortest_decimal(greatest);
+      const int top = decimal.exponent + decimal.count;
+      for (const int exponent : {top, top - 1, top - 2, top - 3}) {
+        for (const std::uint64_t step : {1U, 2U, 3U, 5U, 7U}) {
+          space_evenly(axis, values, step, exponent);
+        }
       }
-      if (attempt(on_grid) || attempt(shorter)) return;
+    }
+  }
+
+  void space_evenly(std::size_t axis, const std::vector<double>& values, std::uint64_t step,
+                    int exponent) {
+    // What is 0 or next to it stays there.
+    const auto rank_of = [&](double x) {
+      return std::ranges::lower_bound(values, x) - values.begin();
+    };
+    const std::ptrdiff_t zero = rank_of(0.0);
+    Query plainer = query_;
+    for_each_of(axis, plainer, [&](double& x) {
+      const std::ptrdiff_t rank = rank_of(x) - zero;
+      const double magnitude =
+          from_decimal(step * static_cast<std::uint64_t>(std::abs(rank)), exponent);
+      x = rank < 0 ? -magnitude : magnitude;
+    });
+    attempt(plainer);
+  }
+
+  /// Calls use(x) for the coordinates of an axis, of all axes if it is behind the last one.
+  template <class Use>
+  static void for_each_of(std::size_t axis, Query& query, const Use& use) {
+    for (std::size_t i = 0; i < coordinate_count; ++i) {
+      if (axis == axes || i % axes == axis) use(query.coordinates[i]);
     }
   }
 
@@ -276,7 +302,8 @@ class Shrinker {
     }
   }
 
-  /// Points in the place of another, at both ends or at one; at 0; at rest.
+  /// Points in the place of another, at both ends or at one; at 0; at rest on an axis, which makes
+  /// elements some that are none.
   void simplify_points() {
     for (std::size_t to = 0; to < query_points; ++to) {
       Query at_zero = query_;
@@ -286,28 +313,38 @@ class Shrinker {
         copy_point(from, to, false);
         if (from < moving_points && to < moving_points) copy_point(from, to, true);
       }
+      for (std::size_t axis = 0; axis < axes && to < moving_points; ++axis) put_on_axis(to, axis);
     }
   }
 
+  void put_on_axis(std::size_t point, std::size_t axis) {
+    Query plainer = query_;
+    for (std::size_t end = 0; end < ends; ++end) {
+      plainer.point(end, point).setZero();
+      plainer.at(end, point, axis) = 1.0;
+    }
+    attempt(plainer);
+  }
+
   void copy_point(std::size_t from, std::size_t to, bool at_both_ends) {
-    Query simpler = query_;
+    Query plainer = query_;
     for (std::size_t axis = 0; axis < axes; ++axis) {
       const std::size_t source = axes * from + axis, target = axes * to + axis;
-      simpler.coordinates[target] = query_.coordinates[source];
+      plainer.coordinates[target] = query_.coordinates[source];
       if (!at_both_ends) continue;
-      simpler.coordinates[target + to_other_end] = query_.coordinates[source + to_other_end];
+      plainer.coordinates[target + to_other_end] = query_.coordinates[source + to_other_end];
     }
-    attempt(simpler);
+    attempt(plainer);
   }
 
   void exchange_points() {
     for (const PointPair& pair : exchangeable(kind_)) {
-      Query simpler = query_;
+      Query plainer = query_;
       for (std::size_t end = 0; end < ends; ++end) {
-        simpler.point(end, pair[0]) = query_.point(end, pair[1]);
-        simpler.point(end, pair[1]) = query_.point(end, pair[0]);
+        plainer.point(end, pair[0]) = query_.point(end, pair[1]);
+        plainer.point(end, pair[1]) = query_.point(end, pair[0]);
       }
-      attempt(simpler);
+      attempt(plainer);
     }
   }
 
@@ -318,7 +355,7 @@ class Shrinker {
     std::vector<double> all = magnitudes(query_);
     std::ranges::stable_sort(all, std::ranges::greater{}, writing_length);
     for (const double magnitude : all) {
-      std::vector<double> candidates = simpler_numbers(magnitude);
+      std::vector<double> candidates = plainer_numbers(magnitude);
       const std::vector<double> others = magnitudes(query_);
       candidates.insert(candidates.begin() + 1, others.begin(), others.end());
       for (const double candidate : candidates) {
@@ -328,44 +365,49 @@ class Shrinker {
   }
 
   bool replace_magnitude(double magnitude, double replacement) {
-    Query simpler = query_;
-    for (double& x : simpler.coordinates) {
-      if (std::abs(x) == magnitude) x = x < 0.0 ? 0.0 - replacement : replacement;
+    Query plainer = query_;
+    for (double& x : plainer.coordinates) {
+      if (std::abs(x) == magnitude) x = with_sign_of(x, replacement);
     }
-    return attempt(simpler);
+    return attempt(plainer);
   }
 
+  /// Each coordinate alone, and where it is at rest at both ends.
   void simplify_coordinates() {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
       for (const double candidate : candidates_for(i)) {
-        Query simpler = query_;
-        simpler.coordinates[i] = candidate;
-        if (attempt(simpler)) break;
+        Query plainer = query_;
+        plainer.coordinates[i] = candidate;
+        if (attempt(plainer)) break;
+        if (i >= to_other_end) continue;
+        plainer.coordinates[i + to_other_end] = candidate;
+        if (attempt(plainer)) break;
       }
     }
   }
 
-  /// Numbers to try for a coordinate, the simplest first.
+  /// Numbers to try for a coordinate, the plainest first.
   [[nodiscard]] std::vector<double> candidates_for(std::size_t i) const {
     const double x = query_.coordinates[i];
     const std::size_t other_end = i < to_other_end ? i + to_other_end : i - to_other_end;
-    std::vector<double> result{0.0, query_.coordinates[other_end], std::abs(x)};
+    std::vector<double> result{0.0, query_.coordinates[other_end], std::abs(x), 1.0, -1.0};
     for (const double magnitude : magnitudes(query_)) {
       result.push_back(magnitude);
       result.push_back(-magnitude);
     }
     if (x == 0.0) return result;
-    for (const double simpler : simpler_numbers(std::abs(x))) {
-      result.push_back(x < 0.0 ? 0.0 - simpler : simpler);
-    }
+    for (const double plainer : plainer_numbers(std::abs(x)))
+      result.push_back(with_sign_of(x, plainer));
     return result;
   }
 
   Kind kind_;
   const std::function<bool(const Query&)>& still_fails_;
   const ShrinkOptions& options_;
+  const Query& original_;
+  Plainness of_original_;
   Query query_;
-  Complexity complexity_;
+  Plainness plainness_;
   /// Hashes of what has been asked. Where two are the same, a query is left out.
   std::unordered_set<std::uint64_t> seen_;
   std::uint64_t calls_ = 0;
@@ -373,26 +415,6 @@ class Shrinker {
 };
 
 }  // namespace
-
-Complexity complexity(Kind kind, const Query& query) {
-  constexpr std::uint64_t of_magnitude = 8, of_coordinate = 2;
-  constexpr unsigned room_for_sum = 8;
-  Complexity result;
-  for (const double x : magnitudes(query)) {
-    result.length += of_magnitude + writing_length(x);
-    result.size += std::bit_cast<std::uint64_t>(x) >> room_for_sum;
-  }
-  for (std::size_t i = 0; i < coordinate_count; ++i) {
-    const double x = query.coordinates[i];
-    if (x != 0.0) result.length += of_coordinate;
-    if (std::signbit(x)) ++result.length;
-    if (i < to_other_end && x != query.coordinates[i + to_other_end]) ++result.length;
-  }
-  for (const PointPair& pair : exchangeable(kind)) {
-    if (is_greater(query, pair)) ++result.disorder;
-  }
-  return result;
-}
 
 Query shrink(Kind kind, const Query& query, const std::function<bool(const Query&)>& still_fails,
              const ShrinkOptions& options) {

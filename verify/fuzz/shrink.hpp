@@ -1,51 +1,34 @@
 #pragma once
 
 /// \file
-/// The simplest query that still fails, found from one that does.
+/// The plainest query that still fails, found from one that does.
 ///
 /// A finding of a search has 24 long numbers, and most of them have nothing to do with the fault.
-/// Shrinking tries simpler queries, keeps each that still fails, and ends where no step leads to a
-/// simpler one that does. Steps, from those that change much to those that change little:
+/// Shrinking tries plainer queries (plainness.hpp), keeps each that still fails, and ends where no step
+/// leads to a plainer one that does. Steps, from those that change much to those that change little:
 ///
-/// - the whole: scaled by powers of two (all axes, or one), translated so that a point's coordinate
-///   becomes 0, seen from a point that moves, all coordinates rounded to fewer bits;
+/// - the whole: scaled by powers of two (all axes, or one) to everyday size, translated so that a point's
+///   coordinate becomes 0, seen from a point that moves, all coordinates or those of an axis rounded to
+///   fewer decimal digits, or evenly spaced in their order;
 /// - axes: 0, at rest, like another axis; points: in the same place as another, at rest, exchanged
 ///   where the kind does not care for their order;
 /// - values: all coordinates of one magnitude together become 0, another magnitude that occurs, or a
-///   number of fewer bits; then each coordinate alone, which may also take the other end's value or
-///   lose its sign.
+///   decimal of fewer digits; then each coordinate alone, at one end or at both, which may also take
+///   the other end's value or lose its sign.
 ///
 /// Nothing is assumed of the fault: a step may round, and need not keep what is true of the query.
 /// Whether the result still fails is asked each time.
 ///
-/// **Why it ends.** Each step that is kept lowers the complexity, which is a tuple of natural numbers
-/// in lexicographic order.
+/// **Why it ends.** Each step that is kept lowers the plainness, which is a tuple of natural numbers in
+/// lexicographic order. **Never worse than the original**: no step is kept that is worse than the
+/// original by one of the first four of these numbers, whatever the others are.
 
-#include <compare>
 #include <cstdint>
 #include <functional>
 
 #include "exact/query.hpp"
 
 namespace touchstone::verify::fuzz {
-
-/// The complexity of a query: less is simpler. Two queries may be equally simple.
-struct Complexity {
-  /// The length of its description. For each magnitude that occurs (0 apart): 8, its significant
-  /// bits, the empty binary places between these and the point, and 2 if it is no integer. For each
-  /// coordinate: 2 unless it is 0, 1 for a sign, 1 if it moves.
-  std::uint64_t length = 0;
-  /// Sum over the magnitudes, each as a number that orders doubles.
-  std::uint64_t size = 0;
-  /// Pairs of points whose order the kind does not care for (the triangle's, an edge's), the greater
-  /// one first.
-  std::uint64_t disorder = 0;
-
-  friend auto operator<=>(const Complexity&, const Complexity&) = default;
-};
-
-/// \pre all coordinates are finite.
-[[nodiscard]] Complexity complexity(Kind kind, const Query& query);
 
 struct ShrinkOptions {
   /// So often still_fails is called at most; 0: never.
@@ -54,7 +37,7 @@ struct ShrinkOptions {
   std::function<bool()> must_end = nullptr;
 };
 
-/// The last of a chain of ever simpler queries for which `still_fails` holds; `query` itself if none
+/// The last of a chain of ever plainer queries for which `still_fails` holds; `query` itself if none
 /// is found. A function of the arguments alone, as long as still_fails is one and must_end does not end it.
 /// Never asks about `query`, nor twice about another one. \pre all coordinates are finite.
 /// \throws what still_fails throws.

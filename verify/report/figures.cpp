@@ -451,7 +451,13 @@ class Builder {
   }
 
   /// The text in a cell: nothing where nothing is wrong, else a letter for the worst fault.
+  /// The worst kind, and "!" where there are errors or hangs besides.
   static std::string mark_text(const StabilityMark& mark) {
+    const bool fails = mark.hangs != 0 || (mark.errors != 0 && mark.worst != "error");
+    return worst_text(mark) + (fails ? "!" : "");
+  }
+
+  static std::string worst_text(const StabilityMark& mark) {
     if (mark.worst.empty()) return {};
     if (mark.worst == "false negative") return "N";
     if (mark.worst == "false positive") return "P";
@@ -478,6 +484,7 @@ class Builder {
     append_count(text, mark.beyond_tolerance, "beyond the tolerance");
     append_count(text, mark.errors, "errors");
     append_count(text, mark.undecided, "undecided");
+    append_count(text, mark.hangs, "of them hangs");
     if (mark.toi_error) {
       text += fmt::format("\nerror of the time of impact: median {}, greatest {}",
                           short_number(mark.toi_error->median), short_number(mark.toi_error->max));
@@ -491,8 +498,11 @@ class Builder {
   static FigurePanel& panel_of(Figure& figure, const StabilityMark& mark) {
     const auto found = std::ranges::find(figure.panels, mark.hardness, &FigurePanel::title);
     if (found != figure.panels.end()) return *found;
-    return figure.panels.emplace_back(
-        FigurePanel{.title = mark.hardness, .caption = mark.measure, .series = {}, .front = {}});
+    return figure.panels.emplace_back(FigurePanel{.title = mark.hardness,
+                                                  .caption = mark.measure,
+                                                  .powers = mark.is_power,
+                                                  .series = {},
+                                                  .front = {}});
   }
 
   /// With the rows of a method side by side.
@@ -512,18 +522,20 @@ class Builder {
             "N: "
             "false negatives, of the collisions. T: the time of impact excludes the true "
             "one, of the collisions. E: errors. B: a yes beyond its tolerance, of the misses. "
-            "Shades: false positives, of the misses, the deeper the more. vf: vertex-face. ee: "
-            "edge-edge.",
+            "Shades: false positives, of the misses, the deeper the more. Pale and empty: every "
+            "answer "
+            "is right. !: errors or hangs besides. vf: vertex-face. ee: edge-edge.",
         .form = FigureForm::marks,
-        .x_label = "level, a power of two",
+        .x_label = "level",
         .y_label = {},
         .x_log = false,
         .y_log = false,
         .panels = {},
         .data = {{},
-                 {"hardness", "measure", "exponent", "kind", "method", "queries", "collisions",
+                 {"hardness", "measure", "level", "kind", "method", "queries", "collisions",
                   "false_positives", "false_negatives", "late_tois", "early_upper_tois",
-                  "beyond_tolerance", "errors", "undecided", "worst", "worst_rate", "ns_per_query"},
+                  "beyond_tolerance", "errors", "hangs", "undecided", "worst", "worst_rate",
+                  "ns_per_query"},
                  {}}};
     for (const StabilityMark& mark : measurements_.stability) {
       series_of(panel_of(figure, mark), mark.method, row_of(mark))
@@ -535,8 +547,9 @@ class Builder {
            fmt::format("{}", mark.collisions), fmt::format("{}", mark.false_positives),
            fmt::format("{}", mark.false_negatives), fmt::format("{}", mark.late_tois),
            fmt::format("{}", mark.early_upper_tois), fmt::format("{}", mark.beyond_tolerance),
-           fmt::format("{}", mark.errors), fmt::format("{}", mark.undecided), mark.worst,
-           fmt::format("{}", mark.worst_rate), io::csv_number(mark.nanoseconds)});
+           fmt::format("{}", mark.errors), fmt::format("{}", mark.hangs),
+           fmt::format("{}", mark.undecided), mark.worst, fmt::format("{}", mark.worst_rate),
+           io::csv_number(mark.nanoseconds)});
     }
     add_grid(std::move(figure));
     add_stability_of("stability_toi_median", "Stability: the median error of the time of impact",
@@ -562,11 +575,11 @@ class Builder {
                       "A cell a level of hardness, the deeper the greater the number. "
                       "Framed: not known. vf: vertex-face. ee: edge-edge.",
                   .form = FigureForm::shades,
-                  .x_label = "level, a power of two",
+                  .x_label = "level",
                   .y_label = y_label,
                   .x_log = false,
                   .panels = {},
-                  .data = {{}, {"hardness", "measure", "exponent", "kind", "method", id}, {}}};
+                  .data = {{}, {"hardness", "measure", "level", "kind", "method", id}, {}}};
     std::set<std::string> giving;
     for (const StabilityMark& mark : measurements_.stability) {
       if (!std::isnan(value(mark))) giving.insert(mark.method);
@@ -610,6 +623,7 @@ nlohmann::json json_of(const FigurePanel& panel) {
   }
   return {{"title", panel.title},
           {"caption", panel.caption},
+          {"powers", panel.powers},
           {"series", std::move(all)},
           {"front", json_of(panel.front)}};
 }

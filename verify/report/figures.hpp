@@ -50,6 +50,7 @@ struct FigureSeries {
 struct FigurePanel {
   std::string title;
   std::string caption;  ///< what the data say, in a sentence
+  bool powers = true;   ///< of a grid: Are the values of x binary exponents, or what they are?
   std::vector<FigureSeries> series;
   std::vector<FigurePoint> front;  ///< the Pareto front, by ascending x
 };

@@ -119,7 +119,8 @@ struct StabilityMark {
   std::string method;
   std::string hardness;
   std::string measure;  ///< what its levels are
-  int exponent = 0;     ///< the level is 2 to this power
+  int exponent = 0;     ///< the level is 2 to this power, or this itself
+  bool is_power = true;
   Kind kind = Kind::vertex_face;
   std::uint64_t queries = 0;
   std::uint64_t collisions = 0;
@@ -129,6 +130,7 @@ struct StabilityMark {
   std::uint64_t early_upper_tois = 0;
   std::uint64_t beyond_tolerance = 0;
   std::uint64_t errors = 0;
+  std::uint64_t hangs = 0;  ///< of those undecided
   std::uint64_t undecided = 0;
   std::string worst = {};                     ///< name of the worst fault; empty if there is none
   double worst_rate = 0.0;                    ///< how often, of those that it can happen to

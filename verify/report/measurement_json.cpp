@@ -146,6 +146,7 @@ Json json_of(const StabilityMark& mark) {
           {"hardness", mark.hardness},
           {"measure", mark.measure},
           {"exponent", mark.exponent},
+          {"is_power", mark.is_power},
           {"kind", to_string(mark.kind)},
           {"queries", mark.queries},
           {"collisions", mark.collisions},
@@ -155,6 +156,7 @@ Json json_of(const StabilityMark& mark) {
           {"early_upper_tois", mark.early_upper_tois},
           {"beyond_tolerance", mark.beyond_tolerance},
           {"errors", mark.errors},
+          {"hangs", mark.hangs},
           {"undecided", mark.undecided},
           {"worst", mark.worst},
           {"worst_rate", mark.worst_rate},
@@ -183,6 +185,8 @@ StabilityMark mark_from(const Json& json) {
   mark.beyond_tolerance = json.value("beyond_tolerance", mark.beyond_tolerance);
   mark.errors = json.value("errors", mark.errors);
   mark.undecided = json.value("undecided", mark.undecided);
+  mark.is_power = json.value("is_power", mark.is_power);
+  mark.hangs = json.value("hangs", mark.hangs);
   mark.toi_error = spread_from(json.value("toi_error", Json()));
   mark.checks = io::number_from_json(json.value("checks_per_query", Json()));
   return mark;

@@ -21,10 +21,13 @@ namespace touchstone::verify::report {
 namespace {
 
 constexpr std::string_view legend =
-    "levels, a character each: . no wrong answer; 0 to 9 false positives, up to so many tenths of "
+    "worst by level, a character each: . every answer is right; 0 to 9 false positives, up to so "
+    "many tenths of "
     "the misses\nand more (9 with all); N false negatives, T a time of impact excludes the true "
     "one, "
-    "E errors, B a yes beyond its tolerance\n";
+    "E errors, B a yes beyond its tolerance\nfailures by level, whatever is worse: E errors, H "
+    "hangs, "
+    "# both, . none\n";
 
 std::string_view name_of(const stability::Outcome& outcome) {
   return outcome.worst ? judge::to_string(*outcome.worst) : std::string_view();
@@ -48,6 +51,15 @@ char character_of(const stability::Outcome& outcome) {
   }
 }
 
+/// Errors and hangs of a level in one character.
+char failures_of(const jobs::CertifyResult& judged, std::size_t method) {
+  const judge::Judgement& judgement = judged.methods.at(method).judgement;
+  const bool has_errors = judgement.count(judge::Fault::error) != 0;
+  const bool has_hangs = judgement.count(solvers::FailureKind::hang) != 0;
+  if (has_errors) return has_hangs ? '#' : 'E';
+  return has_hangs ? 'H' : '.';
+}
+
 /// The cells of one hardness and kind.
 using Row = std::vector<const stability::StabilityCell*>;
 
@@ -67,7 +79,8 @@ std::vector<io::TextColumn> columns() {
       {{io::word_column("hardness", 8),
         io::word_column("levels", 16),
         io::word_column("kind", 11),
-        io::word_column("level by", 11),
+        io::word_column("worst by level", 11),
+        io::word_column("failures", 11),
         {"queries", 7}},
        fault_columns(),
        {{"ns/query", 10}, {"checks", 9}, {"error p50", 9}, {"error max", 9}}});
@@ -75,18 +88,20 @@ std::vector<io::TextColumn> columns() {
 
 io::TextRow text_row(const Row& row, std::size_t method) {
   jobs::CertifyResult sum;
-  std::string marks;
+  std::string marks, failures;
   for (const stability::StabilityCell* cell : row) {
     sum += cell->judged;
     marks += character_of(stability::outcome_of(cell->judged, method));
+    failures += failures_of(cell->judged, method);
   }
   const jobs::MethodResult& all = sum.methods.at(method);
   const judge::Judgement& judged = all.judgement;
   const stability::Hardness& hardness = *row.front()->hardness;
   return io::joined<std::string>(
       {{std::string(hardness.name),
-        fmt::format("2^{} … 2^{}", hardness.exponents.front(), hardness.exponents.back()),
-        std::string(to_string(row.front()->kind)), marks, std::to_string(judged.queries)},
+        fmt::format("{} … {}", stability::level_text(hardness, hardness.levels.front()),
+                    stability::level_text(hardness, hardness.levels.back())),
+        std::string(to_string(row.front()->kind)), marks, failures, std::to_string(judged.queries)},
        fault_cells(judged),
        {io::number_text(stability::nanoseconds_per_query(all), "{:.1f}"),
         io::number_text(stability::checks_per_query(all), "{:.1f}"),
@@ -105,8 +120,7 @@ nlohmann::json json_of(const stability::StabilityCell& cell, std::size_t method)
   const stability::Outcome outcome = stability::outcome_of(cell.judged, method);
   nlohmann::json json = to_json(judged);
   json.update({{"hardness", cell.hardness->name},
-               {"exponent", cell.exponent},
-               {"level", std::ldexp(1.0, cell.exponent)},
+               {"level", stability::level_value(*cell.hardness, cell.level)},
                {"kind", to_string(cell.kind)},
                {"queries", judged.queries},
                {"collisions", cell.judged.collisions},
@@ -129,7 +143,8 @@ StabilityMark mark_of(const stability::StabilityCell& cell, std::size_t method) 
   return {.method = result.name,
           .hardness = std::string(cell.hardness->name),
           .measure = std::string(cell.hardness->measure),
-          .exponent = cell.exponent,
+          .exponent = cell.level,
+          .is_power = cell.hardness->unit == stability::LevelUnit::power_of_two,
           .kind = cell.kind,
           .queries = cell.judged.queries,
           .collisions = cell.judged.collisions,
@@ -139,6 +154,7 @@ StabilityMark mark_of(const stability::StabilityCell& cell, std::size_t method) 
           .early_upper_tois = judged.count(judge::Fault::early_toi_upper),
           .beyond_tolerance = judged.count(judge::Fault::beyond_tolerance),
           .errors = judged.count(judge::Fault::error),
+          .hangs = judged.count(solvers::FailureKind::hang),
           .undecided = judged.undecided,
           .worst = std::string(name_of(outcome)),
           .worst_rate = outcome.rate,
@@ -185,10 +201,12 @@ nlohmann::json to_json(const stability::StabilityResult& result) {
   for (const stability::StabilityCell& cell : result.cells) {
     if (cell.hardness == latest) continue;
     latest = cell.hardness;
+    nlohmann::json levels = nlohmann::json::array();
+    for (const int level : latest->levels) levels.push_back(stability::level_value(*latest, level));
     json["hardnesses"].push_back({{"name", latest->name},
                                   {"measure", latest->measure},
                                   {"reason", latest->reason},
-                                  {"exponents", latest->exponents}});
+                                  {"levels", std::move(levels)}});
   }
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) {
     const jobs::MethodResult& total = result.total.methods[i];

@@ -13,8 +13,8 @@
 
 namespace touchstone::verify::report {
 
-/// A table for each method: a line for each hardness and kind, with a character for each level (what
-/// they mean stands below the last table), the sums of all levels, the mean time, the mean number of
+/// A table for each method: a line for each hardness and kind, with a character for each level, and
+/// one for errors and hangs, which may stand behind something worse (what they mean is said below the last table), the sums of all levels, the mean time, the mean number of
 /// checks where the method counts them, and the error of the time of impact: how far toi_lower is from
 /// the exact one, in units of the motion's duration. Above it whether the method keeps its promise.
 /// Queries on which certified solver and oracle differ are named at the end.
@@ -22,10 +22,10 @@ namespace touchstone::verify::report {
 
 /// `seed`, `count` (queries a cell), `separation` (null, or `min_separation` and `norm`),
 /// `interrupted`, `disagreements` (queries on which certified solver and oracle differ); `hardnesses`,
-/// a list of `name`, `measure`, `reason` and `exponents`; `methods`, a list of `name`, `promise`,
+/// a list of `name`, `measure`, `reason` and `levels` (as in cells); `methods`, a list of `name`, `promise`,
 /// `keeps_promise` and `cells`.
 ///
-/// A cell has `hardness`, `exponent`, `level` (the power of two), `kind`, `queries`, `collisions`, the
+/// A cell has `hardness`, `level` (the power of two, number of digits or percentage), `kind`, `queries`, `collisions`, the
 /// fields of a judgement (judgement_report.hpp), `beyond_tolerance`, the rates `false_negative_rate` (of
 /// the collisions) and `false_positive_rate` (of the others), `worst` (null, or the name of the worst
 /// fault) with its `worst_rate`, `ns_per_query` and `checks_per_query` (null where unknown).

@@ -10,6 +10,8 @@
 #include <string>
 
 #include "fast/certified.hpp"
+#include "verify/fuzz/everyday.hpp"
+#include "verify/fuzz/plainness.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
 #include "verify/generate/random.hpp"
@@ -26,9 +28,20 @@ constexpr int log_frame = 50;
 constexpr double greatest_distance = 0x1p14;
 constexpr int most_attempts = 16;
 
-enum Index : std::size_t { distance, aspect, angle, speed, offset, scale };
+enum Index : std::size_t {
+  distance,
+  aspect,
+  angle,
+  speed,
+  offset,
+  scale,
+  everyday_scale,
+  digits,
+  ends,
+  frame
+};
 
-constexpr std::array<Hardness, 6> all{{
+constexpr std::array<Hardness, 10> all{{
     {"distance",
      "distance to contact, in sizes",
      "At the nearest they are so far apart, or overlap by so little: the motion ends there, or one "
@@ -54,7 +67,30 @@ constexpr std::array<Hardness, 6> all{{
      "factor of all coordinates, and of the separation",
      "From near the smallest doubles to near the greatest.",
      {-1000, -800, -600, -400, -200, 0, 200, 400, 600, 800, 1000}},
+    {"everyday-scale",
+     "factor of all coordinates, and of the separation",
+     "Contacts at the ends of the step, in decimals times a power of two.",
+     {-20, -16, -12, -8, -4, 0, 4, 8, 12, 16, 20}},
+    {"digits",
+     "significant digits of coordinates",
+     "Contacts at the ends of the step, in decimals of so many digits.",
+     {1, 2, 3, 4, 5, 6, 7, 9, 11, 13, 15},
+     LevelUnit::digits},
+    {"ends",
+     "share of contacts at t=0 and t=1, of the collisions",
+     "Other collisions cross in the middle of the step.",
+     {0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100},
+     LevelUnit::percent},
+    {"frame",
+     "offset of the local frame, in sizes",
+     "Contacts at the ends of the step, in decimals to which an offset is added and rounded.",
+     {0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40}},
 }};
+
+std::size_t index_of(const Hardness& hardness) {
+  return static_cast<std::size_t>(std::ranges::find(all, hardness.name, &Hardness::name) -
+                                  all.begin());
+}
 
 /// The properties of a sort of queries, in the units of the frame.
 struct Setup {
@@ -81,9 +117,8 @@ int enlargement(double distance) {
 }
 
 Setup::Setup(const HardSort& sort) {
-  const auto same = [&](const Hardness& other) { return other.name == sort.hardness->name; };
-  const auto index = static_cast<std::size_t>(std::ranges::find_if(all, same) - all.begin());
-  const int level = sort.exponent;
+  const std::size_t index = index_of(*sort.hardness);
+  const int level = sort.level;
   // The frame has room for what is longer than the size.
   const int log_size = index == Index::speed    ? log_frame - std::max(level, 0)
                        : index == Index::offset ? log_frame - level - 1
@@ -243,11 +278,68 @@ class Scene {
   std::array<std::array<Vector, moving_points>, 2> points_{};
 };
 
+// ---- Scenes of decimals -------------------------------------------------------------------------
+
+/// The greatest coordinates are below 10 to this power, before a factor.
+constexpr int decimal_exponent = -1;
+constexpr int usual_digits = 3;
+
+fuzz::TouchTime draw_time(std::size_t index, int level, Random& random) {
+  const bool is_at_an_end =
+      index != Index::ends || random.between(1, 100) <= static_cast<std::int64_t>(level);
+  if (!is_at_an_end) return fuzz::TouchTime::between;
+  return random.coin() ? fuzz::TouchTime::at_start : fuzz::TouchTime::at_end;
+}
+
+/// Misses are by one unit, and by more from attempt to attempt until nothing can touch.
+std::int64_t clearance_of(const fuzz::EverydayScene& scene, double separation_in_units,
+                          int attempt) {
+  const std::int64_t growing = fuzz::power_of_ten(scene.digits * attempt / (most_attempts - 2));
+  return (attempt == 0 ? 1 : 4 * growing) +
+         static_cast<std::int64_t>(std::ceil(separation_in_units));
+}
+
+/// \param separation at the level
+Query decimal_query(const HardSort& sort, bool collides, const Separation& separation, int attempt,
+                    Random& random) {
+  const std::size_t index = index_of(*sort.hardness);
+  fuzz::EverydayScene scene{.digits = index == Index::digits ? sort.level : usual_digits,
+                            .exponent = decimal_exponent,
+                            .time = draw_time(index, sort.level, random)};
+  // A power of two leaves contact what it is. The scene is enlarged as others are.
+  const int larger = enlargement(sort.separation.distance) == 0
+                         ? 0
+                         : enlargement(sort.separation.distance) - 3 * decimal_exponent;
+  const int factor = larger + (index == Index::everyday_scale ? sort.level : 0);
+  if (!collides) {
+    const double unit = std::ldexp(fuzz::from_decimal(1, scene.exponent - scene.digits), factor);
+    scene.clearance = clearance_of(scene, separation.distance / unit, attempt);
+  }
+  Query query = fuzz::everyday_query(sort.kind, scene, random);
+  const double away =
+      index == Index::frame ? std::ldexp(fuzz::from_decimal(1, decimal_exponent), sort.level) : 0.0;
+  for (double& x : query.coordinates) x = std::ldexp(x + away, factor);
+  return query;
+}
+
+/// Queries of integers in a frame of its own, or of decimals.
+Query draw_query(const HardSort& sort, bool collides, const Separation& separation, int attempt,
+                 Random& random) {
+  if (index_of(*sort.hardness) >= Index::everyday_scale) {
+    return decimal_query(sort, collides, separation, attempt, random);
+  }
+  const Setup setup(sort);
+  generate::KnownQuery known;
+  known.query = Scene(setup, sort.kind, collides, random).query();
+  generate::apply_random_symmetry(sort.kind, random, known);
+  return known.query;
+}
+
 void check(const HardSort& sort) {
-  const auto& exponents = sort.hardness->exponents;
-  if (std::ranges::find(exponents, sort.exponent) == exponents.end()) {
-    throw std::invalid_argument(
-        fmt::format("{} has no level 2^{}", sort.hardness->name, sort.exponent));
+  const auto& levels = sort.hardness->levels;
+  if (std::ranges::find(levels, sort.level) == levels.end()) {
+    throw std::invalid_argument(fmt::format("{} has no level {}", sort.hardness->name,
+                                            level_text(*sort.hardness, sort.level)));
   }
   if (!has_hard_queries(sort.separation)) {
     throw std::invalid_argument("hard queries are about separations up to 16384");
@@ -257,7 +349,7 @@ void check(const HardSort& sort) {
 /// One number for all that tells the sorts apart.
 std::uint64_t key_of(const HardSort& sort, std::uint64_t seed, std::uint64_t index) {
   std::uint64_t key = generate::mix(seed ^ generate::hash(sort.hardness->name));
-  key = generate::mix(key + static_cast<std::uint64_t>(sort.exponent));
+  key = generate::mix(key + static_cast<std::uint64_t>(sort.level));
   key = generate::mix(key + static_cast<std::uint64_t>(sort.kind));
   return generate::mix(key + index);
 }
@@ -268,12 +360,12 @@ class HardSource final : public data::QuerySource {
       : sort_(sort),
         seed_(seed),
         count_(count),
-        name_(fmt::format("{} 2^{}", sort.hardness->name, sort.exponent)) {}
+        name_(fmt::format("{} {}", sort.hardness->name, level_text(*sort.hardness, sort.level))) {}
 
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] Kind kind() const override { return sort_.kind; }
   [[nodiscard]] Separation recorded_separation() const override {
-    return separation_at(*sort_.hardness, sort_.exponent, sort_.separation);
+    return separation_at(*sort_.hardness, sort_.level, sort_.separation);
   }
   [[nodiscard]] std::optional<data::RecordedQuery> next() override {
     if (done_ == count_) return std::nullopt;
@@ -310,25 +402,37 @@ bool has_hard_queries(const Separation& separation) {
   return is_valid(separation) && separation.distance <= greatest_distance;
 }
 
-Separation separation_at(const Hardness& hardness, int exponent, const Separation& separation) {
-  if (hardness.name != all[Index::scale].name) return separation;
-  return {.distance = std::ldexp(separation.distance, exponent), .norm = separation.norm};
+std::string level_text(const Hardness& hardness, int level) {
+  switch (hardness.unit) {
+    case LevelUnit::digits:
+      return fmt::format("{} digits", level);
+    case LevelUnit::percent:
+      return fmt::format("{} %", level);
+    default:
+      return fmt::format("2^{}", level);
+  }
+}
+
+double level_value(const Hardness& hardness, int level) {
+  return hardness.unit == LevelUnit::power_of_two ? std::ldexp(1.0, level) : level;
+}
+
+Separation separation_at(const Hardness& hardness, int level, const Separation& separation) {
+  const std::size_t index = index_of(hardness);
+  if (index != Index::scale && index != Index::everyday_scale) return separation;
+  return {.distance = std::ldexp(separation.distance, level), .norm = separation.norm};
 }
 
 HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed, std::uint64_t index) {
   check(sort);
-  const Setup setup(sort);
-  const Separation separation = separation_at(*sort.hardness, sort.exponent, sort.separation);
+  const Separation separation = separation_at(*sort.hardness, sort.level, sort.separation);
   const bool wanted = index % 2 == 0;
   Random random(key_of(sort, seed, index));
   HardQuery made;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    generate::KnownQuery known;
-    known.query = Scene(setup, sort.kind, wanted, random).query();
-    generate::apply_random_symmetry(sort.kind, random, known);
-    const fast::CertifiedResult truth =
-        fast::certified(sort.kind, known.query, {.separation = separation});
-    made = {.query = known.query, .collides = truth.verdict == fast::Verdict::yes};
+    made.query = draw_query(sort, wanted, separation, attempt, random);
+    made.collides = fast::certified(sort.kind, made.query, {.separation = separation}).verdict ==
+                    fast::Verdict::yes;
     if (made.collides == wanted) break;
   }
   return made;

@@ -20,7 +20,11 @@
 /// So all distances are exactly three times those of the frame. A power of two and an exact symmetry
 /// end the making.
 ///
-/// With a separation, contact is to be at that distance; the size is at least 16 times as much. What
+/// Four kinds of hardness are about what people type and exporters print instead: scenes of short decimals
+/// (verify/fuzz/everyday.hpp), whose collisions are contacts exactly at t=0 or t=1, and whose misses are
+/// as near as they come. They are of size 1/10, or of that times the level's factor.
+///
+/// With a separation, contact is to be at that distance, but for scenes of decimals; the size is at least 16 times as much. What
 /// is irrational is then rounded to the grid of the frame, so each query is judged as it is made, and
 /// made anew, sixteen times at most, until it has the verdict that it should have.
 
@@ -28,12 +32,20 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "exact/query.hpp"
 #include "verify/data/query_source.hpp"
 
 namespace touchstone::verify::stability {
+
+/// What the number of a level is.
+enum class LevelUnit : std::uint8_t {
+  power_of_two,  ///< the exponent
+  digits,        ///< decimal digits
+  percent
+};
 
 /// A way to be hard.
 struct Hardness {
@@ -43,8 +55,9 @@ struct Hardness {
   std::string_view measure;
   /// A description of its queries.
   std::string_view reason;
-  /// The levels are the powers of two with these exponents, in order.
-  std::array<int, 11> exponents;
+  /// In order.
+  std::array<int, 11> levels;
+  LevelUnit unit = LevelUnit::power_of_two;
 };
 
 /// All of them, always in the same order.
@@ -54,18 +67,24 @@ struct Hardness {
 /// \throws std::invalid_argument, with the names there are, if there is none.
 [[nodiscard]] const Hardness& hardness_from_name(std::string_view name);
 
+/// "2^-20", "6 digits" or "30 %".
+[[nodiscard]] std::string level_text(const Hardness& hardness, int level);
+
+/// The power of two, the number of digits, or the percentage.
+[[nodiscard]] double level_value(const Hardness& hardness, int level);
+
 /// Are there hard queries about this separation? About contact, and distances up to 2^14.
 [[nodiscard]] bool has_hard_queries(const Separation& separation);
 
 /// Minimum separation in the queries of a level where `separation` was asked for: that, times the
 /// level's factor where the level scales the coordinates.
-[[nodiscard]] Separation separation_at(const Hardness& hardness, int exponent,
+[[nodiscard]] Separation separation_at(const Hardness& hardness, int level,
                                        const Separation& separation);
 
 /// Which queries to make.
 struct HardSort {
   const Hardness* hardness = nullptr;  ///< not null
-  int exponent = 0;                    ///< one of the hardness's
+  int level = 0;                       ///< one of the hardness's
   Kind kind = Kind::vertex_face;
   Separation separation = {};  ///< as asked for, before separation_at()
 };
@@ -78,7 +97,7 @@ struct HardQuery {
 
 /// Query number `index`: a function of the arguments and nothing else, the same on every machine.
 /// Even numbers collide and odd ones do not, but for the last bits of what is about a separation.
-/// \throws std::invalid_argument if the exponent is none of the hardness's, or there are no hard
+/// \throws std::invalid_argument if the level is none of the hardness's, or there are no hard
 /// queries about the separation.
 [[nodiscard]] HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed,
                                         std::uint64_t index);

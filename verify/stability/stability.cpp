@@ -21,8 +21,8 @@ std::vector<StabilityCell> cells_of(const std::vector<const Hardness*>& sorts) {
   std::vector<StabilityCell> cells;
   for (const Hardness* hardness : sorts) {
     for (const Kind kind : kinds) {
-      for (const int exponent : hardness->exponents) {
-        cells.push_back({.hardness = hardness, .exponent = exponent, .kind = kind, .judged = {}});
+      for (const int level : hardness->levels) {
+        cells.push_back({.hardness = hardness, .level = level, .kind = kind, .judged = {}});
       }
     }
   }
@@ -33,7 +33,7 @@ jobs::CertifyResult judge(const StabilityCell& cell, const StabilityOptions& opt
                           const std::function<void(double)>& on_progress) {
   const std::unique_ptr<data::QuerySource> source =
       open_hard_queries({.hardness = cell.hardness,
-                         .exponent = cell.exponent,
+                         .level = cell.level,
                          .kind = cell.kind,
                          .separation = options.separation},
                         options.seed, options.count);

@@ -42,7 +42,7 @@ struct StabilityOptions {
 /// The judgement on the queries of one sort.
 struct StabilityCell {
   const Hardness* hardness = nullptr;
-  int exponent = 0;
+  int level = 0;
   Kind kind = Kind::vertex_face;
   jobs::CertifyResult judged;
 };

@@ -23,6 +23,7 @@
 #include "tests/support/queries.hpp"
 #include "tests/support/shared_counter.hpp"
 #include "tests/support/trials.hpp"
+#include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -44,7 +45,7 @@ FuzzResult search(const FunctionMethod::Function& function, const fast::MethodIn
                   FuzzOptions options = {}) {
   const FunctionMethod method(function, info);
   if (options.most_queries == 0) options.most_queries = enough;
-  if (options.most_findings == 0) options.most_findings = 1;
+  if (options.most_groups == 0) options.most_groups = 1;
   return fuzz(method, options);
 }
 
@@ -134,7 +135,7 @@ TEST(Fuzz, FindsWhatIsWrongInAMirror) {
     if (query.at(0, 0, 0) < 0.0 && query.at(0, 1, 0) >= 0.0) answer.verdict = Verdict::no;
     return answer;
   };
-  const FuzzOptions options{.most_queries = 2000, .most_findings = 1000};
+  const FuzzOptions options{.most_queries = 2000, .most_groups = 1000};
   const FuzzResult result = search(one_sided, Promise::exact, options);
   EXPECT_GT(result.images, result.queries / 20);
   const auto is_asymmetry = [](const Finding& finding) {
@@ -215,7 +216,7 @@ TEST(Fuzz, SeeksOnlyTheKindsOfFindingsOfItsOptions) {
     if (query.at(0, 1, 1) == query.at(1, 1, 1)) answer.verdict = Verdict::no;
     return answer;
   };
-  FuzzOptions options{.most_queries = 3000, .most_findings = 1000};
+  FuzzOptions options{.most_queries = 3000, .most_groups = 1000};
   const FuzzResult all = search(ill, Promise::conservative, options);
   std::set<FindingKind> kinds;
   for (const Finding& finding : all.findings) kinds.insert(finding.what);
@@ -293,7 +294,7 @@ Answer sometimes_wrong(Kind kind, const Query& query) {
 
 TEST(Fuzz, IsTheSameForTheSameSeed) {
   const FuzzOptions options{
-      .most_queries = tests::trials(std::uint64_t{2400}), .seed = 5, .most_findings = 1000};
+      .most_queries = tests::trials(std::uint64_t{2400}), .seed = 5, .most_groups = 1000};
   const FuzzResult a = search(sometimes_wrong, Promise::none, options);
   const FuzzResult b = search(sometimes_wrong, Promise::none, options);
   EXPECT_GT(a.findings.size(), tests::trials(8U));
@@ -307,7 +308,7 @@ TEST(Fuzz, IsTheSameForTheSameSeed) {
 
 TEST(Fuzz, KeepsAFewOfEachClassAndCountsAll) {
   const FuzzResult result =
-      search(sometimes_wrong, Promise::none, {.most_queries = 2400, .most_findings = 1000});
+      search(sometimes_wrong, Promise::none, {.most_queries = 2400, .most_groups = 1000});
   EXPECT_GT(result.all_findings, result.findings.size() + 80);
   std::uint64_t by_generator = 0, queries = 0;
   for (const GeneratorStatistics& generator : result.generators) {
@@ -319,9 +320,53 @@ TEST(Fuzz, KeepsAFewOfEachClassAndCountsAll) {
   EXPECT_EQ(queries, result.queries);
 }
 
+/// A bound that is too small for small coordinates is one cause, whatever generator, kind and stage show it.
+TEST(Fuzz, PutsFindingsOfOneCauseInOneGroup) {
+  const auto blind = [](Kind kind, const Query& query) {
+    if (size_exponent(query) < -3) return Answer{.verdict = Verdict::no};
+    return honest(kind, query);
+  };
+  const FuzzResult result = search(
+      blind, Promise::none, {.most_queries = 2400, .most_groups = 1000, .shrink_seconds = 60.0});
+  EXPECT_GT(result.findings.size(), 10U);
+  ASSERT_EQ(result.groups.size(), 1U);
+  EXPECT_EQ(result.groups.front().count, result.all_findings);
+  const Finding& best = result.findings.at(result.groups.front().best);
+  EXPECT_EQ(best.scales.end_above, -3);
+  EXPECT_FALSE(best.scales.end_below);
+  for (const Finding& finding : result.findings) {
+    EXPECT_EQ(finding.group, 0U);
+    EXPECT_FALSE(plainness(finding.kind, finding.simplest.query, finding.original.query)
+                     .is_worse_somewhere(
+                         plainness(finding.kind, finding.original.query, finding.original.query)));
+  }
+}
+
+/// Contacts missed at t=0 and hangs are not.
+TEST(Fuzz, PutsFindingsOfTwoCausesInTwoGroups) {
+  const auto ill = [](Kind kind, const Query& query) {
+    const Answer answer = honest(kind, query);
+    if (answer.verdict == Verdict::yes && answer.toi_upper == 0.0) {
+      return Answer{.verdict = Verdict::no};
+    }
+    if (answer.verdict == Verdict::yes && query.at(0, 0, 0) == query.at(1, 2, 1)) std::abort();
+    return answer;
+  };
+  const FuzzResult result = search(
+      ill, Promise::none, {.most_queries = 2400, .most_groups = 1000, .shrink_seconds = 60.0});
+  std::uint64_t count = 0;
+  std::set<FindingKind> kinds;
+  for (const FindingGroup& group : result.groups) {
+    count += group.count;
+    kinds.insert(result.findings.at(group.best).what);
+  }
+  EXPECT_EQ(count, result.all_findings);
+  EXPECT_EQ(kinds, (std::set{FindingKind::false_negative, FindingKind::crash}));
+}
+
 TEST(Fuzz, AsksOnlyTheKindsOfItsOptions) {
   std::set<Kind> kinds;
-  FuzzOptions options{.most_queries = 2000, .most_findings = 1000, .kinds = {Kind::edge_edge}};
+  FuzzOptions options{.most_queries = 2000, .most_groups = 1000, .kinds = {Kind::edge_edge}};
   options.on_finding = [&kinds](const Finding& finding) { kinds.insert(finding.kind); };
   const auto no = [](Kind, const Query&) { return Answer{.verdict = Verdict::no}; };
   EXPECT_FALSE(search(no, Promise::none, options).findings.empty());

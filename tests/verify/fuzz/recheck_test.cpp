@@ -49,7 +49,7 @@ Answer late(Kind kind, const Query& query) {
 Finding find(const FunctionMethod& method, const FuzzOptions& options = {}) {
   FuzzOptions search = options;
   search.most_queries = 20'000;
-  search.most_findings = 1;
+  search.most_groups = 1;
   const FuzzResult result = fuzz(method, search);
   EXPECT_FALSE(result.findings.empty());
   return result.findings.empty() ? Finding{} : result.findings.front();

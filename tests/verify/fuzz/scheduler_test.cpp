@@ -10,6 +10,8 @@
 namespace touchstone::verify::fuzz::scheduler_test {
 namespace {
 
+std::vector<double> alike(std::size_t arms) { return std::vector<double>(arms, 1.0); }
+
 TEST(CoverageTable, CountsHowOftenAKeyWasSeen) {
   CoverageTable table;
   EXPECT_EQ(table.add(7), 0U);
@@ -20,13 +22,13 @@ TEST(CoverageTable, CountsHowOftenAKeyWasSeen) {
 }
 
 TEST(Scheduler, GivesAllArmsAlikeBeforeItKnowsAnything) {
-  const Scheduler scheduler(4, 1);
+  const Scheduler scheduler(alike(4), 1);
   for (std::size_t arm = 0; arm < 4; ++arm) EXPECT_DOUBLE_EQ(scheduler.share(arm), 0.25);
 }
 
 /// Arm 3 of 8 pays once in 500 plays, the others never.
 TEST(Scheduler, FindsTheArmThatPaysRarely) {
-  Scheduler scheduler(8, 1);
+  Scheduler scheduler(alike(8), 1);
   generate::Random chance(5);
   std::vector<int> plays(8);
   constexpr int rounds = 40'000;
@@ -42,7 +44,7 @@ TEST(Scheduler, FindsTheArmThatPaysRarely) {
 }
 
 TEST(Scheduler, PrefersWhatTakesLessWork) {
-  Scheduler scheduler(2, 1);
+  Scheduler scheduler(alike(2), 1);
   for (int i = 0; i < 1000; ++i) {
     scheduler.learn(0, 1.0, 1.0);
     scheduler.learn(1, 1.0, 20.0);
@@ -51,7 +53,7 @@ TEST(Scheduler, PrefersWhatTakesLessWork) {
 }
 
 TEST(Scheduler, ForgetsAnArmThatPaysNoMore) {
-  Scheduler scheduler(2, 1);
+  Scheduler scheduler(alike(2), 1);
   for (int i = 0; i < 2000; ++i) scheduler.learn(0, 1.0, 1.0);
   EXPECT_GT(scheduler.share(0), 0.8);
   for (int i = 0; i < 100'000; ++i) scheduler.learn(0, 0.0, 1.0);
@@ -59,7 +61,7 @@ TEST(Scheduler, ForgetsAnArmThatPaysNoMore) {
 }
 
 TEST(Scheduler, LeavesEveryArmAShare) {
-  Scheduler scheduler(5, 1, {.explored = 0.25});
+  Scheduler scheduler(alike(5), 1, {.explored = 0.25});
   for (int i = 0; i < 10'000; ++i) scheduler.learn(0, 1000.0, 1.0);
   double sum = 0.0;
   for (std::size_t arm = 0; arm < 5; ++arm) {
@@ -69,8 +71,16 @@ TEST(Scheduler, LeavesEveryArmAShare) {
   EXPECT_NEAR(sum, 1.0, 1e-12);
 }
 
+TEST(Scheduler, LeavesMoreToArmsOfGreaterParts) {
+  Scheduler scheduler({3.0, 1.0, 1.0}, 1, {.explored = 0.25});
+  EXPECT_DOUBLE_EQ(scheduler.share(0), 0.15 + 0.25);
+  for (int i = 0; i < 10'000; ++i) scheduler.learn(2, 1000.0, 1.0);
+  EXPECT_GE(scheduler.share(0), 0.15);
+  EXPECT_NEAR(scheduler.share(1), 0.05, 0.001);
+}
+
 TEST(Scheduler, IsTheSameForTheSameSeed) {
-  Scheduler a(6, 9), b(6, 9), other(6, 10);
+  Scheduler a(alike(6), 9), b(alike(6), 9), other(alike(6), 10);
   int differences = 0;
   for (int i = 0; i < 1000; ++i) {
     const std::size_t arm = a.choose();

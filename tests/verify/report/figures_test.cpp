@@ -193,6 +193,30 @@ TEST(Figures, EveryFaultHasALetter) {
   EXPECT_EQ(letters, ".PNTTEB");
 }
 
+TEST(Figures, ErrorsAndHangsAreMarkedBesideTheWorst) {
+  Measurements measurements;
+  const auto add = [&](const std::string& worst, std::uint64_t errors, std::uint64_t hangs) {
+    measurements.stability.push_back({.method = "m",
+                                      .hardness = "digits",
+                                      .measure = {},
+                                      .is_power = false,
+                                      .errors = errors,
+                                      .hangs = hangs,
+                                      .worst = worst});
+  };
+  add("false negative", 1, 0);
+  add("false positive", 0, 2);
+  add("error", 3, 0);
+  add("error", 3, 1);
+  add("", 0, 1);
+  const std::vector<Figure> figures = figures_of(measurements);
+  const FigurePanel& panel = figures.at(0).panels.at(0);
+  EXPECT_FALSE(panel.powers);
+  std::string letters;
+  for (const FigurePoint& point : panel.series.at(0).points) letters += point.label + " ";
+  EXPECT_EQ(letters, "N! P! E E! ! ");
+}
+
 TEST(Figures, StabilityShowsTheNumbersOfThoseThatGiveThem) {
   Measurements measurements = tests::small_report();
   StabilityMark counting = measurements.stability.at(0);

@@ -124,13 +124,16 @@ TEST(MeasurementJson, ReadsMeasurementsFromBeforeThereWereScaleAndDate) {
 
 TEST(MeasurementJson, ReadsMapsFromBeforeTheyHadAllCounts) {
   nlohmann::json earlier = to_json(example());
-  for (const char* const later : {"late_tois", "early_upper_tois", "beyond_tolerance", "errors",
-                                  "undecided", "toi_error", "checks_per_query"}) {
+  for (const char* const later :
+       {"late_tois", "early_upper_tois", "beyond_tolerance", "errors", "undecided", "toi_error",
+        "checks_per_query", "is_power", "hangs"}) {
     earlier["stability"][0].erase(later);
   }
   const StabilityMark mark = measurements_from_json(earlier).stability.at(0);
   EXPECT_EQ(mark.false_negatives, 2U);
   EXPECT_EQ(mark.late_tois, 0U);
+  EXPECT_TRUE(mark.is_power);
+  EXPECT_EQ(mark.hangs, 0U);
   EXPECT_FALSE(mark.toi_error.has_value());
   EXPECT_TRUE(std::isnan(mark.checks));
 }

@@ -203,8 +203,8 @@ stability::StabilityResult map_of(const std::vector<double>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     stability::StabilityCell cell{
         .hardness = &hardness,
-        .exponent = hardness.exponents.at(i % hardness.exponents.size()),
-        .kind = i < hardness.exponents.size() ? Kind::vertex_face : Kind::edge_edge,
+        .level = hardness.levels.at(i % hardness.levels.size()),
+        .kind = i < hardness.levels.size() ? Kind::vertex_face : Kind::edge_edge,
         .judged = {}};
     cell.judged.queries = cell.judged.collisions = 1;
     jobs::MethodResult judged{.name = "planted", .timed = true, .judgement = {}};

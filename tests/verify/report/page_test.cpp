@@ -153,7 +153,7 @@ stability::StabilityResult map_of_one_cell(const std::string& method) {
   result.seed = 77;
   result.count = 10;
   stability::StabilityCell cell{.hardness = &stability::hardness_from_name("distance"),
-                                .exponent = -50,
+                                .level = -50,
                                 .kind = Kind::edge_edge,
                                 .judged = {}};
   cell.judged.queries = 10;

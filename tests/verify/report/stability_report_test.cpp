@@ -15,10 +15,10 @@ namespace {
 using fast::Verdict;
 
 /// One cell of ten queries, half of them collisions, as judged.
-stability::StabilityCell cell(const std::string& hardness, int exponent,
+stability::StabilityCell cell(const std::string& hardness, int level,
                               const judge::Judgement& judgement) {
   stability::StabilityCell result{.hardness = &stability::hardness_from_name(hardness),
-                                  .exponent = exponent,
+                                  .level = level,
                                   .kind = Kind::edge_edge,
                                   .judged = {}};
   result.judged.queries = 10;
@@ -65,8 +65,21 @@ TEST(StabilityText, HasALineAHardnessAndACharacterALevel) {
        cell("distance", -10, faults(0, 5)), cell("distance", -15, faults(1, 5)),
        cell("distance", -20, late), cell("distance", -25, wrong), cell("distance", -30, far)}));
   EXPECT_TRUE(contains(text, "planted (conservative): breaks its promise\n")) << text;
-  EXPECT_TRUE(contains(text, "  edge-edge    .49NTEB           70 ")) << text;
+  EXPECT_TRUE(contains(text, "  edge-edge    .49NTEB         .....E.           70 ")) << text;
   EXPECT_TRUE(contains(text, "     123.4        2.5          -          -\n")) << text;
+}
+
+/// Behind what is worse.
+TEST(StabilityText, ShowsErrorsAndHangsBesideTheWorst) {
+  judge::Judgement both = faults(1, 0);
+  both.faults[static_cast<std::size_t>(judge::Fault::error)] = 1;
+  both.failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 1;
+  judge::Judgement hung = faults(0, 0);
+  hung.failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 1;
+  const std::string text = to_text(result_of({cell("digits", 1, both), cell("digits", 2, hung)}));
+  EXPECT_TRUE(contains(text, "digits    1 digits … 15 digits  edge-edge    N.               #H "))
+      << text;
+  EXPECT_TRUE(contains(text, ". every answer is right")) << text;
 }
 
 TEST(StabilityText, KeepsItsPromiseWithFalsePositivesOnly) {
@@ -103,7 +116,7 @@ TEST(StabilityJson, HasEveryCellOfEveryMethod) {
   EXPECT_EQ(json.at("disagreements"), 0);
   ASSERT_EQ(json.at("hardnesses").size(), 1U);
   EXPECT_EQ(json.at("hardnesses")[0].at("name"), "scale");
-  EXPECT_EQ(json.at("hardnesses")[0].at("exponents").size(), 11U);
+  EXPECT_EQ(json.at("hardnesses")[0].at("levels").size(), 11U);
   ASSERT_EQ(json.at("methods").size(), 1U);
   const nlohmann::json& method = json.at("methods")[0];
   EXPECT_EQ(method.at("name"), "planted");
@@ -116,7 +129,7 @@ TEST(StabilityJson, HasEveryCellOfEveryMethod) {
   EXPECT_EQ(calm.at("level"), std::ldexp(1.0, -800));
   const nlohmann::json& hard = method.at("cells")[1];
   EXPECT_EQ(hard.at("hardness"), "scale");
-  EXPECT_EQ(hard.at("exponent"), 0);
+  EXPECT_EQ(hard.at("level"), 1.0);
   EXPECT_EQ(hard.at("kind"), "edge-edge");
   EXPECT_EQ(hard.at("queries"), 10);
   EXPECT_EQ(hard.at("collisions"), 5);

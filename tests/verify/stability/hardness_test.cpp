@@ -19,6 +19,7 @@
 #include "exact/algebra/number.hpp"
 #include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
+#include "verify/fuzz/plainness.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
 
@@ -33,17 +34,17 @@ constexpr std::uint64_t seed = 7;
 /// The size of every scene that is not scaled, in its coordinates.
 constexpr double size = 3.0;
 
-/// Calls use(exponent, kind, query, collides) for some queries of every level.
+/// Calls use(level, kind, query, collides) for some queries of every level.
 template <class Use>
 void for_each_query(std::string_view name, std::uint64_t count, const Use& use) {
   const Hardness& hardness = hardness_from_name(name);
-  for (const int exponent : hardness.exponents) {
+  for (const int level : hardness.levels) {
     for (const Kind kind : kinds) {
-      SCOPED_TRACE(::testing::Message() << name << " 2^" << exponent << " " << to_string(kind));
+      SCOPED_TRACE(::testing::Message() << name << " " << level << " " << to_string(kind));
       for (std::uint64_t index = 0; index < trials(count); ++index) {
-        const HardQuery made = make_hard_query(
-            {.hardness = &hardness, .exponent = exponent, .kind = kind}, seed, index);
-        use(exponent, kind, made.query, made.collides);
+        const HardQuery made =
+            make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
+        use(level, kind, made.query, made.collides);
       }
     }
   }
@@ -96,25 +97,25 @@ TEST(Hardness, HasUniqueNamesAndLevelsInOrder) {
     EXPECT_TRUE(names.insert(hardness.name).second);
     EXPECT_EQ(&hardness_from_name(hardness.name), &hardness);
     EXPECT_FALSE(hardness.reason.empty());
-    const auto& levels = hardness.exponents;
+    const auto& levels = hardness.levels;
     EXPECT_TRUE(std::ranges::is_sorted(levels) ||
                 std::ranges::is_sorted(levels, std::ranges::greater{}));
     EXPECT_EQ(std::set<int>(levels.begin(), levels.end()).size(), levels.size());
   }
-  EXPECT_EQ(names.size(), 6U);
+  EXPECT_EQ(names.size(), 10U);
   EXPECT_THROW(static_cast<void>(hardness_from_name("difficulty")), std::invalid_argument);
 }
 
 TEST(HardQueries, CollideIfTheirNumberIsEvenSaysTheOracle) {
   for (const Hardness& hardness : hardnesses()) {
-    for (const int exponent : hardness.exponents) {
+    for (const int level : hardness.levels) {
       for (const Kind kind : kinds) {
         for (std::uint64_t index = 0; index < trials(16U); ++index) {
-          const HardQuery made = make_hard_query(
-              {.hardness = &hardness, .exponent = exponent, .kind = kind}, seed, index);
+          const HardQuery made =
+              make_hard_query({.hardness = &hardness, .level = level, .kind = kind}, seed, index);
           ASSERT_EQ(made.collides, index % 2 == 0);
           ASSERT_EQ(exact::decide(kind, made.query).collides(), made.collides)
-              << hardness.name << " 2^" << exponent << " " << to_string(kind) << " " << index;
+              << hardness.name << " " << level << " " << to_string(kind) << " " << index;
         }
       }
     }
@@ -222,6 +223,88 @@ TEST(HardQueries, HaveFullSignificands) {
   }
 }
 
+// ---- Scenes of decimals -------------------------------------------------------------------------
+
+bool is_at_an_end(Kind kind, const Query& query) {
+  const exact::Verdict truth = exact::decide(kind, query);
+  const auto [lower, upper] = truth.toi->enclosure();
+  return upper == 0.0 || lower == 1.0;
+}
+
+/// Contacts are exactly at t=0 or t=1, whatever the level: or earlier than at t=1, since all of a motion
+/// may touch.
+TEST(HardQueries, OfDecimalsTouchAtTheEndsMostly) {
+  for (const std::string_view name : {"everyday-scale", "digits", "frame"}) {
+    int collisions = 0, at_ends = 0;
+    for_each_query(name, 16, [&](int, Kind kind, const Query& query, bool collides) {
+      if (!collides) return;
+      ++collisions;
+      at_ends += is_at_an_end(kind, query) ? 1 : 0;
+    });
+    EXPECT_GT(at_ends, collisions / 2) << name;
+  }
+}
+
+TEST(HardQueries, OfDecimalsHaveTheScale) {
+  for_each_query("everyday-scale", 16, [](int level, Kind, const Query& query, bool) {
+    EXPECT_LE(fuzz::size_exponent(query), level - 1);
+    EXPECT_GE(fuzz::size_exponent(query), level - 8);
+    for (const double x : fuzz::magnitudes(query)) {
+      EXPECT_LE(fuzz::shortest_decimal(std::ldexp(x, -level)).count, 4) << x;
+    }
+  });
+}
+
+TEST(HardQueries, OfDecimalsHaveTheDigits) {
+  for_each_query("digits", 16, [](int level, Kind, const Query& query, bool) {
+    int most = 0;
+    for (const double x : fuzz::magnitudes(query)) {
+      // A miss may be some sizes away.
+      const fuzz::Decimal decimal = fuzz::shortest_decimal(x);
+      EXPECT_GE(decimal.exponent, -level - 1) << x;
+      most = std::max(most, decimal.count);
+    }
+    EXPECT_LE(most, level + 2);
+    EXPECT_GE(most, level > 3 ? level - 2 : 0);
+  });
+}
+
+TEST(HardQueries, HaveTheShareOfContactsAtTheEnds) {
+  const Hardness& hardness = hardness_from_name("ends");
+  constexpr int count = 200;
+  for (const int level : hardness.levels) {
+    int at_ends = 0;
+    for (int i = 0; i < count; ++i) {
+      const Kind kind = kinds.at(static_cast<std::size_t>(i % 2));
+      const HardQuery made = make_hard_query({.hardness = &hardness, .level = level, .kind = kind},
+                                             seed, static_cast<std::uint64_t>(2 * i));
+      ASSERT_TRUE(made.collides);
+      at_ends += is_at_an_end(kind, made.query) ? 1 : 0;
+    }
+    EXPECT_TRUE(level != 0 || at_ends == 0) << at_ends;
+    // Some that touch at t=1 touch before.
+    EXPECT_LE(at_ends, count * (level + 10) / 100) << level;
+    EXPECT_GE(at_ends, count * (level - 20) / 200) << level;
+  }
+}
+
+TEST(HardQueries, HaveTheFrame) {
+  for_each_query("frame", 16, [](int level, Kind, const Query& query, bool) {
+    if (level < 8) return;
+    for (const double x : query.coordinates) {
+      EXPECT_NEAR(x / (0.1 * std::ldexp(1.0, level)), 1.0, 0x1p-3);
+    }
+  });
+}
+
+TEST(LevelText, SaysWhatTheNumberIs) {
+  EXPECT_EQ(level_text(hardness_from_name("scale"), -200), "2^-200");
+  EXPECT_EQ(level_text(hardness_from_name("digits"), 7), "7 digits");
+  EXPECT_EQ(level_text(hardness_from_name("ends"), 30), "30 %");
+  EXPECT_EQ(level_value(hardness_from_name("everyday-scale"), -4), 0x1p-4);
+  EXPECT_EQ(level_value(hardness_from_name("digits"), 7), 7.0);
+}
+
 std::uint64_t hash(const Query& query) {
   std::uint64_t value = 0;
   for (const double x : query.coordinates) {
@@ -231,9 +314,9 @@ std::uint64_t hash(const Query& query) {
 }
 
 TEST(HardQueries, AreTheSameEverywhereAndDifferByEveryArgument) {
-  const HardSort sort{.hardness = &hardness_from_name("distance"), .exponent = -20};
+  const HardSort sort{.hardness = &hardness_from_name("distance"), .level = -20};
   HardSort other_level = sort, other_kind = sort, other_hardness = sort;
-  other_level.exponent = -25;
+  other_level.level = -25;
   other_kind.kind = Kind::edge_edge;
   other_hardness.hardness = &hardness_from_name("angle");
   const std::uint64_t here = hash(make_hard_query(sort, seed, 3).query);
@@ -250,11 +333,10 @@ TEST(HardQueries, AreTheSameEverywhereAndDifferByEveryArgument) {
 
 TEST(HardQueries, AreOfTheLevelsThereAre) {
   const Hardness& distance = hardness_from_name("distance");
-  EXPECT_THROW(static_cast<void>(make_hard_query({.hardness = &distance, .exponent = -2}, seed, 0)),
+  EXPECT_THROW(static_cast<void>(make_hard_query({.hardness = &distance, .level = -2}, seed, 0)),
                std::invalid_argument);
-  EXPECT_THROW(
-      static_cast<void>(open_hard_queries({.hardness = &distance, .exponent = 0}, seed, 1)),
-      std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(open_hard_queries({.hardness = &distance, .level = 0}, seed, 1)),
+               std::invalid_argument);
 }
 
 TEST(SeparationAt, IsScaledWithTheCoordinates) {
@@ -269,20 +351,20 @@ TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
                                   Separation{.distance = 0.7, .norm = Norm::linf},
                                   Separation{.distance = 300.0, .norm = Norm::l2}}) {
     for (const Hardness& hardness : hardnesses()) {
-      for (const int exponent : {hardness.exponents.front(), hardness.exponents.back()}) {
+      for (const int level : {hardness.levels.front(), hardness.levels.back()}) {
         for (const Kind kind : kinds) {
           std::uint64_t collisions = 0;
           for (std::uint64_t index = 0; index < trials(16U); ++index) {
             const HardQuery made = make_hard_query(
-                {.hardness = &hardness, .exponent = exponent, .kind = kind, .separation = asked},
-                seed, index);
+                {.hardness = &hardness, .level = level, .kind = kind, .separation = asked}, seed,
+                index);
             collisions += made.collides ? 1U : 0U;
             const exact::Verdict truth =
-                exact::decide(kind, made.query, separation_at(hardness, exponent, asked));
+                exact::decide(kind, made.query, separation_at(hardness, level, asked));
             ASSERT_EQ(truth.collides(), made.collides);
           }
-          EXPECT_EQ(collisions, trials(16U) / 2) << hardness.name << " 2^" << exponent << " "
-                                                 << to_string(kind) << " " << asked.distance;
+          EXPECT_EQ(collisions, trials(16U) / 2)
+              << hardness.name << " " << level << " " << to_string(kind) << " " << asked.distance;
         }
       }
     }
@@ -295,7 +377,7 @@ TEST(HardQueriesAboutASeparation, AreLimitedInDistance) {
   EXPECT_FALSE(has_hard_queries({.distance = 0x1.1p14, .norm = Norm::linf}));
   EXPECT_FALSE(has_hard_queries({.distance = -1.0, .norm = Norm::linf}));
   const HardSort sort{.hardness = &hardness_from_name("scale"),
-                      .exponent = 1000,
+                      .level = 1000,
                       .separation = {.distance = 0x1p14, .norm = Norm::l2}};
   EXPECT_TRUE(std::ranges::all_of(make_hard_query(sort, seed, 0).query.coordinates,
                                   [](double x) { return std::isfinite(x); }));
@@ -306,7 +388,7 @@ TEST(HardQueriesAboutASeparation, AreLimitedInDistance) {
 
 TEST(OpenHardQueries, StreamsThemWithTheirLabels) {
   const HardSort sort{.hardness = &hardness_from_name("scale"),
-                      .exponent = -200,
+                      .level = -200,
                       .kind = Kind::edge_edge,
                       .separation = {.distance = 0.5, .norm = Norm::l2}};
   const auto source = open_hard_queries(sort, seed, 3);

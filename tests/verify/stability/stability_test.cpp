@@ -52,7 +52,7 @@ TEST(MeasureStability, HasACellForEachLevelAndKindInOrder) {
     const StabilityCell& cell = result.cells[i];
     EXPECT_EQ(cell.hardness, &distance);
     EXPECT_EQ(cell.kind, i < 11 ? Kind::vertex_face : Kind::edge_edge);
-    EXPECT_EQ(cell.exponent, distance.exponents.at(i % 11));
+    EXPECT_EQ(cell.level, distance.levels.at(i % 11));
     EXPECT_EQ(cell.judged.queries, count);
     EXPECT_EQ(cell.judged.collisions, count / 2);
     EXPECT_EQ(cell.judged.labels, count);
@@ -95,7 +95,7 @@ TEST(MeasureStability, CountsWhatIsWrongInEachCell) {
     std::uint64_t missed = 0, invented = 0;
     for (std::uint64_t index = 0; index < count; ++index) {
       const HardQuery made = make_hard_query(
-          {.hardness = cell.hardness, .exponent = cell.exponent, .kind = cell.kind}, 5, index);
+          {.hardness = cell.hardness, .level = cell.level, .kind = cell.kind}, 5, index);
       if (coin(made.query)) ++(made.collides ? missed : invented);
     }
     EXPECT_EQ(rate_of(judge::Fault::false_negative, cell.judged, 0),
@@ -158,7 +158,7 @@ TEST(MeasureStability, TakesASeparation) {
   EXPECT_EQ(result.total.labels, result.total.queries) << "labels are about the same separation";
   for (const StabilityCell& cell : result.cells) {
     EXPECT_EQ(cell.judged.separation,
-              separation_at(*cell.hardness, cell.exponent, {.distance = 0.01, .norm = Norm::l2}));
+              separation_at(*cell.hardness, cell.level, {.distance = 0.01, .norm = Norm::l2}));
   }
   EXPECT_THROW(static_cast<void>(measure_stability({&hardness_from_name("scale")},
                                                    {.separation = {.distance = 1e9}})),

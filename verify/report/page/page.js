@@ -327,13 +327,15 @@
   /// The look of a cell: its fill, its texts from the longest to the shortest, and the colour of these.
   function markLook(point) {
     if (point.label === "") return { fill: "var(--calm)", texts: [] };
-    if (point.label !== "P") {
+    const kind = point.label[0];
+    if (kind === "!") return { fill: "var(--calm)", texts: ["!"], ink: "var(--error)", weight: 700 };
+    if (kind !== "P") {
       const percents = percentText(point.y).replace("%", "");
-      return { fill: markColors[point.label],
+      return { fill: markColors[kind],
         texts: [`${point.label} ${percents}`, point.label + percents, point.label],
         ink: "var(--paper)", weight: 700 };
     }
-    const text = percentText(point.y);
+    const text = percentText(point.y) + point.label.slice(1);
     return { fill: shade("mild", 0.25 + 0.75 * point.y), texts: [text, text.replace("%", "")],
       ink: point.y > 0.5 ? "var(--paper)" : "var(--ink)" };
   }
@@ -410,7 +412,8 @@
     const every = cell < 30 ? 2 : 1;
     levels.forEach((level, i) => {
       if (i % every !== 0) return;
-      write(svg, left + cell * (i + 0.5), height - 24, `2${superscript(level)}`, "middle", "tick");
+      write(svg, left + cell * (i + 0.5), height - 24, panel.powers ? `2${superscript(level)}` : `${level}`, "middle",
+        "tick");
     });
     write(svg, (left + width) / 2, height - 6, panel.caption, "middle", "axis");
   }
@@ -425,9 +428,10 @@
 
   const legendsOfForms = {
     ridges: [["var(--miss)", "do not collide (above)"], ["var(--hit)", "collide (below)"]],
-    marks: [["var(--calm)", "nothing wrong"], ["var(--bad)", "N false negatives"], ["var(--toi)", "T time of impact"],
+    marks: [["var(--calm)", "pale and empty: every answer is right"], ["var(--bad)", "N false negatives"], ["var(--toi)", "T time of impact"],
       ["var(--error)", "E errors"], ["var(--beyond)", "B beyond its tolerance"],
-      [shade("mild", 0.35), "some false positives"], [shade("mild", 1), "all misses are"]],
+      [shade("mild", 0.35), "some false positives"], [shade("mild", 1), "all misses are"],
+      ["var(--line)", "! errors or hangs besides"]],
   };
 
   /// What a figure's colours mean: of each its tone and name, and perhaps its symbol and opacity.

@@ -1,0 +1,46 @@
+#!/bin/sh
+# Builds a solver as a plugin, judges it on queries of known truth, then searches for false negatives. What is found stays
+# in the folder of findings, a page for each cause. Exit status: 0 nothing is wrong, 1 wrong answers, 2 something else.
+#
+#   check_solver.sh SOURCE LIBRARY
+#
+# SOURCE: a folder with the CMakeLists.txt of the plugin (such as examples/plugin); LIBRARY: its file in the build folder,
+# such as box_overlap.so. Variables:
+#   TOUCHSTONE          the program touchstone (found in the path)
+#   TOUCHSTONE_INCLUDE  the folder that verify/plugin.h is in (this project's)
+#   FINDINGS            a folder, new or empty, for what is found (findings)
+#   BUILD               the build folder (build-plugin)
+#   FUZZ_LIMIT          how long to search (--seconds 120)
+#   FUZZ_ONLY           the kinds of findings that fail the check (false_negative); see touchstone fuzz --help
+#   SOLVER_OPTIONS      for certify and fuzz, such as "--exact --max-checks 100000"
+#   CERTIFY_OPTIONS     for certify, such as a folder of datasets
+set -u
+
+if [ $# -ne 2 ]; then
+  echo "usage: check_solver.sh SOURCE LIBRARY" >&2
+  exit 2
+fi
+touchstone=${TOUCHSTONE:-touchstone}
+include=${TOUCHSTONE_INCLUDE:-$(cd "$(dirname "$0")/../.." && pwd)}
+findings=${FINDINGS:-findings}
+build=${BUILD:-build-plugin}
+plugin=$build/$2
+
+cmake -S "$1" -B "$build" -DCMAKE_BUILD_TYPE=Release -DTOUCHSTONE_INCLUDE="$include" && cmake --build "$build" || exit 2
+
+# Both are run, whatever the first one finds: the folder is to hold all.
+mkdir -p "$findings/fuzz" || exit 2
+# (The words of these variables are options.)
+# shellcheck disable=SC2086
+"$touchstone" certify --plugin "$plugin" ${SOLVER_OPTIONS:-} --json "$findings/certify.json" ${CERTIFY_OPTIONS:-}
+certified=$?
+
+only=
+for kind in ${FUZZ_ONLY:-false_negative}; do only="$only --only $kind"; done
+# shellcheck disable=SC2086
+"$touchstone" fuzz --plugin "$plugin" ${SOLVER_OPTIONS:-} $only ${FUZZ_LIMIT:---seconds 120} --write "$findings/fuzz"
+fuzzed=$?
+
+echo "certify: $certified, fuzz: $fuzzed (0 nothing is wrong, 1 wrong answers); see $findings"
+if [ $certified -eq 1 ] || [ $fuzzed -eq 1 ]; then exit 1; fi
+if [ $certified -ne 0 ] || [ $fuzzed -ne 0 ]; then exit 2; fi

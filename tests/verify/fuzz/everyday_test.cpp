@@ -1,0 +1,116 @@
+#include "verify/fuzz/everyday.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "exact/oracle.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/fuzz/plainness.hpp"
+
+namespace touchstone::verify::fuzz::everyday_test {
+namespace {
+
+using generate::Random;
+
+constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
+
+template <class Use>
+void for_each_query(Query (*make)(Kind, Random&), int count, const Use& use) {
+  Random random(1);
+  for (int i = 0; i < count; ++i) {
+    const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
+    use(kind, make(kind, random));
+  }
+}
+
+/// Decimal digits of the number, or of the float that it is.
+int digits_of(double x) {
+  const auto as_float = static_cast<float>(x);
+  const int as_double = shortest_decimal(x).count;
+  if (static_cast<double>(as_float) != x) return as_double;
+  int digits = 1;
+  for (; digits < 9; ++digits) {
+    const Decimal decimal = shortest_decimal(x);
+    const double rounded = from_decimal(
+        static_cast<std::uint64_t>(std::llround(static_cast<double>(decimal.digits) *
+                                                std::pow(10.0, digits - decimal.count))),
+        decimal.exponent + decimal.count - digits);
+    if (static_cast<float>(rounded) == as_float) break;
+  }
+  return std::min(as_double, digits);
+}
+
+TEST(EverydayContact, is_contact_always) {
+  int at_start = 0, at_end = 0, shared = 0, count = 0;
+  for_each_query(everyday_contact, tests::trials(4000), [&](Kind kind, const Query& query) {
+    const exact::Verdict verdict = exact::decide(kind, query);
+    ASSERT_TRUE(verdict.collides());
+    ++count;
+    const double toi = verdict.toi->enclosure().lower;
+    at_start += toi == 0.0 ? 1 : 0;
+    at_end += toi == 1.0 ? 1 : 0;
+    const std::size_t second = kind == Kind::vertex_face ? 1 : 2;
+    for (std::size_t a = 0; a < second; ++a) {
+      for (std::size_t b = second; b < moving_points; ++b) {
+        shared += query.point(0, a) == query.point(0, b) && query.point(1, a) == query.point(1, b)
+                      ? 1
+                      : 0;
+      }
+    }
+  });
+  EXPECT_GT(at_start, count / 3);
+  EXPECT_GT(at_end, count / 5);
+  EXPECT_GT(shared, count / 16);
+}
+
+TEST(EverydayContact, has_short_decimals_of_everyday_size) {
+  std::array<int, 3> by_size{};
+  for_each_query(everyday_contact, tests::trials(1000), [&](Kind, const Query& query) {
+    double greatest = 0.0;
+    for (const double x : query.coordinates) {
+      if (x == 0.0) continue;
+      greatest = std::max(greatest, std::abs(x));
+      EXPECT_LE(digits_of(std::abs(x)), 6) << x;
+    }
+    EXPECT_LE(greatest, 1e4);
+    EXPECT_GE(greatest, 1e-4);
+    by_size.at(greatest < 0.1 ? 0 : greatest < 10.0 ? 1 : 2) += 1;
+  });
+  for (const int count : by_size) EXPECT_GT(count, tests::trials(1000) / 6);
+}
+
+TEST(EverydayNearMiss, is_a_miss_mostly_and_a_unit_away) {
+  int misses = 0;
+  for_each_query(everyday_near_miss, tests::trials(1000), [&](Kind kind, const Query& query) {
+    misses += exact::decide(kind, query).collides() ? 0 : 1;
+  });
+  EXPECT_GT(misses, tests::trials(1000) / 5);
+  EXPECT_LT(misses, tests::trials(1000));
+}
+
+TEST(EverydayQuery, is_of_its_scene) {
+  Random random(2);
+  for (const Kind kind : both_kinds) {
+    for (int i = 0; i < tests::trials(100); ++i) {
+      const Query inside =
+          everyday_query(kind, {.digits = 4, .exponent = 2, .time = TouchTime::between}, random);
+      const exact::Verdict verdict = exact::decide(kind, inside);
+      ASSERT_TRUE(verdict.collides());
+      EXPECT_NEAR(verdict.toi->enclosure().lower, 0.5, 1e-9);
+      for (const double x : magnitudes(inside)) {
+        EXPECT_GE(shortest_decimal(x).exponent, -2) << x;
+        EXPECT_LT(x, 100.0);
+      }
+      const Query far = everyday_query(
+          kind, {.digits = 4, .exponent = 2, .clearance = 8 * power_of_ten(4)}, random);
+      EXPECT_FALSE(exact::decide(kind, far).collides());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify::fuzz::everyday_test

@@ -1,0 +1,119 @@
+#include "verify/fuzz/standalone.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "tests/support/queries.hpp"
+#include "tests/support/tool_test.hpp"
+#include "tests/verify/data/dataset_fixture.hpp"
+
+// The golden files are compiled here as they would be by others: standalone_plugin.cpp as a program, the other two
+// against declarations of the public interfaces (public/).
+
+namespace touchstone::verify::fuzz::standalone_test {
+namespace {
+
+/// A vertex that falls through a triangle: they touch at t = 1/3.
+Reproduction miss() {
+  return {.what = FindingKind::false_negative,
+          .kind = Kind::vertex_face,
+          .failing = {.query = tests::over_triangle(1, 1, 1, -2).query,
+                      .answer = {.verdict = fast::Verdict::no},
+                      .collides = true,
+                      .toi = {{0.33333333333333331, 0.33333333333333337}},
+                      .truth = "collision after 0.3333333333333333 and before 0.33333333333333337"},
+          .solver = {.method = "mine",
+                     .plugin = "/tmp/mine.so",
+                     .options = {.tolerance = 1e-6, .max_checks = 1000}}};
+}
+
+Reproduction miss_of_edges() {
+  Reproduction result = miss();
+  result.kind = Kind::edge_edge;
+  result.failing.query = tests::over_edge(0.5, 0.25, 0.1, -0.1).query;
+  result.failing.truth = "collision at 0.5";
+  return result;
+}
+
+/// The file, behind its first line, which keeps it from being formatted.
+std::string golden(const std::string& name) {
+  const std::string text =
+      data::test::contents(tests::source_folder() + "/tests/verify/fuzz/" + name);
+  return text.substr(text.find('\n') + 1);
+}
+
+TEST(AsMain, is_what_is_compiled_here) {
+  EXPECT_EQ(as_main(miss(), CallInterface::plugin), golden("standalone_plugin.cpp"));
+  EXPECT_EQ(as_main(miss_of_edges(), CallInterface::ticcd), golden("standalone_ticcd.cpp"));
+  EXPECT_EQ(as_main(miss_of_edges(), CallInterface::ipc_toolkit),
+            golden("standalone_ipc_toolkit.cpp"));
+}
+
+TEST(AsMain, includes_nothing_of_ours_and_is_short) {
+  for (const CallInterface interface :
+       {CallInterface::plugin, CallInterface::ticcd, CallInterface::ipc_toolkit}) {
+    const std::string text = as_main(miss(), interface);
+    for (const std::string ours : {"\"verify/", "\"exact/", "\"fast/", "\"filters/"}) {
+      EXPECT_EQ(text.find("#include " + ours), std::string::npos) << text;
+    }
+    EXPECT_LE(std::ranges::count(text, '\n'), 48) << text;
+  }
+}
+
+TEST(AsMain, ends_with_one_for_what_was_found) {
+  const auto has = [](FindingKind what, const std::string& part) {
+    Reproduction found = miss();
+    found.what = what;
+    EXPECT_NE(as_main(found, CallInterface::plugin).find(part), std::string::npos)
+        << to_string(what) << '\n'
+        << as_main(found, CallInterface::plugin);
+  };
+  has(FindingKind::false_negative, "return answer.verdict == 0 ? 1 : 0;");
+  has(FindingKind::false_positive, "return answer.verdict == 1 ? 1 : 0;");
+  has(FindingKind::beyond_tolerance, "return answer.verdict == 1 ? 1 : 0;");
+  has(FindingKind::asymmetry, "return answer.verdict == 0 ? 1 : 0;");
+  has(FindingKind::late_toi,
+      "return answer.verdict == 1 && answer.toi_lower > 0.3333333333333333 ? 1 : 0;");
+  has(FindingKind::early_toi_upper,
+      "return answer.verdict == 1 && answer.toi_upper < 0.33333333333333337 ? 1 : 0;");
+  has(FindingKind::no_verdict, "return answer.verdict == 3 ? 1 : 0;");
+  has(FindingKind::undecided, "return answer.verdict == 2 ? 1 : 0;");
+  has(FindingKind::crash, "  return 0;\n");
+}
+
+TEST(CallInterface, has_a_name_and_follows_from_the_solver) {
+  for (const CallInterface interface :
+       {CallInterface::plugin, CallInterface::ticcd, CallInterface::ipc_toolkit}) {
+    EXPECT_EQ(call_interface_from_string(to_string(interface)), interface);
+  }
+  EXPECT_FALSE(call_interface_from_string("none"));
+  EXPECT_EQ(usual_interface({.method = "tight_inclusion_released"}), CallInterface::ticcd);
+  EXPECT_EQ(usual_interface({.method = "accd"}), CallInterface::ipc_toolkit);
+  EXPECT_EQ(usual_interface({.method = "rp"}), CallInterface::plugin);
+  EXPECT_EQ(usual_interface({.method = "accd", .plugin = "/tmp/a.so"}), CallInterface::plugin);
+}
+
+class Standalone : public tests::ToolTest {};
+
+/// As their authors run it: with a plugin that says yes and misses nothing, and without one.
+TEST_F(Standalone, asks_a_plugin) {
+  const std::filesystem::path beside = tests::plugin_library("always_yes");
+  const std::string program = (beside.parent_path() / "standalone_plugin").string();
+  const tests::Outcome right =
+      finish(start({tests::plugin_library("always_yes")}, to_file, program));
+  EXPECT_EQ(right.status, 0) << right.out << right.err;
+  EXPECT_TRUE(tests::contains(right.out, "verdict 1, ")) << right.out;
+  EXPECT_TRUE(tests::contains(right.out, "truth: collision after 0.33")) << right.out;
+  const tests::Outcome wrong =
+      finish(start({tests::plugin_library("always_no")}, to_file, program));
+  EXPECT_EQ(wrong.status, 1) << wrong.out << wrong.err;
+  EXPECT_TRUE(tests::contains(wrong.out, "verdict 0, ")) << wrong.out;
+  EXPECT_EQ(finish(start({}, to_file, program)).status, 2);
+  EXPECT_EQ(finish(start({path("none.so")}, to_file, program)).status, 2);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::fuzz::standalone_test

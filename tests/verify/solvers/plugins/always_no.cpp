@@ -1,0 +1,15 @@
+/// \file
+/// A plugin that says no to everything.
+
+#include <cstdint>
+
+#include "verify/plugin.h"
+
+std::int32_t touchstone_plugin_version() { return touchstone_interface_version; }
+
+const char* touchstone_plugin_name() { return "always_no"; }
+
+void touchstone_plugin_solve(std::int32_t, const double*, const touchstone_options*,
+                             touchstone_answer* answer) {
+  answer->verdict = touchstone_no;
+}

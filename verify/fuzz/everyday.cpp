@@ -1,0 +1,236 @@
+#include "verify/fuzz/everyday.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "verify/fuzz/draws.hpp"
+#include "verify/fuzz/symmetry.hpp"
+
+namespace touchstone::verify::fuzz {
+namespace {
+
+using draws::below;
+using draws::one_in;
+using generate::Random;
+
+/// In units.
+using Place = std::array<std::int64_t, 3>;
+using Places = std::array<Place, moving_points>;
+
+Place operator+(const Place& a, const Place& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+/// What the primitives have in common at the end of the contact.
+struct Touch {
+  Places places{};
+  /// The points that are one, if two are.
+  std::optional<std::array<std::size_t, 2>> shared;
+};
+
+/// Draws scenes of up to so many units.
+class Scene {
+ public:
+  Scene(Kind kind, std::int64_t size, Random& random) : kind_(kind), size_(size), random_(random) {}
+
+  [[nodiscard]] Touch draw_touch(bool is_inside) {
+    Touch touch;
+    for (Place& place : touch.places) place = draw_place();
+    if (is_inside) {
+      touch_in_a_plane(touch.places);
+      return touch;
+    }
+    switch (below(random_, 3)) {
+      case 0:
+        touch_at_a_point(touch);
+        break;
+      case 1:
+        touch_on_a_side(touch.places);
+        break;
+      default:
+        touch_in_a_plane(touch.places);
+    }
+    return touch;
+  }
+
+  /// Where the points are at the other end: each primitive stays, moves along an axis, or anywhere, and
+  /// now and then each point by itself.
+  [[nodiscard]] Places moved(const Touch& touch) {
+    Places result = touch.places;
+    const std::array<Place, 2> motions{draw_motion(), draw_motion()};
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      result.at(point) = result.at(point) + motions.at(point < second() ? 0 : 1);
+      if (one_in(random_, 3)) result.at(point) = result.at(point) + draw_place();
+    }
+    if (touch.shared && random_.coin())
+      result.at((*touch.shared)[0]) = result.at((*touch.shared)[1]);
+    return result;
+  }
+
+  /// The first primitive lower or higher by up to a size, the second one where it is.
+  [[nodiscard]] std::array<Places, 2> crossing(const Touch& touch) {
+    std::array<Places, 2> ends{touch.places, touch.places};
+    const std::int64_t height = between(size_ / 4 + 1, size_ + 1);
+    const std::int64_t down = random_.coin() ? height : -height;
+    for (std::size_t point = 0; point < second(); ++point) {
+      ends[0].at(point)[2] += down;
+      ends[1].at(point)[2] -= down;
+    }
+    return ends;
+  }
+
+  /// The first primitive's points begin with 0, the second one's with this.
+  [[nodiscard]] std::size_t second() const { return kind_ == Kind::vertex_face ? 1 : 2; }
+
+ private:
+  std::int64_t between(std::int64_t low, std::int64_t high) { return random_.between(low, high); }
+  std::int64_t up_to(std::int64_t most) { return between(1, most); }
+
+  Place draw_place() {
+    return {between(-size_, size_), between(-size_, size_), between(-size_, size_)};
+  }
+
+  Place draw_motion() {
+    const std::size_t how = below(random_, 4);
+    if (how == 0) return {};
+    Place motion = draw_place();
+    if (how == 1) {
+      const std::size_t axis = below(random_, 3);
+      for (std::size_t other = 0; other < 3; ++other) {
+        if (other != axis) motion.at(other) = 0;
+      }
+    }
+    return motion;
+  }
+
+  void touch_at_a_point(Touch& touch) {
+    const std::size_t of_first = below(random_, second());
+    const std::size_t of_second = second() + below(random_, moving_points - second());
+    touch.places.at(of_first) = touch.places.at(of_second);
+    touch.shared = {of_first, of_second};
+  }
+
+  /// The first point lies between the last two, which lie along x.
+  void touch_on_a_side(Places& places) {
+    const Place middle = places[0];
+    places[2] = places[3] = middle;
+    places[2][0] -= up_to(size_);
+    places[3][0] += up_to(size_);
+  }
+
+  /// All at one height, and about the first point, or across each other.
+  void touch_in_a_plane(Places& places) {
+    const std::int64_t half = size_ / 2;
+    const auto far = [&] { return between(half, size_); };
+    const auto near = [&] { return between(-half / 2, half / 2); };
+    const Place middle = places[0];
+    const auto put = [&](std::size_t point, std::int64_t x, std::int64_t y) {
+      places.at(point) = middle + Place{x, y, 0};
+    };
+    if (kind_ == Kind::vertex_face) {
+      put(1, -far(), -far());
+      put(2, far(), -far());
+      put(3, near(), far());
+    } else {
+      put(0, -far(), near());
+      put(1, far(), near());
+      put(2, near(), -far());
+      put(3, near(), far());
+    }
+  }
+
+  Kind kind_;
+  std::int64_t size_;
+  Random& random_;
+};
+
+/// Numbers of a unit that is a power of ten: to the nearest double, or to the nearest float as one
+/// prints it.
+struct Notation {
+  int places = 0;  ///< behind the point; in front of it if negative
+  bool as_float = false;
+
+  [[nodiscard]] double operator()(std::int64_t units) const {
+    const auto whole = static_cast<double>(units);
+    const auto power = static_cast<double>(power_of_ten(std::abs(places)));
+    // Powers and units are exact, so that this is the decimal rounded once.
+    const double x = places > 0 ? whole / power : whole * power;
+    return as_float ? static_cast<double>(static_cast<float>(x)) : x;
+  }
+};
+
+/// Under a random symmetry that leaves decimals what they are: without shifts.
+Query in_another_order(Kind kind, const Query& query, Random& random) {
+  // A distance that is none of 0 leaves out what does not keep distances.
+  Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0}, random);
+  symmetry.shifts = {};
+  return image(symmetry, query).value_or(query);
+}
+
+constexpr int most_digits = 6;
+constexpr int least_exponent = -3, greatest_exponent = 4;
+
+std::array<Places, 2> draw_ends(Kind kind, const EverydayScene& options, Random& random) {
+  // Places are sums of up to four draws: the first, two of the shape, and a motion.
+  Scene scene(kind, power_of_ten(options.digits) / 4, random);
+  const Touch touch = scene.draw_touch(options.time == TouchTime::between);
+  std::array<Places, 2> ends;
+  if (options.time == TouchTime::between) {
+    ends = scene.crossing(touch);
+  } else {
+    const std::size_t end = options.time == TouchTime::at_start ? 0 : 1;
+    ends.at(end) = touch.places;
+    ends.at(1 - end) = scene.moved(touch);
+  }
+  if (options.clearance == 0) return ends;
+  const std::size_t axis = below(random, 3);
+  const std::int64_t away = random.coin() ? options.clearance : -options.clearance;
+  for (Places& places : ends) {
+    for (std::size_t point = 0; point < scene.second(); ++point) places.at(point).at(axis) += away;
+  }
+  return ends;
+}
+
+EverydayScene draw_scene(Random& random) {
+  return {.digits = 1 + static_cast<int>(below(random, most_digits)),
+          .exponent = static_cast<int>(random.between(least_exponent, greatest_exponent)),
+          .as_float = one_in(random, 3),
+          .time = random.coin() ? TouchTime::at_start : TouchTime::at_end,
+          .clearance = 0};
+}
+
+}  // namespace
+
+std::int64_t power_of_ten(int exponent) {
+  std::int64_t power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
+}
+
+Query everyday_query(Kind kind, const EverydayScene& scene, Random& random) {
+  const std::array<Places, 2> ends = draw_ends(kind, scene, random);
+  const Notation notation{.places = scene.digits - scene.exponent, .as_float = scene.as_float};
+  Query query{};
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        query.at(end, point, axis) = notation(ends.at(end).at(point).at(axis));
+      }
+    }
+  }
+  return in_another_order(kind, query, random);
+}
+
+Query everyday_contact(Kind kind, Random& random) {
+  return everyday_query(kind, draw_scene(random), random);
+}
+
+Query everyday_near_miss(Kind kind, Random& random) {
+  EverydayScene scene = draw_scene(random);
+  scene.clearance = 1;
+  return everyday_query(kind, scene, random);
+}
+
+}  // namespace touchstone::verify::fuzz

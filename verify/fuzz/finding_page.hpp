@@ -1,0 +1,31 @@
+#pragma once
+
+/// \file
+/// A group of findings as a page for an issue tracker, and all groups as files.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "verify/fuzz/fuzz_report.hpp"
+#include "verify/fuzz/standalone.hpp"
+
+namespace touchstone::verify::fuzz {
+
+/// Markdown for readers who have never heard of this project: what was answered, what is true, the points
+/// in decimal and in hexadecimal, a program that shows it (standalone.hpp), the certificate and how to
+/// check it, and the command that asks again.
+/// \param name of the files beside the page: NAME.cpp and NAME.cert
+[[nodiscard]] std::string as_page(const FuzzReport& report, const FindingGroup& group,
+                                  CallInterface interface, const std::string& name);
+
+/// Writes into a folder, which it makes: for each group of the report, by its number and kind of finding,
+/// the page, the program, the certificate if there is one and a test (1-false_negative.md, .cpp, .cert
+/// and _test.cpp), and findings.json (fuzz_report.hpp). Returns the pages.
+/// \throws DatasetError if a file cannot be written.
+[[nodiscard]] std::vector<std::filesystem::path> write_pages(const FuzzReport& report,
+                                                             CallInterface interface,
+                                                             const std::filesystem::path& folder);
+
+}  // namespace touchstone::verify::fuzz

@@ -1,0 +1,135 @@
+#include "verify/fuzz/signature.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <ranges>
+
+#include "verify/fuzz/plainness.hpp"
+#include "verify/fuzz/recheck.hpp"
+
+namespace touchstone::verify::fuzz {
+namespace {
+
+/// Binary exponents of the greatest coordinate to ask at: close to 1 each, then fewer.
+constexpr std::array scales_to_ask{-40, -30, -24, -20, -17, -14, -12, -10, -8, -7, -6,
+                                   -5,  -4,  -3,  -2,  -1,  0,   1,   2,   3,  4,  5,
+                                   6,   7,   8,   10,  12,  14,  17,  20,  24, 30, 40};
+
+/// Asks a finding's query at other scales.
+class ScaleSearch {
+ public:
+  ScaleSearch(const fast::Method& method, const FuzzOptions& options,
+              const jobs::Deadline& deadline, const Finding& finding)
+      : query_(finding.simplest.query),
+        exponent_(size_exponent(query_)),
+        least_(least_scale(options.method.tolerance)),
+        deadline_(deadline),
+        recheck_(method, finding, options) {}
+
+  [[nodiscard]] std::optional<int> end_above() {
+    for (const int scale : scales_to_ask) {
+      if (scale > exponent_ && is_right_at(scale)) return scale;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<int> end_below() {
+    for (const int scale : scales_to_ask | std::views::reverse) {
+      if (scale >= least_ && scale < exponent_ && is_right_at(scale)) return scale;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool is_right_at(int scale) {
+    Query query = query_;
+    for (double& x : query.coordinates) x = std::ldexp(x, scale - exponent_);
+    // Without an answer in time nothing is known.
+    return !recheck_.ask(query, deadline_) && !deadline_.is_over();
+  }
+
+  const Query& query_;
+  int exponent_;
+  int least_;
+  const jobs::Deadline& deadline_;
+  Recheck recheck_;
+};
+
+/// Has it a reason that tells one fault from another?
+bool has_reason(FindingKind what) {
+  return what == FindingKind::crash || what == FindingKind::exit || what == FindingKind::exception;
+}
+
+void add_end(const std::optional<int>& exponent, ScaleEnds& all) {
+  if (!exponent) return;
+  const bool is_below = *exponent<least_everyday, is_above = *exponent> greatest_everyday;
+  all.below_everyday = all.below_everyday || is_below;
+  all.above_everyday = all.above_everyday || is_above;
+  all.everyday = all.everyday || (!is_below && !is_above);
+}
+
+ContactTime time_of(const FailingCase& failing) {
+  if (!failing.toi) return ContactTime::never;
+  if (failing.toi->upper == 0.0) return ContactTime::at_start;
+  return failing.toi->lower == 1.0 ? ContactTime::at_end : ContactTime::between;
+}
+
+Shape shape_of(Kind kind, const Query& query) {
+  if (collapsed_elements(kind, query) != 0) return Shape::collapsed;
+  return degeneracy(kind, query) != 0 ? Shape::coplanar : Shape::general;
+}
+
+}  // namespace
+
+int least_scale(double tolerance) {
+  constexpr int room = 4;
+  // Written so that NaN and 0 fail too.
+  if (!(tolerance > 0x1p-44)) return scales_to_ask.front();
+  return std::min(std::ilogb(tolerance) + room, 0);
+}
+
+ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
+                       const jobs::Deadline& deadline, const Finding& finding) {
+  if (finding.what == FindingKind::hang || !is_contact(finding.separation)) return {};
+  ScaleSearch search(method, options, deadline, finding);
+  return {.end_below = search.end_below(), .end_above = search.end_above()};
+}
+
+Signature signature_of(const Finding& finding) {
+  const FailingCase& simplest = finding.simplest;
+  Signature result{.method = finding.method, .what = finding.what};
+  if (has_reason(finding.what)) result.reason = simplest.detail;
+  add_end(finding.scales.end_below, result.ends);
+  add_end(finding.scales.end_above, result.ends);
+  if (result.ends.any()) return result;
+  result.kind = finding.kind;
+  result.shape = shape_of(finding.kind, simplest.query);
+  result.time = time_of(simplest);
+  return result;
+}
+
+std::string to_text(const ScaleEnds& scales) {
+  if (!scales.any()) return "any scale";
+  std::string text;
+  const auto add = [&text](bool is_there, const char* words) {
+    if (is_there) text += (text.empty() ? "ends " : " and ") + std::string(words);
+  };
+  add(scales.below_everyday, "below 2^-10");
+  add(scales.everyday, "near 1");
+  add(scales.above_everyday, "above 2^10");
+  return text;
+}
+
+std::string to_text(const std::optional<ContactTime>& time) {
+  static constexpr std::array<const char*, 4> names{"none", "t=0", "between", "t=1"};
+  return time ? names.at(static_cast<std::size_t>(*time)) : "any";
+}
+
+std::string to_text(const std::optional<Shape>& shape) {
+  static constexpr std::array<const char*, 3> names{"general", "coplanar", "collapsed"};
+  return shape ? names.at(static_cast<std::size_t>(*shape)) : "any";
+}
+
+}  // namespace touchstone::verify::fuzz

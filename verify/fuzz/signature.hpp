@@ -1,0 +1,84 @@
+#pragma once
+
+/// \file
+/// What findings of one cause have in common, as far as it can be told from outside.
+///
+/// A fault of rounding depends on the scale: multiplied by powers of two, which changes nothing else, the
+/// query is right somewhere, and where that is tells one wrong bound from another. It shows in queries of
+/// any shape and time, of both kinds. A fault of logic does not depend on the scale; it shows in one kind
+/// of queries, of one degeneracy, at one time of contact. So findings are of one group if they are of one
+/// solver and kind of finding, and
+///
+/// - the fault ends in the same ranges of scale, if it ends anywhere, or else
+/// - kind, degeneracy (plainness.hpp) and time of contact are the same.
+///
+/// This is no proof: two faults may have one signature, and one fault two.
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/fuzz/finding.hpp"
+#include "verify/fuzz/fuzz.hpp"
+#include "verify/jobs/deadline.hpp"
+
+namespace touchstone::verify::fuzz {
+
+/// When the primitives touch first.
+enum class ContactTime : std::uint8_t { never, at_start, between, at_end };
+
+/// The elements of a query, and its points' plane.
+enum class Shape : std::uint8_t { general, coplanar, collapsed };
+
+/// Ranges of the greatest coordinate in which a fault ends.
+struct ScaleEnds {
+  bool below_everyday = false;  ///< below 2^-10
+  bool everyday = false;
+  bool above_everyday = false;  ///< from 2^10 on
+
+  [[nodiscard]] bool any() const { return below_everyday || everyday || above_everyday; }
+  friend auto operator<=>(const ScaleEnds&, const ScaleEnds&) = default;
+};
+
+/// As above. Of a fault that depends on the scale, kind, shape and time are not set.
+struct Signature {
+  std::string method;
+  FindingKind what = FindingKind::false_negative;
+  /// The reason of a crash, an exit or an exception; else empty.
+  std::string reason = {};
+  ScaleEnds ends = {};
+  std::optional<Kind> kind = std::nullopt;
+  std::optional<Shape> shape = std::nullopt;
+  std::optional<ContactTime> time = std::nullopt;
+
+  friend auto operator<=>(const Signature&, const Signature&) = default;
+};
+
+inline constexpr int greatest_scale = 40;
+
+/// The least scale of which something is to be learnt, -40 or more: smaller than 16 times the tolerance
+/// that solvers are asked with, all is near all.
+[[nodiscard]] int least_scale(double tolerance);
+
+/// The scales at which the finding's simplest query is wrong, around its own: it is asked again times
+/// powers of two, up and down, until it is right or the greatest coordinate is beyond 2^least_scale() to
+/// 2^greatest_scale. Of a hang, and of what is about a separation, nothing is asked, and no end is known.
+[[nodiscard]] ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
+                                     const jobs::Deadline& deadline, const Finding& finding);
+
+/// Of the finding's simplest query; its scales are known.
+[[nodiscard]] Signature signature_of(const Finding& finding);
+
+/// "ends near 1", "ends at large scales", "any scale" and so on.
+[[nodiscard]] std::string to_text(const ScaleEnds& scales);
+
+/// "t=0", "t=1", "between", "none"; "any" if it is not set.
+[[nodiscard]] std::string to_text(const std::optional<ContactTime>& time);
+
+/// "general", "coplanar", "collapsed"; "any" if it is not set.
+[[nodiscard]] std::string to_text(const std::optional<Shape>& shape);
+
+}  // namespace touchstone::verify::fuzz
