@@ -362,18 +362,15 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Output");
   command
       .add_option("--out", arguments.out_file,
-                  "Write the queries found, with their truth, as a dataset, a file for each kind")
+                  "Write the queries found, with their truth, as a dataset")
       ->type_name("FILE.csv");
   command
       .add_option("--write", arguments.page_folder,
-                  "Write a page for an issue tracker a group of findings, with a program, a "
-                  "certificate and a test, and findings.json")
+                  "Write a page a group for an issue tracker, with program, proof, test, JSON")
       ->type_name("FOLDER");
   command
-      .add_option(
-          "--calls", arguments.calls,
-          "What the programs of --write call: plugin, ticcd or ipc-toolkit (default: plugin, "
-          "or the public code that the method follows)")
+      .add_option("--calls", arguments.calls,
+                  "What its programs call: plugin (the default for plugins), ticcd or ipc-toolkit")
       ->type_name("INTERFACE")
       ->check(CLI::IsMember({"plugin", "ticcd", "ipc-toolkit"}).description(""));
   add_json_option(command, arguments.json_file);
@@ -394,8 +391,8 @@ void add_fuzz_command(CLI::App& app, Status& status) {
       "touchstone fuzz --plugin ./libsolver.so --only false_negative --seconds 600\n"
       "touchstone fuzz --plugin ./libsolver.so --exact --write findings --corpus data",
       "The one solver runs in a child process. Findings are simplified, grouped by what can be "
-      "told of their cause, and printed with one example a group; --write makes pages, programs "
-      "and tests of them. The same --seed and --queries give the same findings. "
+      "told of their cause, and printed with one example a group. The same --seed and --queries "
+      "give the same findings. "
       "What is searched "
       "and who judges: docs/testing.md.\n"
       "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, or nothing judged, 130 "

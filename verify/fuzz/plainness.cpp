@@ -13,12 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t axes = 3;
-constexpr std::size_t ends = 2;
-constexpr std::size_t coordinate_count = axes * query_points;
-/// Distance of a point's coordinate at t=0 from the one at t=1.
-constexpr std::size_t to_other_end = axes * moving_points;
-
 // ---- Size ---------------------------------------------------------------------------------------
 
 /// How far an exponent is from a range.

@@ -17,12 +17,6 @@
 namespace touchstone::verify::fuzz {
 namespace {
 
-constexpr std::size_t axes = 3;
-constexpr std::size_t ends = 2;
-constexpr std::size_t coordinate_count = axes * query_points;
-/// Distance of a point's coordinate at t=0 from the one at t=1.
-constexpr std::size_t to_other_end = axes * moving_points;
-
 std::uint64_t hash_of(const Query& query) {
   std::uint64_t result = 0;
   for (const double x : query.coordinates) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <ranges>
 
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
@@ -36,8 +35,8 @@ class ScaleSearch {
   }
 
   [[nodiscard]] std::optional<int> end_below() {
-    for (const int scale : scales_to_ask | std::views::reverse) {
-      if (scale >= least_ && scale < exponent_ && is_right_at(scale)) return scale;
+    for (auto scale = scales_to_ask.rbegin(); scale != scales_to_ask.rend(); ++scale) {
+      if (*scale >= least_ && *scale < exponent_ && is_right_at(*scale)) return *scale;
     }
     return std::nullopt;
   }
@@ -64,7 +63,8 @@ bool has_reason(FindingKind what) {
 
 void add_end(const std::optional<int>& exponent, ScaleEnds& all) {
   if (!exponent) return;
-  const bool is_below = *exponent<least_everyday, is_above = *exponent> greatest_everyday;
+  const bool is_below = *exponent < least_everyday;
+  const bool is_above = *exponent > greatest_everyday;
   all.below_everyday = all.below_everyday || is_below;
   all.above_everyday = all.above_everyday || is_above;
   all.everyday = all.everyday || (!is_below && !is_above);

@@ -40,6 +40,7 @@ struct ScaleEnds {
   bool above_everyday = false;  ///< from 2^10 on
 
   [[nodiscard]] bool any() const { return below_everyday || everyday || above_everyday; }
+  // NOLINTNEXTLINE(readability-implicit-bool-conversion): in the comparison of two of them
   friend auto operator<=>(const ScaleEnds&, const ScaleEnds&) = default;
 };
 

@@ -134,7 +134,7 @@ TEST_F(Report, WithoutAPathTheQueriesAreTheBuiltInOnes) {
   }
   EXPECT_EQ(groups, (std::set<std::string>{"hard set edge-edge", "hard set vertex-face",
                                            "patches edge-edge", "patches vertex-face"}));
-  EXPECT_EQ(result.at("stability").size(), 6U * 11U * 2U);
+  EXPECT_EQ(result.at("stability").size(), 10U * 11U * 2U);
 }
 
 TEST_F(Report, ABrokenPromiseExitsWithOne) {

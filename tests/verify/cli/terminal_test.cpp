@@ -136,7 +136,7 @@ TEST_F(TerminalTool, AClosedStandardOutputEndsThePrintingOnly) {
            "--most-findings", "2", "--out", path("found.csv"), "--json", path("fuzz.json")},
           pipe.writer());
   EXPECT_EQ(fuzz.status, 1) << fuzz.err;
-  EXPECT_EQ(json("fuzz.json").at("findings").size(), 2U);
+  EXPECT_EQ(json("fuzz.json").at("groups").size(), 2U);
   EXPECT_TRUE(std::ranges::any_of(fs::directory_iterator(folder()), [](const auto& entry) {
     return entry.path().filename().string().starts_with("found");
   }));

@@ -77,7 +77,7 @@ TEST(StabilityText, ShowsErrorsAndHangsBesideTheWorst) {
   judge::Judgement hung = faults(0, 0);
   hung.failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 1;
   const std::string text = to_text(result_of({cell("digits", 1, both), cell("digits", 2, hung)}));
-  EXPECT_TRUE(contains(text, "digits    1 digits … 15 digits  edge-edge    N.               #H "))
+  EXPECT_TRUE(contains(text, "digits    1 digits … 15 digits  edge-edge    N.              #H "))
       << text;
   EXPECT_TRUE(contains(text, ". every answer is right")) << text;
 }
