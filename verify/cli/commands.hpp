@@ -43,6 +43,9 @@ void add_report_command(CLI::App& app, Status& status);
 /// `touchstone candidates`
 void add_candidates_command(CLI::App& app, Status& status);
 
+/// `touchstone view`
+void add_view_command(CLI::App& app, Status& status);
+
 /// `touchstone derive`
 void add_derive_command(CLI::App& app, Status& status);
 
