@@ -2,41 +2,21 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "fast/certified/exact/exact_stage.hpp"
+#include "fast/certified/block.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
 
 namespace touchstone::fast {
 namespace {
-
-// ---- Options ------------------------------------------------------------------------------------
-
-void check(const CertifiedOptions& options) {
-  // Written so that NaN fails too.
-  if (!(options.toi_tolerance >= 0.0 && std::isfinite(options.toi_tolerance))) {
-    throw std::invalid_argument("certified: toi_tolerance must be finite and not negative");
-  }
-  if (!(options.t_max >= 0.0 && options.t_max <= 1.0)) {
-    throw std::invalid_argument("certified: t_max must be in [0,1]");
-  }
-  if (!is_valid(options.separation)) {
-    throw std::invalid_argument("certified: the separation must be finite and not negative");
-  }
-  if (options.max_threads < 0) {
-    throw std::invalid_argument("certified: max_threads must not be negative");
-  }
-}
 
 // ---- Queries ------------------------------------------------------------------------------------
 
@@ -81,64 +61,15 @@ Batch batch_of(const MovingVertices& vertices, const Candidates& candidates) {
 
 // ---- A block ------------------------------------------------------------------------------------
 
-CertifiedResult decide_last(const Batch& batch, std::size_t i, const CertifiedOptions& options) {
-  const Query query = batch.query(i);
-  CertifiedResult result{.verdict = Verdict::error, .stage = Stage::exact};
-  if (!is_finite(query)) return result;
-  const std::optional<ExactImpact> impact =
-      decide_exactly(batch.kind, query, options.separation, options.toi_tolerance, options.t_max);
-  if (!impact) {
-    result.verdict = Verdict::no;
-    return result;
-  }
-  return {.verdict = Verdict::yes,
-          .stage = Stage::exact,
-          .toi_lower = impact->toi_lower,
-          .toi_upper = impact->toi_upper,
-          .u = impact->u,
-          .v = impact->v};
-}
-
-/// The result of a hit, if it is as narrow as wanted and on one side of t_max.
-std::optional<CertifiedResult> result_of(const KernelHit& hit, const CertifiedOptions& options) {
-  // (Where the time of impact is 0, both are.)
-  if (hit.toi_lower >= options.t_max && hit.toi_upper > 0.0) {
-    return CertifiedResult{.verdict = Verdict::no, .stage = Stage::bisection};
-  }
-  if (hit.toi_upper > options.t_max || options.toi_tolerance < least_kernel_tolerance) {
-    return std::nullopt;
-  }
-  return CertifiedResult{.verdict = Verdict::yes,
-                         .stage = Stage::bisection,
-                         .toi_lower = hit.toi_lower,
-                         .toi_upper = hit.toi_upper,
-                         .u = hit.u,
-                         .v = hit.v};
-}
-
-/// Runs the kernel on the block that begins at `first`, with contacts after t_limit of no interest,
-/// and hands on the results of queries that may have a contact: report(number, result).
+/// Decides the block that begins at `first`, with contacts after t_limit of no interest, and hands on the
+/// results of queries that may have a contact: report(number, result).
 template <class Report>
-const KernelOutput& decide_block(const Batch& batch, std::size_t first, double t_limit,
-                                 const CertifiedOptions& options, const Report& report) {
-  thread_local KernelOutput output;
-  KernelInput input = batch.block(first);
-  input.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
-  input.t_limit = t_limit;
-  input.separation = options.separation;
-  const CertifiedKernel& kernel =
-      options.kernel != nullptr ? *options.kernel : best_certified_kernel();
-  kernel.decide(input, output);
-  for (std::size_t i = 0; i < output.hits.count; ++i) {
-    const KernelHit& hit = output.hits.items[i];
-    const std::optional<CertifiedResult> result = result_of(hit, options);
-    report(first + hit.index, result ? *result : decide_last(batch, first + hit.index, options));
-  }
-  for (std::size_t i = 0; i < output.undecided.count; ++i) {
-    const std::size_t number = first + output.undecided.items[i];
-    report(number, decide_last(batch, number, options));
-  }
-  return output;
+const KernelOutput& decide(const Batch& batch, std::size_t first, double t_limit,
+                           const CertifiedOptions& options, const Report& report) {
+  return decide_block(
+      batch.block(first), t_limit, options,
+      [&](std::size_t index) { return batch.query(first + index); },
+      [&](std::size_t index, const CertifiedResult& result) { report(first + index, result); });
 }
 
 /// Calls body(first) for each block, under strict floating point, in as many threads as allowed.
@@ -154,9 +85,7 @@ void for_each_block(std::size_t size, int max_threads, const Body& body) {
     return;
   }
   constexpr std::size_t blocks_a_task = 8;
-  const int cores = tbb::info::default_concurrency();
-  tbb::task_arena arena(max_threads == 0 ? cores : std::min(max_threads, cores));
-  arena.execute([&] {
+  with_threads(max_threads, [&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, blocks, blocks_a_task),
         [&](const tbb::blocked_range<std::size_t>& range) { run(range.begin(), range.end()); });
@@ -177,7 +106,7 @@ void mark_stages(const KernelOutput& output, const Mark& mark) {
 
 void solve(const Batch& batch, std::span<CertifiedResult> results,
            const CertifiedOptions& options) {
-  check(options);
+  require_valid(options);
   if (results.size() != batch.size) {
     throw std::invalid_argument("certified: as many results as queries are needed");
   }
@@ -185,7 +114,7 @@ void solve(const Batch& batch, std::span<CertifiedResult> results,
     const std::size_t count = std::min(kernel_block, batch.size - first);
     const std::span<CertifiedResult> of_block = results.subspan(first, count);
     std::ranges::fill(of_block, CertifiedResult{.verdict = Verdict::no, .stage = Stage::axis});
-    const KernelOutput& output = decide_block(
+    const KernelOutput& output = decide(
         batch, first, options.t_max, options,
         [&](std::size_t number, const CertifiedResult& result) { results[number] = result; });
     mark_stages(output, [&](std::size_t index, Stage stage) { of_block[index].stage = stage; });
@@ -198,15 +127,15 @@ void solve(const Batch& batch, std::span<CertifiedResult> results,
 void collect(const Batch& batch, std::size_t first, const CertifiedOptions& options,
              std::vector<Collision>& found) {
   const auto before = static_cast<std::ptrdiff_t>(found.size());
-  decide_block(batch, first, options.t_max, options,
-               [&](std::size_t number, const CertifiedResult& result) {
-                 if (result.verdict != Verdict::no) found.push_back({number, result});
-               });
+  decide(batch, first, options.t_max, options,
+         [&](std::size_t number, const CertifiedResult& result) {
+           if (result.verdict != Verdict::no) found.push_back({number, result});
+         });
   std::ranges::sort(found.begin() + before, found.end(), {}, &Collision::candidate);
 }
 
 std::vector<Collision> collisions(const Batch& batch, const CertifiedOptions& options) {
-  check(options);
+  require_valid(options);
   std::vector<Collision> all;
   if (options.max_threads == 1) {
     for_each_block(batch.size, 1, [&](std::size_t first) { collect(batch, first, options, all); });
@@ -229,15 +158,6 @@ void lower_to(std::atomic<double>& number, double x) {
   double known = number.load();
   while (x < known && !number.compare_exchange_weak(known, x)) {
   }
-}
-
-/// A time such that a contact after it has an enclosure whose ends are both above toi_upper: the
-/// lower end is above it · (1 − tolerance − 2^-52).
-double limit_after(double toi_upper, double tolerance) {
-  constexpr double far_from_subnormal = 0x1p-900;
-  if (tolerance > 0.5) return 1.0;
-  const double limit = toi_upper / (1.0 - tolerance) * (1.0 + 0x1p-50);
-  return std::clamp(limit, far_from_subnormal, 1.0);
 }
 
 }  // namespace
@@ -288,23 +208,22 @@ std::vector<Collision> collisions(const MovingVertices& vertices, const Candidat
 
 std::optional<EarliestImpact> earliest(const MovingVertices& vertices, const Candidates& candidates,
                                        const CertifiedOptions& options) {
-  check(options);
+  require_valid(options);
   const Batch batch = batch_of(vertices, candidates);
   constexpr double none = std::numeric_limits<double>::infinity();
   std::atomic<double> lower = none, upper = none;
   for_each_block(batch.size, options.max_threads, [&](std::size_t first) {
     const double limit =
         std::min(options.t_max, limit_after(std::min(upper.load(), 1.0), options.toi_tolerance));
-    decide_block(batch, first, limit, options,
-                 [&](std::size_t number, const CertifiedResult& result) {
-                   if (result.verdict == Verdict::no) return;
-                   if (result.verdict == Verdict::error) {
-                     throw std::domain_error("certified: candidate " + std::to_string(number) +
-                                             " has a coordinate that is not finite");
-                   }
-                   lower_to(lower, result.toi_lower);
-                   lower_to(upper, result.toi_upper);
-                 });
+    decide(batch, first, limit, options, [&](std::size_t number, const CertifiedResult& result) {
+      if (result.verdict == Verdict::no) return;
+      if (result.verdict == Verdict::error) {
+        throw std::domain_error("certified: candidate " + std::to_string(number) +
+                                " has a coordinate that is not finite");
+      }
+      lower_to(lower, result.toi_lower);
+      lower_to(upper, result.toi_upper);
+    });
   });
   if (upper.load() == none) return std::nullopt;
   return EarliestImpact{.toi_lower = lower.load(), .toi_upper = upper.load()};
@@ -323,7 +242,7 @@ std::vector<std::string_view> stage_names() {
 
 class CertifiedMethod : public Method {
  public:
-  explicit CertifiedMethod(const CertifiedOptions& base) : base_(base) { check(base); }
+  explicit CertifiedMethod(const CertifiedOptions& base) : base_(base) { require_valid(base); }
 
   [[nodiscard]] const MethodInfo& info() const override { return certified_info(); }
 
@@ -337,7 +256,7 @@ class CertifiedMethod : public Method {
       std::ranges::fill(answers, Answer{.verdict = Verdict::error});
       return;
     }
-    check(of_call);
+    require_valid(of_call);
     const Batch batch = batch_of(kind, queries);
     for_each_block(batch.size, of_call.max_threads, [&](std::size_t first) {
       const std::size_t count = std::min(kernel_block, batch.size - first);
@@ -352,7 +271,7 @@ class CertifiedMethod : public Method {
                            .tolerance = Answer::none};
       };
       mark_stages(
-          decide_block(batch, first, of_call.t_max, of_call, take),
+          decide(batch, first, of_call.t_max, of_call, take),
           [&](std::size_t index, Stage stage) { of_block[index].checks = stages_up_to(stage); });
     });
   }

@@ -136,4 +136,10 @@ inline constexpr ErrorBound<double, 1> contact_component_double_double{
     .greatest_x = 0x1p+986,
 };
 
+/// position in double: 2 u x and underflow.
+inline constexpr ErrorBound<double, 1> position_double{
+    .coefficients = {{0x0.0000000000003p-1022, 0x1.0000000000004p-52}},
+    .greatest_x = 0x1p+1022,
+};
+
 }  // namespace touchstone::filters

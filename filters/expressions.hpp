@@ -70,6 +70,26 @@ inline constexpr Group<2, 2> unit_segment{{{1, 0}, {0, 1}}};
 /// (1−u−v, u, v) for (u,v) ∈ [0,1]²: the boxes of a subdivision reach beyond the triangle.
 inline constexpr Group<4, 3> unit_square{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 1, 1}}};
 
+// ---- Where a point is at a time -----------------------------------------------------------------
+
+/// One coordinate of a moving point. Coordinates: at t=0 and at t=1. Weights: (1−t, t).
+struct Position {
+  static constexpr std::string_view name = "position";
+  static constexpr std::size_t coordinates = 2;
+  static constexpr std::size_t weights = 2;
+
+  template <class Visitor>
+  static constexpr void visit_groups(const Visitor& visit) {
+    visit(unit_segment);
+  }
+
+  template <class Scalar>
+  [[nodiscard]] static constexpr Scalar evaluate(const std::array<Scalar, coordinates>& x,
+                                                 const std::array<Scalar, weights>& w) {
+    return blend(x[0], x[1], w[0], w[1]);
+  }
+};
+
 // ---- One axis of F (exact/query.hpp), as the solvers of fast/ run it ----------------------------
 
 /// F of edge_edge on one axis. Coordinates: ea0, ea1, eb0, eb1 at t=0, then at t=1. Weights:

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "fast/platform/floating_point_state.hpp"
@@ -61,13 +62,18 @@ RowBox<instants> box_of(const FloatBounds& bounds, const GroupMembers& members, 
   return result;
 }
 
-template <std::size_t instants>
-void set_lane(BoxGroup<instants>& group, std::size_t lane, const RowBox<instants>& box) {
-  for (std::size_t i = 0; i < instants; ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      group.lower[i][axis][lane] = box.lower[i][axis];
-      group.upper[i][axis][lane] = box.upper[i][axis];
-    }
+/// Four rows become four lanes of their first three columns, from a lane on.
+void set_lanes(std::array<FloatLanes, 3>& to, std::size_t lane, const FloatRow& a,
+               const FloatRow& b, const FloatRow& c, const FloatRow& d) {
+  const FloatRow ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  const FloatRow cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  const FloatRow ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const FloatRow cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  const std::array<FloatRow, 3> columns{__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+                                        __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
+                                        __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::memcpy(&to[axis][lane], &columns[axis], sizeof(FloatRow));
   }
 }
 
@@ -86,13 +92,20 @@ RowBox<instants> box_of(const BoxGroup<instants>& group, std::size_t lane) {
 /// all of them. The lanes behind repeat the last.
 template <std::size_t instants, class BoxOf>
 RowBox<instants> fill(BoxGroup<instants>& group, std::size_t count, const BoxOf& box) {
+  static constexpr std::size_t at_once = 4;
   RowBox<instants> around = RowBox<instants>::empty(), last = around;
-  for (std::size_t lane = 0; lane < group_size; ++lane) {
-    if (lane < count) {
-      last = box(lane);
+  for (std::size_t lane = 0; lane < group_size; lane += at_once) {
+    std::array<RowBox<instants>, at_once> boxes;
+    for (std::size_t i = 0; i < at_once; ++i) {
+      if (lane + i < count) last = box(lane + i);
+      boxes[i] = last;
       around.include(last);
     }
-    set_lane(group, lane, last);
+    const auto& [a, b, c, d] = boxes;
+    for (std::size_t i = 0; i < instants; ++i) {
+      set_lanes(group.lower[i], lane, a.lower[i], b.lower[i], c.lower[i], d.lower[i]);
+      set_lanes(group.upper[i], lane, a.upper[i], b.upper[i], c.upper[i], d.upper[i]);
+    }
   }
   return around;
 }

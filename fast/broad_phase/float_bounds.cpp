@@ -8,6 +8,8 @@
 #include <functional>
 
 #include "fast/platform/floating_point_state.hpp"
+#include "filters/error_bounds.hpp"
+#include "filters/expressions.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -63,6 +65,24 @@ double scaled(double x, double scale) {
   return product;
 }
 
+/// A number of doubles, rounded down and up.
+struct FloatInterval {
+  float lower;
+  float upper;
+};
+
+FloatInterval around(double x) {
+  const float below = rounded_down(x);
+  return {below, static_cast<double>(below) == x ? below : float_after(below)};
+}
+
+/// The place at a time of a coordinate that moves from x to y.
+FloatInterval around_position(double x, double y, double time) {
+  const double position = filters::Position::evaluate<double>({x, y}, {1.0 - time, time});
+  const double error = filters::position_double(std::max(std::abs(x), std::abs(y)));
+  return {rounded_down(position - 2.0 * error), rounded_up(position + 2.0 * error)};
+}
+
 }  // namespace
 
 float rounded_down(double x) {
@@ -70,15 +90,15 @@ float rounded_down(double x) {
   return static_cast<double>(nearest) > x ? float_before(nearest) : nearest;
 }
 
-FloatBounds::FloatBounds(const MovingVertices& vertices)
+FloatBounds::FloatBounds(const MovingVertices& vertices, double end)
     // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
     : size_(vertices.size()), bounds_(std::make_unique_for_overwrite<VertexBounds[]>(size_)) {
   scale_ = scale_for(greatest_coordinate(vertices));
   exact_ = over_vertices(
       size_, true,
-      [&](std::size_t first, std::size_t end) {
+      [&](std::size_t first, std::size_t behind) {
         bool exact = true;
-        for (std::size_t i = first; i < end; ++i) exact &= set(i, vertices[i]);
+        for (std::size_t i = first; i < behind; ++i) exact &= set(bounds_[i], vertices[i], end);
         return exact;
       },
       std::logical_and<>());
@@ -90,21 +110,21 @@ float FloatBounds::scaled_down(double distance) const {
   return std::min(rounded_down(scaled(distance, scale_)), std::numeric_limits<float>::max());
 }
 
-bool FloatBounds::set(std::size_t i, const MovingVertex& vertex) {
-  const std::array<const std::array<double, 4>*, 2> places{&vertex.start, &vertex.end};
+bool FloatBounds::set(VertexBounds& bounds, const MovingVertex& vertex, double end) const {
   bool exact = true;
-  VertexBounds& bounds = bounds_[i];
-  for (std::size_t end = 0; end < 2; ++end) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double x = scaled((*places[end])[axis], scale_);
-      const float below = rounded_down(x);
-      const bool is_float = static_cast<double>(below) == x;
-      bounds.lower[end][axis] = below;
-      bounds.upper[end][axis] = is_float ? below : float_after(below);
-      exact &= is_float;
-    }
-    bounds.lower[end][3] = bounds.upper[end][3] = 0.0F;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double start = scaled(vertex.start[axis], scale_);
+    const double at_one = scaled(vertex.end[axis], scale_);
+    const FloatInterval first = around(start);
+    const FloatInterval last =
+        end == 1.0 || start == at_one ? around(at_one) : around_position(start, at_one, end);
+    bounds.lower[0][axis] = first.lower;
+    bounds.upper[0][axis] = first.upper;
+    bounds.lower[1][axis] = last.lower;
+    bounds.upper[1][axis] = last.upper;
+    exact &= first.lower == first.upper && last.lower == last.upper;
   }
+  bounds.lower[0][3] = bounds.upper[0][3] = bounds.lower[1][3] = bounds.upper[1][3] = 0.0F;
   return exact;
 }
 

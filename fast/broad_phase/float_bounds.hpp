@@ -12,6 +12,10 @@
 /// b' the least from b on, and let x⁺ be the float after x. Then a < a'⁺, and b is greater than
 /// the float before b'. So a'⁺⁺ ≤ b' implies a < b: two floats farther on, the comparison is sure.
 ///
+/// **Part of a step.** The end of an interval [0, t] may be before 1. Where a point is then is computed, with an error that
+/// is bounded by e (filters::Position): it is in [p − e, p + e]. A difference p − 2e is rounded by less than e, so it is
+/// below that, and is rounded down to float as coordinates are.
+///
 /// The scale is 1 for scenes of a usual size. Else it brings the greatest coordinate to between 1 and 2,
 /// so nothing overflows; what underflows is rounded outwards as well.
 
@@ -58,13 +62,14 @@ struct alignas(64) VertexBounds {
 
 class FloatBounds {
  public:
-  /// Of the vertices at t=0 and t=1. Uses the threads of the task arena that it is called in.
+  /// Of the vertices at t=0 and at the time `end`, a power of two from 2^-52 to 1. Uses the threads of the task
+  /// arena that it is called in.
   /// \pre their coordinates are finite.
-  explicit FloatBounds(const MovingVertices& vertices);
+  explicit FloatBounds(const MovingVertices& vertices, double end = 1.0);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const VertexBounds& operator[](std::size_t i) const { return bounds_[i]; }
-  /// Are all bounds the coordinates themselves, times the scale?
+  /// Are all bounds the coordinates themselves, times the scale? Not asked before t=1.
   [[nodiscard]] bool are_exact() const { return exact_; }
   /// A distance, times what coordinates are multiplied with, rounded up and down; perhaps to infinity, and
   /// to the greatest float.
@@ -73,7 +78,7 @@ class FloatBounds {
 
  private:
   /// Are the bounds of that vertex exact?
-  bool set(std::size_t i, const MovingVertex& vertex);
+  bool set(VertexBounds& bounds, const MovingVertex& vertex, double end) const;
 
   std::size_t size_;
   // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros

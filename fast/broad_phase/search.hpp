@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "fast/broad_phase/body_tree.hpp"
 #include "fast/broad_phase/box_tree.hpp"
 #include "fast/mesh.hpp"
 #include "fast/platform/instruction_set.hpp"
@@ -25,16 +26,22 @@ enum class Certainty : std::uint8_t {
   all,
 };
 
-/// What holds of one kind of pairs in all searches for them.
+/// What holds of one kind of pairs.
 struct PairRules {
-  /// Are both primitives edges? Else one of them is a vertex, of which there is one place to look at.
+  /// Are both primitives edges? Else the first is a vertex.
   bool of_edges = false;
-  /// Boxes that come this near count as overlapping: not below that distance, and not above it.
+  /// Boxes that come this near overlap: a float that is not below the distance, and one not above it.
   float distance_above = 0.0F;
   float distance_below = 0.0F;
   Certainty certainty = Certainty::all;
   /// Asked about each pair that is not sure, with the primitives' numbers.
   bool (*confirms)(const void* context, const IndexPair& pair) = nullptr;
+  /// The bodies of the primitives that search and of the others, if not all meet.
+  const BodyTree* some_bodies = nullptr;
+  const BodyTree* all_bodies = nullptr;
+  /// With bodies: do two of them meet; and two primitives, one of which is mixed?
+  bool (*bodies_meet)(const void* context, std::int32_t a, std::int32_t b) = nullptr;
+  bool (*primitives_meet)(const void* context, const IndexPair& pair) = nullptr;
   const void* context = nullptr;
 };
 

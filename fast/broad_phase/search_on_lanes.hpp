@@ -69,6 +69,9 @@ class Search {
     own_ = &boxes.groups[group];
     own_lanes_ = boxes.lanes(group);
     around_ = {&parents.groups[group / group_size], group % group_size};
+    if (rules_.some_bodies != nullptr) {
+      own_body_ = rules_.some_bodies->bodies(1, group / group_size)[group % group_size];
+    }
     if (rules_.certainty == Certainty::unless_close) set_inner();
     if (rules_.distance_above > 0.0F) widen_own();
   }
@@ -167,6 +170,7 @@ class Search {
       unsigned near =
           not_apart(load(boxes), *around_.group, around_.lane) & level.lanes(node.number);
       if (within_) near &= from_group_on(group, node);
+      if (rules_.all_bodies != nullptr) near = that_meet(node, near);
       if (node.level == 1) {
         for (; near != 0; near &= near - 1) {
           const auto lane = static_cast<std::size_t>(__builtin_ctz(near));
@@ -190,6 +194,19 @@ class Search {
     return place / group_size == node.number ? ~0U << (place % group_size) : ~0U;
   }
 
+  /// Those of a node's children whose bodies meet that of the own group.
+  unsigned that_meet(const Node& node, unsigned children) const {
+    if (own_body_ == BodyTree::mixed) return children;
+    const IndexLanes& bodies = rules_.all_bodies->bodies(node.level, node.number);
+    for (unsigned rest = children; rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+      const bool meets = bodies[lane] == BodyTree::mixed ||
+                         rules_.bodies_meet(rules_.context, own_body_, bodies[lane]);
+      if (!meets) children &= ~(1U << lane);
+    }
+    return children;
+  }
+
   /// Holds the own primitives against those of another group, which has that box.
   void meet(std::size_t group, std::size_t other, const Place& box) {
     unsigned rows = not_apart(load(*own_), *box.group, box.lane) & own_lanes_;
@@ -205,6 +222,7 @@ class Search {
       if (is_self) hits &= ~0U << (row + 1);
       if (hits == 0) continue;
       hits &= ~sharing(own, row, others);
+      if (rules_.all_bodies != nullptr) hits = that_meet({group, row}, other, hits);
       if (rules_.certainty != Certainty::all) hits = confirmed(own, row, others, loaded, hits);
       append(own.numbers[row], others.numbers, hits);
     }
@@ -219,6 +237,29 @@ class Search {
       }
     }
     return result;
+  }
+
+  /// A primitive of a group.
+  struct Row {
+    std::size_t group;
+    std::size_t lane;
+  };
+
+  /// Those of another group's primitives that meet an own one.
+  unsigned that_meet(const Row& row, std::size_t other, unsigned hits) const {
+    const std::int32_t body = rules_.some_bodies->bodies(0, row.group)[row.lane];
+    const IndexLanes& bodies = rules_.all_bodies->bodies(0, other);
+    for (unsigned rest = hits; rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
+      const bool is_mixed = body == BodyTree::mixed || bodies[lane] == BodyTree::mixed;
+      const bool meets = is_mixed
+                             ? rules_.primitives_meet(rules_.context,
+                                                      {some_.members()[row.group].numbers[row.lane],
+                                                       all_.members()[other].numbers[lane]})
+                             : rules_.bodies_meet(rules_.context, body, bodies[lane]);
+      if (!meets) hits &= ~(1U << lane);
+    }
+    return hits;
   }
 
   /// Those of the hits that are sure, and those that are confirmed.
@@ -255,6 +296,7 @@ class Search {
   const PairRules& rules_;
   PairBuffer& pairs_;
   unsigned own_lanes_ = 0;
+  std::int32_t own_body_ = BodyTree::mixed;
   const bool within_;
 };
 

@@ -29,6 +29,9 @@ struct KernelInput {
   const Edge* edges = nullptr;
   const Face* faces = nullptr;
   const IndexPair* pairs = nullptr;
+  /// Is it known that coordinates are finite and no axis separates a query, or of no use to look for one? Then the
+  /// first stage is left out.
+  bool axis_is_done = false;
   /// Contact is to be this near.
   Separation separation = {};
   /// As CertifiedOptions::toi_tolerance, at least least_kernel_tolerance.

@@ -53,7 +53,13 @@ void run_stages(const KernelInput& input, KernelOutput& output) {
   output.separated_in_direction.count = output.one_sided.count = 0;
   output.rejected.count = output.hits.count = output.undecided.count = 0;
   Indices open, mixed, far, undecided;
-  AxisStage<Lanes, separated, kind, Source>::run(input, open);
+  if (input.axis_is_done) {
+    for (; open.count < input.count; ++open.count) {
+      open.items[open.count] = static_cast<std::uint32_t>(open.count);
+    }
+  } else {
+    AxisStage<Lanes, separated, kind, Source>::run(input, open);
+  }
   direction_and_determinant_stage<Lanes, separated, kind, Source>(input, open, mixed, output);
   Crossings contacts, zeros;
   orientation_stage<Lanes, separated, kind, Source>(input, mixed, contacts, zeros, undecided, far,

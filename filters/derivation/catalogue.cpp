@@ -59,6 +59,7 @@ std::vector<CatalogueEntry> make_catalogue() {
       entry<SquaredLength>(double_format),
       entry<LengthDefect>(double_double_format),
       entry<ContactComponent>(double_double_format),
+      entry<Position>(double_format),
       entry<PaperEdgeEdge>(Ships::no, edge_edge),
       entry<PaperVertexFace>(Ships::no, vertex_face),
       entry<PaperEdgeEdgeSeparated>(Ships::no, edge_edge_separated),

@@ -1,6 +1,6 @@
 /// \file
-/// Whole steps of public simulations: the collisions among all candidates of the broad phase are
-/// exactly those that the published labels call true, pair by pair.
+/// Whole steps of public simulations: the collisions, found in one or among all candidates of the
+/// broad phase, are exactly those that the published labels call true, pair by pair.
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,7 @@
 
 #include "fast/broad_phase.hpp"
 #include "fast/certified.hpp"
+#include "fast/step.hpp"
 #include "tests/support/simulation_steps.hpp"
 
 namespace touchstone::fast::simulation_steps_test {
@@ -59,6 +60,29 @@ TEST_P(SimulationSteps, CollideWhereTheirLabelsSayAndNowhereElse) {
     EXPECT_EQ(first->toi_lower, least->toi_lower);
     EXPECT_EQ(first->toi_upper, least->toi_upper);
   }
+}
+
+TEST_P(SimulationSteps, AreDecidedAsAWhole) {
+  const std::filesystem::path folder = tests::simulation_folder();
+  if (folder.empty()) GTEST_SKIP() << "public data missing";
+  const SimulationStep scene = tests::load_simulation_step(folder, GetParam());
+  const Step step(scene.vertices, {.edges = scene.edges, .faces = scene.faces, .points = {}});
+  const std::vector<StepCollision> collisions = step.collisions();
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    std::vector<IndexPair> colliding;
+    for (const StepCollision& one : collisions) {
+      if (Step::kind_of(one.kind) == kind) colliding.push_back(one.pair);
+    }
+    std::ranges::sort(colliding);
+    EXPECT_EQ(colliding, labelled_true(scene, kind)) << to_string(kind);
+  }
+  const std::optional<StepImpact> first = step.earliest();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->toi_lower,
+            std::ranges::min(collisions, {}, &StepCollision::toi_lower).toi_lower);
+  EXPECT_EQ(first->toi_upper,
+            std::ranges::min(collisions, {}, &StepCollision::toi_upper).toi_upper);
+  EXPECT_FALSE(step.is_free());
 }
 
 INSTANTIATE_TEST_SUITE_P(Public, SimulationSteps, ::testing::ValuesIn(tests::simulation_scenes),

@@ -24,7 +24,7 @@ namespace touchstone::fast {
 extern const SearchKernel TOUCHSTONE_PLANTED search_of_open_boxes, search_apart_at_one_end,
     search_apart_either_way, search_without_axis, search_without_lane, search_with_empty_lanes,
     search_widened_inwards, search_widened_on_one_side, search_without_own_node,
-    search_of_neighbours, search_too_sure;
+    search_of_neighbours, search_too_sure, search_of_all_bodies, search_without_mixed_bodies;
 
 // Tight-Inclusion's box test.
 extern const BoxKernel TOUCHSTONE_PLANTED box_of_wrong_sign, box_in_float, box_of_squared_width,

@@ -79,7 +79,8 @@ using Bounds = ::testing::Types<
     Shipped<EdgeEdgeSeparated, float, edge_edge_separated_float>,
     Shipped<VertexFaceSeparated, double, vertex_face_separated_double>,
     Shipped<VertexFaceSeparated, float, vertex_face_separated_float>,
-    Shipped<ComponentSum, double, component_sum_double>>;
+    Shipped<ComponentSum, double, component_sum_double>,
+    Shipped<Position, double, position_double>>;
 TYPED_TEST_SUITE(EveryBound, Bounds);
 
 TYPED_TEST(EveryBound, IsProvedByGappa) {

@@ -1,0 +1,68 @@
+#include "fast/certified/block.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "fast/certified/exact/exact_stage.hpp"
+
+namespace touchstone::fast {
+
+void require_valid(const CertifiedOptions& options) {
+  // Written so that NaN fails too.
+  if (!(options.toi_tolerance >= 0.0 && std::isfinite(options.toi_tolerance))) {
+    throw std::invalid_argument("certified: toi_tolerance must be finite and not negative");
+  }
+  if (!(options.t_max >= 0.0 && options.t_max <= 1.0)) {
+    throw std::invalid_argument("certified: t_max must be in [0,1]");
+  }
+  if (!is_valid(options.separation)) {
+    throw std::invalid_argument("certified: the separation must be finite and not negative");
+  }
+  if (options.max_threads < 0) {
+    throw std::invalid_argument("certified: max_threads must not be negative");
+  }
+}
+
+CertifiedResult decided_exactly(Kind kind, const Query& query, const CertifiedOptions& options) {
+  CertifiedResult result{.verdict = Verdict::error, .stage = Stage::exact};
+  if (!is_finite(query)) return result;
+  const std::optional<ExactImpact> impact =
+      decide_exactly(kind, query, options.separation, options.toi_tolerance, options.t_max);
+  if (!impact) {
+    result.verdict = Verdict::no;
+    return result;
+  }
+  return {.verdict = Verdict::yes,
+          .stage = Stage::exact,
+          .toi_lower = impact->toi_lower,
+          .toi_upper = impact->toi_upper,
+          .u = impact->u,
+          .v = impact->v};
+}
+
+std::optional<CertifiedResult> result_of(const KernelHit& hit, const CertifiedOptions& options) {
+  // (Where the time of impact is 0, both are.)
+  if (hit.toi_lower >= options.t_max && hit.toi_upper > 0.0) {
+    return CertifiedResult{.verdict = Verdict::no, .stage = Stage::bisection};
+  }
+  if (hit.toi_upper > options.t_max || options.toi_tolerance < least_kernel_tolerance) {
+    return std::nullopt;
+  }
+  return CertifiedResult{.verdict = Verdict::yes,
+                         .stage = Stage::bisection,
+                         .toi_lower = hit.toi_lower,
+                         .toi_upper = hit.toi_upper,
+                         .u = hit.u,
+                         .v = hit.v};
+}
+
+double limit_after(double toi_upper, double tolerance) {
+  // The lower end of an enclosure is above its upper one · (1 − tolerance − 2^-52).
+  constexpr double far_from_subnormal = 0x1p-900;
+  if (tolerance > 0.5) return 1.0;
+  const double limit = toi_upper / (1.0 - tolerance) * (1.0 + 0x1p-50);
+  return std::clamp(limit, far_from_subnormal, 1.0);
+}
+
+}  // namespace touchstone::fast

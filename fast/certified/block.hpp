@@ -1,0 +1,60 @@
+#pragma once
+
+/// \file
+/// A block of queries through all stages: the kernel, and the exact stage for what it leaves.
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "exact/query.hpp"
+#include "fast/certified.hpp"
+#include "fast/certified/kernel.hpp"
+
+namespace touchstone::fast {
+
+/// \throws std::invalid_argument for options out of range.
+void require_valid(const CertifiedOptions& options);
+
+/// What the exact stage says.
+[[nodiscard]] CertifiedResult decided_exactly(Kind kind, const Query& query,
+                                              const CertifiedOptions& options);
+
+/// The result of a hit, if it is as narrow as wanted and on one side of t_max.
+[[nodiscard]] std::optional<CertifiedResult> result_of(const KernelHit& hit,
+                                                       const CertifiedOptions& options);
+
+/// A time such that a contact after it has an enclosure whose ends are both above toi_upper.
+[[nodiscard]] double limit_after(double toi_upper, double tolerance);
+
+/// Runs the kernel on a block whose queries are named, with contacts after t_limit of no interest, and
+/// hands on the results of queries that may have a contact: report(index, result). Under strict floating
+/// point. \param query_of(index) a query of the block
+template <class QueryOf, class Report>
+const KernelOutput& decide_block(KernelInput block, double t_limit, const CertifiedOptions& options,
+                                 const QueryOf& query_of, const Report& report) {
+  thread_local KernelOutput output;
+  block.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
+  block.t_limit = t_limit;
+  block.separation = options.separation;
+  const CertifiedKernel& kernel =
+      options.kernel != nullptr ? *options.kernel : best_certified_kernel();
+  kernel.decide(block, output);
+  const auto report_exactly = [&](std::size_t index) {
+    report(index, decided_exactly(block.kind, query_of(index), options));
+  };
+  for (std::size_t i = 0; i < output.hits.count; ++i) {
+    const KernelHit& hit = output.hits.items[i];
+    if (const auto result = result_of(hit, options)) {
+      report(std::size_t{hit.index}, *result);
+    } else {
+      report_exactly(hit.index);
+    }
+  }
+  for (std::size_t i = 0; i < output.undecided.count; ++i) {
+    report_exactly(output.undecided.items[i]);
+  }
+  return output;
+}
+
+}  // namespace touchstone::fast

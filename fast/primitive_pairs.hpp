@@ -1,0 +1,66 @@
+#pragma once
+
+/// \file
+/// Two primitives given by their points: the certified solver in the shape that simulators call.
+///
+/// Each function takes the points at t=0 and then, in the same order, at t=1. They move on straight
+/// lines in between. A point is anything with three floats or doubles (`Point`); floats are exact in
+/// double. The degenerate pairs are a triangle without an area: point_edge asks about (e0, e1, e0),
+/// point_point about (p1, p1, p1).
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+
+#include "fast/certified.hpp"
+
+namespace touchstone::fast {
+
+/// Three coordinates, from an Eigen vector (or a row or column of a matrix) or from a pointer to x,
+/// of floats or doubles. Meant as a parameter.
+struct Point {
+  /// \throws std::invalid_argument unless there are three coefficients.
+  template <class Derived>
+  Point(const Eigen::DenseBase<Derived>& vector) {  // NOLINT(google-explicit-constructor)
+    static_assert(Derived::SizeAtCompileTime == 3 || Derived::SizeAtCompileTime == Eigen::Dynamic,
+                  "a point has three coordinates");
+    if (vector.size() != 3) throw std::invalid_argument("a point must have three coordinates");
+    const auto values = vector.derived().eval();
+    for (std::size_t i = 0; i < 3; ++i) {
+      coordinates[i] = static_cast<double>(values.coeff(static_cast<Eigen::Index>(i)));
+    }
+  }
+  Point(const double* x) : coordinates{x[0], x[1], x[2]} {}  // NOLINT(google-explicit-constructor)
+  Point(const float* x) : coordinates{x[0], x[1], x[2]} {}   // NOLINT(google-explicit-constructor)
+
+  std::array<double, 3> coordinates;
+};
+
+/// A point and a triangle. With yes, (u, v) is the place t0 + u (t1 − t0) + v (t2 − t0).
+/// \throws std::invalid_argument for options out of range; so do the others.
+[[nodiscard]] CertifiedResult point_triangle(const Point& p_t0, const Point& t0_t0,
+                                             const Point& t1_t0, const Point& t2_t0,
+                                             const Point& p_t1, const Point& t0_t1,
+                                             const Point& t1_t1, const Point& t2_t1,
+                                             const CertifiedOptions& options = {});
+
+/// Two edges. With yes, u is the place on the first one, from its first point, and v on the second.
+[[nodiscard]] CertifiedResult edge_edge(const Point& ea0_t0, const Point& ea1_t0,
+                                        const Point& eb0_t0, const Point& eb1_t0,
+                                        const Point& ea0_t1, const Point& ea1_t1,
+                                        const Point& eb0_t1, const Point& eb1_t1,
+                                        const CertifiedOptions& options = {});
+
+/// A point and an edge. With yes, u is the place on the edge, and v is 0.
+[[nodiscard]] CertifiedResult point_edge(const Point& p_t0, const Point& e0_t0, const Point& e1_t0,
+                                         const Point& p_t1, const Point& e0_t1, const Point& e1_t1,
+                                         const CertifiedOptions& options = {});
+
+/// Two points. With yes, u and v are 0.
+[[nodiscard]] CertifiedResult point_point(const Point& p0_t0, const Point& p1_t0,
+                                          const Point& p0_t1, const Point& p1_t1,
+                                          const CertifiedOptions& options = {});
+
+}  // namespace touchstone::fast

@@ -1,0 +1,369 @@
+#include "fast/step.hpp"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "fast/certified/block.hpp"
+#include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
+#include "fast/step/scene.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+namespace tbb = oneapi::tbb;
+
+static_assert(PairBuffer::capacity <= kernel_block);
+
+/// So many groups are a task's.
+constexpr std::size_t groups_of_part = 16;
+
+/// Up to which time boxes are made, for contacts up to a time: the least power of two that is not
+/// below it, but not so small that the rounding of places in float would be greater than the motion.
+double horizon_of(double time) {
+  constexpr double least_horizon = 0x1p-40;
+  if (time <= least_horizon) return least_horizon;
+  int exponent = 0;
+  const double fraction = std::frexp(time, &exponent);
+  return std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
+}
+
+/// Calls take(pairs) for the pairs of a part as they are found. Under strict floating point.
+template <std::size_t instants, class Take>
+void for_each_block(const Scene& scene, const Trees<instants>& trees, const SearchPart& part,
+                    Take take) {
+  const StrictFloatingPoint strict;
+  PairBuffer buffer;
+  buffer.context = &take;
+  buffer.take = [](void* context, std::span<const IndexPair> pairs) {
+    (*static_cast<Take*>(context))(pairs);
+  };
+  scene.find(trees, part, buffer);
+  buffer.flush();
+}
+
+// ---- Collisions ---------------------------------------------------------------------------------
+
+/// Appends the collisions of a part, in the order of its pairs.
+void collect(const Scene& scene, const Trees<2>& trees, const SearchPart& part,
+             std::vector<StepCollision>& found) {
+  std::vector<std::pair<std::size_t, StepCollision>> of_block;
+  for_each_block(scene, trees, part, [&](std::span<const IndexPair> pairs) {
+    of_block.clear();
+    scene.decide(part.kind, pairs, scene.certified().t_max,
+                 [&](std::size_t place, const StepCollision& collision) {
+                   of_block.emplace_back(place, collision);
+                 });
+    std::ranges::sort(of_block, {}, [](const auto& numbered) { return numbered.first; });
+    for (const auto& [place, collision] : of_block) found.push_back(collision);
+  });
+}
+
+std::vector<StepCollision> all_collisions(const Scene& scene) {
+  const Trees<2> trees = scene.trees<2>(horizon_of(scene.certified().t_max));
+  const std::vector<SearchPart> parts = scene.parts(groups_of_part);
+  std::vector<std::vector<StepCollision>> of_parts(parts.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(),
+                    [&](std::size_t i) { collect(scene, trees, parts[i], of_parts[i]); });
+  std::size_t count = 0;
+  for (const auto& some : of_parts) count += some.size();
+  std::vector<StepCollision> result;
+  result.reserve(count);
+  for (const auto& some : of_parts) result.insert(result.end(), some.begin(), some.end());
+  return result;
+}
+
+bool has_collision(const Scene& scene) {
+  const Trees<2> trees = scene.trees<2>(horizon_of(scene.certified().t_max));
+  const std::vector<SearchPart> parts = scene.parts(groups_of_part);
+  std::atomic<bool> found = false;
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    if (found) return;
+    for_each_block(scene, trees, parts[i], [&](std::span<const IndexPair> pairs) {
+      if (found) return;
+      scene.decide(parts[i].kind, pairs, scene.certified().t_max,
+                   [&](std::size_t, const StepCollision&) { found = true; });
+    });
+  });
+  return found;
+}
+
+// ---- The earliest -------------------------------------------------------------------------------
+
+/// Looks for the earliest impact: first with a few of the groups, which are all over the scene, then
+/// with more, then with all. In between, the boxes are fitted anew to the time up to the earliest
+/// impact that is known.
+class EarliestSearch {
+ public:
+  explicit EarliestSearch(const Scene& scene)
+      : scene_(scene),
+        horizon_(horizon_of(scene.certified().t_max)),
+        trees_(scene.trees<2>(horizon_)),
+        parts_(scene.parts(groups_of_part)) {}
+
+  [[nodiscard]] std::optional<StepImpact> run() {
+    // Every so many-th group, without those of the round before.
+    static constexpr std::array<std::size_t, 3> strides{64, 8, 1};
+    for (std::size_t i = 0; i < strides.size(); ++i) {
+      if (i > 0) look_nearer();
+      const std::size_t before = i > 0 ? strides[i - 1] : 0;
+      tbb::parallel_for(std::size_t{0}, parts_.size(),
+                        [&](std::size_t part) { search(parts_[part], strides[i], before); });
+    }
+    return result();
+  }
+
+ private:
+  using Found = std::vector<StepCollision>;
+
+  /// Contacts after this time are of no interest.
+  [[nodiscard]] double limit() const {
+    const CertifiedOptions& options = scene_.certified();
+    return std::min(options.t_max,
+                    limit_after(std::min(upper_.load(), 1.0), options.toi_tolerance));
+  }
+
+  /// Fits the boxes to the time that is left, if that is much less than before.
+  void look_nearer() {
+    static constexpr double much = 0.25;
+    const double horizon = horizon_of(limit());
+    if (horizon > much * horizon_) return;
+    horizon_ = horizon;
+    scene_.fit(trees_, horizon);
+  }
+
+  /// Searches with every stride-th group but every before-th, if `before` is not 0.
+  void search(SearchPart part, std::size_t stride, std::size_t before) {
+    const auto is_wanted = [&](std::size_t group) {
+      return group % stride == 0 && (before == 0 || group % before != 0);
+    };
+    const std::size_t end = part.end;
+    while (part.first < end) {
+      if (!is_wanted(part.first)) {
+        ++part.first;
+        continue;
+      }
+      part.end = part.first + 1;
+      while (part.end < end && is_wanted(part.end)) ++part.end;
+      for_each_block(scene_, trees_, part, [&](std::span<const IndexPair> pairs) {
+        scene_.decide(part.kind, pairs, limit(),
+                      [this](std::size_t, const StepCollision& collision) { add(collision); });
+      });
+      part.first = part.end;
+    }
+  }
+
+  void add(const StepCollision& collision) {
+    double known = upper_.load();
+    while (collision.toi_upper < known &&
+           !upper_.compare_exchange_weak(known, collision.toi_upper)) {
+    }
+    if (collision.toi_lower > upper_.load()) return;
+    Found& found = found_.local();
+    found.push_back(collision);
+    // What has become too late in the meantime is dropped where room would have to be made.
+    if (found.size() == found.capacity()) drop_late(found);
+  }
+
+  void drop_late(Found& found) const {
+    const double upper = upper_.load();
+    std::erase_if(found, [upper](const StepCollision& one) { return one.toi_lower > upper; });
+  }
+
+  [[nodiscard]] std::optional<StepImpact> result() {
+    StepImpact impact;
+    for (Found& found : found_) {
+      drop_late(found);
+      impact.pairs.insert(impact.pairs.end(), found.begin(), found.end());
+    }
+    if (impact.pairs.empty()) return std::nullopt;
+    std::ranges::sort(impact.pairs, [](const StepCollision& a, const StepCollision& b) {
+      return std::tie(a.kind, a.pair) < std::tie(b.kind, b.pair);
+    });
+    impact.toi_upper = upper_.load();
+    impact.toi_lower = std::ranges::min(impact.pairs, {}, &StepCollision::toi_lower).toi_lower;
+    return impact;
+  }
+
+  const Scene& scene_;
+  double horizon_;
+  Trees<2> trees_;
+  std::vector<SearchPart> parts_;
+  std::atomic<double> upper_ = std::numeric_limits<double>::infinity();
+  tbb::enumerable_thread_specific<Found> found_;
+};
+
+// ---- The step that is taken ---------------------------------------------------------------------
+
+/// \pre strict floating point
+MovingVertices scaled_vertices(const MovingVertices& vertices, double alpha) {
+  using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  const auto count = static_cast<Eigen::Index>(vertices.size());
+  Places start(count, 3), end(count, 3);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const MovingVertex& vertex = vertices[static_cast<std::size_t>(i)];
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double from = vertex.start[static_cast<std::size_t>(axis)];
+      const double to = vertex.end[static_cast<std::size_t>(axis)];
+      const double part = alpha * (to - from);
+      start(i, axis) = from;
+      end(i, axis) = from + part;
+    }
+  }
+  return {start, end};
+}
+
+/// Searches the doubles of [0,1] for one that is free while the next one is not.
+template <class IsFree>
+class StepSizeSearch {
+ public:
+  explicit StepSizeSearch(const IsFree& is_free) : is_free_(is_free) {}
+
+  /// \param guess in [0,1]; the search begins there.
+  [[nodiscard]] std::optional<double> run(double guess) {
+    if (is_free_(1.0)) return 1.0;
+    high_ = std::min(std::bit_cast<std::uint64_t>(guess), high_ - 1);
+    if (is_free(high_)) {
+      low_ = std::exchange(high_, std::bit_cast<std::uint64_t>(1.0));
+      go_up();
+    } else if (!go_down()) {
+      return std::nullopt;
+    }
+    while (high_ - low_ > 1) {
+      const std::uint64_t middle = low_ + (high_ - low_) / 2;
+      (is_free(middle) ? low_ : high_) = middle;
+    }
+    return std::bit_cast<double>(low_);
+  }
+
+ private:
+  static constexpr std::uint64_t growth = 8;
+
+  [[nodiscard]] bool is_free(std::uint64_t bits) const {
+    return is_free_(std::bit_cast<double>(bits));
+  }
+
+  /// Moves both up, in growing strides, as far as what comes is free.
+  void go_up() {
+    for (std::uint64_t stride = 1; stride < high_ - low_; stride *= growth) {
+      if (!is_free(low_ + stride)) {
+        high_ = low_ + stride;
+        return;
+      }
+      low_ += stride;
+    }
+  }
+
+  /// Moves both down until the lower one is free. Is there one?
+  bool go_down() {
+    for (std::uint64_t stride = 1; high_ > 0; stride *= growth) {
+      low_ = high_ - std::min(stride, high_);
+      if (is_free(low_)) return true;
+      high_ = low_;
+    }
+    return false;
+  }
+
+  const IsFree& is_free_;
+  /// The bits of doubles, which are in the order of positive doubles. At the end, the step is free
+  /// with the one, and not with the other.
+  std::uint64_t low_ = 0;
+  std::uint64_t high_ = std::bit_cast<std::uint64_t>(1.0);
+};
+
+}  // namespace
+
+// ---- Interface ----------------------------------------------------------------------------------
+
+std::string_view to_string(PairKind kind) {
+  switch (kind) {
+    case PairKind::vertex_face:
+      return "vertex-face";
+    case PairKind::edge_edge:
+      return "edge-edge";
+    case PairKind::vertex_edge:
+      return "vertex-edge";
+    case PairKind::vertex_vertex:
+      break;
+  }
+  return "vertex-vertex";
+}
+
+Step::Step(MovingVertices vertices, const MeshElements& elements, const StepOptions& options) {
+  if (options.max_threads < 0) {
+    throw std::invalid_argument("step: max_threads must not be negative");
+  }
+  scene_ = with_threads(options.max_threads, [&] {
+    return std::make_unique<const Scene>(std::move(vertices), elements, options);
+  });
+}
+
+Step::Step(std::unique_ptr<const Scene> scene) : scene_(std::move(scene)) {}
+
+Step::~Step() = default;
+Step::Step(Step&& other) noexcept = default;
+Step& Step::operator=(Step&& other) noexcept = default;
+
+std::optional<StepImpact> Step::earliest() const {
+  return with_threads(scene_->certified().max_threads,
+                      [this] { return EarliestSearch(*scene_).run(); });
+}
+
+std::vector<StepCollision> Step::collisions() const {
+  return with_threads(scene_->certified().max_threads, [this] { return all_collisions(*scene_); });
+}
+
+bool Step::is_free() const {
+  return with_threads(scene_->certified().max_threads, [this] { return !has_collision(*scene_); });
+}
+
+Step Step::scaled(double alpha) const {
+  // Written so that NaN fails too.
+  if (!(alpha >= 0.0 && alpha <= 1.0)) {
+    throw std::invalid_argument("step: the step size must be in [0,1]");
+  }
+  return Step(with_threads(scene_->certified().max_threads, [&] {
+    return std::make_unique<const Scene>(scaled_vertices(scene_->vertices(), alpha), *scene_);
+  }));
+}
+
+std::optional<double> Step::free_step_size() const {
+  const std::optional<StepImpact> impact = earliest();
+  const auto is_free = [this](double alpha) { return scaled(alpha).is_free(); };
+  return StepSizeSearch(is_free).run(impact ? impact->toi_lower : 1.0);
+}
+
+void Step::candidates(const std::function<void(const StepCandidates&)>& take) const {
+  with_threads(scene_->certified().max_threads, [&] {
+    const Trees<1> trees = scene_->trees<1>(1.0);
+    const std::vector<SearchPart> parts = scene_->parts(groups_of_part);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      const PairKind kind = parts[i].kind;
+      std::vector<IndexPair> reported;
+      for_each_block(*scene_, trees, parts[i], [&](std::span<const IndexPair> pairs) {
+        reported.clear();
+        for (const IndexPair& pair : pairs) reported.push_back(scene_->reported(kind, pair));
+        take({.kind = kind, .pairs = reported});
+      });
+    });
+  });
+}
+
+Query Step::query_of(PairKind kind, const IndexPair& pair) const {
+  return scene_->query_of(kind, pair);
+}
+
+const MovingVertices& Step::vertices() const { return scene_->vertices(); }
+
+std::span<const Edge> Step::edges() const { return scene_->elements().edges; }
+
+}  // namespace touchstone::fast

@@ -1,0 +1,62 @@
+#include "fast/step/codimensional.hpp"
+
+#include <algorithm>
+
+namespace touchstone::fast {
+namespace {
+
+/// Sets the flag of each vertex of the elements.
+template <class Element>
+void mark(std::vector<std::uint8_t>& flags, std::span<const Element> elements) {
+  for (const Element& element : elements) {
+    for (const std::int32_t vertex : element) flags[static_cast<std::size_t>(vertex)] = 1;
+  }
+}
+
+Edge ordered(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+std::vector<std::int32_t> edges_without_face(const MeshElements& elements) {
+  std::vector<Edge> sides;
+  sides.reserve(3 * elements.faces.size());
+  for (const auto& [a, b, c] : elements.faces) {
+    sides.insert(sides.end(), {ordered(a, b), ordered(b, c), ordered(c, a)});
+  }
+  std::ranges::sort(sides);
+  std::vector<std::int32_t> result;
+  for (std::size_t i = 0; i < elements.edges.size(); ++i) {
+    const auto [a, b] = elements.edges[i];
+    if (!std::ranges::binary_search(sides, ordered(a, b))) {
+      result.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> vertices_of(std::size_t vertices, const MeshElements& elements) {
+  std::vector<std::uint8_t> is_named(vertices);
+  mark(is_named, elements.edges);
+  mark(is_named, elements.faces);
+  for (const std::int32_t point : elements.points) is_named[static_cast<std::size_t>(point)] = 1;
+  std::vector<std::int32_t> result;
+  result.reserve(vertices);
+  for (std::size_t i = 0; i < vertices; ++i) {
+    if (is_named[i] != 0) result.push_back(static_cast<std::int32_t>(i));
+  }
+  return result;
+}
+
+Codimensional codimensional(std::size_t vertices, std::span<const std::int32_t> of_elements,
+                            const MeshElements& elements) {
+  std::vector<std::uint8_t> has_edge(vertices);
+  mark(has_edge, elements.edges);
+  Codimensional result;
+  std::ranges::copy_if(of_elements, std::back_inserter(result.points), [&](std::int32_t vertex) {
+    return has_edge[static_cast<std::size_t>(vertex)] == 0;
+  });
+  if (!result.points.empty()) result.edges = edges_without_face(elements);
+  return result;
+}
+
+}  // namespace touchstone::fast

@@ -1,0 +1,838 @@
+#include "fast/step.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "exact/oracle.hpp"
+#include "fast/broad_phase.hpp"
+#include "fast/broad_phase/search.hpp"
+#include "fast/certified/kernel.hpp"
+#include "tests/faults/planted_faults.hpp"
+#include "tests/support/certified.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/mesh/self_intersection.hpp"
+
+namespace touchstone::fast::step_test {
+namespace {
+
+using exact::Rational;
+using tests::Random;
+using Places = Eigen::MatrixX3d;
+using NumberedPair = std::pair<PairKind, IndexPair>;
+using Pairs = std::vector<NumberedPair>;
+
+constexpr double tiniest = std::numeric_limits<double>::denorm_min();
+constexpr auto kinds = std::to_array<PairKind>(
+    {PairKind::vertex_face, PairKind::edge_edge, PairKind::vertex_edge, PairKind::vertex_vertex});
+
+// ---- Scenes -------------------------------------------------------------------------------------
+
+/// A step with what it is made of.
+struct Scene {
+  Places start;
+  Places end;
+  std::vector<Edge> edges;  ///< all of them
+  std::vector<Face> faces;
+  std::vector<std::int32_t> points;
+  std::vector<std::int32_t> groups;
+  std::vector<std::array<std::int32_t, 2>> apart;
+
+  [[nodiscard]] MeshElements elements() const {
+    return {.edges = edges, .faces = faces, .points = points};
+  }
+  [[nodiscard]] Step step(StepOptions options = {}) const {
+    options.groups = {.of_vertices = groups, .apart = apart};
+    return Step(start, end, elements(), options);
+  }
+};
+
+/// Where vertices are: a coordinate of a vertex at an end of the step.
+struct Shape {
+  std::string name;
+  std::function<double(Random&)> coordinate;
+  /// Does the end have coordinates of its own, or the start's and this added?
+  std::function<double(Random&)> motion;
+  double separation;  ///< one that makes a difference
+};
+
+std::vector<Shape> shapes() {
+  const auto none = std::function<double(Random&)>();
+  return {
+      {"small integers", [](Random& r) { return r.between(0, 2); }, none, 1.0},
+      {"coarse grid", [](Random& r) { return 0.125 * r.between(0, 9); }, none, 0.125},
+      {"anywhere", [](Random& r) { return r.uniform(-1, 1); }, none, 0.1},
+      {"small motion", [](Random& r) { return r.uniform(-1, 1); },
+       [](Random& r) { return r.uniform(-0.2, 0.2); }, 0.01},
+      {"coincident", [](Random& r) { return r.between(0, 1); }, none, 0.5},
+      {"all scales", [](Random& r) { return r.finite_double() / 4; }, none, 1e300},
+      {"huge", [](Random& r) { return 1e300 * r.between(-3, 3); }, none, 1e299},
+      {"subnormal", [](Random& r) { return tiniest * r.between(-4, 4); }, none, tiniest},
+      {"one plane", [](Random& r) { return r.coin() ? 0.5 : r.between(0, 3); },
+       [](Random& r) { return r.between(-2, 2); }, 0.5},
+  };
+}
+
+Edge ordered(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// A mesh of few vertices: faces and edges of any of them, also of the same one twice, and points.
+Scene random_scene(Random& random, const Shape& shape, int vertices) {
+  Scene scene{.start = Places(vertices, 3),
+              .end = Places(vertices, 3),
+              .edges = {},
+              .faces = {},
+              .points = {},
+              .groups = {},
+              .apart = {}};
+  for (Eigen::Index i = 0; i < vertices; ++i) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      scene.start(i, axis) = shape.coordinate(random);
+      scene.end(i, axis) =
+          shape.motion ? scene.start(i, axis) + shape.motion(random) : shape.coordinate(random);
+    }
+  }
+  const auto vertex = [&] { return random.between(0, vertices - 1); };
+  const bool is_surface = random.coin();
+  for (int i = is_surface ? random.between(0, vertices / 3) : 0; i > 0; --i) {
+    scene.faces.push_back({vertex(), vertex(), vertex()});
+  }
+  scene.edges = edges_of(scene.faces);
+  for (int i = random.between(0, vertices / 4); i > 0; --i) {
+    scene.edges.push_back({vertex(), vertex()});
+  }
+  for (int i = random.between(0, vertices); i > 0; --i) scene.points.push_back(vertex());
+  if (random.coin()) {
+    for (int i = 0; i < vertices; ++i) scene.groups.push_back(random.between(0, 3));
+    for (int i = 0; i < 3; ++i) scene.apart.push_back({random.between(0, 3), random.between(0, 3)});
+  }
+  return scene;
+}
+
+// ---- All pairs one by one -----------------------------------------------------------------------
+
+/// Everything that a step looks at, from its definition.
+class AllPairs {
+ public:
+  explicit AllPairs(const Scene& scene) : scene_(scene) {
+    std::vector<bool> has_edge(size(scene.start.rows()), false), is_named = has_edge;
+    const auto set = [](std::vector<bool>& flags, auto&& vertices) {
+      for (const std::int32_t i : vertices) flags[size(i)] = true;
+    };
+    for (const Edge& edge : scene.edges) set(has_edge, edge), set(is_named, edge);
+    for (const Face& face : scene.faces) set(is_named, face);
+    set(is_named, scene.points);
+    for (std::int32_t i = 0; i < scene.start.rows(); ++i) {
+      if (!is_named[size(i)]) continue;
+      vertices_.push_back(i);
+      if (!has_edge[size(i)]) points_.push_back(i);
+    }
+    for (std::size_t i = 0; i < scene.edges.size(); ++i) {
+      if (!is_in_face(scene.edges[i])) bare_edges_.push_back(static_cast<std::int32_t>(i));
+    }
+    list();
+  }
+
+  [[nodiscard]] const Pairs& pairs() const { return pairs_; }
+
+  [[nodiscard]] std::vector<std::int32_t> first(const NumberedPair& pair) const {
+    if (pair.first == PairKind::edge_edge) return of(scene_.edges[size(pair.second[0])]);
+    return {pair.second[0]};
+  }
+  [[nodiscard]] std::vector<std::int32_t> second(const NumberedPair& pair) const {
+    const std::int32_t number = pair.second[1];
+    switch (pair.first) {
+      case PairKind::vertex_face:
+        return of(scene_.faces[size(number)]);
+      case PairKind::edge_edge:
+      case PairKind::vertex_edge:
+        return of(scene_.edges[size(number)]);
+      case PairKind::vertex_vertex:
+        break;
+    }
+    return {number};
+  }
+
+  [[nodiscard]] Query query(const NumberedPair& pair) const {
+    std::vector<std::int32_t> vertices = first(pair), others = second(pair);
+    if (pair.first == PairKind::vertex_edge) others.push_back(others[0]);
+    if (pair.first == PairKind::vertex_vertex) others.resize(3, others[0]);
+    vertices.insert(vertices.end(), others.begin(), others.end());
+    Query query;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      query.point(0, i) = scene_.start.row(vertices[i]).transpose();
+      query.point(1, i) = scene_.end.row(vertices[i]).transpose();
+    }
+    return query;
+  }
+
+  /// Are the swept boxes within the distance?
+  [[nodiscard]] bool are_near(const NumberedPair& pair, double distance) const {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const auto [least_a, most_a] = range(first(pair), axis);
+      const auto [least_b, most_b] = range(second(pair), axis);
+      if (Rational(least_a) - Rational(most_b) > Rational(distance)) return false;
+      if (Rational(least_b) - Rational(most_a) > Rational(distance)) return false;
+    }
+    return true;
+  }
+
+ private:
+  template <class Number>
+  static std::size_t size(Number number) {
+    return static_cast<std::size_t>(number);
+  }
+  template <class Element>
+  static std::vector<std::int32_t> of(const Element& element) {
+    return {element.begin(), element.end()};
+  }
+
+  [[nodiscard]] bool is_in_face(const Edge& edge) const {
+    return std::ranges::any_of(scene_.faces, [&](const Face& face) {
+      const auto is_side = [&](std::size_t i) {
+        return ordered(face[i], face[(i + 1) % 3]) == ordered(edge[0], edge[1]);
+      };
+      return is_side(0) || is_side(1) || is_side(2);
+    });
+  }
+
+  [[nodiscard]] std::int32_t group(std::int32_t vertex) const {
+    return scene_.groups.empty() ? 0 : scene_.groups[size(vertex)];
+  }
+
+  [[nodiscard]] bool may_meet(const NumberedPair& pair) const {
+    bool some_meet = false;
+    for (const std::int32_t a : first(pair)) {
+      for (const std::int32_t b : second(pair)) {
+        if (a == b) return false;
+        some_meet |= std::ranges::none_of(scene_.apart, [&](const std::array<std::int32_t, 2>& p) {
+          return ordered(p[0], p[1]) == ordered(group(a), group(b));
+        });
+      }
+    }
+    return some_meet;
+  }
+
+  void add(PairKind kind, std::int32_t a, std::int32_t b) {
+    if (may_meet({kind, {a, b}})) pairs_.push_back({kind, {a, b}});
+  }
+
+  void list() {
+    const auto faces = static_cast<std::int32_t>(scene_.faces.size());
+    const auto edges = static_cast<std::int32_t>(scene_.edges.size());
+    for (const std::int32_t vertex : vertices_) {
+      for (std::int32_t face = 0; face < faces; ++face) add(PairKind::vertex_face, vertex, face);
+    }
+    for (std::int32_t a = 0; a < edges; ++a) {
+      for (std::int32_t b = a + 1; b < edges; ++b) add(PairKind::edge_edge, a, b);
+    }
+    for (const std::int32_t point : points_) {
+      for (const std::int32_t edge : bare_edges_) add(PairKind::vertex_edge, point, edge);
+    }
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      for (std::size_t k = i + 1; k < points_.size(); ++k) {
+        add(PairKind::vertex_vertex, points_[i], points_[k]);
+      }
+    }
+  }
+
+  [[nodiscard]] std::pair<double, double> range(const std::vector<std::int32_t>& vertices,
+                                                Eigen::Index axis) const {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const std::int32_t vertex : vertices) {
+      for (const Places* const places : {&scene_.start, &scene_.end}) {
+        least = std::min(least, (*places)(vertex, axis));
+        most = std::max(most, (*places)(vertex, axis));
+      }
+    }
+    return {least, most};
+  }
+
+  const Scene& scene_;
+  std::vector<std::int32_t> vertices_, points_, bare_edges_;
+  Pairs pairs_;
+};
+
+Pairs candidates_of(const Step& step) {
+  Pairs result;
+  std::mutex mutex;
+  step.candidates([&](const StepCandidates& some) {
+    const std::scoped_lock lock(mutex);
+    for (const IndexPair& pair : some.pairs) result.push_back({some.kind, pair});
+  });
+  std::ranges::sort(result);
+  return result;
+}
+
+std::vector<StepCollision> in_order(std::vector<StepCollision> collisions) {
+  std::ranges::sort(collisions, {},
+                    [](const StepCollision& one) { return std::pair(one.kind, one.pair); });
+  return collisions;
+}
+
+/// What of `earliest` follows from all collisions.
+std::optional<StepImpact> earliest_of(const std::vector<StepCollision>& collisions) {
+  if (collisions.empty()) return std::nullopt;
+  StepImpact impact{
+      .toi_lower = std::ranges::min(collisions, {}, &StepCollision::toi_lower).toi_lower,
+      .toi_upper = std::ranges::min(collisions, {}, &StepCollision::toi_upper).toi_upper,
+      .pairs = {}};
+  std::ranges::copy_if(in_order(collisions), std::back_inserter(impact.pairs),
+                       [&](const StepCollision& one) { return one.toi_lower <= impact.toi_upper; });
+  return impact;
+}
+
+std::string named(const NumberedPair& pair) {
+  return std::string(to_string(pair.first)) + " " + std::to_string(pair.second[0]) + " " +
+         std::to_string(pair.second[1]);
+}
+
+/// What a step says of its scene that the oracle does not, or nothing.
+std::string fault(const Scene& scene, const StepOptions& options) {
+  const AllPairs all(scene);
+  const Step step = scene.step(options);
+  Pairs near;
+  std::map<NumberedPair, StepCollision> found;
+  const std::vector<StepCollision> collisions = step.collisions();
+  for (const StepCollision& one : collisions) found[{one.kind, one.pair}] = one;
+  if (found.size() != collisions.size()) return "a pair is found twice";
+  for (const NumberedPair& pair : all.pairs()) {
+    if (all.are_near(pair, options.separation.distance)) near.push_back(pair);
+    const Kind kind = Step::kind_of(pair.first);
+    const Query query = all.query(pair);
+    if (step.query_of(pair.first, pair.second) != query) return "another query: " + named(pair);
+    CertifiedResult result{.verdict = Verdict::no};
+    if (const auto collision = found.extract(pair)) {
+      const StepCollision& one = collision.mapped();
+      result = {.verdict = Verdict::yes,
+                .toi_lower = one.toi_lower,
+                .toi_upper = one.toi_upper,
+                .u = one.u,
+                .v = one.v};
+    }
+    const CertifiedOptions certified{.toi_tolerance = options.toi_tolerance,
+                                     .t_max = options.t_max,
+                                     .separation = options.separation};
+    if (const auto what = tests::fault(kind, query, result, certified)) {
+      return *what + ": " + named(pair);
+    }
+  }
+  if (!found.empty()) return "no pair of this scene: " + named(found.begin()->first);
+  std::ranges::sort(near);
+  if (candidates_of(step) != near) return "other candidates";
+  if (step.is_free() != collisions.empty()) return "free or not";
+  if (step.earliest() != earliest_of(collisions)) return "another earliest impact";
+  return "";
+}
+
+// ---- Truth --------------------------------------------------------------------------------------
+
+std::string first_fault(Random& random, const StepOptions& base, int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    for (const Shape& shape : shapes()) {
+      const Scene scene = random_scene(random, shape, random.between(1, 10));
+      StepOptions options = base;
+      if (random.between(0, 2) == 0) {
+        options.separation = {.distance = shape.separation,
+                              .norm = random.coin() ? Norm::l2 : Norm::linf};
+      }
+      if (random.between(0, 3) == 0) options.t_max = 0.25 * random.between(0, 4);
+      const std::string what = fault(scene, options);
+      if (!what.empty()) return shape.name + ": " + what;
+    }
+  }
+  return "";
+}
+
+TEST(Step, AgreesWithTheOracleOnAllPairsOfRandomScenes) {
+  Random random(180);
+  EXPECT_EQ(first_fault(random, {}, tests::trials(40)), "");
+}
+
+TEST(Step, ScenesHaveCollisionsOfAllKindsAndAreSometimesFree) {
+  Random random(180);
+  std::map<PairKind, int> touching;
+  int free = 0, with_groups = 0;
+  for (int round = 0; round < 24; ++round) {
+    for (const Shape& shape : shapes()) {
+      const Scene scene = random_scene(random, shape, random.between(1, 10));
+      const std::vector<StepCollision> collisions = scene.step().collisions();
+      for (const StepCollision& one : collisions) ++touching[one.kind];
+      free += collisions.empty() ? 1 : 0;
+      with_groups += !scene.apart.empty() && !collisions.empty() ? 1 : 0;
+    }
+  }
+  for (const PairKind kind : kinds) EXPECT_GT(touching[kind], 5) << to_string(kind);
+  EXPECT_GT(free, 20);
+  EXPECT_GT(with_groups, 10);
+}
+
+/// Triangles, edges and points anywhere in a cube, each about so large, moving by as much.
+Scene soup(Random& random, int count, double size) {
+  Scene scene{.start = Places(6 * count, 3),
+              .end = Places(6 * count, 3),
+              .edges = {},
+              .faces = {},
+              .points = {},
+              .groups = {},
+              .apart = {}};
+  for (int i = 0; i < count; ++i) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double centre = random.uniform(-1, 1), motion = random.uniform(-size, size);
+      for (int k = 6 * i; k < 6 * i + 6; ++k) {
+        scene.start(k, axis) = centre + random.uniform(-size, size);
+        scene.end(k, axis) = scene.start(k, axis) + motion + random.uniform(-size, size) / 8;
+      }
+    }
+    const int shared = random.coin() ? 6 * i + 2 : random.between(0, 6 * i + 2);
+    scene.faces.push_back({6 * i, 6 * i + 1, shared});
+    scene.points.push_back(6 * i + 5);
+  }
+  scene.edges = edges_of(scene.faces);
+  for (int i = 0; i < count; ++i) scene.edges.push_back({6 * i + 3, 6 * i + 4});
+  return scene;
+}
+
+TEST(Step, AgreesWithTheOracleOnLargerScenes) {
+  Random random(182);
+  for (const double size : {0.1, 0.3}) {
+    Scene scene = soup(random, 40, size);
+    EXPECT_EQ(fault(scene, {}), "");
+    EXPECT_EQ(fault(scene, {.separation = {.distance = 0.02, .norm = Norm::l2}}), "");
+    EXPECT_EQ(fault(scene, {.t_max = 0.3}), "");
+    for (int i = 0; i < scene.start.rows(); ++i) scene.groups.push_back(i / 60);
+    scene.apart = {{0, 0}, {2, 1}, {3, 3}};
+    EXPECT_EQ(fault(scene, {}), "");
+  }
+}
+
+TEST(Step, OfNothingIsFree) {
+  for (const int vertices : {0, 1, 3}) {
+    Scene scene{.start = Places::Zero(vertices, 3),
+                .end = Places::Zero(vertices, 3),
+                .edges = {},
+                .faces = {},
+                .points = {},
+                .groups = {},
+                .apart = {}};
+    EXPECT_EQ(fault(scene, {}), "");
+    if (vertices == 3) scene.faces = {{0, 1, 2}};
+    scene.edges = edges_of(scene.faces);
+    EXPECT_EQ(fault(scene, {}), "");
+    EXPECT_TRUE(scene.step().is_free());
+    EXPECT_EQ(scene.step().free_step_size(), 1.0);
+  }
+}
+
+TEST(Step, VerticesThatNoElementNamesAreNoPartOfIt) {
+  Scene scene{.start = Places(4, 3),
+              .end = {},
+              .edges = {},
+              .faces = {{0, 1, 2}},
+              .points = {},
+              .groups = {},
+              .apart = {}};
+  scene.start << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 0;
+  scene.end = scene.start;
+  EXPECT_TRUE(scene.step().is_free());
+  scene.points = {3};
+  EXPECT_FALSE(scene.step().is_free());
+}
+
+TEST(Step, HasTheEdgesOfItsFacesIfNoneAreGiven) {
+  Random random(183);
+  Scene scene = soup(random, 30, 0.4);
+  scene.edges = edges_of(scene.faces);
+  const std::vector<StepCollision> expected = scene.step().collisions();
+  EXPECT_GT(expected.size(), 10U);
+  const std::vector<Edge> edges = std::exchange(scene.edges, {});
+  const Step step = scene.step();
+  EXPECT_TRUE(std::ranges::equal(step.edges(), edges));
+  EXPECT_EQ(step.collisions(), expected);
+  // A scaled step outlives the one that it is from.
+  std::optional<Step> whole(scene.step());
+  const Step part = whole->scaled(0.5);
+  whole.reset();
+  EXPECT_TRUE(std::ranges::equal(part.edges(), edges));
+  EXPECT_EQ(part.is_free(), part.collisions().empty());
+}
+
+TEST(Step, IsTheSameFromAllShapesOfVertices) {
+  Random random(184);
+  const Scene scene = soup(random, 30, 0.4);
+  const Eigen::MatrixX3f start = scene.start.cast<float>(), end = scene.end.cast<float>();
+  const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> start_rows = start, end_rows = end;
+  const auto span = [](const auto& rows) {
+    return std::span(rows.data(), static_cast<std::size_t>(rows.size()));
+  };
+  const std::vector<StepCollision> expected = Step(start, end, scene.elements()).collisions();
+  EXPECT_GT(expected.size(), 10U);
+  EXPECT_EQ(Step(span(start_rows), span(end_rows), scene.elements()).collisions(), expected);
+  EXPECT_EQ(Step(Eigen::MatrixXd(start.cast<double>()), end, scene.elements()).collisions(),
+            expected);
+}
+
+/// The message of an exception of that type, or "".
+template <class Error>
+std::string message(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Step, RefusesWhatMakesNoSense) {
+  Scene scene{.start = Places::Zero(3, 3),
+              .end = Places::Zero(3, 3),
+              .edges = {},
+              .faces = {{0, 1, 2}},
+              .points = {},
+              .groups = {},
+              .apart = {}};
+  const auto refused = [&](const StepOptions& options) {
+    return message<std::invalid_argument>([&] { (void)scene.step(options); });
+  };
+  EXPECT_NE(refused({.separation = {.distance = -1.0}}), "");
+  EXPECT_NE(refused({.toi_tolerance = std::nan("")}), "");
+  EXPECT_NE(refused({.t_max = 1.5}), "");
+  EXPECT_EQ(refused({.max_threads = -1}), "step: max_threads must not be negative");
+  scene.groups = {0, 1};
+  EXPECT_EQ(refused({}), "step: there are groups of 2 vertices, but 3 vertices");
+  scene.groups = {0, -1, 0};
+  EXPECT_EQ(refused({}), "step: the group of vertex 1 is negative");
+  scene.groups = {};
+  EXPECT_THROW((void)scene.step().scaled(1.5), std::invalid_argument);
+  EXPECT_THROW((void)scene.step().scaled(std::nan("")), std::invalid_argument);
+  const std::vector<double> four(4);
+  const std::span<const double> coordinates(four);
+  EXPECT_THROW(Step(coordinates, coordinates, scene.elements()), std::invalid_argument);
+  scene.points = {3};
+  EXPECT_EQ(message<std::out_of_range>([&] { (void)scene.step(); }),
+            "point 0: vertex 3, but there are 3");
+  scene.points = {};
+  scene.faces = {{0, 1, -1}};
+  EXPECT_EQ(message<std::out_of_range>([&] { (void)scene.step(); }),
+            "face 0: vertex -1, but there are 3");
+  scene.end(1, 2) = std::nan("");
+  EXPECT_EQ(message<std::domain_error>([&] { (void)scene.step(); }),
+            "vertex 1: a coordinate is not finite");
+}
+
+TEST(Step, HandsOnWhatATakerThrows) {
+  Random random(185);
+  const Scene scene = soup(random, 30, 0.4);
+  const Step step = scene.step();
+  EXPECT_EQ(message<std::runtime_error>([&] {
+              step.candidates([](const StepCandidates&) { throw std::runtime_error("enough"); });
+            }),
+            "enough");
+}
+
+// ---- The theorem --------------------------------------------------------------------------------
+
+/// Does an edge meet a face without a common vertex?
+bool intersects_itself(const Scene& scene, const Places& places) {
+  const auto shares_no_vertex = [&](std::int32_t edge, std::int32_t face) {
+    const Face& corners = scene.faces[static_cast<std::size_t>(face)];
+    return std::ranges::none_of(scene.edges[static_cast<std::size_t>(edge)],
+                                [&](std::int32_t i) { return std::ranges::count(corners, i) > 0; });
+  };
+  return !verify::mesh::find_piercings(places, scene.edges, scene.faces, shares_no_vertex).empty();
+}
+
+TEST(Step, IsNotFreeIfAMeshComesToIntersectItself) {
+  Random random(186);
+  int come_to = 0;
+  for (int round = 0; round < tests::trials(2000); ++round) {
+    const Shape shape = shapes()[static_cast<std::size_t>(random.between(0, 3))];
+    Scene scene = random_scene(random, shape, 8);
+    scene.groups.clear();
+    scene.apart.clear();
+    scene.faces = {{0, 1, 2}, {3, 4, random.coin() ? 0 : 5}};
+    scene.edges = edges_of(scene.faces);
+    scene.edges.push_back({5, 6});
+    if (intersects_itself(scene, scene.start) || !intersects_itself(scene, scene.end)) continue;
+    ++come_to;
+    EXPECT_FALSE(scene.step().is_free()) << shape.name;
+  }
+  EXPECT_GT(come_to, tests::trials(20));
+}
+
+// ---- The same everywhere ------------------------------------------------------------------------
+
+/// All answers of a step.
+struct Answers {
+  std::vector<StepCollision> collisions;
+  std::optional<StepImpact> earliest;
+  Pairs candidates;
+  bool is_free = false;
+
+  explicit Answers(const Step& step)
+      : collisions(step.collisions()),
+        earliest(step.earliest()),
+        candidates(candidates_of(step)),
+        is_free(step.is_free()) {}
+
+  friend bool operator==(const Answers&, const Answers&) = default;
+};
+
+TEST(Step, IsTheSameForAllInstructionSetsAndThreads) {
+  Random random(187);
+  for (const double size : {0.05, 0.15}) {
+    const Scene scene = soup(random, 400, size);
+    for (const double distance : {0.0, 0.01}) {
+      StepOptions options{.separation = {.distance = distance}, .max_threads = 1};
+      const Answers expected(scene.step(options));
+      EXPECT_GT(expected.collisions.size(), 100U);
+      for (const SearchKernel* const search : search_kernels()) {
+        for (const CertifiedKernel* const kernel : certified_kernels()) {
+          for (const int threads : {1, 2, 0}) {
+            options.search = search;
+            options.kernel = kernel;
+            options.max_threads = threads;
+            EXPECT_EQ(Answers(scene.step(options)), expected)
+                << to_string(search->instructions) << ' ' << to_string(kernel->instructions);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// A floor, and triangles at rest far above it, one of which falls fast enough to hit it at a time.
+Scene early_impact(Random& random, double time) {
+  static constexpr int resting = 600;
+  Scene scene{.start = Places(3 * resting + 6, 3),
+              .end = {},
+              .edges = {},
+              .faces = {},
+              .points = {},
+              .groups = {},
+              .apart = {}};
+  for (int i = 0; i < resting; ++i) {
+    for (int k = 3 * i; k < 3 * i + 3; ++k) {
+      scene.start.row(k) << random.uniform(-9, 9), random.uniform(-9, 9), 2.0 + 0.01 * i;
+    }
+    scene.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  scene.start.bottomRows(6) << -30, -30, 0, 60, -30, 0, -30, 60, 0,  //
+      0, 0, 1, 1, 0, 1.5, 0, 1, 1.5;
+  scene.faces.push_back({3 * resting, 3 * resting + 1, 3 * resting + 2});
+  scene.faces.push_back({3 * resting + 3, 3 * resting + 4, 3 * resting + 5});
+  scene.end = scene.start;
+  scene.end.bottomRows(3).col(2).array() -= 1.0 / time;
+  return scene;
+}
+
+TEST(Step, EarliestFindsImpactsAtAnyTime) {
+  Random random(188);
+  for (const double time : {0.5, 0x1p-10, 0x1p-20, 0x1p-45}) {
+    const Scene scene = early_impact(random, time);
+    const std::optional<StepImpact> impact = scene.step().earliest();
+    ASSERT_TRUE(impact);
+    EXPECT_EQ(impact, earliest_of(scene.step().collisions()));
+    EXPECT_LT(impact->toi_lower, time);
+    EXPECT_GE(impact->toi_upper, time);
+    EXPECT_LE(impact->toi_upper, time * (1 + 1e-12));
+    ASSERT_EQ(impact->pairs.size(), 1U);
+    EXPECT_EQ(impact->pairs[0].kind, PairKind::vertex_face);
+    EXPECT_EQ(impact->pairs[0].pair, (IndexPair{1803, 600}));
+    EXPECT_FALSE(scene.step({.t_max = time}).is_free());
+    EXPECT_TRUE(scene.step({.t_max = std::nextafter(time, 0.0)}).is_free());
+    EXPECT_EQ(scene.step({.t_max = std::nextafter(time, 0.0)}).earliest(), std::nullopt);
+  }
+}
+
+// ---- The step that is taken ---------------------------------------------------------------------
+
+TEST(ScaledStep, GoesToThePlacesThatASimulatorComputes) {
+  Random random(189);
+  const Scene scene = soup(random, 20, 0.5);
+  for (const double alpha : {0.0, 1.0, 0.1, 1e-300, 0.7}) {
+    const Step step = scene.step({.t_max = 0.25}).scaled(alpha);
+    Scene taken = scene;
+    for (Eigen::Index i = 0; i < scene.start.rows(); ++i) {
+      for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        const volatile double motion = scene.end(i, axis) - scene.start(i, axis);
+        const volatile double part = alpha * motion;
+        const volatile double place = scene.start(i, axis) + part;
+        taken.end(i, axis) = place;
+        const MovingVertex& vertex = step.vertices()[static_cast<std::size_t>(i)];
+        EXPECT_EQ(vertex.start[static_cast<std::size_t>(axis)], scene.start(i, axis));
+        EXPECT_EQ(vertex.end[static_cast<std::size_t>(axis)], place);
+      }
+    }
+    EXPECT_EQ(in_order(step.collisions()), in_order(taken.step().collisions()));
+    EXPECT_EQ(step.earliest(), taken.step().earliest());
+    EXPECT_EQ(candidates_of(step), candidates_of(taken.step()));
+  }
+}
+
+TEST(ScaledStep, RefusesPlacesThatOverflow) {
+  Scene scene{.start = Places::Constant(1, 3, -1e308),
+              .end = Places::Constant(1, 3, 1e308),
+              .edges = {},
+              .faces = {},
+              .points = {0},
+              .groups = {},
+              .apart = {}};
+  EXPECT_TRUE(scene.step().is_free());
+  EXPECT_THROW((void)scene.step().scaled(0.5), std::domain_error);
+}
+
+TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
+  Random random(190);
+  int some = 0, whole = 0, none = 0;
+  for (int round = 0; round < tests::trials(30); ++round) {
+    for (const Shape& shape : {shapes()[2], shapes()[3], shapes()[1]}) {
+      const Scene scene = random_scene(random, shape, 8);
+      const StepOptions options{.separation = {.distance = random.coin() ? 0.0 : 0.01},
+                                .max_threads = 1};
+      const Step step = scene.step(options);
+      const std::optional<double> alpha = step.free_step_size();
+      if (!alpha) {
+        ++none;
+        EXPECT_FALSE(step.scaled(0.0).is_free());
+      } else if (*alpha == 1.0) {
+        ++whole;
+        EXPECT_TRUE(step.scaled(1.0).is_free());
+      } else {
+        ++some;
+        EXPECT_TRUE(step.scaled(*alpha).is_free());
+        EXPECT_FALSE(step.scaled(std::nextafter(*alpha, 1.0)).is_free());
+        // As near to the impact of the exact step as rounding lets it be.
+        EXPECT_NEAR(*alpha, step.earliest()->toi_lower, 1e-12);
+      }
+    }
+  }
+  EXPECT_GT(some, 5);
+  EXPECT_GT(whole, 5);
+  EXPECT_GT(none, 0);
+}
+
+/// A vertex above a resting triangle that falls from a height to minus one.
+Scene falling_vertex(double height) {
+  Scene scene{.start = Places(4, 3),
+              .end = {},
+              .edges = {},
+              .faces = {{0, 1, 2}},
+              .points = {3},
+              .groups = {},
+              .apart = {}};
+  scene.start << -4, -4, 0, 4, -4, 0, 0, 4, 0, 0, 0, height;
+  scene.end = scene.start;
+  scene.end(3, 2) = -1.0;
+  return scene;
+}
+
+TEST(FreeStepSize, IsTheLargestWhereRoundingIsMonotone) {
+  // One coordinate moves, and its rounded place falls with α. So the largest α is the last whose rounded
+  // place is above 0. Of height 3, with a motion of 4: fl(3 − 4 α) > 0 iff α < 3/4.
+  EXPECT_EQ(falling_vertex(3.0).step().free_step_size(), std::nextafter(0.75, 0.0));
+  // 1 − 2 α, α < 1/2: the double before it gives 2^-53, which is exact.
+  EXPECT_EQ(falling_vertex(1.0).step().free_step_size(), std::nextafter(0.5, 0.0));
+  // 2^60: a motion that rounds to 2^60, and 2^60 − fl(α 2^60) > 0 iff α < 1.
+  EXPECT_EQ(falling_vertex(0x1p60).step().free_step_size(), std::nextafter(1.0, 0.0));
+  EXPECT_EQ(falling_vertex(0.0).step().free_step_size(), std::nullopt);
+  EXPECT_EQ(falling_vertex(-0.5).step().free_step_size(), 1.0);
+}
+
+TEST(FreeStepSize, IsThatOfTheRoundedStepAndNotOfTheExactOne) {
+  // From 0.1 by −1.1 (rounded): the exact time of impact is not where the rounded place reaches 0.
+  const Scene scene = falling_vertex(0.1);
+  const Step step = scene.step();
+  const std::optional<double> alpha = step.free_step_size();
+  ASSERT_TRUE(alpha);
+  const volatile double motion = -1.0 - 0.1;
+  const auto place = [&](double size) {
+    const volatile double part = size * motion;
+    return 0.1 + part;
+  };
+  EXPECT_GT(place(*alpha), 0.0);
+  EXPECT_LE(place(std::nextafter(*alpha, 1.0)), 0.0);
+}
+
+// ---- Faults -------------------------------------------------------------------------------------
+
+TEST(Step, FaultsInTheFusedStageAreFound) {
+  const std::map<std::string, const SearchKernel*> faults{
+      {"touching is apart", &search_of_open_boxes},
+      {"apart at one end", &search_apart_at_one_end},
+      {"apart either way round", &search_apart_either_way},
+      {"a lane is forgotten", &search_without_lane},
+      {"lanes that are none", &search_with_empty_lanes},
+      {"widened inwards", &search_widened_inwards},
+      {"groups behind", &search_without_own_node},
+      {"shared vertices", &search_of_neighbours},
+      {"groups that do not meet", &search_of_all_bodies},
+      {"a mixed primitive is left out", &search_without_mixed_bodies}};
+  int planted = 0;
+  for (const auto& [name, search] : faults) {
+    if (search == nullptr) continue;  // not planted in this build
+    ++planted;
+    Random random(191);
+    std::string what = first_fault(random, {.search = search}, 40);
+    if (what.empty()) what = fault(soup(random, 40, 0.3), {.search = search});
+    EXPECT_NE(what, "") << name;
+  }
+  EXPECT_GE(planted, tests::least_planted(4));
+}
+
+#ifndef TOUCHSTONE_SANITIZED
+// ---- Memory -------------------------------------------------------------------------------------
+
+/// Bytes of address space that this process has.
+std::uint64_t address_space() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+TEST(Step, DoesNotStoreCandidates) {
+  // Edges beside each other along a diagonal: all boxes overlap, and none touch. Four and a half million
+  // pairs of eight bytes each, and room for 24 MiB.
+  const auto search = [] {
+    static constexpr std::int32_t count = 3000;
+    Places places(2 * count, 3);
+    std::vector<Edge> edges;
+    for (std::int32_t i = 0; i < count; ++i) {
+      const double offset = 0x1p-20 * i;
+      places.row(2 * i) << offset, -offset, 0;
+      places.row(2 * i + 1) << 1 + offset, 1 - offset, 1;
+      edges.push_back({2 * i, 2 * i + 1});
+    }
+    const rlim_t limit = address_space() + (std::uint64_t{24} << 20U);
+    const rlimit limits{.rlim_cur = limit, .rlim_max = limit};
+    ::setrlimit(RLIMIT_AS, &limits);
+    const Step step(places, places, {.edges = edges, .faces = {}, .points = {}},
+                    {.max_threads = 1});
+    std::uint64_t found = 0;
+    step.candidates([&](const StepCandidates& some) { found += some.pairs.size(); });
+    if (found != std::uint64_t{count} * (count - 1) / 2) _exit(1);
+    _exit(step.is_free() ? 0 : 2);
+  };
+  // A process of its own from the beginning: a fork of this one would have other tests' locks.
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(search(), ::testing::ExitedWithCode(0), "");
+}
+#endif
+
+}  // namespace
+}  // namespace touchstone::fast::step_test
