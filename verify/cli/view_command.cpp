@@ -19,10 +19,12 @@
 #include "verify/data/dataset.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/mesh/frames.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/page.hpp"
 #include "verify/view/query_facts.hpp"
 #include "verify/view/query_files.hpp"
+#include "verify/view/step_facts.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -34,6 +36,7 @@ constexpr std::size_t most_queries = 1000;
 
 struct Arguments {
   std::vector<fs::path> paths;
+  std::vector<fs::path> step;
   std::string points;
   std::string kind;
   view::QueryFileOptions files;
@@ -47,6 +50,17 @@ SolverArguments asked_by(const Arguments& arguments) {
   SolverArguments asked = arguments.solvers;
   if (asked.empty()) asked.methods = solvers::default_methods();
   return asked;
+}
+
+/// The step between two frames that the user named, if any.
+std::optional<view::ViewedStep> read_step(const Arguments& arguments) {
+  if (arguments.step.empty()) return std::nullopt;
+  const auto frames = mesh::open_frames(arguments.step);
+  if (frames->count() != 2) throw std::invalid_argument("--step needs two frames");
+  mesh::Vertices before = frames->next(), after = frames->next();
+  return view::find_collisions(fmt::format("{} to {}", frames->name(0), frames->name(1)),
+                               frames->mesh(), std::move(before), std::move(after),
+                               arguments.separation.given());
 }
 
 /// The files themselves, and of folders the datasets below them.
@@ -80,7 +94,6 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments) {
       queries.push_back(std::move(query));
     }
   }
-  if (queries.empty()) throw std::invalid_argument("no query: name a file or --points");
   for (view::ViewedQuery& query : queries) {
     query.separation = arguments.separation.settle(query.separation);
   }
@@ -90,10 +103,23 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments) {
 /// \throws std::runtime_error if a file that is read is the page
 void check_names(const Arguments& arguments, const OptionalOutput& out) {
   std::vector<fs::path> inputs = arguments.paths;
+  inputs.insert(inputs.end(), arguments.step.begin(), arguments.step.end());
   for (const fs::path& file : arguments.solvers.files()) inputs.push_back(file);
   for (const fs::path& input : inputs) {
     if (out.is(input)) throw std::runtime_error(input.string() + ": named for input and output");
   }
+}
+
+/// What the page shows: the first pairs of a step, and the queries of the other inputs.
+std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
+                                           const std::optional<view::ViewedStep>& step) {
+  std::vector<view::ViewedQuery> queries;
+  if (step) queries = view::first_queries(*step, arguments.files.most);
+  for (view::ViewedQuery& query : read(arguments)) queries.push_back(std::move(query));
+  if (queries.empty() && !step) {
+    throw std::invalid_argument("no query: name a file, --points or --step");
+  }
+  return queries;
 }
 
 Status run(const Arguments& arguments) {
@@ -101,7 +127,8 @@ Status run(const Arguments& arguments) {
   OptionalOutput out(arguments.out_file);
   check_names(arguments, out);
   const Solvers solvers(asked_by(arguments));
-  const std::vector<view::ViewedQuery> queries = read(arguments);
+  const std::optional<view::ViewedStep> step = read_step(arguments);
+  const std::vector<view::ViewedQuery> queries = all_queries(arguments, step);
   io::ProgressBar bar("view");
   std::vector<nlohmann::json> facts;
   for (const view::ViewedQuery& query : queries) {
@@ -111,8 +138,9 @@ Status run(const Arguments& arguments) {
   }
   bar.clear();
   solvers.report_output(arguments.solvers.show_output);
-  if (facts.empty()) return Status::interrupted;
-  out.write(view::view_page(facts, command_line()));
+  if (facts.empty() && io::interrupted()) return Status::interrupted;
+  out.write(
+      view::view_page(facts, command_line(), step ? view::step_facts(*step) : nlohmann::json()));
   out.close();
   if (!out.is_standard_output()) {
     io::print(stdout, fmt::format("{}\n", io::printable(arguments.out_file)));
@@ -128,6 +156,11 @@ void add_options(CLI::App& command, Arguments& arguments) {
           "Datasets (.csv, .npy) or folders of them, findings (.json of fuzz), certificates "
           "(.cert), or eight lines of vertices (.obj)")
       ->type_name("");
+  command
+      .add_option("--step", arguments.step,
+                  "The step between two frames of a mesh (.ply, .obj), and the pairs that touch")
+      ->type_name("FRAME FRAME")
+      ->expected(2);
   command
       .add_option("--index", arguments.files.indices,
                   "Only the query at this position of a file, from 0; repeatable")
@@ -161,6 +194,7 @@ void add_view_command(CLI::App& app, Status& status) {
   set_help(
       *command,
       "touchstone view path/to/vertex-face.csv --index 17 --out query.html\n"
+      "touchstone view --step frames/92.ply frames/93.ply --out step.html\n"
       "touchstone view found.json --method tight_inclusion --plugin ./libsolver.so --out "
       "found.html",
       "The page needs a browser with WebGL and nothing else. It shows motion and corners, the "

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cstdint>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -52,6 +53,22 @@ std::string percent_encoded(std::string_view text) {
     }
   }
   return result;
+}
+
+std::string base64(std::span<const std::byte> bytes) {
+  static constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto byte = [&](std::size_t i) {
+    return i < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i]) : 0U;
+  };
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::uint32_t three = byte(i) << 16U | byte(i + 1) << 8U | byte(i + 2);
+    for (const unsigned shift : {18U, 12U, 6U, 0U}) text += digits[three >> shift & 63U];
+    for (std::size_t k = bytes.size(); k < i + 3; ++k) text[text.size() + k - i - 3] = '=';
+  }
+  return text;
 }
 
 }  // namespace touchstone::verify::io

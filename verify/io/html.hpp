@@ -4,7 +4,9 @@
 /// What every page of HTML that this project writes has in common: it needs nothing else, no network and
 /// no other file, and its policy (Content-Security-Policy) forbids to load anything.
 
+#include <cstddef>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -23,5 +25,8 @@ namespace touchstone::verify::io {
 
 /// Bytes as they may stand in a data URL.
 [[nodiscard]] std::string percent_encoded(std::string_view text);
+
+/// Bytes in base 64, with padding (RFC 4648).
+[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace touchstone::verify::io

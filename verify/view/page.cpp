@@ -11,7 +11,8 @@
 
 namespace touchstone::verify::view {
 
-std::string view_page(const std::vector<nlohmann::json>& queries, const std::string& command) {
+std::string view_page(const std::vector<nlohmann::json>& queries, const std::string& command,
+                      const nlohmann::json& step) {
   const std::string style = std::string(report::page_style()) + std::string(view_style());
   std::string page = io::html_beginning("Touchstone view", style);
   page +=
@@ -20,6 +21,7 @@ std::string view_page(const std::vector<nlohmann::json>& queries, const std::str
   page += fmt::format("<footer><p>Made by</p>\n<pre class=\"command\">{}</pre></footer>\n",
                       io::html_escaped(io::printable(command)));
   page += io::json_element("queries", queries);
+  if (!step.is_null()) page += io::json_element("step_facts", step);
   page += io::script_element(view_script());
   return page + "</body>\n</html>\n";
 }

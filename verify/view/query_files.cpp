@@ -147,22 +147,6 @@ void add_finding(const nlohmann::json& json, ViewedQuery& query) {
        .failure = failure_of(json)});
 }
 
-ViewedQuery query_from(const nlohmann::json& json, std::string label,
-                       const QueryFileOptions& options) {
-  ViewedQuery query{.label = std::move(label)};
-  if (const auto kind = json.find("kind"); kind != json.end()) {
-    query.kind = kind_from_string(kind->get<std::string>());
-  } else if (options.kind) {
-    query.kind = *options.kind;
-  } else {
-    throw std::invalid_argument("nothing says the kind; add --kind");
-  }
-  query.query = query_of(json.at("coordinates"));
-  query.separation = separation_of(json);
-  if (json.contains("what") && json.contains("answer")) add_finding(json, query);
-  return query;
-}
-
 std::vector<ViewedQuery> read_json(const fs::path& path, const QueryFileOptions& options) {
   std::uint64_t index = 0;
   try {
@@ -174,8 +158,8 @@ std::vector<ViewedQuery> read_json(const fs::path& path, const QueryFileOptions&
     Selection selection(options);
     for (; index < json.size() && !selection.is_complete(); ++index) {
       if (!selection.wants(index)) continue;
-      selection.add(
-          query_from(json.at(index), jobs::certificate_label(path.string(), index), options));
+      selection.add(query_from_json(json.at(index), jobs::certificate_label(path.string(), index),
+                                    options.kind));
     }
     return selection.take(path, json.size());
   } catch (const nlohmann::json::parse_error& error) {
@@ -259,6 +243,22 @@ double parse_hexadecimal(const std::string& text) {
 }
 
 }  // namespace
+
+ViewedQuery query_from_json(const nlohmann::json& json, std::string label,
+                            std::optional<Kind> kind) {
+  ViewedQuery query{.label = std::move(label)};
+  if (const auto named = json.find("kind"); named != json.end()) {
+    query.kind = kind_from_string(named->get<std::string>());
+  } else if (kind) {
+    query.kind = *kind;
+  } else {
+    throw std::invalid_argument("nothing says the kind; add --kind");
+  }
+  query.query = query_of(json.at("coordinates"));
+  query.separation = separation_of(json);
+  if (json.contains("what") && json.contains("answer")) add_finding(json, query);
+  return query;
+}
 
 double parse_number(std::string_view text) {
   double value = std::numeric_limits<double>::infinity();

@@ -10,9 +10,12 @@
 ///   - .cert: a stream of certificates (exact/CERTIFICATES.md);
 ///   - .obj: eight lines `v x y z`, as ipc-toolkit writes a query, which do not say the kind.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +41,12 @@ struct QueryFileOptions {
 /// the queries asked for, or nothing says the kind.
 [[nodiscard]] std::vector<ViewedQuery> read_queries(const std::filesystem::path& path,
                                                     const QueryFileOptions& options);
+
+/// A query, or a finding of the fuzzer, as JSON has it (above).
+/// \param kind of a query that does not say it
+/// \throws std::logic_error or nlohmann::json::exception if it is none.
+[[nodiscard]] ViewedQuery query_from_json(const nlohmann::json& json, std::string label,
+                                          std::optional<Kind> kind = std::nullopt);
 
 /// The double nearest to a number as text: decimal, hexadecimal ("0x1.8p-3"), or a fraction of two
 /// decimals.

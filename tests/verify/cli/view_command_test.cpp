@@ -73,7 +73,7 @@ TEST_F(ViewCommand, RowsFindingsAndCertificatesByThoseWhoAreNamed) {
 
 TEST_F(ViewCommand, AFindingOfTheFuzzerComesWithItsAnswer) {
   ASSERT_EQ(run({"fuzz", "--method", "msrf", "--only", "false_negative", "--most-findings", "1",
-                 "--seconds", "60", "--json", path("found.json")})
+                 "--seconds", "60", "--json", path("found.json"), "--view", path("found.html")})
                 .status,
             1);
   const tests::Outcome outcome = view({path("found.json")});
@@ -85,6 +85,24 @@ TEST_F(ViewCommand, AFindingOfTheFuzzerComesWithItsAnswer) {
   EXPECT_EQ(recorded.at("solver"), "msrf");
   EXPECT_EQ(recorded.at("recorded"), true);
   EXPECT_EQ(recorded.at("faults"), nlohmann::json::array({"false negative"}));
+  const nlohmann::json of_fuzz = queries("found.html");
+  ASSERT_EQ(of_fuzz.size(), 1U) << "fuzz has written the same page";
+  EXPECT_EQ(of_fuzz[0].at("coordinates"), page[0].at("coordinates"));
+  EXPECT_EQ(of_fuzz[0].at("label"), "finding 0, false_negative of msrf");
+  EXPECT_EQ(of_fuzz[0].at("answers").at(1).at("solver"), "certified");
+}
+
+TEST_F(ViewCommand, AStepWithItsFirstPairs) {
+  const std::string triangle = "v 0 0 0\nv 4 0 0\nv 0 4 0\n";
+  const std::string before = write("0.obj", triangle + "v 1 1 1\nf 1 2 3\np 4\n");
+  const std::string after = write("1.obj", triangle + "v 1 1 -2\nf 1 2 3\np 4\n");
+  const tests::Outcome outcome = view({"--step", before, after});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json page = queries("page.html");
+  ASSERT_EQ(page.size(), 1U);
+  EXPECT_EQ(page[0].at("label"), "0.obj to 1.obj: vertex 3, face 0");
+  EXPECT_EQ(page[0].at("truth").at("toi").at("exact"), "1/3");
+  EXPECT_TRUE(contains(read("page.html"), R"("name":"vertex 3, face 0")"));
 }
 
 TEST_F(ViewCommand, AtASeparationOfTheUser) {
@@ -104,7 +122,7 @@ TEST_F(ViewCommand, BadInputLeavesNoPage) {
     EXPECT_EQ(read("page.html"), "");
     return outcome.err;
   };
-  EXPECT_TRUE(contains(error_of({}), "no query: name a file or --points"));
+  EXPECT_TRUE(contains(error_of({}), "no query: name a file, --points or --step"));
   EXPECT_TRUE(contains(error_of({"--points", falling}), "--points needs --kind"));
   EXPECT_TRUE(contains(error_of({"--points", "1 2", "--kind", "edge-edge"}),
                        "2 numbers, not the 24 of a query"));

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace touchstone::verify::io::html_test {
 namespace {
@@ -34,6 +36,18 @@ TEST(Html, AScriptStandsAsItIs) {
 TEST(Html, BytesOfADataUrl) {
   EXPECT_EQ(percent_encoded("a-b_c.1,2"), "a-b_c.1,2");
   EXPECT_EQ(percent_encoded(" \n%\xc2\xb5\""), "%20%0A%25%C2%B5%22");
+}
+
+TEST(Html, BytesInBase64) {
+  const auto encoded = [](std::string_view text) {
+    return base64(std::as_bytes(std::span(text.data(), text.size())));
+  };
+  EXPECT_EQ(encoded(""), "");
+  EXPECT_EQ(encoded("f"), "Zg==");
+  EXPECT_EQ(encoded("fo"), "Zm8=");
+  EXPECT_EQ(encoded("foo"), "Zm9v");
+  EXPECT_EQ(encoded("foob"), "Zm9vYg==");
+  EXPECT_EQ(encoded("\xff\xfe\xfb"), "//77");
 }
 
 }  // namespace

@@ -15,9 +15,11 @@
 #include "tests/support/browser_test.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
+#include "verify/mesh/mesh.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/page.hpp"
 #include "verify/view/query_facts.hpp"
+#include "verify/view/step_facts.hpp"
 
 namespace touchstone::verify::view::view_browser_test {
 namespace {
@@ -57,12 +59,12 @@ class ViewBrowser : public tests::BrowserTest {
   [[nodiscard]] nlohmann::json result_of(const std::vector<PosedQuery>& posed,
                                          const std::string& script, int width = 1200,
                                          const std::string& before = "") const {
-    std::vector<nlohmann::json> facts;
-    for (const PosedQuery& query : posed) {
-      facts.push_back(
-          query_facts({.label = "query", .kind = query.kind, .query = query.query}, asked_));
-    }
-    std::string page = view_page(facts, "touchstone view");
+    return result_on(page_of(posed), script, width, before);
+  }
+
+  /// The same of any page.
+  [[nodiscard]] nlohmann::json result_on(std::string page, const std::string& script,
+                                         int width = 1200, const std::string& before = "") const {
     page.insert(page.rfind("</body>"),
                 fmt::format("<script>{}(() => {{{}}})();</script>", tools, script));
     if (!before.empty()) page.insert(page.find("<main"), "<script>" + before + "</script>");
@@ -81,6 +83,15 @@ class ViewBrowser : public tests::BrowserTest {
   void ask(const solvers::Solver& solver) { asked_.push_back(&solver); }
 
  private:
+  [[nodiscard]] std::string page_of(const std::vector<PosedQuery>& posed) const {
+    std::vector<nlohmann::json> facts;
+    for (const PosedQuery& query : posed) {
+      facts.push_back(
+          query_facts({.label = "query", .kind = query.kind, .query = query.query}, asked_));
+    }
+    return view_page(facts, "touchstone view");
+  }
+
   std::vector<const solvers::Solver*> asked_;
 };
 
@@ -326,6 +337,90 @@ TEST_F(ViewBrowser, WithoutWebGlTheNumbersAreThere) {
   EXPECT_EQ(result.at(0),
             "This browser has no WebGL, which the pictures need. All numbers are here.");
   EXPECT_EQ(result.at(1), positions(falling().query, Rational(1, 2)));
+}
+
+// ---- A step -------------------------------------------------------------------------------------
+
+/// A pyramid rises from y = −2 to y = 2; at rest, two points above it, each as a vertex of no element.
+std::string page_of_a_step(bool is_hit) {
+  const double x = is_hit ? 0.0 : 9.0;
+  const std::vector<std::array<double, 3>> coordinates{
+      {-1, -2, -1},           {1, -2, -1},           {1, -2, 1}, {-1, -2, 1}, {0, -1, 0},
+      {x + 0.125, 1, 0.0625}, {x - 0.125, 2, 0.0625}};
+  mesh::Mesh mesh = mesh::make_mesh(
+      coordinates, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 1, 2}, {0, 2, 3}}, {});
+  mesh.points = {5, 6};
+  mesh::Vertices after = mesh.vertices;
+  for (Eigen::Index i = 0; i < 5; ++i) after(i, 1) += 4;
+  const ViewedStep step = find_collisions("rising", mesh, mesh.vertices, after, {});
+  std::vector<nlohmann::json> facts;
+  for (const ViewedQuery& query : first_queries(step, 1)) facts.push_back(query_facts(query, {}));
+  return view_page(facts, "touchstone view", step_facts(step));
+}
+
+/// The height of the middle of what is drawn of the mesh, from the top, in pixels; and its size.
+constexpr std::string_view height_of_mesh = R"(
+  const height = () => {
+    const canvas = document.querySelector("#mesh canvas");
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    copy.getContext("2d").drawImage(canvas, 0, 0);
+    const data = copy.getContext("2d").getImageData(0, 0, copy.width, copy.height).data;
+    let [sum, count] = [0, 0];
+    for (let i = 3; i < data.length; i += 4) {
+      if (data[i] === 0) continue;
+      sum += Math.floor(i / 4 / copy.width);
+      count += 1;
+    }
+    return [count && sum / count, count];
+  };
+  const at = (step) => { move("step_time", step); return [...height(), find("step_now").textContent]; };
+)";
+
+TEST_F(ViewBrowser, TheSliderMovesTheMesh) {
+  const nlohmann::json result = result_on(page_of_a_step(false), std::string(height_of_mesh) + R"(
+    say({ heights: [0, 2048, 4096].map(at), verdict: find("step_verdict").textContent,
+      hidden: [find("query").hidden, find("numbers").hidden] });
+  )");
+  EXPECT_EQ(result.at("verdict"), "Nothing touches.");
+  EXPECT_EQ(result.at("hidden"), nlohmann::json::array({true, true}));
+  const nlohmann::json& heights = result.at("heights");
+  const double low = heights.at(0).at(0), middle = heights.at(1).at(0), high = heights.at(2).at(0);
+  EXPECT_GT(low, middle + 5.0) << heights;
+  EXPECT_GT(middle, high + 5.0) << heights;
+  EXPECT_NEAR(middle, (low + high) / 2, 0.1 * (low - high)) << heights;
+  for (const nlohmann::json& height : heights) EXPECT_GT(height.at(1), 200);
+}
+
+TEST_F(ViewBrowser, PairsOfAStepLeadToTheirQueries) {
+  const nlohmann::json result = result_on(page_of_a_step(true), std::string(height_of_mesh) + R"(
+    choose("format", "rational");
+    const look = () => ({ label: find("label").textContent, verdict: find("verdict").textContent.split(".")[0],
+      start: text("#at_t_0 code").slice(0, 3), chosen: text("#pairs .chosen span"), past: text("#pairs .past span").length });
+    const marks = [0, 1, 4096].map((step) => { const [, count, now] = at(step); return now; });
+    const names = text("#pairs span");
+    all("#pairs button")[0].click();
+    const first = look();
+    all("#pairs button")[names.length - 1].click();
+    say({ verdict: find("step_verdict").textContent, names, marks, first, last: look(),
+      drawn: [pixels("mesh"), pixels("motion")] });
+  )");
+  const std::string verdict = result.at("verdict");
+  EXPECT_TRUE(verdict.find(" pairs touch, the first at t = ") != std::string::npos) << verdict;
+  const std::size_t pairs = result.at("names").size();
+  ASSERT_GE(pairs, 2U);
+  EXPECT_EQ(result.at("marks").at(0), fmt::format("t = 0, 0 of {} have touched", pairs));
+  EXPECT_EQ(result.at("marks").at(2), fmt::format("t = 1, {0} of {0} have touched", pairs));
+  const nlohmann::json &first = result.at("first"), &last = result.at("last");
+  EXPECT_EQ(first.at("label"), "rising: " + result.at("names").at(0).get<std::string>());
+  EXPECT_EQ(first.at("verdict"), "vertex-face: collides");
+  EXPECT_EQ(first.at("start"), nlohmann::json::array({"1/8", "1", "1/16"}));
+  EXPECT_GE(first.at("past"), 1);
+  EXPECT_EQ(last.at("verdict"), "vertex-face: not decided") << "the page holds one answer";
+  EXPECT_EQ(last.at("start"), nlohmann::json::array({"-1/8", "2", "1/16"}));
+  EXPECT_EQ(last.at("chosen"), nlohmann::json::array({result.at("names").at(pairs - 1)}));
+  EXPECT_EQ(last.at("past"), pairs);
+  for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 200);
 }
 
 }  // namespace

@@ -8,13 +8,16 @@ import { Look, steps } from "./look.js";
 import { axes, directionOf } from "./motion.js";
 import { CornerPicture, MotionPicture } from "./pictures.js";
 import { canDraw, Scene, Viewpoint } from "./scene.js";
+import { queryOf, readStep, StepPart } from "./step.js";
 import { drawTimeline } from "./timeline.js";
 
 const zoomSteps = 1000;
 const secondsOfPlay = 4;
 
 const queries = JSON.parse(find("queries").textContent).map(readFacts);
-const viewpoint = new Viewpoint();
+const step = find("step_facts") ? readStep(JSON.parse(find("step_facts").textContent)) : null;
+// Meshes mostly have y upwards.
+const viewpoint = new Viewpoint(step ? 1 : 2);
 let look = null;
 let pictures = [];
 let isPlaying = false;
@@ -53,13 +56,15 @@ function controls() {
     button("home", "From the front", "h", () => {
       viewpoint.home();
       viewpoint.change();
-    }));
+    }),
+    button("tilt", "Other axis up", "u", () => viewpoint.tilt()));
 }
 
 function page() {
   find("view").append(
     make("header", {}, make("h1", {}, "Touchstone view"), make("nav", { id: "list", "aria-label": "Queries" })),
-    make("section", { id: "query" },
+    make("section", { id: "step", hidden: step === null }),
+    make("section", { id: "query", hidden: true },
       make("h2", { id: "label" }), make("p", { id: "verdict" }), make("ul", { id: "notes", class: "findings" }),
       make("div", { class: "pictures" },
         figure("motion", "The primitives, and their traces"),
@@ -76,7 +81,7 @@ function page() {
         make("output", { id: "now", for: "time", class: "said" })),
       make("div", { class: "timeline", id: "rows" }),
       make("p", { id: "readout" })),
-    make("section", { id: "numbers" },
+    make("section", { id: "numbers", hidden: true },
       make("h2", {}, "Coordinates"),
       make("div", { class: "choice", role: "radiogroup", "aria-label": "Format of coordinates" },
         ...radios("format", ["decimal", "hexadecimal", "rational"], format, (value) => {
@@ -103,6 +108,7 @@ function show(index) {
   look = new Look(queries[index]);
   look.index = index;
   const { facts } = look;
+  for (const part of ["query", "numbers"]) find(part).hidden = false;
   find("label").textContent = facts.label;
   find("notes").replaceChildren(...facts.notes.map((note) => make("li", {}, note)));
   find("star").textContent = facts.truth && facts.truth.toi ? "To contact" : "To the nearest";
@@ -122,7 +128,7 @@ function writeVerdict(facts) {
 
 function writeList() {
   const list = find("list");
-  list.hidden = queries.length < 2;
+  list.hidden = queries.length < 2 || step !== null;
   list.replaceChildren(...queries.map((facts, i) => make("button", { type: "button", "aria-current": i === look.index && "true",
     onclick: () => show(i) }, make("b", {}, String(i)), ` ${facts.label} `, make("em", {}, badge(facts)))));
   const current = list.querySelector("[aria-current]");
@@ -205,6 +211,7 @@ function writeTable(state = look.motion.at(look.t)) {
 // ---- Copy and paste -----------------------------------------------------------------------------
 
 function copy(name) {
+  if (look === null) return;
   const area = find("text");
   area.value = writers[name](look.facts);
   area.select();
@@ -217,6 +224,12 @@ function copy(name) {
 const isSame = (a, b) => a.kind === b.kind && a.min_separation === b.min_separation &&
   (a.min_separation === 0 || a.norm === b.norm) && a.coordinates.every((x, i) => x === b.coordinates[i]);
 
+/// The number of a query in the list, which it joins if it is new.
+function indexOf(query) {
+  const index = queries.findIndex((one) => isSame(one, query));
+  return index < 0 ? queries.push(query) - 1 : index;
+}
+
 /// Looks at the query that the text holds: with its answer if the page holds it.
 function draw() {
   const said = find("drawn");
@@ -224,10 +237,8 @@ function draw() {
     const read = readQuery(find("text").value);
     const kind = read.kind || document.querySelector("input[name=kind]:checked").value;
     const query = withoutAnswer({ ...read, kind }, "pasted");
-    let index = queries.findIndex((one) => isSame(one, query));
-    said.textContent = index < 0 ? "Drawn. This page holds no answer to it." : "This page holds its answer.";
-    if (index < 0) index = queries.push(query) - 1;
-    show(index);
+    show(indexOf(query));
+    said.textContent = look.facts.truth ? "This page holds its answer." : "Drawn. This page holds no answer to it.";
     find("query").scrollIntoView();
   } catch (error) {
     said.textContent = `Not drawn: ${error.message}.`;
@@ -280,6 +291,7 @@ const keys = {
   "-": () => zoomTo(look.zoom - 0.05),
   f: () => find("follow").click(),
   h: () => find("home").click(),
+  u: () => viewpoint.tilt(),
   n: () => show((look.index + 1) % queries.length),
   p: () => show((look.index + queries.length - 1) % queries.length),
   ArrowLeft: () => moveTime(-32),
@@ -287,6 +299,7 @@ const keys = {
 };
 
 function onKey(event) {
+  if (look === null) return;
   const isTyping = /^(INPUT|TEXTAREA|BUTTON|SELECT)$/.test(event.target.tagName);
   if (isTyping || event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
   event.preventDefault();
@@ -312,7 +325,15 @@ function makePictures() {
   }
 }
 
+/// A pair of the step: with its answer, if the page holds it.
+function showPair(n) {
+  const query = withoutAnswer(queryOf(step, step.pairs[n]), `${step.label}: ${step.pairs[n].name}`);
+  show(indexOf(query));
+  find("query").scrollIntoView();
+}
+
 page();
 makePictures();
 document.addEventListener("keydown", onKey);
-show(0);
+if (step) new StepPart(step, viewpoint, canDraw(), showPair);
+if (queries.length > 0) show(0);

@@ -8,16 +8,16 @@ import * as THREE from "three";
 const fieldOfView = 28;
 const distance = 1.02 / Math.sin((fieldOfView / 2) * (Math.PI / 180));
 
-/// From where all pictures are seen: turned, and nearer or farther.
+/// From where all pictures are seen, and which axis is upwards in them.
 export class Viewpoint {
-  constructor() {
+  constructor(up) {
+    this.up = up;
     this.home();
     this.listeners = [];
   }
   home() {
     this.around = -0.9;
     this.above = 0.42;
-    this.far = 1;
   }
   change() {
     for (const listener of this.listeners) listener();
@@ -27,11 +27,17 @@ export class Viewpoint {
     this.above = Math.max(-1.55, Math.min(1.55, this.above + above));
     this.change();
   }
+  /// Another axis upwards.
+  tilt() {
+    this.up = (this.up + 1) % 3;
+    this.change();
+  }
   place(camera) {
-    const out = distance * this.far;
-    camera.up.set(0, 0, 1);
-    camera.position.set(Math.cos(this.above) * Math.cos(this.around) * out,
-      Math.cos(this.above) * Math.sin(this.around) * out, Math.sin(this.above) * out);
+    const [x, y, z] = [Math.cos(this.above) * Math.cos(this.around), Math.cos(this.above) * Math.sin(this.around), Math.sin(this.above)];
+    // The axes in their cyclic order, so that the picture is turned and not mirrored.
+    const turned = (a, b, c) => [[c, a, b], [b, c, a], [a, b, c]][this.up];
+    camera.up.set(...turned(0, 0, 1));
+    camera.position.set(...turned(x, y, z)).multiplyScalar(distance);
     camera.lookAt(0, 0, 0);
   }
 }
@@ -47,7 +53,7 @@ const up = new THREE.Vector3(0, 1, 0);
 const vector = (point) => new THREE.Vector3(...point);
 
 /// A colour of the page's style, as it is at present.
-const styleColor = (name) =>
+export const styleColor = (name) =>
   new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
 
 export class Scene {
