@@ -279,7 +279,7 @@ def documents(options, folder):
     """All documents by name, as they are to be."""
     made = {document: with_parts(document, (options.root / document).read_text(), options.root) for document in PARTS}
     page, text = folder / "page.html", folder / "results.md"
-    run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page, "--results", text])
+    run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page, "--markdown", text])
     return made | {"docs/results.md": text.read_text(), "docs/results.svg": picture(page, folder)}
 
 

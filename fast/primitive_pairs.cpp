@@ -9,7 +9,7 @@ using Points = std::array<const Point*, query_points>;
 
 Query query_of(const Points& points) {
   Query query;
-  auto to = query.coordinates.begin();
+  auto* to = query.coordinates.data();
   for (const Point* const point : points) to = std::ranges::copy(point->coordinates, to).out;
   return query;
 }

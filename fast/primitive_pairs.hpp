@@ -33,7 +33,9 @@ struct Point {
     }
   }
   Point(const double* x) : coordinates{x[0], x[1], x[2]} {}  // NOLINT(google-explicit-constructor)
-  Point(const float* x) : coordinates{x[0], x[1], x[2]} {}   // NOLINT(google-explicit-constructor)
+  Point(const float* x)                                      // NOLINT(google-explicit-constructor)
+      : coordinates{static_cast<double>(x[0]), static_cast<double>(x[1]),
+                    static_cast<double>(x[2])} {}
 
   std::array<double, 3> coordinates;
 };

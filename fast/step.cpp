@@ -100,8 +100,8 @@ bool has_collision(const Scene& scene) {
 // ---- The earliest -------------------------------------------------------------------------------
 
 /// Looks for the earliest impact: first with a few of the groups, which are all over the scene, then
-/// with more, then with all. In between, the boxes are fitted anew to the time up to the earliest
-/// impact that is known.
+/// with the others. In between, the boxes are fitted anew to the time up to the earliest impact that
+/// is known.
 class EarliestSearch {
  public:
   explicit EarliestSearch(const Scene& scene)
@@ -111,18 +111,16 @@ class EarliestSearch {
         parts_(scene.parts(groups_of_part)) {}
 
   [[nodiscard]] std::optional<StepImpact> run() {
-    // Every so many-th group, without those of the round before.
-    static constexpr std::array<std::size_t, 3> strides{64, 8, 1};
-    for (std::size_t i = 0; i < strides.size(); ++i) {
-      if (i > 0) look_nearer();
-      const std::size_t before = i > 0 ? strides[i - 1] : 0;
-      tbb::parallel_for(std::size_t{0}, parts_.size(),
-                        [&](std::size_t part) { search(parts_[part], strides[i], before); });
-    }
+    search_if([](std::size_t group) { return group % stride == 0; });
+    look_nearer();
+    search_if([](std::size_t group) { return group % stride != 0; });
     return result();
   }
 
  private:
+  /// Of so many groups in a row, one is searched with first.
+  static constexpr std::size_t stride = 256;
+
   using Found = std::vector<StepCollision>;
 
   /// Contacts after this time are of no interest.
@@ -141,25 +139,25 @@ class EarliestSearch {
     scene_.fit(trees_, horizon);
   }
 
-  /// Searches with every stride-th group but every before-th, if `before` is not 0.
-  void search(SearchPart part, std::size_t stride, std::size_t before) {
-    const auto is_wanted = [&](std::size_t group) {
-      return group % stride == 0 && (before == 0 || group % before != 0);
-    };
-    const std::size_t end = part.end;
-    while (part.first < end) {
-      if (!is_wanted(part.first)) {
-        ++part.first;
-        continue;
+  /// Searches with the groups that are wanted.
+  template <class IsWanted>
+  void search_if(const IsWanted& is_wanted) {
+    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
+      SearchPart part = parts_[i];
+      for (const std::size_t end = part.end; part.first < end; part.first = part.end) {
+        part.end = part.first + 1;
+        if (!is_wanted(part.first)) continue;
+        while (part.end < end && is_wanted(part.end)) ++part.end;
+        search(part);
       }
-      part.end = part.first + 1;
-      while (part.end < end && is_wanted(part.end)) ++part.end;
-      for_each_block(scene_, trees_, part, [&](std::span<const IndexPair> pairs) {
-        scene_.decide(part.kind, pairs, limit(),
-                      [this](std::size_t, const StepCollision& collision) { add(collision); });
-      });
-      part.first = part.end;
-    }
+    });
+  }
+
+  void search(const SearchPart& part) {
+    for_each_block(scene_, trees_, part, [&](std::span<const IndexPair> pairs) {
+      scene_.decide(part.kind, pairs, limit(),
+                    [this](std::size_t, const StepCollision& collision) { add(collision); });
+    });
   }
 
   void add(const StepCollision& collision) {

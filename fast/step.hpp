@@ -13,12 +13,11 @@
 /// - a codimensional point (a vertex without an edge) and a codimensional edge (of no face),
 /// - two codimensional points.
 ///
-/// Theorem (docs/theory.md, section 8.2): if no edge pierces a face at t=0, then the first contact
-/// of any two primitives without a common vertex is one of these pairs. One thing is left out: that
-/// a vertex touches another vertex or an edge to which one or two edges connect it. So the elements
-/// around a vertex may fold onto each other, and an edge or a triangle collapse.
-/// (An edge pierces a face if they meet, but none of their vertices and edges do. Such an edge may
-/// stay in the face from beginning to end, and nothing touches.)
+/// **Theorem** (docs/theory.md, section 8.3): if no edge meets a face at t=0, but where they share a
+/// vertex, then one of these pairs touches when the first two primitives without a common vertex do.
+/// One thing is left out: that a vertex touches another vertex or an edge to which a path of one or
+/// two edges leads. So the elements around a vertex may fold onto each other, and collapse.
+/// (An edge that meets a face at t=0 may do so until t=1, and nothing touches.)
 ///
 /// **How.** Boxes in float at both ends of the step, rounded outwards, in trees (fast/broad_phase/).
 /// A search finds the pairs that no axis separates at both ends the same way round. An axis that

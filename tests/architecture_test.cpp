@@ -139,7 +139,6 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/platform/avx_rows.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/block.hpp", "a part of the solver, tested through it"},
     {"fast/step/scene.hpp", "a part of Step, tested through it"},
-    {"fast/platform/threads.hpp", "a part of the solvers, tested through them"},
     {"fast/certified/kernel_on_lanes.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/stages/axis.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/stages/bisection.hpp", "a part of the kernels, tested through them"},

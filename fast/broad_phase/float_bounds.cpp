@@ -78,7 +78,7 @@ FloatInterval around(double x) {
 
 /// The place at a time of a coordinate that moves from x to y.
 FloatInterval around_position(double x, double y, double time) {
-  const double position = filters::Position::evaluate<double>({x, y}, {1.0 - time, time});
+  const auto position = filters::Position::evaluate<double>({x, y}, {1.0 - time, time});
   const double error = filters::position_double(std::max(std::abs(x), std::abs(y)));
   return {rounded_down(position - 2.0 * error), rounded_up(position + 2.0 * error)};
 }

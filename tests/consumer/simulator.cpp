@@ -1,15 +1,15 @@
-// What a simulator includes: single queries by both solvers, and a whole step through the broad phase.
+// What a simulator includes: single queries by both solvers, and a whole step.
 
 #include <exact/query.hpp>
-#include <fast/broad_phase.hpp>
 #include <fast/certified.hpp>
-#include <fast/mesh.hpp>
 #include <fast/platform/arithmetic_check.hpp>
+#include <fast/primitive_pairs.hpp>
+#include <fast/step.hpp>
 #include <fast/tight_inclusion.hpp>
 
 #include <Eigen/Core>
 
-#include <array>
+#include <cstddef>
 #include <cstdio>
 #include <vector>
 
@@ -25,9 +25,11 @@ bool answers_single_queries() {
                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
   const fast::CertifiedResult certified = fast::certified(Kind::vertex_face, query);
   const fast::TightInclusionResult inclusion = fast::tight_inclusion(Kind::vertex_face, query);
-  return certified.verdict == fast::Verdict::yes && certified.toi_lower <= expected_toi &&
-         certified.toi_upper >= expected_toi && inclusion.verdict == fast::Verdict::yes &&
-         inclusion.toi <= expected_toi;
+  const Eigen::Vector3d above(1, 1, 1), below(1, 1, -2), o(0, 0, 0), a(4, 0, 0), b(0, 4, 0);
+  const fast::CertifiedResult of_points = fast::point_triangle(above, o, a, b, below, o, a, b);
+  return of_points.toi_lower == certified.toi_lower && certified.verdict == fast::Verdict::yes &&
+         certified.toi_lower <= expected_toi && certified.toi_upper >= expected_toi &&
+         inclusion.verdict == fast::Verdict::yes && inclusion.toi <= expected_toi;
 }
 
 bool answers_a_step() {
@@ -37,17 +39,13 @@ bool answers_a_step() {
   Eigen::MatrixXd after = before;
   after.bottomRows(3).col(2).array() -= 3.0;
   const std::vector<fast::Face> faces{{0, 1, 2}, {3, 4, 5}};
-  const std::vector<fast::Edge> edges = fast::edges_of(faces);
-  const fast::MovingVertices vertices(before, after);
-  const auto pairs = fast::vertex_face_candidates(vertices, faces);
-  const fast::Candidates candidates{Kind::vertex_face, pairs, edges, faces};
-  const auto impact = fast::earliest(vertices, candidates);
-  const auto collisions = fast::collisions(vertices, candidates);
-  const auto edge_pairs = fast::edge_edge_candidates(vertices, edges);
-  const bool edges_touch =
-      fast::earliest(vertices, {Kind::edge_edge, edge_pairs, edges, faces}).has_value();
+  const fast::Step step(before, after, {.edges = {}, .faces = faces, .points = {}});
+  const auto impact = step.earliest();
+  std::size_t candidates = 0;
+  step.candidates([&](const fast::StepCandidates& some) { candidates += some.pairs.size(); });
   return impact && impact->toi_lower <= expected_toi && impact->toi_upper >= expected_toi &&
-         collisions.size() == 3 && !edges_touch;
+         step.collisions().size() == 3 && candidates >= 3 && !step.is_free() &&
+         step.scaled(0.25).is_free();
 }
 
 }  // namespace

@@ -197,11 +197,7 @@ class CertifyRun {
 
 void add_judged_options(CLI::App& command, SolverArguments& judged) {
   add_solver_options(command, judged);
-  command
-      .add_option("--results", judged.results,
-                  "Recorded answers to judge, as touchstone solve writes them; repeatable")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  add_recorded_option(command, judged);
   add_exact_flag(command, judged);
 }
 

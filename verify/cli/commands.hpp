@@ -11,7 +11,8 @@ namespace touchstone::verify::cli {
 /// Outcome of a run; the process's exit status.
 enum class Status : int {
   all_well = 0,
-  wrong_answers = 1,  ///< a recorded answer is not the truth, or a solver broke its promise
+  /// A recorded answer is not the truth, a solver broke its promise, or something touches in a step.
+  wrong_answers = 1,
   bad_input = 2,      ///< input in error, or a command line that makes no sense
   interrupted = 130,  ///< by a signal, with what was done until then reported
 };
@@ -42,6 +43,9 @@ void add_report_command(CLI::App& app, Status& status);
 
 /// `touchstone candidates`
 void add_candidates_command(CLI::App& app, Status& status);
+
+/// `touchstone step`
+void add_step_command(CLI::App& app, Status& status);
 
 /// `touchstone view`
 void add_view_command(CLI::App& app, Status& status);

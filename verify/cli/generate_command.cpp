@@ -18,10 +18,12 @@
 #include "verify/data/separation_file.hpp"
 #include "verify/data/toi_writer.hpp"
 #include "verify/generate/families.hpp"
+#include "verify/generate/workload.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/mesh/ply.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -36,6 +38,9 @@ struct Arguments {
   SeparationArguments separation;
   bool npy = false;
   bool list = false;
+  /// Of two patches of mesh instead of queries: cells along a side; 0: none.
+  int patch_cells = 0;
+  double grading = 1.0;
   std::string json_file;
 };
 
@@ -151,12 +156,34 @@ std::vector<Written> write_families(const Arguments& arguments) {
   return result;
 }
 
+/// FOLDER/0.ply and FOLDER/1.ply: two patches of mesh before and after a step.
+Status generate_patches(const Arguments& arguments) {
+  const mesh::MovingMesh patches = generate::moving_patches(
+      {.seed = arguments.seed, .cells = arguments.patch_cells, .grading = arguments.grading});
+  fs::create_directories(arguments.folder);
+  for (const bool is_end : {false, true}) {
+    mesh::Vertices vertices(static_cast<Eigen::Index>(patches.vertices.size()), 3);
+    for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
+      const fast::MovingVertex& vertex = patches.vertices[static_cast<std::size_t>(i)];
+      vertices.row(i) = Eigen::RowVector3d((is_end ? vertex.end : vertex.start).data());
+    }
+    mesh::write_ply(fs::path(arguments.folder) / (is_end ? "1.ply" : "0.ply"), vertices,
+                    patches.faces);
+  }
+  io::print(
+      stdout,
+      fmt::format("{} vertices, {} faces, before and after a step: 0.ply and 1.ply in {}\n",
+                  patches.vertices.size(), patches.faces.size(), io::printable(arguments.folder)));
+  return Status::all_well;
+}
+
 Status generate(const Arguments& arguments) {
   if (arguments.list) {
     list_families(chosen(arguments.names, arguments.separation.given()));
     return Status::all_well;
   }
   if (arguments.folder.empty()) throw CLI::RequiredError("--out");
+  if (arguments.patch_cells > 0) return generate_patches(arguments);
   OptionalOutput json_output(arguments.json_file);
   nlohmann::json json = nlohmann::json::array();
   std::uint64_t queries = 0, collisions = 0;
@@ -197,6 +224,20 @@ void add_generate_command(CLI::App& app, Status& status) {
       ->capture_default_str()
       ->check(whole_number(1, UINT64_MAX));
   add_separation_options(*command, arguments->separation);
+  command
+      ->add_option("--patches", arguments->patch_cells,
+                   "Instead of queries two patches of mesh, before and after a step, of N cells "
+                   "along a side: 4 N² faces")
+      ->type_name("N")
+      ->check(whole_number(1, 20'000))
+      ->excludes(command->get_option("--family"));
+  command
+      ->add_option("--grading", arguments->grading,
+                   "Of patches: the last cell of a side is so many times as wide as the first")
+      ->type_name("G")
+      ->capture_default_str()
+      ->check(real_number(1.0, 1e9))
+      ->needs(command->get_option("--patches"));
   command->option_defaults()->group("Output");
   command->add_flag("--list", arguments->list, "List the families, and why their truth is known");
   command->add_option("--out", arguments->folder, "Folder to write to")->type_name("FOLDER");
@@ -205,7 +246,8 @@ void add_generate_command(CLI::App& app, Status& status) {
   add_json_option(*command, arguments->json_file);
   set_help(*command,
            "touchstone generate --out hard --count 100 --family hourglass\n"
-           "touchstone generate --out near --min-separation 1e-8 --norm l2",
+           "touchstone generate --out near --min-separation 1e-8 --norm l2\n"
+           "touchstone generate --out patches --patches 500",
            "With --min-separation there are more families, with contact at exactly that distance; "
            "the others are "
            "written without truth, and FOLDER/separation.json says what the truth is about.\n" +

@@ -7,11 +7,13 @@
 #include <cstdio>
 #include <exception>
 #include <sstream>
+#include <string>
 
 #include "fast/platform/arithmetic_check.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/version.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 
@@ -20,6 +22,7 @@ namespace {
 using touchstone::verify::cli::set_help;
 using touchstone::verify::cli::Status;
 using touchstone::verify::cli::use_help_format;
+using touchstone::verify::cli::version;
 using touchstone::verify::io::print;
 
 /// No file that is opened later may become a standard stream that was closed when the program began, and
@@ -40,8 +43,9 @@ int run(int argc, char** argv) {
   use_help_format(app);
   set_help(app, "touchstone certify path/to/queries",
            "touchstone COMMAND --help describes a command.\n"
-           "Exit status: 0 all is well, 1 wrong answers, 2 bad input or usage, 130 interrupted.");
-  app.set_version_flag("--version", TOUCHSTONE_VERSION, "Print the version");
+           "Exit status: 0 all is well, 1 wrong answers or collisions, 2 bad input or usage, 130 "
+           "interrupted.");
+  app.set_version_flag("--version", std::string(version()), "Print the version");
   // The message quotes the command line.
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return touchstone::verify::io::printable(error.what()) +
@@ -54,6 +58,7 @@ int run(int argc, char** argv) {
   touchstone::verify::cli::add_prove_command(app, status);
   touchstone::verify::cli::add_generate_command(app, status);
   touchstone::verify::cli::add_candidates_command(app, status);
+  touchstone::verify::cli::add_step_command(app, status);
   touchstone::verify::cli::add_bench_command(app, status);
   touchstone::verify::cli::add_fuzz_command(app, status);
   touchstone::verify::cli::add_stability_command(app, status);

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -21,7 +22,9 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
+#include "verify/cli/version.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
@@ -34,7 +37,9 @@
 #include "verify/report/measurement_json.hpp"
 #include "verify/report/page.hpp"
 #include "verify/report/results.hpp"
+#include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -44,10 +49,12 @@ namespace fs = std::filesystem;
 struct Arguments {
   SourceArguments sources;
   report::ExperimentOptions experiments;
+  SolverArguments solvers;
   std::string from_file;
+  std::string compare_file;
   std::string page_file;
   std::string json_file;
-  std::string results_file;
+  std::string markdown_file;
 };
 
 /// The last part of a path that says something.
@@ -63,17 +70,18 @@ class ReportRun {
       : arguments_(arguments),
         page_(arguments.page_file),
         json_(arguments.json_file),
-        results_(arguments.results_file) {
-    if (!page_ && !json_ && !results_) {
-      throw std::invalid_argument("nothing to write: name --out, --json or --results");
+        markdown_(arguments.markdown_file) {
+    if (!page_ && !json_ && !markdown_) {
+      throw std::invalid_argument("nothing to write: name --out, --json or --markdown");
     }
-    if (json_.is(arguments.page_file) || results_.is(arguments.page_file) ||
-        results_.is(arguments.json_file)) {
+    if (json_.is(arguments.page_file) || markdown_.is(arguments.page_file) ||
+        markdown_.is(arguments.json_file)) {
       throw std::runtime_error("a file is named for two outputs");
     }
-    if (is_output(arguments.from_file)) {
-      throw std::runtime_error(arguments.from_file + ": named for input and output");
+    for (const std::string& input : {arguments.from_file, arguments.compare_file}) {
+      if (is_output(input)) throw std::runtime_error(input + ": named for input and output");
     }
+    if (!arguments.compare_file.empty()) before_ = read(arguments.compare_file);
   }
 
   Status run() {
@@ -84,42 +92,75 @@ class ReportRun {
       if (!errors_.empty() && !arguments_.sources.keep_going) return Status::bad_input;
       measurements = measured(groups);
     } else {
-      measurements = read();
+      measurements = read(arguments_.from_file);
     }
     write(measurements);
     report_broken_promises(measurements);
     if (report::has_wrong_answers(measurements)) return Status::wrong_answers;
-    const bool failed = page_.failed() || json_.failed() || results_.failed();
+    const bool failed = page_.failed() || json_.failed() || markdown_.failed();
     if (failed || !errors_.empty() || skipped_ != 0) return Status::bad_input;
     return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
  private:
   [[nodiscard]] bool is_output(const fs::path& file) const {
-    return page_.is(file) || json_.is(file) || results_.is(file);
+    return page_.is(file) || json_.is(file) || markdown_.is(file);
   }
 
-  [[nodiscard]] report::Measurements read() const {
+  static report::Measurements read(const std::string& file) {
     static constexpr std::size_t most_bytes = std::size_t{1} << 30U;
     const nlohmann::json json =
-        nlohmann::json::parse(io::read_file(arguments_.from_file, most_bytes), nullptr, false);
+        nlohmann::json::parse(io::read_file(file, most_bytes), nullptr, false);
     try {
       return report::measurements_from_json(json);
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(arguments_.from_file + ": " + error.what());
+      throw std::runtime_error(file + ": " + error.what());
     }
   }
 
   [[nodiscard]] report::Measurements measured(const std::vector<data::QueryGroup>& groups) const {
     io::ProgressBar bar("report");
     report::ExperimentOptions options = arguments_.experiments;
+    const std::vector<std::unique_ptr<fast::Method>> plugins = loaded_plugins();
+    std::ranges::transform(plugins, std::back_inserter(options.plugins),
+                           [](const auto& plugin) { return plugin.get(); });
+    options.process = arguments_.solvers.process();
+    const std::vector<Recording> recordings = loaded_recordings();
+    std::ranges::transform(recordings, std::back_inserter(options.recorded),
+                           [](const Recording& recording) { return recording.solver.get(); });
     options.seed = arguments_.sources.seed;
     options.threads = arguments_.sources.threads;
     options.on_progress = [&bar](double fraction) { bar.update(fraction); };
     options.stop = &io::interrupted();
     report::Measurements measurements = report::run_experiments(groups, options);
     measurements.command = command_line();
+    measurements.version = version();
     return measurements;
+  }
+
+  // ---- Solvers of the user's own ----
+
+  struct Recording {
+    std::unique_ptr<solvers::RecordedAnswers> answers;
+    std::unique_ptr<solvers::Solver> solver;
+  };
+
+  [[nodiscard]] std::vector<std::unique_ptr<fast::Method>> loaded_plugins() const {
+    std::vector<std::unique_ptr<fast::Method>> plugins;
+    for (const fs::path& path : arguments_.solvers.plugins) {
+      plugins.push_back(arguments_.solvers.load(path));
+    }
+    return plugins;
+  }
+
+  [[nodiscard]] std::vector<Recording> loaded_recordings() const {
+    std::vector<Recording> recordings;
+    for (const fs::path& path : arguments_.solvers.results) {
+      auto answers = std::make_unique<solvers::RecordedAnswers>(solvers::load_answers(path));
+      auto solver = solvers::recorded_solver(path.stem().string(), *answers);
+      recordings.push_back({.answers = std::move(answers), .solver = std::move(solver)});
+    }
+    return recordings;
   }
 
   // ---- Queries ----------------------------------------------------------------------------------
@@ -193,10 +234,10 @@ class ReportRun {
     // The measurements first: all else can be made from them.
     if (json_) json_.write(io::json_document(report::to_json(measurements)));
     json_.close();
-    if (page_) page_.write(report::report_page(measurements));
+    if (page_) page_.write(report::report_page(measurements, before_ ? &*before_ : nullptr));
     page_.close();
-    if (results_) results_.write(report::results_document(measurements));
-    results_.close();
+    if (markdown_) markdown_.write(report::results_document(measurements));
+    markdown_.close();
     if (page_ && !page_.failed()) {
       io::print(page_.is_standard_output() ? stderr : stdout,
                 fmt::format("{}\n", io::printable(fs::absolute(arguments_.page_file).string())));
@@ -218,7 +259,8 @@ class ReportRun {
   const Arguments& arguments_;
   ReportedOutput page_;
   ReportedOutput json_;
-  ReportedOutput results_;
+  ReportedOutput markdown_;
+  std::optional<report::Measurements> before_;
   std::set<std::string> errors_;
   std::uint64_t skipped_ = 0;
 };
@@ -234,6 +276,8 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
                   "Only these; repeatable: " + solvers::method_names())
       ->type_name("NAME")
       ->allow_extra_args(false);
+  add_plugin_option(command, arguments.solvers);
+  add_recorded_option(command, arguments.solvers);
   command
       .add_option("--count", arguments.experiments.count,
                   "Queries of a group: a sample of larger ones, a quarter of it over the distance")
@@ -283,10 +327,14 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       ->type_name("FILE.json")
       ->excludes(command.get_option("PATH"))
       ->excludes(command.get_option("--method"));
+  command
+      .add_option("--compare", arguments.compare_file,
+                  "What --json of an earlier run wrote: the page shows what has changed since")
+      ->type_name("OLD.json");
   command.add_option("--out", arguments.page_file, "Write the page")->type_name("FILE.html");
   add_json_option(command, arguments.json_file);
   command
-      .add_option("--results", arguments.results_file,
+      .add_option("--markdown", arguments.markdown_file,
                   "Write the tables as Markdown, beside the published numbers")
       ->type_name("FILE.md");
 }
@@ -299,11 +347,14 @@ void add_report_command(CLI::App& app, Status& status) {
       app.add_subcommand("report", "Measure all solvers, and draw a page of speed against error");
   add_measuring_options(*command, *arguments);
   add_output_options(*command, *arguments);
-  set_help(*command, "touchstone report data/handcrafted --out report.html --json report.json",
-           "Without PATH: two patches of mesh that move through each other, and the built-in set. "
-           "The page needs no "
-           "network; its path is printed. Times are those of one thread.\n" +
-               std::string(judging_statuses));
+  set_help(
+      *command,
+      "touchstone report data/handcrafted --out report.html --json report.json\n"
+      "touchstone report data/handcrafted --plugin mine.so --compare report.json --out new.html",
+      "Without PATH: two patches of mesh that move through each other, and the built-in set. "
+      "The page needs no "
+      "network; its path is printed. Times are those of one thread.\n" +
+          std::string(judging_statuses));
   command->callback([arguments, &status] { status = ReportRun(*arguments).run(); });
 }
 

@@ -45,11 +45,7 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
                   "Built-in solver; repeatable: " + solvers::method_names())
       ->type_name("NAME")
       ->allow_extra_args(false);
-  command
-      .add_option("--plugin", arguments.plugins,
-                  "Your solver: a shared library (verify/plugin.h); repeatable")
-      ->type_name("LIB.so")
-      ->allow_extra_args(false);
+  add_plugin_option(command, arguments);
   command
       .add_option("--tolerance", arguments.options.tolerance,
                   "Tolerance of conservative methods, in units of the coordinates")
@@ -84,6 +80,22 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
                    "Let plugins start processes of their own");
   command.add_flag("--show-output", arguments.show_output,
                    "Show what plugins print, on standard error");
+}
+
+void add_plugin_option(CLI::App& command, SolverArguments& arguments) {
+  command
+      .add_option("--plugin", arguments.plugins,
+                  "Your solver: a shared library (verify/plugin.h); repeatable")
+      ->type_name("LIB.so")
+      ->allow_extra_args(false);
+}
+
+void add_recorded_option(CLI::App& command, SolverArguments& arguments) {
+  command
+      .add_option("--results", arguments.results,
+                  "Recorded answers to judge, as touchstone solve writes them; repeatable")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
 void add_exact_flag(CLI::App& command, SolverArguments& arguments) {

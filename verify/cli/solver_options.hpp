@@ -56,6 +56,12 @@ struct SolverArguments {
 /// until the command line is parsed.
 void add_solver_options(CLI::App& command, SolverArguments& arguments);
 
+/// Adds --plugin alone.
+void add_plugin_option(CLI::App& command, SolverArguments& arguments);
+
+/// Adds --results.
+void add_recorded_option(CLI::App& command, SolverArguments& arguments);
+
 /// Adds --exact.
 void add_exact_flag(CLI::App& command, SolverArguments& arguments);
 

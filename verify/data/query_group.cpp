@@ -1,6 +1,8 @@
 #include "verify/data/query_group.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -16,6 +18,19 @@ constexpr std::size_t reading_step = 4096;
 QueryGroup::QueryGroup(std::string name, Kind kind, std::vector<Query> queries)
     : name_(std::move(name)), kind_(kind), queries_(std::move(queries)) {
   runs_.push_back({0, {name_, 0}});
+}
+
+std::uint64_t QueryGroup::digest() const {
+  std::uint64_t digest = 0xcbf29ce484222325U;
+  for (const Query& query : queries_) {
+    for (const double coordinate : query.coordinates) {
+      auto bytes = std::bit_cast<std::uint64_t>(coordinate);
+      for (int i = 0; i < 8; ++i, bytes >>= 8U) {
+        digest = (digest ^ (bytes & 0xFFU)) * 0x100000001b3U;
+      }
+    }
+  }
+  return digest;
 }
 
 void QueryGroup::read(QuerySource& source, const std::function<void(double)>& progress,

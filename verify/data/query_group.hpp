@@ -32,6 +32,10 @@ class QueryGroup {
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] const std::vector<Query>& queries() const { return queries_; }
 
+  /// A number that tells groups of other queries apart: FNV-1a, 64 bits, of the bytes of all coordinates in
+  /// their order.
+  [[nodiscard]] std::uint64_t digest() const;
+
   /// Appends the queries of a source, up to its end or until `stopped`.
   /// \param progress called now and then with the fraction of the source that is read.
   /// \throws DatasetError as the source does, std::invalid_argument if it is of another kind.

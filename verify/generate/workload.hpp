@@ -25,10 +25,13 @@ struct PatchOptions {
   /// Cells along a side of a patch, at least 1. The default gives well over 100,000 candidates of
   /// each kind, some per cent of which collide, with any seed.
   int cells = 60;
+  /// The last cells along a side are so many times as wide as the first, at least 1. All lengths above
+  /// are in units of a cell's width where a vertex is.
+  double grading = 1.0;
 };
 
 /// The two patches: a function of the options, the same on every machine.
-/// \throws std::invalid_argument if there is no cell.
+/// \throws std::invalid_argument for options out of range.
 [[nodiscard]] mesh::MovingMesh moving_patches(const PatchOptions& options = {});
 
 /// All queries of one kind of the generated hard set for a separation (verify/generate/families.hpp),

@@ -15,6 +15,7 @@
 #include "exact/query.hpp"
 #include "verify/data/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
+#include "verify/io/output_file.hpp"
 #include "verify/mesh/words.hpp"
 
 namespace touchstone::verify::mesh {
@@ -482,6 +483,33 @@ Mesh read_ply(const std::filesystem::path& path) {
   const Header header = HeaderReader(input).read();
   if (*header.format == Format::ascii) return BodyReader(input, header, TextValues(input)).read();
   return BodyReader(input, header, BinaryValues(input, *header.format)).read();
+}
+
+void write_ply(const std::filesystem::path& path, const Vertices& vertices,
+               std::span<const fast::Face> faces, std::span<const fast::Edge> edges) {
+  static_assert(std::endian::native == std::endian::little,
+                "numbers are written as they are stored");
+  io::OutputFile file(path);
+  const auto write_numbers = [&file](const auto* numbers, std::size_t count) {
+    const void* const bytes = numbers;
+    file.write({static_cast<const char*>(bytes), count * sizeof(*numbers)});
+  };
+  std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                       std::to_string(vertices.rows()) +
+                       "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+                       std::to_string(faces.size()) + "\nproperty list uchar int vertex_indices\n";
+  if (!edges.empty()) {
+    header += "element edge " + std::to_string(edges.size()) +
+              "\nproperty int vertex1\nproperty int vertex2\n";
+  }
+  file.write(header + "end_header\n");
+  write_numbers(vertices.data(), static_cast<std::size_t>(vertices.size()));
+  for (const fast::Face& face : faces) {
+    file.write("\3");
+    write_numbers(face.data(), face.size());
+  }
+  for (const fast::Edge& edge : edges) write_numbers(edge.data(), edge.size());
+  file.close();
 }
 
 }  // namespace touchstone::verify::mesh

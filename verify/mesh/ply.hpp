@@ -10,6 +10,7 @@
 /// announces is believed only as far as data follows: memory is proportional to the file.
 
 #include <filesystem>
+#include <span>
 
 #include "verify/mesh/mesh.hpp"
 
@@ -20,5 +21,10 @@ namespace touchstone::verify::mesh {
 /// file cannot be read, the header is malformed or lacks what is read, there is no vertex, data is missing or left over,
 /// a coordinate is not finite, a face has not three vertices, or an index is no vertex's.
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& path);
+
+/// Writes a mesh as binary_little_endian 1.0, coordinates as doubles: reading it gives them bit by bit.
+/// \param edges those that are in no face \throws DatasetError if the file cannot be written.
+void write_ply(const std::filesystem::path& path, const Vertices& vertices,
+               std::span<const fast::Face> faces, std::span<const fast::Edge> edges = {});
 
 }  // namespace touchstone::verify::mesh

@@ -1,20 +1,22 @@
 #include "verify/mesh/self_intersection.hpp"
 
-#include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/box_intersection_d.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
+#include <mutex>
+#include <numeric>
+
+#include "fast/step.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
 
 /// A closed segment and a point or segment that may be degenerate.
 bool segments_meet(const Point& a, const Point& b, const Point& p, const Point& q) {
@@ -53,7 +55,7 @@ class Search {
  public:
   Search(const Vertices& vertices, std::span<const fast::Edge> edges,
          std::span<const fast::Face> faces)
-      : edges_(edges), faces_(faces) {
+      : vertices_(vertices), edges_(edges), faces_(faces) {
     points_.reserve(static_cast<std::size_t>(vertices.rows()));
     for (Eigen::Index i = 0; i < vertices.rows(); ++i) {
       points_.emplace_back(vertices(i, 0), vertices(i, 1), vertices(i, 2));
@@ -61,29 +63,51 @@ class Search {
   }
 
   [[nodiscard]] std::vector<Piercing> run(const PiercingFilter& filter) const {
+    if (edges_.empty() || faces_.empty()) return {};
     std::vector<Piercing> found;
-    std::vector<Box> edge_boxes = boxes(edges_), face_boxes = boxes(faces_);
-    CGAL::box_intersection_d(edge_boxes.begin(), edge_boxes.end(), face_boxes.begin(),
-                             face_boxes.end(), [&](const Box& a, const Box& b) {
-                               const Piercing pair{.edge = a.info(), .face = b.info()};
-                               if (filter && !filter(pair.edge, pair.face)) return;
-                               if (pierces(pair)) found.push_back(pair);
-                             });
+    std::mutex mutex;
+    for_each_overlap([&](std::span<const Piercing> pairs) {
+      std::vector<Piercing> piercing;
+      std::ranges::copy_if(pairs, std::back_inserter(piercing), [&](const Piercing& pair) {
+        return (!filter || filter(pair.edge, pair.face)) && pierces(pair);
+      });
+      const std::scoped_lock lock(mutex);
+      found.insert(found.end(), piercing.begin(), piercing.end());
+    });
     std::ranges::sort(found);
     return found;
   }
 
  private:
-  template <class Element>
-  [[nodiscard]] std::vector<Box> boxes(std::span<const Element> elements) const {
-    std::vector<Box> result;
-    result.reserve(elements.size());
-    for (const Element& element : elements) {
-      CGAL::Bbox_3 box;
-      for (const std::int32_t vertex : element) box += point(vertex).bbox();
-      result.emplace_back(box, static_cast<std::int32_t>(result.size()));
+  /// Calls use(pairs) for all pairs whose boxes overlap, some at a time, in several threads at once: the candidates of a
+  /// step in which faces rest, and a vertex moves along each edge.
+  template <class Use>
+  void for_each_overlap(const Use& use) const {
+    const auto resting = static_cast<std::int32_t>(vertices_.rows());
+    const auto moving = static_cast<Eigen::Index>(edges_.size());
+    Vertices before(vertices_.rows() + moving, 3), after(vertices_.rows() + moving, 3);
+    before.topRows(resting) = vertices_;
+    after.topRows(resting) = vertices_;
+    for (Eigen::Index i = 0; i < moving; ++i) {
+      const auto [a, b] = edges_[static_cast<std::size_t>(i)];
+      before.row(resting + i) = vertices_.row(a);
+      after.row(resting + i) = vertices_.row(b);
     }
-    return result;
+    std::vector<std::int32_t> groups(static_cast<std::size_t>(before.rows()), 0);
+    std::fill(groups.begin() + resting, groups.end(), 1);
+    std::vector<std::int32_t> points(edges_.size());
+    std::iota(points.begin(), points.end(), resting);
+    static constexpr std::array<std::array<std::int32_t, 2>, 2> apart{{{0, 0}, {1, 1}}};
+    const fast::MeshElements elements{.edges = {}, .faces = faces_, .points = points};
+    const fast::Step step(before, after, elements,
+                          {.groups = {.of_vertices = groups, .apart = apart}});
+    step.candidates([&](const fast::StepCandidates& candidates) {
+      std::vector<Piercing> pairs;
+      for (const auto& [vertex, face] : candidates.pairs) {
+        pairs.push_back({.edge = vertex - resting, .face = face});
+      }
+      use(std::span<const Piercing>(pairs));
+    });
   }
 
   [[nodiscard]] bool pierces(const Piercing& pair) const {
@@ -108,6 +132,7 @@ class Search {
     return points_[static_cast<std::size_t>(vertex)];
   }
 
+  const Vertices& vertices_;
   std::span<const fast::Edge> edges_;
   std::span<const fast::Face> faces_;
   std::vector<Point> points_;

@@ -12,8 +12,8 @@
 /// starts at a corner of the face pierces it iff they have a further point in common: then the edge lies in the face's
 /// plane and points into the angle at the corner. An edge of the face itself never counts.
 ///
-/// **Exact.** Signs of orientations in CGAL's kernel of exact predicates; boxes of coordinates choose the pairs (CGAL's
-/// box_intersection_d), and comparing coordinates is exact.
+/// **Exact.** Signs of orientations in CGAL's kernel of exact predicates. The broad phase (fast/step.hpp) chooses the
+/// pairs: those whose boxes overlap, exactly.
 
 #include <functional>
 #include <span>
@@ -36,7 +36,7 @@ struct Piercing {
 using PiercingFilter = std::function<bool(std::int32_t edge, std::int32_t face)>;
 
 /// All pairs of an edge and a face that it pierces, in ascending order.
-/// \param vertices n×3, finite. \pre indices are in range.
+/// \param vertices n×3, finite. \param filter called in several threads at once. \pre indices are in range.
 [[nodiscard]] std::vector<Piercing> find_piercings(const Vertices& vertices,
                                                    std::span<const fast::Edge> edges,
                                                    std::span<const fast::Face> faces,

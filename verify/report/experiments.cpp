@@ -145,6 +145,12 @@ class Run {
   [[nodiscard]] Measurements result() {
     result_.machine = processor();
     result_.date = today();
+    for (const data::QueryGroup& group : groups_) {
+      result_.groups.push_back({.name = group.name(),
+                                .kind = group.kind(),
+                                .queries = group.queries().size(),
+                                .digest = group.digest()});
+    }
     const std::vector<Trial> trials = chosen_trials();
     for (std::size_t group = 0; group < groups_.size(); ++group) {
       judge::GroundTruthCache truths(groups_[group], options_.threads);
@@ -170,6 +176,12 @@ class Run {
 
   [[nodiscard]] std::vector<Trial> chosen_trials() const {
     std::vector<Trial> trials = trials_of_methods(methods_);
+    for (Trial& trial : trials) {
+      if (trial.experiment != Experiment::field) continue;
+      for (const fast::Method* const plugin : options_.plugins) {
+        trial.settings.push_back({plugin, {}, true});
+      }
+    }
     std::erase_if(trials, [this](const Trial& trial) { return !is_chosen(trial.experiment); });
     return trials;
   }
@@ -191,10 +203,19 @@ class Run {
                  .count = count_of(trial),
                  .seconds = options_.seconds,
                  .repetitions = options_.repetitions,
+                 .process = options_.process,
                  .same_sample = trial.experiment != Experiment::field,
                  .on_progress = on_progress,
                  .stop = options_.stop});
     std::ranges::move(measured, std::back_inserter(result_.all));
+    if (trial.experiment == Experiment::field) judge_recordings(group, truths);
+  }
+
+  void judge_recordings(const data::QueryGroup& group, judge::GroundTruthCache& truths) {
+    for (const solvers::Solver* const recorded : options_.recorded) {
+      auto judged = judge_recorded(group, truths, *recorded, options_.stop);
+      if (judged) result_.all.push_back(std::move(*judged));
+    }
   }
 
   // ---- Filters ----------------------------------------------------------------------------------
@@ -257,6 +278,12 @@ class Run {
       fast::MethodOptions method_options;
       method_options.max_checks = stability_limit;
       solvers.push_back(solvers::solver_in_process(*method, method_options));
+      asked.push_back(solvers.back().get());
+    }
+    for (const fast::Method* const plugin : options_.plugins) {
+      fast::MethodOptions method_options;
+      method_options.max_checks = stability_limit;
+      solvers.push_back(solvers::solver_in_children(*plugin, method_options, options_.process));
       asked.push_back(solvers.back().get());
     }
     std::vector<const stability::Hardness*> sorts;

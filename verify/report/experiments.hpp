@@ -29,6 +29,7 @@
 #include "verify/data/query_group.hpp"
 #include "verify/report/measure.hpp"
 #include "verify/report/measurement.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::report {
 
@@ -51,6 +52,11 @@ struct Trial {
 struct ExperimentOptions {
   /// Names of methods; all there are if empty.
   std::vector<std::string> methods = {};
+  /// Further methods: in child processes under these options, in *field* and *stability*.
+  std::vector<const fast::Method*> plugins = {};
+  solvers::SolverProcessOptions process = {};
+  /// Recorded answers, in *field*, without times.
+  std::vector<const solvers::Solver*> recorded = {};
   /// Those to do; all if empty.
   std::vector<Experiment> experiments = {};
   /// Of a group so many queries are asked at most, an evenly spread sample; positive. A quarter of them

@@ -137,9 +137,14 @@ class Builder {
     add(std::move(figure));
   }
 
+  /// Recorded answers have no times.
+  static bool is_placed(const Measurement& m, const Value& error) {
+    return !std::isnan(error(m)) && !std::isnan(m.nanoseconds);
+  }
+
   void add_curves(const Chosen& chosen, const Value& error, FigurePanel& panel, Table& data) {
     for (const Measurement* m : chosen) {
-      if (std::isnan(error(*m))) continue;
+      if (!is_placed(*m, error)) continue;
       FigureSeries& series = series_of(panel, m->method, "curve");
       series.points.push_back(
           {m->nanoseconds, error(*m), fmt::format("δ = {:.0e}", m->tolerance), misses(*m)});
@@ -150,7 +155,7 @@ class Builder {
   void add_methods(const Chosen& chosen, const Value& error, FigurePanel& panel, Table& data) {
     std::vector<FigurePoint> eligible;
     for (const Measurement* m : chosen) {
-      if (std::isnan(error(*m))) continue;
+      if (!is_placed(*m, error)) continue;
       const FigurePoint point{m->nanoseconds, error(*m), m->method, misses(*m)};
       series_of(panel, m->method, "point").points.push_back(point);
       if (!point.open) eligible.push_back(point);
@@ -158,7 +163,7 @@ class Builder {
     for (const std::size_t i : pareto_front(eligible)) panel.front.push_back(eligible[i]);
     panel.caption = front_sentence(panel.front) + sample_sentence(chosen);
     for (const Measurement* m : chosen) {
-      if (std::isnan(error(*m))) continue;
+      if (!is_placed(*m, error)) continue;
       const bool on_front = std::ranges::any_of(
           panel.front, [&](const FigurePoint& point) { return point.label == m->method; });
       add_error_row(*m, error(*m), on_front, data);
@@ -237,6 +242,7 @@ class Builder {
     for (const auto& [place, chosen] : by_place(Experiment::field)) {
       FigurePanel panel{.title = place, .caption = {}, .series = {}, .front = {}};
       for (const Measurement* m : chosen) {
+        if (m->hit_times.count() + m->miss_times.count() == 0) continue;
         add_histogram(*m, m->miss_times, "misses", panel, figure.data);
         add_histogram(*m, m->hit_times, "hits", panel, figure.data);
       }

@@ -62,7 +62,10 @@ class Run {
         reference_(solvers::solver_in_process(reference, {})),
         options_(options) {
     for (const Setting& setting : settings) {
-      solvers_.push_back(solvers::solver_in_process(*setting.method, setting.options));
+      solvers_.push_back(
+          setting.in_children
+              ? solvers::solver_in_children(*setting.method, setting.options, options.process)
+              : solvers::solver_in_process(*setting.method, setting.options));
       timed_.emplace_back(*solvers_.back(), group, setting.options.separation);
     }
   }
@@ -238,6 +241,50 @@ std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Groun
     judgement.add(truth, answers[truth.index]);
     said.collisions += truth.collides ? 1U : 0U;
     said.at_limit += is_at_limit(answers[truth.index], said.max_checks) ? 1U : 0U;
+  }
+  set_counts(judgement, said);
+  return said;
+}
+
+std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
+                                          judge::GroundTruthCache& truths,
+                                          const solvers::Solver& recorded,
+                                          const std::atomic<bool>* stop) {
+  std::vector<std::size_t> positions;
+  std::vector<fast::Answer> answers;
+  std::vector<solvers::QueryFailure> failures;
+  for (std::size_t i = 0; i < group.queries().size(); ++i) {
+    const data::QueryPlace place = group.place_of(i);
+    const std::uint64_t index = place.index;
+    fast::Answer answer;
+    const solvers::SolveReply reply = recorded.solve({.kind = group.kind(),
+                                                      .queries = {&group.queries()[i], 1},
+                                                      .source = place.source,
+                                                      .indices = {&index, 1}},
+                                                     {&answer, 1});
+    if (!reply.missing.empty()) continue;
+    if (!reply.failures.empty()) {
+      failures.push_back({.position = answers.size(), .failure = reply.failures.front().failure});
+    }
+    positions.push_back(i);
+    answers.push_back(answer);
+  }
+  const std::vector<judge::GroundTruth> known = truths.of({}, positions, stop);
+  if (positions.empty() || known.size() < positions.size()) return std::nullopt;
+  Measurement said;
+  said.group = group.name();
+  said.kind = group.kind();
+  said.method = recorded.name();
+  said.promise = recorded.promise();
+  said.group_queries = group.queries().size();
+  said.asked = positions.size();
+  judge::Judgement judgement;
+  auto failure = failures.begin();
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const bool has_failed = failure != failures.end() && failure->position == i;
+    judgement.add(known[i], answers[i], has_failed ? &failure->failure : nullptr);
+    if (has_failed) ++failure;
+    said.collisions += known[i].collides ? 1U : 0U;
   }
   set_counts(judgement, said);
   return said;

@@ -25,6 +25,7 @@
 #include "verify/data/query_group.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measurement.hpp"
+#include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::report {
 
@@ -32,6 +33,8 @@ namespace touchstone::verify::report {
 struct Setting {
   const fast::Method* method = nullptr;  ///< not null
   fast::MethodOptions options;
+  /// In child processes, under MeasureOptions::process; else in this process.
+  bool in_children = false;
 };
 
 struct MeasureOptions {
@@ -43,6 +46,7 @@ struct MeasureOptions {
   double seconds = 1.0;
   /// Times are medians of so many, of fewer where one takes longer than `seconds`; at least 1.
   std::size_t repetitions = 5;
+  solvers::SolverProcessOptions process = {};
   /// Settings of one method are asked the same queries.
   bool same_sample = false;
   /// Called now and then with the fraction that is done.
@@ -69,5 +73,12 @@ struct MeasureOptions {
                                                    const fast::MethodOptions& options,
                                                    Experiment experiment,
                                                    const std::atomic<bool>* stop = nullptr);
+
+/// Judges recorded answers to those queries of the group of `truths` that they have an answer to, by the names of their
+/// sources; nothing is timed. No result if there are none, or once *stop is true (it may be null).
+[[nodiscard]] std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
+                                                        judge::GroundTruthCache& truths,
+                                                        const solvers::Solver& recorded,
+                                                        const std::atomic<bool>* stop = nullptr);
 
 }  // namespace touchstone::verify::report

@@ -70,6 +70,7 @@ std::vector<const Measurement*> of_experiment(const Measurements& measurements,
 
 std::string origin_text(const Measurements& measurements) {
   std::string text;
+  if (!measurements.version.empty()) text += " with Touchstone " + measurements.version;
   if (!measurements.machine.empty()) text += " on " + measurements.machine;
   if (!measurements.date.empty()) text += ", " + measurements.date;
   return text;
@@ -80,6 +81,8 @@ Measurements with_printable_texts(Measurements measurements) {
   clean(measurements.command);
   clean(measurements.machine);
   clean(measurements.date);
+  clean(measurements.version);
+  for (MeasuredGroup& group : measurements.groups) clean(group.name);
   for (Measurement& measurement : measurements.all) {
     clean(measurement.group);
     clean(measurement.method);

@@ -139,17 +139,30 @@ struct StabilityMark {
   friend bool operator==(const StabilityMark&, const StabilityMark&) = default;
 };
 
+/// The queries of a group.
+struct MeasuredGroup {
+  std::string name;
+  Kind kind = Kind::vertex_face;
+  std::uint64_t queries = 0;
+  std::uint64_t digest = 0;  ///< as QueryGroup::digest gives it
+
+  friend bool operator==(const MeasuredGroup&, const MeasuredGroup&) = default;
+};
+
 /// All that a report is made of.
 struct Measurements {
   std::string command;  ///< the command line that made them
+  std::string version;  ///< of this program, with its commit; empty if not known
   std::string machine;  ///< the processor they were made on
   std::string date;     ///< the day they were made, YYYY-MM-DD in UTC; empty if not known
+  std::vector<MeasuredGroup> groups;
   std::vector<Measurement> all;
   std::vector<StabilityMark> stability;
   bool interrupted = false;
 };
 
-/// Where and when they were made, for a sentence: " on PROCESSOR, 2026-01-31"; empty if not known.
+/// By what, where and when they were made, for a sentence: " with Touchstone 1.2 (commit) on PROCESSOR,
+/// 2026-01-31"; empty if not known.
 [[nodiscard]] std::string origin_text(const Measurements& measurements);
 
 /// The same with all names and texts printable (printable.hpp): for what people read.

@@ -1,5 +1,7 @@
 #include "verify/report/measurement_json.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -186,13 +188,31 @@ StabilityMark mark_from(const Json& json) {
   return mark;
 }
 
+Json json_of(const MeasuredGroup& group) {
+  return {{"name", group.name},
+          {"kind", to_string(group.kind)},
+          {"queries", group.queries},
+          {"digest", fmt::format("{:016x}", group.digest)}};
+}
+
+MeasuredGroup group_from(const Json& json) {
+  return {.name = json.at("name").get<std::string>(),
+          .kind = kind_from_string(json.at("kind").get<std::string>()),
+          .queries = json.at("queries").get<std::uint64_t>(),
+          .digest = std::stoull(json.at("digest").get<std::string>(), nullptr, 16)};
+}
+
 Measurements read(const Json& json) {
   if (json.at("format") != format_name) throw std::invalid_argument("unknown format");
   Measurements measurements;
   json.at("command").get_to(measurements.command);
   json.at("machine").get_to(measurements.machine);
-  // (Earlier files have no date.)
+  // (Earlier files have no date, or no version and groups.)
   measurements.date = json.value("date", measurements.date);
+  measurements.version = json.value("version", measurements.version);
+  for (const Json& group : json.value("groups", Json::array())) {
+    measurements.groups.push_back(group_from(group));
+  }
   json.at("interrupted").get_to(measurements.interrupted);
   for (const Json& one : json.at("measurements")) {
     measurements.all.push_back(measurement_from(one));
@@ -206,12 +226,16 @@ Measurements read(const Json& json) {
 Json to_json(const Measurements& measurements) {
   Json all = Json::array();
   for (const Measurement& measurement : measurements.all) all.push_back(json_of(measurement));
+  Json groups = Json::array();
+  for (const MeasuredGroup& group : measurements.groups) groups.push_back(json_of(group));
   Json stability = Json::array();
   for (const StabilityMark& mark : measurements.stability) stability.push_back(json_of(mark));
   return {{"format", format_name},
           {"command", measurements.command},
           {"machine", measurements.machine},
           {"date", measurements.date},
+          {"version", measurements.version},
+          {"groups", std::move(groups)},
           {"interrupted", measurements.interrupted},
           {"measurements", std::move(all)},
           {"stability", std::move(stability)}};

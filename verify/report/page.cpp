@@ -10,6 +10,7 @@
 #include "verify/io/html.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/judge/separation_inference.hpp"
+#include "verify/report/changes.hpp"
 #include "verify/report/figures.hpp"
 #include "verify/report/findings.hpp"
 #include "verify/report/page_texts.hpp"
@@ -39,6 +40,7 @@ struct Contents {
   std::vector<Section> top_tables;
   std::vector<Section> further_tables;
   /// Where the numbers are from; texts are printable.
+  std::vector<MeasuredGroup> groups;
   std::string command;
   std::string origin;  ///< as origin_text() gives it
   bool interrupted = false;
@@ -94,6 +96,15 @@ class Writer {
   void write_navigation() {
     text_ += fmt::format("<p>Made{} by</p>\n<pre class=\"command\">{}</pre>\n",
                          io::html_escaped(contents_.origin), io::html_escaped(contents_.command));
+    if (!contents_.groups.empty()) {
+      text_ += "<details><summary>Data</summary>\n<ul>\n";
+      for (const MeasuredGroup& group : contents_.groups) {
+        text_ += fmt::format("<li>{}, {}: {} queries, digest <code>{:016x}</code></li>\n",
+                             io::html_escaped(group.name), to_string(group.kind), group.queries,
+                             group.digest);
+      }
+      text_ += "</ul>\n</details>\n";
+    }
     text_ += "<nav aria-label=\"Contents\"><ul>\n";
     for (const Section& section : contents_.top_tables) write_link(section.id, section.title);
     for (const Figure& figure : contents_.figures) write_link(figure.id, figure.title);
@@ -112,7 +123,7 @@ class Writer {
     text_ += fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, section.title);
     for (std::size_t i = 0; i < section.tables.size(); ++i) {
       write_table(section.tables[i]);
-      write_origin(fmt::format("{}_{}", section.id, i + 1), section.tables[i]);
+      write_download(fmt::format("{}_{}", section.id, i + 1), section.tables[i]);
     }
     if (section.meanings) write_meanings();
     text_ += "</section>\n";
@@ -128,7 +139,8 @@ class Writer {
 
   void write_table(const Table& table) {
     text_ += fmt::format(
-        "<div class=\"scroll\" tabindex=\"0\"><table>\n<caption>{}</caption>\n<thead><tr>",
+        "<div class=\"scroll\" tabindex=\"0\"><table{}>\n<caption>{}</caption>\n<thead><tr>",
+        table.columns.size() > 1 && is_misses(table.columns[1]) ? " class=\"misses\"" : "",
         io::html_escaped(table.title));
     for (const std::string& column : table.columns) {
       text_ += fmt::format("<th scope=\"col\">{}</th>", io::html_escaped(column));
@@ -138,13 +150,29 @@ class Writer {
       text_ += "<tr>";
       for (std::size_t i = 0; i < row.size(); ++i) {
         text_ += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", io::html_escaped(row[i]))
-                        : fmt::format("<td{}>{}</td>",
-                                      is_word(table.columns[i]) ? " class=\"word\"" : "",
-                                      io::html_escaped(row[i]));
+                        : cell(table.columns[i], row[i]);
       }
       text_ += "</tr>\n";
     }
     text_ += "</tbody>\n</table></div>\n";
+  }
+
+  static std::string cell(std::string_view column, std::string_view text) {
+    if (is_misses(column) && counts_something(text)) {
+      return fmt::format("<td class=\"missed\">✗ {}</td>", io::html_escaped(text));
+    }
+    return fmt::format("<td{}>{}</td>", is_word(column) ? " class=\"word\"" : "",
+                       io::html_escaped(text));
+  }
+
+  /// Does the column hold false negatives?
+  static bool is_misses(std::string_view column) {
+    return column == "FN" || column.ends_with(" FN");
+  }
+
+  /// Is it a number above 0, or a change from one or to one?
+  static bool counts_something(std::string_view text) {
+    return text.find_first_of("123456789") == 0 || text.starts_with("0 of");
   }
 
   /// Does the column hold words?
@@ -152,12 +180,12 @@ class Writer {
     return column == "method" || column == "norm" || column == "kind";
   }
 
-  /// The numbers as CSV, and the command that made them.
-  void write_origin(std::string_view id, const Table& data) {
+  /// The numbers as CSV.
+  void write_download(std::string_view id, const Table& data) {
     text_ += fmt::format(
         "<p class=\"origin\"><a class=\"csv\" download=\"{0}.csv\" "
-        "href=\"data:text/csv;charset=utf-8,{1}\">CSV</a> <code>{2}</code></p>\n",
-        id, io::percent_encoded(to_csv(data)), io::html_escaped(contents_.command));
+        "href=\"data:text/csv;charset=utf-8,{1}\">CSV</a></p>\n",
+        id, io::percent_encoded(to_csv(data)));
   }
 
   // ---- Figures ----------------------------------------------------------------------------------
@@ -167,7 +195,7 @@ class Writer {
         "<section class=\"figure\" id=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n"
         "<div class=\"legend\"></div>\n<div class=\"panels\"></div>\n",
         figure.id, io::html_escaped(figure.title), io::html_escaped(figure.description));
-    write_origin(figure.id, figure.data);
+    write_download(figure.id, figure.data);
     text_ += "</section>\n";
   }
 
@@ -186,7 +214,7 @@ class Writer {
 
 }  // namespace
 
-std::string report_page(const Measurements& measured) {
+std::string report_page(const Measurements& measured, const Measurements* before) {
   const Measurements measurements = with_printable_texts(measured);
   Contents contents{.title = "Touchstone report",
                     .about =
@@ -196,16 +224,31 @@ std::string report_page(const Measurements& measured) {
                     .figures = figures_of(measurements),
                     .top_tables = {{"table_1", "Table 1: all methods", field_tables(measurements)}},
                     .further_tables = separation_sections(measurements),
+                    .groups = measurements.groups,
                     .command = measurements.command,
                     .origin = origin_text(measurements),
                     .interrupted = measurements.interrupted};
   contents.findings = findings_of(measurements, contents.figures);
+  if (before != nullptr) {
+    const Table changes = changes_between(with_printable_texts(*before), measurements);
+    if (changes.rows.empty()) {
+      contents.findings.push_back("Nothing has changed " + changes.title + ".");
+    } else {
+      contents.top_tables.insert(contents.top_tables.begin(),
+                                 {"changes", "What has changed", {changes}, false});
+    }
+  }
   return Writer(contents).page();
 }
 
 std::string stability_page(const stability::StabilityResult& result, const std::string& command) {
-  const Measurements measurements = with_printable_texts(
-      {.command = command, .machine = {}, .date = {}, .all = {}, .stability = marks_of(result)});
+  const Measurements measurements = with_printable_texts({.command = command,
+                                                          .version = {},
+                                                          .machine = {},
+                                                          .date = {},
+                                                          .groups = {},
+                                                          .all = {},
+                                                          .stability = marks_of(result)});
   Contents contents{
       .title = "Stability of solvers",
       .about = result.cells.empty()
@@ -221,6 +264,7 @@ std::string stability_page(const stability::StabilityResult& result, const std::
       .figures = figures_of(measurements),
       .top_tables = {{"overview", "Overview", {overview_of(result)}, false}},
       .further_tables = {},
+      .groups = {},
       .command = measurements.command,
       .origin = {},
       .interrupted = result.total.interrupted};

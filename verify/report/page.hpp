@@ -6,9 +6,10 @@
 ///
 /// A report opens with its findings (findings.hpp) and the first figure of time against error; tables and
 /// further figures follow. The tables are in the page as they are; the figures are drawn by d3 in the browser from the data that
-/// stand in the page. Every table and figure has a link to its numbers as CSV, inside the page too, and
-/// the command that made them; every figure has one to itself as an SVG file. It fits screens from a telephone's on, and paper, and follows the reader's
-/// light or dark scheme.
+/// stand in the page. Every table and figure has a link to its numbers as CSV, inside the page too; every
+/// figure has one to itself as an SVG file. Tables are sorted by the column that the reader chooses; the first
+/// column, and that of the false negatives behind it, stay in view. The page fits screens from a
+/// telephone's on, and paper, and follows the reader's light or dark scheme.
 
 #include <string>
 
@@ -17,8 +18,9 @@
 
 namespace touchstone::verify::report {
 
-/// The page as HTML.
-[[nodiscard]] std::string report_page(const Measurements& measured);
+/// The page as HTML. \param before an earlier report: what has changed since it stands below the first figure; may be null.
+[[nodiscard]] std::string report_page(const Measurements& measured,
+                                      const Measurements* before = nullptr);
 
 /// The map of stability as HTML: who keeps their promise, the worst of each hardness as a table, and as
 /// figures the worst outcome, the errors of the time of impact, time and checks of every cell.

@@ -36,11 +36,14 @@ constexpr auto meanings = std::to_array<Meaning>({
      "run in which the methods take turns."},
     {"÷ certified",
      "the same as a multiple of the certified solver's time on the same queries in the same run."},
-    {"FP, FN", "false positives and false negatives."},
+    {"FN, FP",
+     "false negatives (collisions that it missed) and false positives (with their share of the "
+     "queries that do not collide)."},
     {"late", "times of impact above the exact one."},
     {"asked",
      "queries that the method was asked; where they are not all, an evenly spread sample, as large "
-     "as the time allowed. Nothing is extrapolated."},
+     "as the time allowed. Nothing is extrapolated. A method with * was asked fewer than the "
+     "others of its table: compare shares, not counts."},
     {"collide", "of those asked, by the oracle, for the separation and norm of the row."},
     {"at limit",
      "queries that the method gave up at its limit of checks (1,000,000; IRF and UIRF 100,000) and "
@@ -86,17 +89,32 @@ void append_published_columns(Texts& columns, const Place& place) {
   append(columns, {fmt::format("published ({}) µs", size), "published FP", "published FN"});
 }
 
+/// "8 (10 %)".
+std::string counted_share(std::uint64_t count, double share) {
+  return count == 0 ? "0" : fmt::format("{} ({:.2g} %)", count, 100.0 * share);
+}
+
 void append_ours(Texts& row, const Measurement& m) {
-  append(row, {microseconds(m.nanoseconds), short_number(m.nanoseconds / m.certified_nanoseconds),
-               fmt::format("{}", m.false_positives), fmt::format("{}", m.false_negatives),
-               fmt::format("{}", m.late_tois), asked_text(m), fmt::format("{}", m.collisions),
-               fmt::format("{}", m.at_limit)});
+  append(row,
+         {fmt::format("{}", m.false_negatives),
+          counted_share(m.false_positives, false_positive_rate(m)), microseconds(m.nanoseconds),
+          short_number(m.nanoseconds / m.certified_nanoseconds), fmt::format("{}", m.late_tois),
+          asked_text(m), fmt::format("{}", m.collisions), fmt::format("{}", m.at_limit)});
 }
 
 const Texts& columns_of_ours() {
-  static const Texts columns{"µs",   "÷ certified", "FP",      "FN",
-                             "late", "asked",       "collide", "at limit"};
+  static const Texts columns{"FN",   "FP",    "µs",      "÷ certified",
+                             "late", "asked", "collide", "at limit"};
   return columns;
+}
+
+/// The most queries that a method of a place was asked.
+std::uint64_t most_asked(const Chosen& measurements, const Place& place) {
+  std::uint64_t most = 0;
+  for (const Measurement* m : measurements) {
+    if (Place(m->group, m->kind) == place) most = std::max(most, m->asked);
+  }
+  return most;
 }
 
 Table field_table(const Chosen& measurements, const Place& place) {
@@ -107,10 +125,11 @@ Table field_table(const Chosen& measurements, const Place& place) {
   append(table.columns, {"toi error, median", "toi error, max"});
   append_published_columns(table.columns, place);
   const bool is_published = !published_size(place.first, place.second).empty();
+  const std::uint64_t most = most_asked(measurements, place);
   for (const Measurement* m : measurements) {
     if (Place(m->group, m->kind) != place) continue;
     Texts& row = table.rows.emplace_back();
-    row.push_back(m->method);
+    row.push_back(m->method + (m->asked < most ? "*" : ""));
     append_ours(row, *m);
     append(row, {m->toi_error ? short_number(m->toi_error->median) : none,
                  m->toi_error ? short_number(m->toi_error->max) : none});
@@ -181,9 +200,7 @@ void append_misses(Table& table, Texts row, const Chosen& asked_alike) {
   }
   row.push_back(fmt::format("{}", asked_alike.front()->collisions));
   for (const Measurement* m : asked_alike) {
-    row.push_back(m->false_negatives == 0 ? "0"
-                                          : fmt::format("{} ({:.3g} %)", m->false_negatives,
-                                                        100.0 * false_negative_rate(*m)));
+    row.push_back(counted_share(m->false_negatives, false_negative_rate(*m)));
   }
   table.rows.push_back(std::move(row));
 }

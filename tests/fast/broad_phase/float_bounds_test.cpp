@@ -129,6 +129,65 @@ TEST(FloatBounds, AreOrderedAsTheCoordinatesOfAllScalesAtOnce) {
   }
 }
 
+/// Holds the bounds at the end of [0, end] against the exact places there.
+void expect_around_places(const Eigen::MatrixX3d& start, const Eigen::MatrixX3d& end, double time) {
+  const FloatBounds bounds(MovingVertices(start, end), time);
+  struct Place {
+    Rational x;
+    float lower, upper;
+  };
+  std::vector<Place> all;
+  for (Eigen::Index i = 0; i < start.rows(); ++i) {
+    const VertexBounds& vertex = bounds[static_cast<std::size_t>(i)];
+    for (int axis = 0; axis < 3; ++axis) {
+      const Rational from(start(i, axis)), to(end(i, axis));
+      all.push_back({from, vertex.lower[0][axis], vertex.upper[0][axis]});
+      all.push_back({Rational(from + (to - from) * Rational(time)), vertex.lower[1][axis],
+                     vertex.upper[1][axis]});
+    }
+  }
+  for (const Place& a : all) {
+    ASSERT_LE(a.lower, a.upper);
+    for (const Place& b : all) {
+      if (a.lower > b.upper) {
+        ASSERT_GT(a.x, b.x) << time;
+      }
+    }
+  }
+}
+
+TEST(FloatBounds, AreAroundThePlacesAtTheEndOfAPart) {
+  Random random(6);
+  for (const double time : {0.5, 0x1p-3, 0x1p-20, 0x1p-40, 0x1p-52}) {
+    for (const int exponent : {-1074, -1040, -150, -1, 0, 60, 200, 1000, 1022}) {
+      for (const unsigned bits : {3U, 24U, 53U}) {
+        const auto coordinate = [&] {
+          const int size = -static_cast<int>(bits);
+          return std::ldexp(random.few_bit_double(bits, size, size),
+                            random.coin() ? exponent : exponent - random.between(0, 60));
+        };
+        expect_around_places(places(8, coordinate), places(8, coordinate), time);
+      }
+    }
+  }
+}
+
+TEST(FloatBounds, OfAPartAreNotWiderThanRoundingNeeds) {
+  Random random(7);
+  const auto coordinate = [&] { return random.uniform(1, 2); };
+  const Eigen::MatrixX3d start = places(200, coordinate), end = places(200, coordinate);
+  const FloatBounds bounds(MovingVertices(start, end), 0.25);
+  int neighbours = 0;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const float lower = bounds[i].lower[1][axis], upper = bounds[i].upper[1][axis];
+      EXPECT_LE(upper, float_after(float_after(lower)));
+      neighbours += upper == float_after(lower) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(neighbours, 590);
+}
+
 TEST(FloatBounds, AreExactForFloats) {
   Random random(5);
   const auto a_float = [&] { return random.few_bit_double(24, -30, 10); };

@@ -20,6 +20,10 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
+#include "verify/cli/version.hpp"
+
+/// The build of the tool writes its own.
+std::string_view touchstone::verify::cli::version() { return "fuzzed"; }
 
 namespace {
 
@@ -65,9 +69,10 @@ void parse_commands(const std::vector<std::string>& words) {
   ParsedOnly app{"fuzzed"};
   app.require_subcommand(1);
   Status status = Status::all_well;
-  for (const auto add : {add_certify_command, add_solve_command, add_prove_command,
-                         add_generate_command, add_candidates_command, add_bench_command,
-                         add_stability_command, add_report_command, add_derive_command}) {
+  for (const auto add :
+       {add_certify_command, add_solve_command, add_prove_command, add_generate_command,
+        add_candidates_command, add_bench_command, add_stability_command, add_step_command,
+        add_report_command, add_derive_command}) {
     add(app, status);
   }
   parse(app, words);

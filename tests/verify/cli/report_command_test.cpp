@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -49,7 +50,7 @@ const std::string quick =
 
 TEST_F(Report, WritesPageMeasurementsAndTablesOfTheGivenQueries) {
   ASSERT_EQ(run(data() + quick + "--out " + quoted("page.html") + " --json " + quoted("json") +
-                " --results " + quoted("results.md")),
+                " --markdown " + quoted("results.md")),
             0)
       << read("err");
   EXPECT_EQ(read("err"), "");
@@ -78,6 +79,43 @@ TEST_F(Report, MakesTheSamePageFromAnEarlierRunsMeasurements) {
   ASSERT_EQ(run("--from " + quoted("json") + " --out " + quoted("two.html")), 0) << read("err");
   EXPECT_EQ(read("one.html"), read("two.html"));
   EXPECT_GT(read("two.html").size(), 100'000U);
+}
+
+TEST_F(Report, HasOnesOwnSolverBesideTheOthers) {
+  static_cast<void>(data());
+  ASSERT_EQ(ToolTest::run({"solve", path("handcrafted"), "--method", "tight_inclusion", "--out",
+                           path("answers.csv")})
+                .status,
+            0);
+  ASSERT_EQ(
+      run(data() + quick + "--experiment field --plugin " + tests::plugin_library("box_overlap") +
+          " --results " + quoted("answers.csv") + " --json " + quoted("json") + " --out " +
+          quoted("page.html") + " --compare " + quoted("old.json")),
+      2)
+      << "nothing to compare with";
+  ASSERT_EQ(run(data() + quick + "--experiment field --json " + quoted("old.json")), 0);
+  ASSERT_EQ(
+      run(data() + quick + "--experiment field --plugin " + tests::plugin_library("box_overlap") +
+          " --results " + quoted("answers.csv") + " --json " + quoted("json") + " --out " +
+          quoted("page.html") + " --compare " + quoted("old.json")),
+      0)
+      << read("err");
+  std::map<std::string, nlohmann::json> of_method;
+  const nlohmann::json result = json();
+  for (const nlohmann::json& m : result.at("measurements")) of_method[m.at("method")] = m;
+  ASSERT_EQ(of_method.size(), 4U);
+  // A vertex at half the height of its way is in no face's box: the example is right here.
+  EXPECT_EQ(of_method.at("box_overlap").at("false_negatives"), 0);
+  EXPECT_GT(of_method.at("box_overlap").at("ns_per_query"), 0.0);
+  EXPECT_EQ(of_method.at("answers").at("asked"), 2);
+  EXPECT_EQ(of_method.at("answers").at("collisions"), 1);
+  EXPECT_EQ(of_method.at("answers").at("false_negatives"), 0);
+  EXPECT_TRUE(of_method.at("answers").at("ns_per_query").is_null());
+  const std::string page = read("page.html");
+  EXPECT_TRUE(contains(page, "What has changed"));
+  EXPECT_TRUE(contains(page, "<th scope=\"row\">box_overlap</th><td>new</td>")) << page.size();
+  EXPECT_EQ(result.at("groups").size(), 1U);
+  EXPECT_EQ(result.at("groups")[0].at("digest").get<std::string>().size(), 16U);
 }
 
 TEST_F(Report, WithoutAPathTheQueriesAreTheBuiltInOnes) {

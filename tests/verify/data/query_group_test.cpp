@@ -85,5 +85,18 @@ TEST(QueryGroup, StopsReadingWhenAskedAndTellsHowFarItIs) {
   EXPECT_EQ(static_cast<double>(group.queries().size()) / 20'000.0, told[1]);
 }
 
+TEST(QueryGroup, HasADigestOfItsQueriesInTheirOrder) {
+  const Query zero{}, one{{1}};
+  const auto digest = [](std::vector<Query> queries) {
+    return QueryGroup("a", Kind::vertex_face, std::move(queries)).digest();
+  };
+  // The published offset basis of FNV-1a is what it makes of nothing.
+  EXPECT_EQ(digest({}), 0xcbf29ce484222325U);
+  EXPECT_EQ(digest({zero, one}), digest({zero, one}));
+  EXPECT_NE(digest({zero, one}), digest({one, zero}));
+  EXPECT_NE(digest({zero}), digest({Query{{-0.0}}}));
+  EXPECT_NE(digest({zero}), digest({zero, zero}));
+}
+
 }  // namespace
 }  // namespace touchstone::verify::data::query_group_test

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -356,6 +357,22 @@ TEST(ReadPly, NamesWhatIsWrongInBinary) {
   const std::int16_t zero = 0;
   EXPECT_EQ(error(after_vertex(0).add(std::int8_t{3}).add(zero).add(zero).add(zero).add(zero)),
             "a.ply: byte " + std::to_string(header.size() + 31) + ": data after the last element");
+}
+
+TEST(WritePly, IsReadBackBitByBit) {
+  const MeshFolder folder;
+  Vertices vertices(4, 3);
+  vertices << 0.1, -0.0, 1e300, 1, 2, 3, -1e-320, 5, 6, 1.0 / 3.0, 8, 9;
+  const std::vector<fast::Face> faces{{0, 1, 2}};
+  const std::vector<fast::Edge> edges{{2, 3}};
+  const std::filesystem::path path = folder.path() / "a.ply";
+  write_ply(path, vertices, faces, edges);
+  const Mesh mesh = read_ply(path);
+  EXPECT_EQ(std::memcmp(mesh.vertices.data(), vertices.data(), 12 * sizeof(double)), 0);
+  EXPECT_EQ(mesh.faces, faces);
+  EXPECT_EQ(mesh.edges, (std::vector<fast::Edge>{{0, 1}, {0, 2}, {1, 2}, {2, 3}}));
+  write_ply(path, vertices, faces);
+  EXPECT_EQ(read_ply(path).edges.size(), 3U);
 }
 
 }  // namespace

@@ -77,6 +77,49 @@ TEST_F(Browser, FitsATelephone) {
   EXPECT_GE(std::stod(size[1]), 280.0);
 }
 
+/// A click on a column's name sorts by it, numbers as numbers; what is no number stays last.
+TEST_F(Browser, SortsATableByAColumn) {
+  std::string page = report_page(tests::small_report());
+  page.insert(page.rfind("</body>"), R"(<p id="orders"></p><script>
+const table = document.querySelector("#table_1 table");
+const button = (name) => Array.from(table.querySelectorAll("thead button")).find((b) => b.textContent === name);
+const order = () => Array.from(table.tBodies[0].rows, (row) => row.cells[0].textContent).join(" ");
+const orders = [];
+for (const name of ["FN", "FN", "÷ certified", "published FN", "published FN"]) {
+  button(name).click();
+  orders.push(`${name} ${button(name).parentNode.ariaSort}: ${order()}`);
+}
+document.getElementById("orders").textContent = orders.join("; ");
+</script>)");
+  const std::string dom = load(page);
+  EXPECT_EQ(complaints(), "");
+  const std::string expected =
+      "FN ascending: certified tight_inclusion msrf; FN descending: msrf certified "
+      "tight_inclusion; "
+      "÷ certified ascending: certified msrf tight_inclusion; "
+      "published FN ascending: tight_inclusion msrf certified; "
+      "published FN descending: msrf tight_inclusion certified";
+  EXPECT_EQ(count(dom, expected), 1U) << dom.substr(dom.find("<p id=\"orders\""), 600);
+}
+
+/// On a telephone the name and the false negatives stay where they are while the rest is moved.
+TEST_F(Browser, KeepsTheNameAndTheMissesInView) {
+  std::string page = report_page(tests::small_report());
+  page.insert(page.rfind("</body>"), R"(<p id="places"></p><script>
+const scroll = document.querySelector("#table_1 .scroll");
+const cells = Array.from(scroll.querySelector("tbody tr").cells);
+const places = () => cells.slice(0, 3).map((cell) => Math.round(cell.getBoundingClientRect().left));
+const before = places();
+scroll.scrollLeft = 120;
+const moved = places().map((left, i) => left - before[i]);
+document.getElementById("places").textContent = `moved by ${moved.join(" ")} of ${scroll.scrollLeft}`;
+</script>)");
+  const std::string dom = load(page, 500);
+  EXPECT_EQ(complaints(), "");
+  EXPECT_EQ(count(dom, "moved by 0 0 -120 of 120"), 1U)
+      << dom.substr(dom.find("<p id=\"places\""), 200);
+}
+
 /// The links to pictures give files of their own, which a parser of XML reads.
 TEST_F(Browser, GivesEveryFigureAsAPicture) {
   const Measurements measurements = tests::small_report();

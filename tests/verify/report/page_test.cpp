@@ -71,8 +71,8 @@ TEST(Page, HasTheTablesWithTheirNumbers) {
   const std::string page = report_page(tests::small_report());
   EXPECT_TRUE(contains(page, "<caption>handcrafted, vertex-face</caption>"));
   EXPECT_TRUE(contains(page,
-                       "<th scope=\"row\">msrf</th><td>0.4</td><td>40</td><td>1</td><td>2</td>"
-                       "<td>0</td><td>100 of 200</td>"));
+                       "<th scope=\"row\">msrf</th><td class=\"missed\">✗ 2</td><td>1 (1.2 %)</td>"
+                       "<td>0.4</td><td>40</td><td>0</td><td>100 of 200</td>"));
   EXPECT_TRUE(contains(page, "<section id=\"table_2\">"));
   EXPECT_FALSE(contains(page, "<section id=\"table_3\">")) << "nothing was measured of FPRF";
 }
@@ -81,7 +81,7 @@ TEST(Page, NumbersAreDownloadedAsCsv) {
   const std::string page = report_page(tests::small_report());
   EXPECT_TRUE(contains(page,
                        "download=\"table_1_1.csv\" href=\"data:text/csv;charset=utf-8,method,"
-                       "%C2%B5s,%C3%B7%20certified,"));
+                       "FN,FP,%C2%B5s,%C3%B7%20certified,"));
   EXPECT_TRUE(contains(page,
                        "group,kind,stage,queries,asked%0D%0Ahandcrafted,vertex-face,axis,75,"
                        "100%0D%0A"));
@@ -95,6 +95,35 @@ TEST(Page, SaysWhatMadeItAndEscapesIt) {
   Measurements hostile = tests::small_report();
   hostile.all[0].group = "</script><script>alert(1)</script>";
   EXPECT_FALSE(contains(report_page(hostile), "<script>alert"));
+}
+
+TEST(Page, SaysByWhichVersionAndOfWhichData) {
+  Measurements measurements = tests::small_report();
+  measurements.version = "1.2.3 (abcdef0123)";
+  measurements.groups = {
+      {.name = "hand<made", .kind = Kind::vertex_face, .queries = 200, .digest = 0xabcU}};
+  const std::string page = report_page(measurements);
+  EXPECT_TRUE(
+      contains(page, "Made with Touchstone 1.2.3 (abcdef0123) on a machine, 2026-01-31 by"));
+  EXPECT_TRUE(
+      contains(page, "hand&lt;made, vertex-face: 200 queries, digest <code>0000000000000abc<"));
+}
+
+TEST(Page, GivesTheCommandOnce) {
+  const std::string page = report_page(tests::small_report());
+  const std::size_t first = page.find("touchstone report handcrafted --out");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(page.find("touchstone report handcrafted --out", first + 1), std::string::npos);
+}
+
+TEST(Page, ShowsWhatHasChanged) {
+  const Measurements before = tests::small_report();
+  Measurements after = before;
+  EXPECT_TRUE(contains(report_page(after, &before), "Nothing has changed since 2026-01-31."));
+  after.all[2].false_negatives = 0;
+  const std::string page = report_page(after, &before);
+  EXPECT_TRUE(contains(page, "<h2>What has changed</h2>"));
+  EXPECT_TRUE(contains(page, "<td class=\"missed\">✗ 2 of 100 → 0 of 100</td>"));
 }
 
 TEST(Page, SaysIfItWasInterrupted) {

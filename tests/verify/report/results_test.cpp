@@ -18,10 +18,11 @@ TEST(Results, HaveTheTablesWithThePublishedNumbers) {
   EXPECT_TRUE(text.starts_with("# Results\n"));
   EXPECT_TRUE(
       contains(text, "## Table 1: all methods\n\n### handcrafted, vertex-face\n\n| method |"));
-  EXPECT_TRUE(contains(
-      text, "| msrf | 0.4 | 40 | 1 | 2 | 0 | 100 of 200 | 20 | 0 | – | – | 12.90 | 16 | 386 |\n"));
+  EXPECT_TRUE(contains(text,
+                       "| msrf | 2 | 1 (1.2 %) | 0.4 | 40 | 0 | 100 of 200 | 20 | 0 | – | – | "
+                       "12.90 | 16 | 386 |\n"));
   EXPECT_TRUE(contains(text, "## Table 2: MSRF over the minimum separation d\n"));
-  EXPECT_TRUE(contains(text, "| 1e-08 | msrf | L2 | 0.03 | 3 |"));
+  EXPECT_TRUE(contains(text, "| 1e-08 | msrf | L2 | 0 | 0 | 0.03 | 3 |"));
   EXPECT_FALSE(contains(text, "## Table 3"));
 }
 
@@ -98,11 +99,11 @@ TEST(Results, NameNoFolderOfAMachine) {
   Measurements measurements = tests::small_report();
   measurements.command =
       "touchstone report /data/sets/handcrafted '/my data/simulation/' --json=/tmp/a.json "
-      "--out '/my data/a <page>.html' out/b.json ../c/d 'e f/g' / --results docs/results.md";
+      "--out '/my data/a <page>.html' out/b.json ../c/d 'e f/g' / --markdown docs/results.md";
   EXPECT_TRUE(contains(results_document(measurements),
                        "```\ntouchstone report handcrafted 'simulation' --json=a.json "
                        "--out 'a <page>.html' out/b.json ../c/d 'e f/g' / "
-                       "--results docs/results.md\n```\n"))
+                       "--markdown docs/results.md\n```\n"))
       << results_document(measurements);
 }
 

@@ -17,16 +17,26 @@ TEST(Tables, TheFieldsHasThePublishedNumbersBesideOurs) {
   const std::vector<Table> tables = field_tables(tests::small_report());
   ASSERT_EQ(tables.size(), 1U);
   EXPECT_EQ(tables[0].title, "handcrafted, vertex-face");
-  EXPECT_EQ(tables[0].columns, (Row{"method", "µs", "÷ certified", "FP", "FN", "late", "asked",
+  EXPECT_EQ(tables[0].columns, (Row{"method", "FN", "FP", "µs", "÷ certified", "late", "asked",
                                     "collide", "at limit", "toi error, median", "toi error, max",
                                     "published (12K) µs", "published FP", "published FN"}));
   ASSERT_EQ(tables[0].rows.size(), 3U);
-  EXPECT_EQ(tables[0].rows[0], (Row{"certified", "0.01", "1", "0", "0", "0", "100 of 200", "20",
+  EXPECT_EQ(tables[0].rows[0], (Row{"certified", "0", "0", "0.01", "1", "0", "100 of 200", "20",
                                     "0", "0", "1e-13", "–", "–", "–"}));
-  EXPECT_EQ(tables[0].rows[1], (Row{"tight_inclusion", "2.5", "250", "8", "0", "0", "100 of 200",
-                                    "20", "0", "1e-07", "0.5", "1532.54", "108", "0"}));
-  EXPECT_EQ(tables[0].rows[2], (Row{"msrf", "0.4", "40", "1", "2", "0", "100 of 200", "20", "0",
-                                    "–", "–", "12.90", "16", "386"}));
+  EXPECT_EQ(tables[0].rows[1],
+            (Row{"tight_inclusion", "0", "8 (10 %)", "2.5", "250", "0", "100 of 200", "20", "0",
+                 "1e-07", "0.5", "1532.54", "108", "0"}));
+  EXPECT_EQ(tables[0].rows[2], (Row{"msrf", "2", "1 (1.2 %)", "0.4", "40", "0", "100 of 200", "20",
+                                    "0", "–", "–", "12.90", "16", "386"}));
+}
+
+TEST(Tables, MarkAMethodThatWasAskedFewerQueries) {
+  Measurements measurements = tests::small_report();
+  measurements.all[1].asked = 50;
+  const Table table = field_tables(measurements).at(0);
+  EXPECT_EQ(table.rows[0][0], "certified");
+  EXPECT_EQ(table.rows[1][0], "tight_inclusion*");
+  EXPECT_EQ(table.rows[1][11], "1532.54");
 }
 
 TEST(Tables, OtherDataHaveNoPublishedColumns) {
@@ -37,7 +47,7 @@ TEST(Tables, OtherDataHaveNoPublishedColumns) {
   ASSERT_EQ(tables.size(), 1U);
   EXPECT_EQ(tables[0].columns.size(), 11U);
   EXPECT_EQ(tables[0].rows[0],
-            (Row{"msrf", "1", "100", "0", "0", "0", "200", "20", "0", "–", "–"}));
+            (Row{"msrf", "0", "0", "1", "100", "0", "200", "20", "0", "–", "–"}));
 }
 
 TEST(Tables, GroupsAndKindsHaveTablesOfTheirOwn) {
@@ -54,7 +64,7 @@ TEST(Tables, SeparationsPutAMethodBesideOurs) {
   const std::vector<Table> tables = separation_tables(tests::small_report(), "msrf");
   ASSERT_EQ(tables.size(), 1U);
   ASSERT_EQ(tables[0].rows.size(), 3U);
-  EXPECT_EQ(tables[0].rows[0], (Row{"1e-08", "msrf", "L2", "0.03", "3", "0", "0", "0", "100 of 200",
+  EXPECT_EQ(tables[0].rows[0], (Row{"1e-08", "msrf", "L2", "0", "0", "0.03", "3", "0", "100 of 200",
                                     "20", "0", "15.05", "216", "2"}));
   EXPECT_EQ(tables[0].rows[1][1], "tight_inclusion");
   EXPECT_EQ(tables[0].rows[1][11], "1.60K");

@@ -518,9 +518,50 @@
 
   /// A link to the figure as a picture, beside that to its numbers; it is drawn when it is asked for.
   function addPictureLink(figure) {
-    const link = d3.select(`#${figure.id} .origin`).insert("a", "code").attr("class", "svg")
+    const link = d3.select(`#${figure.id} .origin`).append("a").attr("class", "svg")
       .attr("download", `${figure.id}.svg`).attr("href", "#").text("SVG");
     link.on("click", () => link.attr("href", `data:image/svg+xml,${encodeURIComponent(pictureOf(figure))}`));
+  }
+
+  // ---- Tables -----------------------------------------------------------------------------------
+
+  /// The number that a cell begins with, after a sign for what is wrong; NaN where there is none.
+  const numberOf = (text) => parseFloat(text.replace(/^✗ /, ""));
+
+  /// Cells without a number stand last, whichever way the numbers go.
+  function isBefore(a, b, direction) {
+    const [x, y] = [numberOf(a), numberOf(b)];
+    if (Number.isNaN(x) && Number.isNaN(y)) return direction * a.localeCompare(b);
+    if (Number.isNaN(x) || Number.isNaN(y)) return Number.isNaN(x) - Number.isNaN(y);
+    return direction * (x - y);
+  }
+
+  function sortRows(table, column, direction) {
+    const rows = Array.from(table.tBodies[0].rows);
+    rows.sort((a, b) => isBefore(a.cells[column].textContent, b.cells[column].textContent, direction));
+    table.tBodies[0].append(...rows);
+  }
+
+  /// Makes the names of the columns buttons that sort by them: upwards, then downwards.
+  function makeSortable(table) {
+    const heads = Array.from(table.tHead.rows[0].cells);
+    heads.forEach((head, column) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = head.textContent;
+      head.replaceChildren(button);
+      button.addEventListener("click", () => {
+        const direction = head.ariaSort === "ascending" ? -1 : 1;
+        heads.forEach((other) => other.removeAttribute("aria-sort"));
+        head.ariaSort = direction > 0 ? "ascending" : "descending";
+        sortRows(table, column, direction);
+      });
+    });
+  }
+
+  /// Tells the style how wide the first column is: where the second one stays.
+  function keepColumns(table) {
+    table.style.setProperty("--first", `${table.tHead.rows[0].cells[0].offsetWidth}px`);
   }
 
   // ---- The page ---------------------------------------------------------------------------------
@@ -552,7 +593,13 @@
     }
   }
 
-  const drawAll = () => figures.forEach(drawFigure);
+  const tables = Array.from(document.querySelectorAll("table"));
+  tables.forEach(makeSortable);
+
+  function drawAll() {
+    figures.forEach(drawFigure);
+    tables.forEach(keepColumns);
+  }
   drawAll();
   figures.forEach(addPictureLink);
   let drawnWidth = window.innerWidth;

@@ -1,0 +1,226 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/support/simulation_steps.hpp"
+#include "tests/support/tool_test.hpp"
+
+// `touchstone step` as users meet it: by running the tool.
+
+namespace touchstone::verify::cli::step_command_test {
+namespace {
+
+using Json = nlohmann::json;
+using tests::contains;
+using tests::Outcome;
+using tests::read_file;
+
+/// A resting triangle in the plane z=0, and another above it at height `z`.
+std::string two_triangles(const std::string& z) {
+  return "o floor\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\no falling\nv 1 1 " + z + "\nv 2 1 " + z +
+         "\nv 1 2 " + z + "\nf 4 5 6\n";
+}
+
+class StepCommand : public tests::ToolTest {
+ protected:
+  [[nodiscard]] Outcome step(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "step");
+    return run(arguments);
+  }
+
+  /// Is the time of impact of a step in its enclosure, and that a small one?
+  static void expect_toi(const Json& step, double toi) {
+    EXPECT_LE(step["toi_lower"], toi);
+    EXPECT_GE(step["toi_upper"], toi);
+    EXPECT_LE(step["toi_upper"].get<double>() - step["toi_lower"].get<double>(), 1e-11);
+  }
+
+  /// The JSON of a run, and its status.
+  [[nodiscard]] Json result(std::vector<std::string> arguments, int status) const {
+    arguments.insert(arguments.end(), {"--json", path("result.json")});
+    const Outcome outcome = step(arguments);
+    EXPECT_EQ(outcome.status, status) << outcome.out << outcome.err;
+    return Json::parse(read_file(path("result.json")));
+  }
+
+  [[nodiscard]] std::string above(const std::string& name, const std::string& z) const {
+    return write(name, two_triangles(z));
+  }
+};
+
+TEST_F(StepCommand, FindsWhatTouchesAndWhen) {
+  const std::string before = above("0.obj", "1"), after = above("1.obj", "-3");
+  const Outcome outcome = step({before, after, "--csv", path("pairs.csv")});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "0.obj - 1.obj")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "vertex 3, face 0 (0 1 2)")) << outcome.out;
+  std::istringstream rows(read_file(path("pairs.csv")));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "step,frame0,frame1,kind,first,second,toi_lower,toi_upper,u,v");
+  std::vector<std::string> found;
+  while (std::getline(rows, row)) found.push_back(row);
+  // The three vertices fall through the face; the edge between two of them ends on the floor's edge.
+  ASSERT_GE(found.size(), 3U);
+  EXPECT_TRUE(found[0].starts_with("0,0.obj,1.obj,vertex-face,3,0,0.2")) << found[0];
+  EXPECT_TRUE(found[0].ends_with(",0.25,0.25")) << found[0];
+  EXPECT_TRUE(found[1].starts_with("0,0.obj,1.obj,vertex-face,4,0,0.2")) << found[1];
+  EXPECT_TRUE(found[1].ends_with(",0.5,0.25")) << found[1];
+  EXPECT_TRUE(found[2].ends_with(",0.25,0.5")) << found[2];
+}
+
+TEST_F(StepCommand, WritesEachStepAsJson) {
+  const Json all = result({above("0.obj", "1"), above("1.obj", "0.5"), above("2.obj", "-3.5")}, 1);
+  ASSERT_EQ(all["steps"].size(), 2U);
+  const Json& first = all["steps"][0];
+  EXPECT_EQ(first["frames"], (Json{"0.obj", "1.obj"}));
+  EXPECT_EQ(first["free"], true);
+  EXPECT_EQ(first["candidates"]["vertex_face"], 0);
+  EXPECT_EQ(first["collisions"]["edge_edge"], 0);
+  EXPECT_TRUE(first["toi_lower"].is_null());
+  EXPECT_EQ(first["pierced"], 0);
+  const Json& second = all["steps"][1];
+  EXPECT_EQ(second["free"], false);
+  EXPECT_EQ(second["candidates"]["vertex_face"], 3);
+  EXPECT_EQ(second["collisions"]["vertex_face"], 3);
+  expect_toi(second, 0.125);
+  for (const char* const clock : {"seconds", "processor_seconds"}) {
+    const double broad = second[clock]["broad_phase"], narrow = second[clock]["narrow_phase"];
+    EXPECT_GT(broad, 0.0);
+    EXPECT_EQ(second[clock]["total"], broad + narrow);
+  }
+}
+
+TEST_F(StepCommand, AnswersWhatIsAsked) {
+  const std::string before = above("0.obj", "1"), after = above("1.obj", "-3");
+  const Json earliest = result({before, after, "--earliest"}, 1)["steps"][0];
+  expect_toi(earliest, 0.25);
+  EXPECT_TRUE(earliest["collisions"].is_null());
+  EXPECT_GE(earliest["earliest"].size(), 3U);
+  const Json free = result({before, after, "--free"}, 1)["steps"][0];
+  EXPECT_EQ(free["free"], false);
+  EXPECT_TRUE(free["toi_lower"].is_null());
+  EXPECT_EQ(result({before, above("up.obj", "1.5"), "--free"}, 0)["steps"][0]["free"], true);
+  EXPECT_EQ(result({before, after, "--t-max", "0.2"}, 0)["steps"][0]["free"], true);
+  const Json near = result({before, after, "--t-max", "0.2", "--min-separation", "0.5"}, 1);
+  expect_toi(near["steps"][0], 0.125);
+  EXPECT_EQ(step({before, after, "--free", "--earliest"}).status, 2);
+}
+
+// The face is at z=0, the triangle at 1 - 4 alpha, which doubles hold exactly.
+TEST_F(StepCommand, JudgesTheStepThatIsTaken) {
+  const std::string before = above("0.obj", "1"), after = above("1.obj", "-3");
+  const Json free = result({before, after, "--alpha", "0.2"}, 0);
+  EXPECT_EQ(free["alpha"], 0.2);
+  EXPECT_EQ(free["steps"][0]["free"], true);
+  EXPECT_EQ(free["steps"][0]["free_alpha"], std::nextafter(0.25, 0.0));
+  const Json touching = result({before, after, "--alpha", "0.25"}, 1);
+  expect_toi(touching["steps"][0], 1.0);
+  EXPECT_EQ(touching["steps"][0]["free_alpha"], std::nextafter(0.25, 0.0));
+  EXPECT_EQ(step({before, after, "--alpha", "1.5"}).status, 2);
+}
+
+TEST_F(StepCommand, LeavesOutGroupsThatAreApart) {
+  const std::string before = above("0.obj", "1"), after = above("1.obj", "-3");
+  EXPECT_EQ(step({before, after, "--apart", "floor", "falling"}).status, 0);
+  EXPECT_EQ(step({before, after, "--apart", "floor", "floor"}).status, 1);
+  const std::string groups = write("groups.txt", "a\na\na\nb\nb\nb\n");
+  EXPECT_EQ(step({before, after, "--groups", groups, "--apart", "b", "a"}).status, 0);
+  const Outcome unknown = step({before, after, "--apart", "floor", "wall"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_TRUE(contains(unknown.err, R"(no group "wall"; there are: "floor", "falling")"))
+      << unknown.err;
+}
+
+// The edge is in the face from the start to the end: nothing touches on the way.
+TEST_F(StepCommand, FindsAnEdgeThatPiercesAFaceInTheFrames) {
+  const auto pierced = [](const std::string& x) {
+    return "v 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\nv " + x + " 1 -1\nv " + x + " 1 1\nl 4 5\n";
+  };
+  const std::string before = write("0.obj", pierced("1")), after = write("1.obj", pierced("1.5"));
+  const Json found = result({before, after}, 1);
+  EXPECT_EQ(found["steps"][0]["free"], true);
+  EXPECT_EQ(found["steps"][0]["pierced"], 1);
+  EXPECT_EQ(found["frames"][0]["pierced"], 1);
+  EXPECT_EQ(found["frames"][1]["piercings"], (Json{{3, 0}}));
+  const Outcome outcome = step({before, after});
+  EXPECT_TRUE(contains(outcome.out, "0.obj: the mesh intersects itself")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "edge 3 (3 4), face 0 (0 1 2)")) << outcome.out;
+}
+
+TEST_F(StepCommand, KnowsOfCodimensionalParts) {
+  const auto scene = [](const std::string& z) {
+    return "v 0 0 0\nv 2 0 0\nl 1 2\nv 1 0 " + z + "\nv 2 0 " + z + "\np 3 4\n";
+  };
+  const Json found =
+      result({write("0.obj", scene("1")), write("1.obj", scene("-1"))}, 1)["steps"][0];
+  EXPECT_EQ(found["collisions"]["vertex_edge"], 2);
+  expect_toi(found, 0.5);
+}
+
+TEST_F(StepCommand, RefusesWhatIsNoStep) {
+  const std::string frame = above("0.obj", "1");
+  const Outcome one = step({frame});
+  EXPECT_EQ(one.status, 2);
+  EXPECT_TRUE(contains(one.err, "0.obj: one frame only; a step needs two")) << one.err;
+  const Outcome other = step({frame, write("1.obj", two_triangles("0") + "f 1 2 4\n")});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(contains(other.err, "is not the same mesh as")) << other.err;
+  const Outcome overwritten = step({frame, frame, "--csv", frame});
+  EXPECT_EQ(overwritten.status, 2);
+  EXPECT_TRUE(contains(overwritten.err, "named for input and output")) << overwritten.err;
+}
+
+TEST_F(StepCommand, SaysWhatAVerdictOnFramesMeans) {
+  const Outcome outcome = step({above("0.obj", "1"), above("1.obj", "2")});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(contains(outcome.out, "substeps")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "free")) << outcome.out;
+}
+
+// The published labels settle the whole step: every pair that they do not call colliding does not collide.
+TEST_F(StepCommand, FindsExactlyThePublishedCollisions) {
+  const std::filesystem::path data = tests::simulation_folder();
+  if (data.empty()) GTEST_SKIP() << "public data are missing";
+  for (const std::string_view scene : tests::simulation_scenes) {
+    const tests::SimulationStep labelled = tests::load_simulation_step(data, scene);
+    const auto frames = tests::files_ending(data / scene / "frames", ".ply");
+    ASSERT_EQ(frames.size(), 2U);
+    const Outcome outcome = step({frames[0], frames[1], "--csv", path("pairs.csv")});
+    ASSERT_EQ(outcome.status, 1) << outcome.err;
+    std::vector<std::string> expected, found;
+    const auto expect = [&](const tests::LabelledPairs& pairs, const std::string& kind) {
+      for (std::size_t i = 0; i < pairs.pairs.size(); ++i) {
+        const auto [a, b] = pairs.pairs[i];
+        if (pairs.collides[i]) {
+          expected.push_back(kind + "," + std::to_string(a) + "," + std::to_string(b));
+        }
+      }
+    };
+    expect(labelled.vertex_face, "vertex-face");
+    expect(labelled.edge_edge, "edge-edge");
+    std::istringstream rows(read_file(path("pairs.csv")));
+    std::string row;
+    std::getline(rows, row);
+    while (std::getline(rows, row)) {
+      std::istringstream fields(row);
+      std::array<std::string, 6> first;
+      for (std::string& field : first) std::getline(fields, field, ',');
+      found.push_back(first[3] + "," + first[4] + "," + first[5]);
+    }
+    std::ranges::sort(expected);
+    std::ranges::sort(found);
+    EXPECT_EQ(found, expected) << scene;
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify::cli::step_command_test

@@ -1,0 +1,118 @@
+#include "verify/jobs/check_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "exact/oracle.hpp"
+#include "verify/generate/workload.hpp"
+#include "verify/mesh/moving_mesh.hpp"
+
+namespace touchstone::verify::jobs::check_step_test {
+namespace {
+
+/// Two patches that move through each other, as frames.
+struct Frames {
+  explicit Frames(std::uint64_t seed)
+      : moving(generate::moving_patches({.seed = seed, .cells = 8})) {
+    const auto rows = static_cast<Eigen::Index>(moving.vertices.size());
+    mesh.vertices.resize(rows, 3);
+    after.resize(rows, 3);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const fast::MovingVertex& vertex = moving.vertices[static_cast<std::size_t>(i)];
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        mesh.vertices(i, k) = vertex.start.at(static_cast<std::size_t>(k));
+        after(i, k) = vertex.end.at(static_cast<std::size_t>(k));
+      }
+    }
+    mesh.faces = moving.faces;
+    mesh.edges = moving.edges;
+  }
+
+  [[nodiscard]] StepCheck check(const StepCheckOptions& options = {}) const {
+    return check_step(mesh, mesh.vertices, after, options);
+  }
+
+  mesh::MovingMesh moving;
+  mesh::Mesh mesh;
+  mesh::Vertices after;
+};
+
+/// The pairs of a kind that touch by the oracle.
+std::vector<fast::IndexPair> touching_pairs(const mesh::MovingMesh& mesh, Kind kind) {
+  const auto pairs = mesh::find_candidates(mesh, kind);
+  const auto queries = mesh::queries_of(mesh, mesh::candidates_of(mesh, kind, pairs));
+  std::vector<fast::IndexPair> touching;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (exact::decide(kind, queries[i]).collides()) touching.push_back(pairs[i]);
+  }
+  std::ranges::sort(touching);
+  return touching;
+}
+
+std::vector<fast::IndexPair> pairs_of(const std::vector<fast::StepCollision>& collisions,
+                                      fast::PairKind kind) {
+  std::vector<fast::IndexPair> pairs;
+  for (const fast::StepCollision& collision : collisions) {
+    if (collision.kind == kind) pairs.push_back(collision.pair);
+  }
+  return pairs;
+}
+
+TEST(CheckStep, FindsWhatTheOracleCallsCollisionsInOrder) {
+  const Frames frames(11);
+  const StepCheck check = frames.check();
+  ASSERT_TRUE(check.collisions.has_value());
+  const auto vertex_face = touching_pairs(frames.moving, Kind::vertex_face);
+  const auto edge_edge = touching_pairs(frames.moving, Kind::edge_edge);
+  ASSERT_FALSE(edge_edge.empty());
+  EXPECT_EQ(pairs_of(*check.collisions, fast::PairKind::vertex_face), vertex_face);
+  EXPECT_EQ(pairs_of(*check.collisions, fast::PairKind::edge_edge), edge_edge);
+  EXPECT_EQ(counts_of(*check.collisions), (PairCounts{vertex_face.size(), edge_edge.size(), 0, 0}));
+  EXPECT_EQ(check.candidates,
+            (PairCounts{mesh::find_candidates(frames.moving, Kind::vertex_face).size(),
+                        mesh::find_candidates(frames.moving, Kind::edge_edge).size(), 0, 0}));
+  EXPECT_FALSE(check.is_free);
+}
+
+TEST(CheckStep, AgreesWithItselfWhateverIsAsked) {
+  for (const std::uint64_t seed : {11U, 12U, 13U}) {
+    const Frames frames(seed);
+    const StepCheck all = frames.check();
+    const StepCheck earliest = frames.check({.question = StepQuestion::earliest});
+    const StepCheck free = frames.check({.question = StepQuestion::free});
+    ASSERT_TRUE(all.earliest && earliest.earliest);
+    EXPECT_EQ(all.earliest->toi_lower, earliest.earliest->toi_lower);
+    EXPECT_EQ(all.earliest->toi_upper, earliest.earliest->toi_upper);
+    const auto pairs = [](const StepCheck& check) {
+      std::vector<std::array<std::int32_t, 2>> result;
+      for (const auto& pair : check.earliest->pairs) result.push_back(pair.pair);
+      std::ranges::sort(result);
+      return result;
+    };
+    EXPECT_EQ(pairs(all), pairs(earliest));
+    EXPECT_FALSE(earliest.collisions);
+    EXPECT_FALSE(earliest.is_free);
+    EXPECT_FALSE(free.is_free);
+    EXPECT_FALSE(free.earliest);
+    EXPECT_EQ(all.candidates, free.candidates);
+  }
+}
+
+TEST(CheckStep, OfAMeshAtRestIsFree) {
+  const Frames frames(11);
+  const StepCheck check = check_step(frames.mesh, frames.mesh.vertices, frames.mesh.vertices, {});
+  EXPECT_TRUE(check.is_free);
+  EXPECT_TRUE(check.collisions && check.collisions->empty());
+  EXPECT_FALSE(check.earliest);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::check_step_test

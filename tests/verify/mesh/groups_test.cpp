@@ -1,0 +1,63 @@
+#include "verify/mesh/groups.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/mesh_files.hpp"
+#include "verify/data/dataset_error.hpp"
+
+namespace touchstone::verify::mesh::groups_test {
+namespace {
+
+using tests::MeshFolder;
+
+std::string error_of(const MeshFolder& folder, std::string_view text, std::size_t vertices) {
+  try {
+    (void)read_groups(folder.file("groups.txt", text), vertices);
+  } catch (const data::DatasetError& error) {
+    return std::string(error.what()).substr(folder.path().string().size() + 1);
+  }
+  return "";
+}
+
+TEST(ReadGroups, GivesEachVertexTheGroupOfItsLine) {
+  const MeshFolder folder;
+  const Groups groups =
+      read_groups(folder.file("groups.txt", "cloth\n the ball\t\r\ncloth\n\n"), 3);
+  EXPECT_EQ(groups.names, (std::vector<std::string>{"cloth", "the ball"}));
+  EXPECT_EQ(groups.of_vertex, (std::vector<std::int32_t>{0, 1, 0}));
+  EXPECT_EQ(groups.error, "");
+}
+
+TEST(ReadGroups, NeedsALineForEachVertex) {
+  const MeshFolder folder;
+  EXPECT_EQ(error_of(folder, "a\nb\n", 2), "");
+  EXPECT_EQ(
+      error_of(folder, "a\n", 2),
+      "groups.txt: 1 lines, but the mesh has 2 vertices: a group's name for each, a line each");
+  EXPECT_EQ(error_of(folder, "a\nb\nc\n", 2),
+            "groups.txt:3: a group for more than the 2 vertices of the mesh");
+  EXPECT_EQ(error_of(folder, "a\n\nb\n", 3), "groups.txt:2: no name of a group");
+}
+
+TEST(GroupNumbers, AreThoseOfTheNames) {
+  const Groups groups{.names = {"cloth", "ball"}, .of_vertex = {0, 1}, .error = {}};
+  const std::vector<std::pair<std::string, std::string>> names{{"ball", "ball"}, {"cloth", "ball"}};
+  EXPECT_EQ(numbers_of(groups, names), (std::vector<std::array<std::int32_t, 2>>{{1, 1}, {0, 1}}));
+}
+
+TEST(GroupNumbers, NameWhatIsUnknown) {
+  const Groups groups{.names = {"cloth", "ball"}, .of_vertex = {0, 1}, .error = {}};
+  const std::vector<std::pair<std::string, std::string>> names{{"ball", "wall"}};
+  try {
+    (void)numbers_of(groups, names);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "no group \"wall\"; there are: \"cloth\", \"ball\"");
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::verify::mesh::groups_test

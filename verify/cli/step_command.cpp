@@ -1,0 +1,245 @@
+// touchstone step: what touches in the steps of a simulation, and when.
+
+#include <algorithm>
+#include <array>
+#include <climits>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/io/json.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/jobs/check_step.hpp"
+#include "verify/mesh/frames.hpp"
+#include "verify/mesh/groups.hpp"
+#include "verify/mesh/self_intersection.hpp"
+#include "verify/report/step_report.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<fs::path> frames;
+  SeparationArguments separation;
+  jobs::StepCheckOptions check;
+  std::string groups_file;
+  /// Names of groups that do not meet.
+  std::vector<std::pair<std::string, std::string>> apart;
+  std::string json_file;
+  std::string csv_file;
+};
+
+/// The groups that are needed: none where all meet. \throws std::runtime_error or DatasetError if they cannot be used.
+mesh::Groups groups_for(const Arguments& arguments, const mesh::Mesh& mesh) {
+  if (!arguments.groups_file.empty()) {
+    return mesh::read_groups(arguments.groups_file, static_cast<std::size_t>(mesh.vertices.rows()));
+  }
+  if (arguments.apart.empty()) return {};
+  if (!mesh.groups.error.empty()) throw std::runtime_error(mesh.groups.error);
+  if (mesh.groups.names.empty()) {
+    throw std::runtime_error(
+        "--apart needs groups: from names (o, g) in an OBJ file, or by --groups FILE");
+  }
+  return mesh.groups;
+}
+
+/// The steps of a run, one after the other.
+class StepRun {
+ public:
+  explicit StepRun(const Arguments& arguments)
+      : json_(arguments.json_file),
+        csv_(arguments.csv_file),
+        options_(arguments.check),
+        frames_(mesh::open_frames(arguments.frames)),
+        groups_(groups_for(arguments, frames_->mesh())),
+        apart_(mesh::numbers_of(groups_, arguments.apart)) {
+    require_separate_files(arguments);
+    if (frames_->count() < 2) {
+      throw std::runtime_error(arguments.frames.front().string() +
+                               ": one frame only; a step needs two");
+    }
+    const mesh::Mesh& mesh = frames_->mesh();
+    options_.step.separation = arguments.separation.given();
+    options_.step.groups = {.of_vertices = groups_.of_vertex, .apart = apart_};
+    report_ = {.separation = options_.step.separation,
+               .question = options_.question,
+               .alpha = options_.alpha,
+               .vertices = static_cast<std::size_t>(mesh.vertices.rows()),
+               .edges = mesh.edges,
+               .faces = mesh.faces,
+               .frames = {},
+               .steps = {}};
+  }
+
+  Status run() {
+    if (csv_) csv_.write(report::step_csv_header());
+    io::ProgressBar bar("step");
+    const std::size_t count = frames_->count();
+    mesh::Vertices before;
+    for (std::size_t i = 0; i < count && !io::interrupted(); ++i) {
+      mesh::Vertices after = frames_->next();
+      check_frame(i, after);
+      bar.update((static_cast<double>(i) + 0.5) / static_cast<double>(count));
+      if (i > 0) {
+        report_.steps.push_back(jobs::check_step(frames_->mesh(), before, after, options_));
+        if (csv_) csv_.write(report::step_csv_rows(report_, i - 1));
+      }
+      before = std::move(after);
+      bar.update(static_cast<double>(i + 1) / static_cast<double>(count));
+    }
+    bar.clear();
+    report_.interrupted = report_.steps.size() + 1 < count;
+    return finish();
+  }
+
+ private:
+  /// \throws std::runtime_error if an input would be overwritten, or an output by another.
+  void require_separate_files(const Arguments& arguments) const {
+    if (json_.is(arguments.csv_file)) {
+      throw std::runtime_error(arguments.csv_file + ": named for two outputs");
+    }
+    std::vector<fs::path> inputs = arguments.frames;
+    inputs.emplace_back(arguments.groups_file);
+    for (const fs::path& input : inputs) {
+      if (json_.is(input) || csv_.is(input)) {
+        throw std::runtime_error(input.string() + ": named for input and output");
+      }
+    }
+  }
+
+  void check_frame(std::size_t i, const mesh::Vertices& vertices) {
+    report::FrameRecord frame{.name = frames_->name(i), .piercings = {}, .time = {}};
+    const mesh::Mesh& mesh = frames_->mesh();
+    frame.time = jobs::work_time_of([&] {
+      frame.piercings = mesh::find_piercings(
+          vertices, mesh.edges, mesh.faces,
+          [&](std::int32_t edge, std::int32_t face) { return can_meet(edge, face); });
+    });
+    report_.frames.push_back(std::move(frame));
+  }
+
+  /// As fast::CollisionGroups has it.
+  [[nodiscard]] bool can_meet(std::int32_t edge, std::int32_t face) const {
+    if (apart_.empty()) return true;
+    const mesh::Mesh& mesh = frames_->mesh();
+    const auto group_of = [&](std::int32_t vertex) {
+      return groups_.of_vertex[static_cast<std::size_t>(vertex)];
+    };
+    const auto meets = [&](std::int32_t a, std::int32_t b) {
+      return std::ranges::none_of(apart_, [a, b](const std::array<std::int32_t, 2>& pair) {
+        return pair == std::array{a, b} || pair == std::array{b, a};
+      });
+    };
+    return std::ranges::any_of(mesh.edges[static_cast<std::size_t>(edge)], [&](std::int32_t a) {
+      return std::ranges::any_of(mesh.faces[static_cast<std::size_t>(face)],
+                                 [&](std::int32_t b) { return meets(group_of(a), group_of(b)); });
+    });
+  }
+
+  Status finish() {
+    if (json_) json_.write(io::json_document(report::to_json(report_)));
+    json_.close();
+    csv_.close();
+    const bool is_taken = json_.is_standard_output() || csv_.is_standard_output();
+    io::print(is_taken ? stderr : stdout, report::to_text(report_));
+    if (report_.interrupted) return Status::interrupted;
+    return report::has_collisions(report_) ? Status::wrong_answers : Status::all_well;
+  }
+
+  OptionalOutput json_;
+  OptionalOutput csv_;
+  jobs::StepCheckOptions options_;
+  std::unique_ptr<mesh::Frames> frames_;
+  mesh::Groups groups_;
+  std::vector<std::array<std::int32_t, 2>> apart_;
+  report::StepReport report_;
+};
+
+void add_input_options(CLI::App& command, Arguments& arguments) {
+  command.option_defaults()->group("Input");
+  command
+      .add_option("frames", arguments.frames,
+                  "Frames in order: .ply or .obj files, a folder of them, or one .npz of V "
+                  "(T,n,3), F and E")
+      ->type_name("FRAME")
+      ->required();
+  add_separation_options(command, arguments.separation);
+  command
+      .add_option("--groups", arguments.groups_file,
+                  "The name of each vertex's group, a line each (default: o and g of an OBJ file)")
+      ->type_name("FILE");
+  command
+      .add_option("--apart", arguments.apart,
+                  "Two groups that do not meet; the same twice: an obstacle that does not meet "
+                  "itself. May be given several times")
+      ->type_name("GROUP GROUP");
+}
+
+void add_step_options(CLI::App& command, Arguments& arguments) {
+  command.option_defaults()->group("Question");
+  jobs::StepQuestion& question = arguments.check.question;
+  CLI::Option* const all = command.add_flag_callback(
+      "--all", [&question] { question = jobs::StepQuestion::all; },
+      "Every pair that touches, with its times (the default)");
+  CLI::Option* const earliest = command.add_flag_callback(
+      "--earliest", [&question] { question = jobs::StepQuestion::earliest; },
+      "Only the earliest impact and the pairs that realise it");
+  CLI::Option* const free = command.add_flag_callback(
+      "--free", [&question] { question = jobs::StepQuestion::free; },
+      "Only whether anything touches");
+  earliest->excludes(all);
+  free->excludes(all)->excludes(earliest);
+  command
+      .add_option("--t-max", arguments.check.step.t_max, "Only contacts up to this time of a step")
+      ->type_name("T")
+      ->capture_default_str()
+      ->check(real_number(0.0, 1.0));
+  command
+      .add_option("--alpha", arguments.check.alpha,
+                  "Judge the step that a simulator takes with this step size: to the rounded "
+                  "x0 + alpha (x1 - x0); and say how large it may be")
+      ->type_name("A")
+      ->check(real_number(0.0, 1.0));
+  command.add_option("--threads", arguments.check.step.max_threads, "Cores to use (0: all)")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_number(0, INT_MAX));
+  command.option_defaults()->group("Output");
+  command.add_option("--csv", arguments.csv_file, "Write each pair that touches as a row")
+      ->type_name("FILE");
+  add_json_option(command, arguments.json_file);
+}
+
+}  // namespace
+
+void add_step_command(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("step", "What touches in the steps of a simulation, and when, exactly");
+  add_input_options(*command, *arguments);
+  add_step_options(*command, *arguments);
+  set_help(*command,
+           "touchstone step frames/92.ply frames/93.ply --csv pairs.csv\n"
+           "touchstone step frames/ --earliest --json steps.json",
+           "A step is the straight motion of every vertex from one frame to the next; write the "
+           "substeps of a simulator that takes several. Each frame is searched for edges that "
+           "pierce faces as well. Pairs that share a vertex are left out. Numbers begin at 0; "
+           "edges are numbered by their larger vertex, then by the smaller.\n"
+           "Exit status: 0 all is free, 1 something touches or a frame intersects itself, 2 bad "
+           "input or usage, 130 interrupted (what is done is written).");
+  command->callback([arguments, &status] { status = StepRun(*arguments).run(); });
+}
+
+}  // namespace touchstone::verify::cli

@@ -1,0 +1,90 @@
+#include "verify/jobs/check_step.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <tuple>
+
+namespace touchstone::verify::jobs {
+namespace {
+
+PairCounts count_candidates(const fast::Step& step) {
+  std::array<std::atomic<std::uint64_t>, pair_kinds.size()> counts{};
+  step.candidates([&counts](const fast::StepCandidates& some) {
+    counts.at(static_cast<std::size_t>(some.kind)).fetch_add(some.pairs.size());
+  });
+  PairCounts result{};
+  std::ranges::copy(counts, result.begin());
+  return result;
+}
+
+/// The earliest impact of all pairs that touch, as fast::Step::earliest has it.
+std::optional<fast::StepImpact> earliest_of(const std::vector<fast::StepCollision>& collisions) {
+  if (collisions.empty()) return std::nullopt;
+  fast::StepImpact impact{.toi_lower = std::numeric_limits<double>::infinity(),
+                          .toi_upper = std::numeric_limits<double>::infinity(),
+                          .pairs = {}};
+  for (const fast::StepCollision& collision : collisions) {
+    impact.toi_lower = std::min(impact.toi_lower, collision.toi_lower);
+    impact.toi_upper = std::min(impact.toi_upper, collision.toi_upper);
+  }
+  std::ranges::copy_if(collisions, std::back_inserter(impact.pairs),
+                       [&](const fast::StepCollision& collision) {
+                         return collision.toi_lower <= impact.toi_upper;
+                       });
+  return impact;
+}
+
+void sort_by_numbers(std::vector<fast::StepCollision>& collisions) {
+  std::ranges::sort(collisions, {}, [](const fast::StepCollision& collision) {
+    return std::tuple(collision.kind, collision.pair);
+  });
+}
+
+void answer(const fast::Step& step, StepQuestion question, StepCheck& check) {
+  switch (question) {
+    case StepQuestion::all:
+      check.collisions = step.collisions();
+      sort_by_numbers(*check.collisions);
+      check.earliest = earliest_of(*check.collisions);
+      check.is_free = check.collisions->empty();
+      return;
+    case StepQuestion::earliest:
+      check.earliest = step.earliest();
+      check.is_free = !check.earliest.has_value();
+      return;
+    case StepQuestion::free:
+      check.is_free = step.is_free();
+      return;
+  }
+}
+
+}  // namespace
+
+PairCounts counts_of(const std::vector<fast::StepCollision>& collisions) {
+  PairCounts counts{};
+  for (const fast::StepCollision& collision : collisions) {
+    ++counts.at(static_cast<std::size_t>(collision.kind));
+  }
+  return counts;
+}
+
+StepCheck check_step(const mesh::Mesh& mesh, const mesh::Vertices& before,
+                     const mesh::Vertices& after, const StepCheckOptions& options) {
+  StepCheck check;
+  std::optional<fast::Step> whole, part;
+  check.broad_phase = work_time_of([&] {
+    whole.emplace(
+        before, after,
+        fast::MeshElements{.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
+        options.step);
+    if (options.alpha) part.emplace(whole->scaled(*options.alpha));
+    check.candidates = count_candidates(part ? *part : *whole);
+  });
+  check.narrow_phase =
+      work_time_of([&] { answer(part ? *part : *whole, options.question, check); });
+  if (options.alpha) check.free_alpha = whole->free_step_size();
+  return check;
+}
+
+}  // namespace touchstone::verify::jobs

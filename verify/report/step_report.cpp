@@ -1,0 +1,299 @@
+#include "verify/report/step_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "verify/io/csv.hpp"
+#include "verify/io/json.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/text_table.hpp"
+#include "verify/judge/separation_inference.hpp"
+
+namespace touchstone::verify::report {
+namespace {
+
+/// Of what is found, so many lines are printed.
+constexpr std::size_t most_printed = 10;
+
+std::uint64_t count_of(const jobs::PairCounts& counts, fast::PairKind kind) {
+  return counts.at(static_cast<std::size_t>(kind));
+}
+
+/// Those that touch and are known: all, or those of the earliest impact.
+std::vector<fast::StepCollision> known_collisions(const StepRecord& step) {
+  if (step.collisions) return *step.collisions;
+  return step.earliest ? step.earliest->pairs : std::vector<fast::StepCollision>();
+}
+
+/// How many pairs pierce in one of the two frames or both.
+std::size_t pierced_in(const StepReport& report, std::size_t step) {
+  std::set<mesh::Piercing> all(report.frames.at(step).piercings.begin(),
+                               report.frames.at(step).piercings.end());
+  all.insert(report.frames.at(step + 1).piercings.begin(),
+             report.frames.at(step + 1).piercings.end());
+  return all.size();
+}
+
+std::string_view name_of(jobs::StepQuestion question) {
+  switch (question) {
+    case jobs::StepQuestion::all:
+      return "all";
+    case jobs::StepQuestion::earliest:
+      return "earliest";
+    case jobs::StepQuestion::free:
+      return "free";
+  }
+  return "";
+}
+
+// ---- Text ---------------------------------------------------------------------------------------
+
+/// Kinds that have a candidate in some step, and the two of every mesh.
+std::vector<fast::PairKind> kinds_in(const StepReport& report) {
+  std::vector<fast::PairKind> kinds;
+  std::ranges::copy_if(jobs::pair_kinds, std::back_inserter(kinds), [&](fast::PairKind kind) {
+    return kind == fast::PairKind::vertex_face || kind == fast::PairKind::edge_edge ||
+           std::ranges::any_of(report.steps, [kind](const StepRecord& step) {
+             return count_of(step.candidates, kind) != 0;
+           });
+  });
+  return kinds;
+}
+
+std::string step_name(const StepReport& report, std::size_t i) {
+  return io::printable(report.frames.at(i).name) + " - " +
+         io::printable(report.frames.at(i + 1).name);
+}
+
+std::string earliest_text(const StepReport& report, const StepRecord& step) {
+  if (step.is_free) return "free";
+  if (report.question == jobs::StepQuestion::free) return "not free";
+  return fmt::format("{:.6g}", step.earliest->toi_lower);
+}
+
+io::TextTable table_of(const StepReport& report) {
+  const std::vector<fast::PairKind> kinds = kinds_in(report);
+  const bool has_counts = report.question == jobs::StepQuestion::all;
+  std::vector<io::TextColumn> columns{io::word_column("step", 10)};
+  for (const fast::PairKind kind : kinds) {
+    columns.push_back({std::string(fast::to_string(kind)), 11});
+    if (has_counts) columns.push_back({"touch", 7});
+  }
+  columns.push_back({"earliest", 11});
+  if (report.alpha) columns.push_back({"free alpha", 20});
+  columns.push_back({"pierced", 7});
+  columns.push_back({"seconds", 8});
+  io::TextTable table(std::move(columns));
+  for (std::size_t i = 0; i < report.steps.size(); ++i) {
+    const StepRecord& step = report.steps[i];
+    io::TextRow row{step_name(report, i)};
+    const jobs::PairCounts touching =
+        has_counts ? jobs::counts_of(*step.collisions) : jobs::PairCounts{};
+    for (const fast::PairKind kind : kinds) {
+      row.push_back(std::to_string(count_of(step.candidates, kind)));
+      if (has_counts) row.push_back(std::to_string(count_of(touching, kind)));
+    }
+    row.push_back(earliest_text(report, step));
+    if (report.alpha) row.push_back(io::number_text(step.free_alpha, "{}"));
+    row.push_back(std::to_string(pierced_in(report, i)));
+    row.push_back(io::number_text((step.broad_phase + step.narrow_phase).wall, "{:.3f}"));
+    table.add(std::move(row));
+  }
+  return table;
+}
+
+template <class Element>
+std::string vertices_text(std::span<const Element> elements, std::int32_t i) {
+  return fmt::format("{}", fmt::join(elements[static_cast<std::size_t>(i)], " "));
+}
+
+/// "vertex 4, face 7 (1 2 3)".
+std::string pair_text(const StepReport& report, const fast::StepCollision& collision) {
+  const auto [a, b] = collision.pair;
+  const auto edge = [&](std::int32_t i) {
+    return fmt::format("edge {} ({})", i, vertices_text(report.edges, i));
+  };
+  switch (collision.kind) {
+    case fast::PairKind::vertex_face:
+      return fmt::format("vertex {}, face {} ({})", a, b, vertices_text(report.faces, b));
+    case fast::PairKind::edge_edge:
+      return edge(a) + ", " + edge(b);
+    case fast::PairKind::vertex_edge:
+      return fmt::format("vertex {}, ", a) + edge(b);
+    case fast::PairKind::vertex_vertex:
+      return fmt::format("vertices {} and {}", a, b);
+  }
+  return "";
+}
+
+/// The number of those that are not printed, and where they are.
+std::string rest_text(std::size_t all, std::string_view where) {
+  if (all <= most_printed) return "";
+  return fmt::format("  ... and {} more ({})\n", all - most_printed, where);
+}
+
+void append_collisions(std::string& text, const StepReport& report, std::size_t i) {
+  std::vector<fast::StepCollision> pairs = known_collisions(report.steps[i]);
+  if (pairs.empty()) return;
+  std::ranges::stable_sort(pairs, {}, &fast::StepCollision::toi_lower);
+  text += fmt::format("\n{}: pairs that touch{}\n", step_name(report, i),
+                      report.question == jobs::StepQuestion::earliest ? " first" : "");
+  io::TextTable table(
+      {io::word_column("  pair", 30), {"from t", 24}, {"to", 24}, {"u", 10}, {"v", 10}});
+  for (const fast::StepCollision& pair :
+       std::span(pairs).first(std::min(pairs.size(), most_printed))) {
+    table.add({"  " + pair_text(report, pair), fmt::format("{}", pair.toi_lower),
+               fmt::format("{}", pair.toi_upper), fmt::format("{:.6g}", pair.u),
+               fmt::format("{:.6g}", pair.v)});
+  }
+  text += table.text() + rest_text(pairs.size(), "--csv FILE");
+}
+
+void append_piercings(std::string& text, const StepReport& report, const FrameRecord& frame) {
+  if (frame.piercings.empty()) return;
+  text += fmt::format("\n{}: the mesh intersects itself; edges that pierce faces: {}\n",
+                      io::printable(frame.name), frame.piercings.size());
+  const std::size_t printed = std::min(frame.piercings.size(), most_printed);
+  for (const mesh::Piercing& piercing : std::span(frame.piercings).first(printed)) {
+    text += fmt::format("  edge {} ({}), face {} ({})\n", piercing.edge,
+                        vertices_text(report.edges, piercing.edge), piercing.face,
+                        vertices_text(report.faces, piercing.face));
+  }
+  text += rest_text(frame.piercings.size(), "--json FILE");
+}
+
+std::string heading(const StepReport& report) {
+  std::string text = fmt::format("{} vertices, {} edges, {} faces", report.vertices,
+                                 report.edges.size(), report.faces.size());
+  if (!is_contact(report.separation)) {
+    text += ", minimum separation " + judge::to_text(report.separation);
+  }
+  if (report.alpha) text += fmt::format(", alpha {}", *report.alpha);
+  return text + (report.interrupted ? " (interrupted)\n" : "\n");
+}
+
+// ---- JSON and CSV -------------------------------------------------------------------------------
+
+/// "vertex_face": names in JSON.
+std::string key_of(fast::PairKind kind) {
+  std::string key(fast::to_string(kind));
+  std::ranges::replace(key, '-', '_');
+  return key;
+}
+
+nlohmann::json json_of(const jobs::PairCounts& counts) {
+  nlohmann::json json = nlohmann::json::object();
+  for (const fast::PairKind kind : jobs::pair_kinds) json[key_of(kind)] = count_of(counts, kind);
+  return json;
+}
+
+nlohmann::json json_of(const fast::StepCollision& pair) {
+  return {{"kind", fast::to_string(pair.kind)},
+          {"first", pair.pair[0]},
+          {"second", pair.pair[1]},
+          {"toi_lower", pair.toi_lower},
+          {"toi_upper", pair.toi_upper},
+          {"u", pair.u},
+          {"v", pair.v}};
+}
+
+nlohmann::json seconds_of(const StepRecord& step, double jobs::WorkTime::*time) {
+  return {{"broad_phase", step.broad_phase.*time},
+          {"narrow_phase", step.narrow_phase.*time},
+          {"total", (step.broad_phase + step.narrow_phase).*time}};
+}
+
+nlohmann::json json_of(const FrameRecord& frame) {
+  nlohmann::json piercings = nlohmann::json::array();
+  for (const mesh::Piercing& piercing : frame.piercings) {
+    piercings.push_back({piercing.edge, piercing.face});
+  }
+  return {{"name", io::printable(frame.name)},
+          {"pierced", frame.piercings.size()},
+          {"piercings", std::move(piercings)}};
+}
+
+nlohmann::json json_of(const StepReport& report, std::size_t i) {
+  const StepRecord& step = report.steps[i];
+  const auto toi = [&](double fast::StepImpact::*bound) {
+    return step.earliest ? nlohmann::json((*step.earliest).*bound) : nlohmann::json();
+  };
+  nlohmann::json earliest = nlohmann::json::array();
+  if (step.earliest) {
+    for (const fast::StepCollision& pair : step.earliest->pairs) earliest.push_back(json_of(pair));
+  }
+  nlohmann::json json{
+      {"frames",
+       {io::printable(report.frames.at(i).name), io::printable(report.frames.at(i + 1).name)}},
+      {"candidates", json_of(step.candidates)},
+      {"collisions",
+       step.collisions ? json_of(jobs::counts_of(*step.collisions)) : nlohmann::json()},
+      {"toi_lower", toi(&fast::StepImpact::toi_lower)},
+      {"toi_upper", toi(&fast::StepImpact::toi_upper)},
+      {"earliest", std::move(earliest)},
+      {"free", step.is_free},
+      {"pierced", pierced_in(report, i)},
+      {"seconds", seconds_of(step, &jobs::WorkTime::wall)},
+      {"processor_seconds", seconds_of(step, &jobs::WorkTime::processor)}};
+  if (report.alpha) json["free_alpha"] = io::number_to_json(step.free_alpha);
+  return json;
+}
+
+}  // namespace
+
+bool has_collisions(const StepReport& report) {
+  return !std::ranges::all_of(report.steps, &StepRecord::is_free) ||
+         !std::ranges::all_of(report.frames,
+                              [](const FrameRecord& frame) { return frame.piercings.empty(); });
+}
+
+std::string to_text(const StepReport& report) {
+  std::string text = heading(report) + table_of(report).text();
+  for (std::size_t i = 0; i < report.steps.size(); ++i) append_collisions(text, report, i);
+  for (const FrameRecord& frame : report.frames) append_piercings(text, report, frame);
+  return text +
+         "\nA step is the straight motion of every vertex from one frame to the next. A simulator "
+         "that moved in several\nsubsteps between two frames took another path: have it write its "
+         "substeps.\n";
+}
+
+nlohmann::json to_json(const StepReport& report) {
+  nlohmann::json frames = nlohmann::json::array();
+  for (const FrameRecord& frame : report.frames) frames.push_back(json_of(frame));
+  nlohmann::json steps = nlohmann::json::array();
+  for (std::size_t i = 0; i < report.steps.size(); ++i) steps.push_back(json_of(report, i));
+  return {{"separation",
+           is_contact(report.separation) ? nlohmann::json() : judge::to_json(report.separation)},
+          {"alpha", report.alpha ? nlohmann::json(*report.alpha) : nlohmann::json()},
+          {"question", name_of(report.question)},
+          {"vertices", report.vertices},
+          {"edges", report.edges.size()},
+          {"faces", report.faces.size()},
+          {"interrupted", report.interrupted},
+          {"frames", std::move(frames)},
+          {"steps", std::move(steps)}};
+}
+
+std::string step_csv_header() {
+  return io::csv_row(
+      {"step", "frame0", "frame1", "kind", "first", "second", "toi_lower", "toi_upper", "u", "v"});
+}
+
+std::string step_csv_rows(const StepReport& report, std::size_t i) {
+  std::string rows;
+  for (const fast::StepCollision& pair : known_collisions(report.steps.at(i))) {
+    rows += io::csv_row({std::to_string(i), report.frames.at(i).name, report.frames.at(i + 1).name,
+                         std::string(fast::to_string(pair.kind)), std::to_string(pair.pair[0]),
+                         std::to_string(pair.pair[1]), io::csv_number(pair.toi_lower),
+                         io::csv_number(pair.toi_upper), io::csv_number(pair.u),
+                         io::csv_number(pair.v)});
+  }
+  return rows;
+}
+
+}  // namespace touchstone::verify::report

@@ -1,0 +1,66 @@
+#pragma once
+
+/// \file
+/// Steps of a simulation and what touches in them, for people (tables) and for machines (JSON, CSV).
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "verify/jobs/check_step.hpp"
+#include "verify/mesh/self_intersection.hpp"
+
+namespace touchstone::verify::report {
+
+/// A frame and the edges that pierce faces in it.
+struct FrameRecord {
+  std::string name;
+  std::vector<mesh::Piercing> piercings;
+  jobs::WorkTime time;  ///< of finding them
+};
+
+/// The step from frame i to frame i + 1.
+using StepRecord = jobs::StepCheck;
+
+/// All that a run of `touchstone step` found. The elements are those of every frame.
+struct StepReport {
+  Separation separation = {};
+  jobs::StepQuestion question = jobs::StepQuestion::all;
+  std::optional<double> alpha = std::nullopt;
+  std::size_t vertices = 0;
+  std::span<const fast::Edge> edges;
+  std::span<const fast::Face> faces;
+  /// One more than steps, unless the run was interrupted.
+  std::vector<FrameRecord> frames;
+  std::vector<StepRecord> steps;
+  bool interrupted = false;
+};
+
+/// Does something touch in a step, or does a frame intersect itself?
+[[nodiscard]] bool has_collisions(const StepReport& report);
+
+/// A line for each step; then, for each step, the pairs that touch, the earliest ten; then the edges that pierce faces, ten
+/// of a frame; last what a verdict on frames means.
+[[nodiscard]] std::string to_text(const StepReport& report);
+
+/// `separation` (as in bench_report.hpp, null for contact), `alpha` (or null), `question` (all, earliest or free),
+/// `vertices`, `edges`, `faces`, `interrupted`; `frames`, a list of `name`, `pierced` (how many edges pierce faces) and
+/// `piercings` (pairs of an edge and a face); and `steps`, a list of `frames` (two names), `candidates` and `collisions`
+/// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; `collisions` is null unless all were asked for),
+/// `toi_lower` and `toi_upper` (null if nothing touches, or only freedom was asked for), `earliest` (the pairs of the
+/// earliest impact, as below), `free`, `pierced` (how many pairs pierce in one of the two frames or both),
+/// `free_alpha` (with alpha), and `seconds` and `processor_seconds` (`broad_phase`, `narrow_phase`, `total`).
+///
+/// A pair has `kind`, `first`, `second` (numbers from 0), `toi_lower`, `toi_upper`, `u` and `v`.
+[[nodiscard]] nlohmann::json to_json(const StepReport& report);
+
+/// step,frame0,frame1,kind,first,second,toi_lower,toi_upper,u,v
+[[nodiscard]] std::string step_csv_header();
+
+/// A row for each pair of step `i` that touches: all that were asked for.
+[[nodiscard]] std::string step_csv_rows(const StepReport& report, std::size_t i);
+
+}  // namespace touchstone::verify::report
