@@ -47,6 +47,9 @@ void add_candidates_command(CLI::App& app, Status& status);
 /// `touchstone step`
 void add_step_command(CLI::App& app, Status& status);
 
+/// `touchstone view`
+void add_view_command(CLI::App& app, Status& status);
+
 /// `touchstone derive`
 void add_derive_command(CLI::App& app, Status& status);
 

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/certified.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -33,6 +34,10 @@
 #include "verify/io/terminal.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/registry.hpp"
+#include "verify/solvers/solver.hpp"
+#include "verify/view/page.hpp"
+#include "verify/view/query_facts.hpp"
+#include "verify/view/query_files.hpp"
 
 namespace touchstone::verify::cli {
 namespace {
@@ -41,6 +46,8 @@ namespace fs = std::filesystem;
 
 constexpr double default_seconds = 60.0;
 constexpr double longest_run = 1e7;
+/// A page shows at most so many findings.
+constexpr std::size_t most_viewed = 100;
 /// Seconds for making a finding simpler, at most.
 constexpr double shrink_seconds = 5.0;
 
@@ -58,6 +65,7 @@ struct Arguments {
   std::string json_file;
   fs::path page_folder;
   std::string calls;
+  std::string view_file;
 
   [[nodiscard]] std::vector<Kind> kinds() const {
     if (kind.empty()) return {Kind::vertex_face, Kind::edge_edge};
@@ -190,12 +198,16 @@ class FuzzRun {
   explicit FuzzRun(const Arguments& arguments)
       : arguments_(arguments),
         json_(arguments.json_file),
+        view_(arguments.view_file),
         found_(arguments, arguments.separation.given()),
         bar_("fuzz") {
     if (!arguments.page_folder.empty() && fs::exists(arguments.page_folder) &&
         !fs::is_empty(arguments.page_folder)) {
       throw std::runtime_error(arguments.page_folder.string() +
                                ": is not an empty folder; name a new one");
+    }
+    if (json_.is(arguments.view_file)) {
+      throw std::runtime_error(arguments.view_file + ": named for two outputs");
     }
     load_method();
     options_.seconds = arguments.seconds;
@@ -237,6 +249,8 @@ class FuzzRun {
     for (fs::path& page : write_pages(report)) written.push_back(std::move(page));
     if (json_) json_.write(io::json_document(fuzz::to_json(report)));
     json_.close();
+    if (view_) view_.write(page_of(report));
+    view_.close();
     io::print(out(), fuzz::to_text(report));
     for (const fs::path& file : written)
       io::print(out(), fmt::format("written: {}\n", io::printable(file.string())));
@@ -252,6 +266,21 @@ class FuzzRun {
     return fuzz::write_pages(report, interface, arguments_.page_folder);
   }
 
+  /// The first findings, to be looked at.
+  [[nodiscard]] std::string page_of(const fuzz::FuzzReport& report) const {
+    const auto judge = solvers::solver_in_process(solvers::find_method(fast::certified_info().name),
+                                                  arguments_.solver.options);
+    const std::array<const solvers::Solver*, 1> asked{judge.get()};
+    std::vector<nlohmann::json> facts;
+    for (const fuzz::Finding& finding : report.result.findings) {
+      if (facts.size() == most_viewed) break;
+      const nlohmann::json json = fuzz::to_json(finding, report.solver);
+      const std::string label = fmt::format("finding {}", facts.size());
+      facts.push_back(view::query_facts(view::query_from_json(json, label), asked));
+    }
+    return view::view_page(facts, command_line());
+  }
+
   void load_method() {
     const SolverArguments& solver = arguments_.solver;
     if (solver.methods.size() + solver.plugins.size() != 1) {
@@ -265,7 +294,9 @@ class FuzzRun {
     method_ = plugin_.get();
   }
 
-  [[nodiscard]] std::FILE* out() const { return json_.is_standard_output() ? stderr : stdout; }
+  [[nodiscard]] std::FILE* out() const {
+    return json_.is_standard_output() || view_.is_standard_output() ? stderr : stdout;
+  }
 
   void show(const fuzz::FuzzProgress& progress) {
     double fraction = 0.0;
@@ -298,7 +329,7 @@ class FuzzRun {
     if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
       return Status::wrong_answers;
     }
-    if (json_.failed()) return Status::bad_input;
+    if (json_.failed() || view_.failed()) return Status::bad_input;
     if (result.ended_by == fuzz::FuzzEnd::interrupt) return Status::interrupted;
     if (result.queries != 0) return Status::all_well;
     report_error(fmt::format(
@@ -310,6 +341,7 @@ class FuzzRun {
 
   const Arguments& arguments_;
   ReportedOutput json_;
+  ReportedOutput view_;
   FoundQueries found_;
   io::ProgressBar bar_;
   std::unique_ptr<fast::Method> plugin_;
@@ -374,6 +406,9 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       ->type_name("INTERFACE")
       ->check(CLI::IsMember({"plugin", "ticcd", "ipc-toolkit"}).description(""));
   add_json_option(command, arguments.json_file);
+  command
+      .add_option("--view", arguments.view_file, "Write a page to look at the first 100 findings")
+      ->type_name("FILE.html");
 }
 
 }  // namespace

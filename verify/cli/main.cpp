@@ -63,6 +63,7 @@ int run(int argc, char** argv) {
   touchstone::verify::cli::add_fuzz_command(app, status);
   touchstone::verify::cli::add_stability_command(app, status);
   touchstone::verify::cli::add_report_command(app, status);
+  touchstone::verify::cli::add_view_command(app, status);
   touchstone::verify::cli::add_derive_command(app, status);
   try {
     app.parse(argc, argv);

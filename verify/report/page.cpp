@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
+#include "verify/io/html.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/report/changes.hpp"
@@ -21,38 +20,7 @@
 namespace touchstone::verify::report {
 namespace {
 
-/// Nothing may be loaded from anywhere.
-constexpr std::string_view policy =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
-
 constexpr std::string_view filter_title = "What Tight-Inclusion misses with each filter";
-
-/// Bytes as they may stand in a data URL.
-std::string percent_encoded(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) != 0 || c == '-' || c == '.' || c == '_' || c == ',') {
-      result += c;
-    } else {
-      fmt::format_to(std::back_inserter(result), "%{:02X}", byte);
-    }
-  }
-  return result;
-}
-
-/// JSON as it may stand in a script element: no "<" ends it.
-std::string script_json(const nlohmann::json& json) {
-  std::string result;
-  for (const char c : json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
-    if (c == '<') {
-      result += "\\u003c";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
 
 /// Tables under one heading.
 struct Section {
@@ -99,7 +67,7 @@ class Writer {
   explicit Writer(const Contents& contents) : contents_(contents) {}
 
   [[nodiscard]] std::string page() {
-    write_head();
+    text_ += io::html_beginning(contents_.title, page_style());
     write_opening();
     write_navigation();
     for (const Section& section : contents_.top_tables) write_section(section);
@@ -110,16 +78,6 @@ class Writer {
   }
 
  private:
-  void write_head() {
-    text_ += fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-        "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-        "<meta name=\"color-scheme\" content=\"light dark\">\n"
-        "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n",
-        policy, contents_.title, page_style());
-  }
-
   /// The beginning of the page.
   void write_opening() {
     text_ += fmt::format("<header>\n<h1>{}</h1>\n<p>{}</p>\n", contents_.title,
@@ -227,7 +185,7 @@ class Writer {
     text_ += fmt::format(
         "<p class=\"origin\"><a class=\"csv\" download=\"{0}.csv\" "
         "href=\"data:text/csv;charset=utf-8,{1}\">CSV</a></p>\n",
-        id, percent_encoded(to_csv(data)));
+        id, io::percent_encoded(to_csv(data)));
   }
 
   // ---- Figures ----------------------------------------------------------------------------------
@@ -245,10 +203,9 @@ class Writer {
     text_ +=
         "</main>\n<noscript><p class=\"warning\">The figures are drawn by a "
         "script.</p></noscript>\n";
-    text_ += fmt::format("<script type=\"application/json\" id=\"figures\">{}</script>\n",
-                         script_json(to_json(contents_.figures)));
-    text_ += fmt::format("<script>\n{}</script>\n<script>\n{}</script>\n</body>\n</html>\n",
-                         d3_script(), page_script());
+    text_ += io::json_element("figures", to_json(contents_.figures));
+    text_ += io::script_element(d3_script()) + io::script_element(page_script());
+    text_ += "</body>\n</html>\n";
   }
 
   const Contents& contents_;

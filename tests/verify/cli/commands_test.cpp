@@ -78,7 +78,7 @@ TEST_F(Tool, HelpBeginsWithAnExampleAndFitsAScreen) {
   const std::string overview = run({"--help"}).out;
   EXPECT_LE(lines_of(overview), 26) << overview;
   const std::vector<std::string> subcommands = subcommands_in(overview);
-  EXPECT_EQ(subcommands.size(), 11U) << overview;
+  EXPECT_EQ(subcommands.size(), 12U) << overview;
   for (const std::string& name : subcommands) {
     const Outcome help = run({name, "--help"});
     EXPECT_EQ(help.status, 0);

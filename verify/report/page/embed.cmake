@@ -1,10 +1,11 @@
-# Writes the texts that a page is made of as a C++ source:
-# cmake -DOUTPUT=… -DD3=… -DSCRIPT=… -DSTYLE=… -P embed.cmake
-set(source "// Made by verify/report/page/embed.cmake.\n#include \"verify/report/page_texts.hpp\"\n\n")
-string(APPEND source "namespace touchstone::verify::report {\n")
-foreach(pair "d3_script;${D3}" "page_script;${SCRIPT}" "page_style;${STYLE}")
-  list(GET pair 0 function)
-  list(GET pair 1 path)
+# Writes texts as functions of a C++ source that return them:
+# cmake -DOUTPUT=… -DHEADER=… -DNAMESPACE=… "-DTEXTS=FUNCTION=PATH;…" -P embed.cmake
+set(source "// Made by verify/report/page/embed.cmake.\n#include \"${HEADER}\"\n\n")
+string(APPEND source "namespace ${NAMESPACE} {\n")
+foreach(pair IN LISTS TEXTS)
+  string(REGEX MATCH "^([a-z0-9_]+)=(.*)$" matched "${pair}")
+  set(function ${CMAKE_MATCH_1})
+  set(path ${CMAKE_MATCH_2})
   file(READ "${path}" text)
   string(FIND "${text}" ")touchstone\"" delimiter)
   if(NOT delimiter EQUAL -1)
@@ -13,5 +14,5 @@ foreach(pair "d3_script;${D3}" "page_script;${SCRIPT}" "page_style;${STYLE}")
   string(APPEND source
     "\nstd::string_view ${function}() {\n  return R\"touchstone(${text})touchstone\";\n}\n")
 endforeach()
-string(APPEND source "\n}  // namespace touchstone::verify::report\n")
+string(APPEND source "\n}  // namespace ${NAMESPACE}\n")
 file(WRITE "${OUTPUT}" "${source}")

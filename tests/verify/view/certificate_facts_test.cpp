@@ -1,0 +1,78 @@
+#include "verify/view/certificate_facts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "exact/certificate.hpp"
+#include "exact/certificate/certificate_text.hpp"
+#include "exact/oracle.hpp"
+#include "tests/support/queries.hpp"
+
+namespace touchstone::verify::view::certificate_facts_test {
+namespace {
+
+/// The first example of exact/CERTIFICATES.md.
+const std::string over_an_edge =
+    "touchstone-certificates 2\nquery vertex_face\nlabel over an edge\n"
+    "point 0x1p+0 -0x1p+0 0x1p+0\npoint 0 0 0\npoint 4 0 0\npoint 0 4 0\n"
+    "point 0x1p+0 0x1p+0 0x1p+0\npoint 0 0 0\npoint 4 0 0\npoint 0 4 0\n"
+    "claim no_collision\nseparate 0 1/2 edge 0 1\nseparate 1/2 1 face +\nend\ncertificates 1\n";
+
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+  return text.replace(text.find(part), part.size(), by);
+}
+
+TEST(CertificateFacts, ThePiecesWithTheirDirections) {
+  const nlohmann::json facts = certificate_facts(over_an_edge);
+  EXPECT_EQ(facts.at("claim"), "no_collision");
+  EXPECT_EQ(facts.at("accepted"), true);
+  EXPECT_EQ(facts.at("pieces"),
+            nlohmann::json::parse(R"([{"from": "0", "to": "1/2", "feature": "edge 0 1"},
+                                      {"from": "1/2", "to": "1", "feature": "face +"}])"));
+  EXPECT_EQ(facts.at("text"), over_an_edge);
+}
+
+TEST(CertificateFacts, AWrongProofIsShownAsRefused) {
+  const nlohmann::json facts = certificate_facts(replaced(over_an_edge, "face +", "face -"));
+  EXPECT_EQ(facts.at("accepted"), false);
+  EXPECT_NE(facts.at("reason"), "");
+  EXPECT_EQ(facts.at("pieces").at(1).at("feature"), "face -");
+}
+
+TEST(CertificateFacts, EveryFeatureByItsName) {
+  for (const std::string feature :
+       {"vertex 2", "edge 1 2", "face -", "axis x +", "axis z -", "cross y 1 2"}) {
+    const nlohmann::json facts = certificate_facts(replaced(over_an_edge, "face +", feature));
+    EXPECT_EQ(facts.at("pieces").at(1).at("feature"), feature);
+  }
+}
+
+TEST(CertificateFacts, TheQueryBitForBit) {
+  const tests::PosedQuery posed = tests::edge_edge({-1, 0.1, 1, 1, 0, 1, 0, -1, 0, 0, 1, 5e-324},
+                                                   {-1, 0, -1, 1, 0, -1, 0, -1.7e308, 0, 0, 1, 0});
+  const Separation separation{.distance = 0.1, .norm = Norm::l2};
+  const exact::Verdict verdict = exact::decide(posed.kind, posed.query, separation);
+  const CertifiedQuery read = certified_query(
+      exact::certificate_stream(exact::prove(posed.kind, posed.query, verdict), "a label"));
+  EXPECT_EQ(read.kind, posed.kind);
+  EXPECT_EQ(read.query, posed.query);
+  EXPECT_EQ(read.separation, separation);
+  EXPECT_EQ(read.label, "a label");
+}
+
+TEST(CertificateFacts, WhatIsNoneIsAnError) {
+  EXPECT_THROW(static_cast<void>(certified_query("")), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(certified_query("touchstone-certificates 1\n")),
+               std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(certified_query(replaced(over_an_edge, "4 0 0", "4 0"))),
+               std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(certified_query(replaced(over_an_edge, "4 0 0", "1/3 0 0"))),
+               std::invalid_argument)
+      << "1/3 is no double";
+}
+
+}  // namespace
+}  // namespace touchstone::verify::view::certificate_facts_test

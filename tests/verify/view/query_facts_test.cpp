@@ -1,0 +1,119 @@
+#include "verify/view/query_facts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "tests/support/queries.hpp"
+#include "verify/solvers/registry.hpp"
+
+namespace touchstone::verify::view::query_facts_test {
+namespace {
+
+/// A vertex falls through a resting triangle at t = 1/3, above (u,v) = (1/4, 1/4).
+ViewedQuery falling() {
+  const tests::PosedQuery posed = tests::vertex_face({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
+                                                     {1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0});
+  return {.label = "a label", .kind = posed.kind, .query = posed.query};
+}
+
+/// √½: the third example of exact/CERTIFICATES.md.
+ViewedQuery at_root_of_a_half() {
+  const tests::PosedQuery posed = tests::vertex_face({0, 0.5, 0.25, 0, 0, 0, 2, 0, 0, 0, 0, 1},
+                                                     {1, 0.5, 0.25, 0, 0, 0, 2, 2, 0, 0, 0, 1});
+  return {.label = "root", .kind = posed.kind, .query = posed.query};
+}
+
+TEST(QueryFacts, ARationalTimeOfImpactIsGivenExactly) {
+  const nlohmann::json facts = query_facts(falling(), {});
+  EXPECT_EQ(facts.at("kind"), "vertex-face");
+  EXPECT_EQ(facts.at("coordinates").size(), 24U);
+  EXPECT_EQ(facts.at("coordinates").at(14), "-0x1p+1");
+  const nlohmann::json& truth = facts.at("truth");
+  EXPECT_EQ(truth.at("collides"), true);
+  EXPECT_EQ(truth.at("toi").at("exact"), "1/3");
+  EXPECT_EQ(truth.at("toi").at("time"), "1/3");
+  EXPECT_EQ(truth.at("toi").at("lower"), "0x1.5555555555555p-2");
+  EXPECT_EQ(truth.at("toi").at("upper"), "0x1.5555555555556p-2");
+  EXPECT_EQ(truth.at("u").at("exact"), "1/4");
+  EXPECT_EQ(truth.at("v").at("exact"), "1/4");
+  EXPECT_TRUE(facts.at("approach").is_null());
+  EXPECT_EQ(facts.at("certificate").at("claim"), "time_of_impact");
+  EXPECT_EQ(facts.at("certificate").at("accepted"), true);
+  EXPECT_EQ(facts.at("certificate").at("given"), false);
+}
+
+TEST(QueryFacts, AnIrrationalOneIsNearTheTimeGiven) {
+  const nlohmann::json toi = query_facts(at_root_of_a_half(), {}).at("truth").at("toi");
+  EXPECT_TRUE(toi.at("exact").is_null());
+  EXPECT_EQ(toi.at("lower"), "0x1.6a09e667f3bccp-1");
+  EXPECT_EQ(toi.at("upper"), "0x1.6a09e667f3bcdp-1");
+  const exact::Rational time(toi.at("time").get<std::string>());
+  EXPECT_LT(abs(time * time - exact::Rational(1, 2)), exact::power_of_two(-250));
+}
+
+TEST(QueryFacts, HowNearTheyComeThatDoNotTouch) {
+  ViewedQuery query = falling();
+  query.query.at(1, 0, 2) = 0x1p-60;
+  const nlohmann::json facts = query_facts(query, {});
+  EXPECT_EQ(facts.at("truth").at("collides"), false);
+  EXPECT_FALSE(facts.at("truth").contains("toi"));
+  EXPECT_EQ(facts.at("approach").at("at_most"), "0x1p-60");
+  EXPECT_EQ(facts.at("approach").at("above"), "0x1.fffffffffffffp-61");
+  EXPECT_EQ(facts.at("approach").at("time"), "1");
+  EXPECT_EQ(facts.at("certificate").at("claim"), "no_collision");
+}
+
+TEST(QueryFacts, AtASeparation) {
+  ViewedQuery query = falling();
+  query.separation = {.distance = 0.5, .norm = Norm::linf};
+  const nlohmann::json facts = query_facts(query, {});
+  EXPECT_EQ(facts.at("min_separation"), "0x1p-1");
+  EXPECT_EQ(facts.at("norm"), "linf");
+  EXPECT_EQ(facts.at("truth").at("toi").at("exact"), "1/6");
+  EXPECT_FALSE(facts.at("truth").contains("u"));
+}
+
+TEST(QueryFacts, AnswersAreHeldAgainstTheTruth) {
+  ViewedQuery query = falling();
+  query.answers = {
+      {.solver = "mine", .answer = {.verdict = fast::Verdict::no}},
+      {.solver = "certified",
+       .answer = {.verdict = fast::Verdict::yes, .toi_lower = 0.5, .toi_upper = 0.5}},
+      {.solver = "hangs",
+       .answer = {.verdict = fast::Verdict::error},
+       .failure = solvers::Failure{.kind = solvers::FailureKind::crash, .number = 11}}};
+  const auto method = solvers::solver_in_process(solvers::find_method("certified"), {});
+  const std::array<const solvers::Solver*, 1> asked{method.get()};
+  const nlohmann::json answers = query_facts(query, asked).at("answers");
+  ASSERT_EQ(answers.size(), 4U);
+  EXPECT_EQ(answers[0].at("solver"), "mine");
+  EXPECT_EQ(answers[0].at("recorded"), true);
+  EXPECT_EQ(answers[0].at("promise"), "none");
+  EXPECT_EQ(answers[0].at("faults"), nlohmann::json::array({"false negative"}));
+  EXPECT_EQ(answers[1].at("faults"), nlohmann::json::array({"late toi"}));
+  EXPECT_EQ(answers[1].at("breaks_promise"), true);
+  EXPECT_EQ(answers[2].at("failure"), "crash: SIGSEGV");
+  EXPECT_EQ(answers[2].at("faults"), nlohmann::json::array({"error"}));
+  EXPECT_EQ(answers[3].at("recorded"), false);
+  EXPECT_EQ(answers[3].at("verdict"), "yes");
+  EXPECT_EQ(answers[3].at("faults"), nlohmann::json::array());
+  EXPECT_FALSE(answers[3].at("toi_lower").is_null());
+}
+
+TEST(QueryFacts, TextsArePrintable) {
+  ViewedQuery query = falling();
+  query.label = "a\x1b\n";
+  query.notes = {"b\x01"};
+  const nlohmann::json facts = query_facts(query, {});
+  EXPECT_EQ(facts.at("label"), "a\\x1b\\x0a");
+  EXPECT_EQ(facts.at("notes"), nlohmann::json::array({"b\\x01"}));
+}
+
+}  // namespace
+}  // namespace touchstone::verify::view::query_facts_test

@@ -1,0 +1,153 @@
+#include "verify/view/query_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "exact/certificate.hpp"
+#include "exact/certificate/certificate_text.hpp"
+#include "exact/oracle.hpp"
+#include "tests/support/folder_test.hpp"
+#include "tests/support/queries.hpp"
+#include "verify/data/csv_dataset.hpp"
+#include "verify/data/dataset_error.hpp"
+
+namespace touchstone::verify::view::query_files_test {
+namespace {
+
+/// Queries that differ in one number.
+Query numbered(int number) {
+  return tests::moving({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
+                       {1, 1, -0.1 * number, 0, 0, 0, 4, 0, 0, 0, 4, 0});
+}
+
+class QueryFiles : public tests::FolderTest {
+ protected:
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
+  [[nodiscard]] std::vector<ViewedQuery> queries(const std::string& name,
+                                                 const QueryFileOptions& options = {}) const {
+    return read_queries(path(name), options);
+  }
+  /// What is wrong with the file.
+  [[nodiscard]] std::string reason(const std::string& name,
+                                   const QueryFileOptions& options = {}) const {
+    try {
+      static_cast<void>(queries(name, options));
+    } catch (const data::DatasetError& error) {
+      return error.reason();
+    }
+    return "none";
+  }
+};
+
+TEST_F(QueryFiles, RowsOfADataset) {
+  write("vertex-face.csv", data::csv_rows(numbered(0), false) + data::csv_rows(numbered(1), true) +
+                               data::csv_rows(numbered(2), true));
+  const auto all = queries("vertex-face.csv");
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[1].query, numbered(1));
+  EXPECT_EQ(all[1].kind, Kind::vertex_face);
+  EXPECT_EQ(all[1].label, path("vertex-face.csv") + ":1");
+  EXPECT_EQ(all[1].notes, std::vector<std::string>{"The dataset says that they collide."});
+  const auto chosen = queries("vertex-face.csv", {.indices = {2, 0}});
+  ASSERT_EQ(chosen.size(), 2U);
+  EXPECT_EQ(chosen[0].query, numbered(0));
+  EXPECT_EQ(chosen[1].query, numbered(2));
+  EXPECT_EQ(queries("vertex-face.csv", {.most = 2}).size(), 2U);
+  EXPECT_EQ(reason("vertex-face.csv", {.indices = {3}}), "there is no query 3; it has 3");
+}
+
+TEST_F(QueryFiles, AFindingOfTheFuzzer) {
+  write(
+      "found.json", R"({"findings": [{"kind": "edge-edge", "what": "late_toi", "method": "mine",
+    "detail": "toi_lower is above", "separation": {"min_separation": 0.5, "norm": "l2"},
+    "coordinates": [)" + std::string("\"0x1p-1074\", \"-0x1.8p+0\"") +
+                        [] {
+                          std::string rest;
+                          for (int i = 2; i < 24; ++i) rest += ", " + std::to_string(i);
+                          return rest;
+                        }() +
+                        R"(], "answer": {"verdict": "yes", "toi_lower": 0.75, "toi_upper": null,
+    "tolerance": null}}]})");
+  const auto all = queries("found.json");
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].kind, Kind::edge_edge);
+  EXPECT_EQ(all[0].query.coordinates[0], 5e-324);
+  EXPECT_EQ(all[0].query.coordinates[1], -1.5);
+  EXPECT_EQ(all[0].query.coordinates[23], 23.0);
+  EXPECT_EQ(all[0].separation, (Separation{.distance = 0.5, .norm = Norm::l2}));
+  EXPECT_EQ(all[0].label, path("found.json") + ":0, late_toi of mine");
+  ASSERT_EQ(all[0].answers.size(), 1U);
+  EXPECT_EQ(all[0].answers[0].solver, "mine");
+  EXPECT_EQ(all[0].answers[0].answer.toi_lower, 0.75);
+  EXPECT_EQ(all[0].answers[0].answer.verdict, fast::Verdict::yes);
+}
+
+TEST_F(QueryFiles, FaultyJson) {
+  write("text.json", "no json");
+  EXPECT_NE(reason("text.json").find("parse error"), std::string::npos);
+  write("few.json", R"({"kind": "edge-edge", "coordinates": [1, 2]})");
+  EXPECT_EQ(reason("few.json"), "query 0: coordinates must be a list of 24 numbers");
+  write("kind.json", R"([{"kind": "both", "coordinates": []}])");
+  EXPECT_EQ(reason("kind.json"), "query 0: kind must be vertex-face or edge-edge");
+  write("none.json", R"({"coordinates": []})");
+  EXPECT_EQ(reason("none.json"), "query 0: nothing says the kind; add --kind");
+  write("empty.json", R"({"findings": []})");
+  EXPECT_EQ(reason("empty.json"), "there is no query in it");
+}
+
+TEST_F(QueryFiles, Certificates) {
+  std::string text(exact::certificates_header());
+  for (int i = 0; i < 3; ++i) {
+    const Query query = numbered(i);
+    const exact::Verdict verdict = exact::decide(Kind::vertex_face, query);
+    exact::write(text, exact::prove(Kind::vertex_face, query, verdict), "label");
+  }
+  write("proofs.cert", text + exact::certificates_closing_line(3));
+  const auto all = queries("proofs.cert");
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[2].query, numbered(2));
+  EXPECT_EQ(all[2].label, path("proofs.cert") + ":2, label");
+  EXPECT_TRUE(all[2].certificate.ends_with("end\ncertificates 1\n"));
+  EXPECT_EQ(queries("proofs.cert", {.indices = {1}}).at(0).query, numbered(1));
+  write("text.cert", "no certificate\n");
+  EXPECT_EQ(reason("text.cert"), "this is no stream of certificates");
+}
+
+TEST_F(QueryFiles, LinesOfVertices) {
+  write("query.obj",
+        "# a query\nv 1 1 1\nv 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -0.10000000000000001\nv 0 0 0\n"
+        "v 4 0 0\nv 0 4 0\n");
+  const auto read_ones = queries("query.obj", {.kind = Kind::vertex_face});
+  ASSERT_EQ(read_ones.size(), 1U);
+  EXPECT_EQ(read_ones[0].query, numbered(1));
+  EXPECT_NE(reason("query.obj"), "none") << "nothing says the kind";
+  write("few.obj", "v 1 2 3\n");
+  EXPECT_EQ(reason("few.obj", {.kind = Kind::edge_edge}), "3 numbers, not the 24 of a query");
+}
+
+TEST(ParseNumber, DecimalsHexadecimalsAndFractions) {
+  EXPECT_EQ(parse_number("0.1"), 0.1);
+  EXPECT_EQ(parse_number("-0x1.8p-3"), -0.1875);
+  EXPECT_EQ(parse_number("1/3"), 1.0 / 3.0);
+  EXPECT_EQ(parse_number("0x1p-1074"), 5e-324);
+  for (const std::string text :
+       {"", "x", "0x", "1e999", "nan", "inf", "0x1p+2000", "1/0", "1.5x"}) {
+    EXPECT_THROW(static_cast<void>(parse_number(text)), std::invalid_argument) << text;
+  }
+}
+
+TEST(ParsePoints, AnySeparators) {
+  const Query query = parse_points(
+      "{{1, 1,1; (0 0 0) [4,0,0] 0 4 0\n1 1 -0x1.999999999999ap-4 0 0 0 4 0 0 0 4 0}}");
+  EXPECT_EQ(query, numbered(1));
+  EXPECT_THROW(static_cast<void>(parse_points("1 2 3")), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::view::query_files_test

@@ -1,0 +1,96 @@
+#include "verify/view/step_facts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "verify/mesh/mesh.hpp"
+
+namespace touchstone::verify::view::step_facts_test {
+namespace {
+
+/// A triangle at rest, two vertices that fall through it at t = 1/4 and t = 1/2, and an edge far away.
+mesh::Mesh scene() {
+  const std::vector<std::array<double, 3>> coordinates{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 2},
+                                                       {1, 2, 1}, {9, 9, 9}, {9, 9, 8}};
+  mesh::Mesh result = mesh::make_mesh(coordinates, {{0, 1, 2}}, std::vector<fast::Edge>{{6, 5}});
+  result.points = {3, 4};
+  return result;
+}
+
+mesh::Vertices after(const mesh::Mesh& mesh) {
+  mesh::Vertices vertices = mesh.vertices;
+  vertices(3, 2) = -2;
+  vertices(4, 2) = -3;
+  return vertices;
+}
+
+ViewedStep step() {
+  const mesh::Mesh mesh = scene();
+  return find_collisions("a step", mesh, mesh.vertices, after(mesh), {});
+}
+
+TEST(StepFacts, PairsAreInTheOrderOfTheirTimes) {
+  const ViewedStep found = step();
+  ASSERT_EQ(found.collisions.size(), 2U);
+  EXPECT_EQ(found.points[0], (std::array<std::int32_t, 4>{4, 0, 1, 2}));
+  EXPECT_EQ(found.points[1], (std::array<std::int32_t, 4>{3, 0, 1, 2}));
+  EXPECT_LE(found.collisions[0].toi_lower, 0.25);
+  EXPECT_LE(found.collisions[1].toi_lower, 0.5);
+  EXPECT_EQ(found.codimensional_edges, (std::vector<fast::Edge>{{5, 6}}));
+  const auto queries = first_queries(found, 1);
+  ASSERT_EQ(queries.size(), 1U);
+  EXPECT_EQ(queries[0].label, "a step: vertex 4, face 0");
+  EXPECT_EQ(queries[0].query.at(1, 0, 2), -3.0);
+  EXPECT_EQ(first_queries(found, 9).size(), 2U);
+}
+
+TEST(StepFacts, ArraysAreGivenByteForByte) {
+  const nlohmann::json facts = step_facts(step());
+  EXPECT_EQ(facts.at("faces"), "AAAAAAEAAAACAAAA");
+  EXPECT_EQ(facts.at("edges"), "BQAAAAYAAAA=");
+  EXPECT_EQ(facts.at("before").get<std::string>().size(), 7U * 24 / 3 * 4);
+  EXPECT_EQ(facts.at("total"), 2);
+  ASSERT_EQ(facts.at("pairs").size(), 2U);
+  EXPECT_EQ(facts.at("pairs")[1].at("name"), "vertex 3, face 0");
+  EXPECT_EQ(facts.at("pairs")[1].at("kind"), "vertex-face");
+  EXPECT_EQ(facts.at("pairs")[1].at("points"), nlohmann::json::array({3, 0, 1, 2}));
+  EXPECT_NEAR(facts.at("pairs")[1].at("place")[0].get<double>(), 0.25, 1e-9);
+}
+
+/// The points of a pair are those of its query.
+TEST(StepFacts, EveryKindOfPairByItsPoints) {
+  // Edge 0-1 passes down through edge 2-3, point 4 through edge 2-3 too, and onto point 5.
+  const std::vector<std::array<double, 3>> coordinates{
+      {-1, 0, 1}, {1, 0, 1}, {0, -1, 0}, {0, 1, 0}, {0, 0.5, 3}, {5, 5, 5}, {5, 5, 6}};
+  mesh::Mesh mesh = mesh::make_mesh(coordinates, {}, std::vector<fast::Edge>{{0, 1}, {2, 3}});
+  mesh.points = {4, 5, 6};
+  mesh::Vertices after = mesh.vertices;
+  after(0, 2) = after(1, 2) = -1;
+  after(4, 2) = -1;
+  after(6, 2) = 4;
+  const ViewedStep found = find_collisions("kinds", mesh, mesh.vertices, after, {});
+  ASSERT_EQ(found.collisions.size(), 3U);
+  for (std::size_t i = 0; i < found.collisions.size(); ++i) {
+    for (std::size_t point = 0; point < moving_points; ++point) {
+      const Eigen::Index vertex = found.points[i].at(point);
+      EXPECT_EQ(found.queries[i].point(0, point), mesh.vertices.row(vertex).transpose()) << i;
+      EXPECT_EQ(found.queries[i].point(1, point), after.row(vertex).transpose()) << i;
+    }
+  }
+}
+
+TEST(StepFacts, AtASeparation) {
+  const mesh::Mesh mesh = scene();
+  const ViewedStep near = find_collisions("a step", mesh, mesh.vertices, mesh.vertices,
+                                          {.distance = 1.0, .norm = Norm::l2});
+  ASSERT_EQ(near.collisions.size(), 1U) << "one point is 1 above the triangle, the other 2";
+  EXPECT_EQ(near.points[0], (std::array<std::int32_t, 4>{4, 0, 1, 2}));
+  EXPECT_EQ(first_queries(near, 1)[0].separation.distance, 1.0);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::view::step_facts_test

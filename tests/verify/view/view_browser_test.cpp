@@ -1,0 +1,427 @@
+/// \file
+/// The page of a view in a real browser: a script that is added to it moves its controls and writes what
+/// they show, and what it writes is compared with exact numbers.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "tests/support/browser_test.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "verify/mesh/mesh.hpp"
+#include "verify/solvers/registry.hpp"
+#include "verify/view/page.hpp"
+#include "verify/view/query_facts.hpp"
+#include "verify/view/step_facts.hpp"
+
+namespace touchstone::verify::view::view_browser_test {
+namespace {
+
+using exact::Rational;
+using tests::PosedQuery;
+
+/// What a script of a test has at hand. It leaves its results in an element, as JSON.
+constexpr std::string_view tools = R"(
+const find = (id) => document.getElementById(id);
+const all = (selector) => Array.from(document.querySelectorAll(selector));
+const text = (selector) => all(selector).map((element) => element.textContent);
+const move = (id, value) => { find(id).value = value; find(id).dispatchEvent(new Event("input")); };
+const choose = (name, value) => document.querySelector(`input[name=${name}][value="${value}"]`).click();
+const paste = (words) => { find("text").value = words; find("draw").click(); return find("drawn").textContent; };
+const press = (key) => document.dispatchEvent(new KeyboardEvent("keydown", { key }));
+const pixels = (id) => {
+  const canvas = document.querySelector(`#${id} canvas`);
+  const copy = document.createElement("canvas");
+  [copy.width, copy.height] = [canvas.width, canvas.height];
+  copy.getContext("2d").drawImage(canvas, 0, 0);
+  const data = copy.getContext("2d").getImageData(0, 0, copy.width, copy.height).data;
+  return data.filter((value, i) => i % 4 === 3 && value > 0).length;
+};
+const say = (result) => {
+  const element = document.createElement("pre");
+  element.id = "result";
+  element.textContent = JSON.stringify(result);
+  document.body.append(element);
+};
+)";
+
+class ViewBrowser : public tests::BrowserTest {
+ protected:
+  /// What the script says on a page of these queries.
+  /// \param before a script that runs before the page's
+  [[nodiscard]] nlohmann::json result_of(const std::vector<PosedQuery>& posed,
+                                         const std::string& script, int width = 1200,
+                                         const std::string& before = "") const {
+    return result_on(page_of(posed), script, width, before);
+  }
+
+  /// The same of any page.
+  [[nodiscard]] nlohmann::json result_on(std::string page, const std::string& script,
+                                         int width = 1200, const std::string& before = "") const {
+    page.insert(page.rfind("</body>"),
+                fmt::format("<script>{}(() => {{{}}})();</script>", tools, script));
+    if (!before.empty()) page.insert(page.find("<main"), "<script>" + before + "</script>");
+    const std::string dom = load(page, width);
+    EXPECT_EQ(complaints(), "");
+    const std::string start = R"(<pre id="result">)";
+    const std::size_t found = dom.find(start);
+    if (found == std::string::npos) {
+      ADD_FAILURE() << "the script has said nothing";
+      return {};
+    }
+    const std::size_t first = found + start.size();
+    return nlohmann::json::parse(dom.substr(first, dom.find("</pre>", first) - first));
+  }
+
+  void ask(const solvers::Solver& solver) { asked_.push_back(&solver); }
+
+ private:
+  [[nodiscard]] std::string page_of(const std::vector<PosedQuery>& posed) const {
+    std::vector<nlohmann::json> facts;
+    for (const PosedQuery& query : posed) {
+      facts.push_back(
+          query_facts({.label = "query", .kind = query.kind, .query = query.query}, asked_));
+    }
+    return view_page(facts, "touchstone view");
+  }
+
+  std::vector<const solvers::Solver*> asked_;
+};
+
+PosedQuery falling(double end = -2.0) {
+  return tests::vertex_face({1, 1, 1, 0, 0, 0, 4, 0, 0, 0, 4, 0},
+                            {1, 1, end, 0, 0, 0, 4, 0, 0, 0, 4, 0});
+}
+
+/// Coordinates of every exponent.
+PosedQuery of_any_size(Kind kind) {
+  tests::Random random(7);
+  PosedQuery posed{kind, {}};
+  for (double& x : posed.query.coordinates) x = random.finite_double();
+  return posed;
+}
+
+/// The positions of all points at a time, as the page writes rationals.
+std::vector<std::string> positions(const Query& query, const Rational& t) {
+  std::vector<std::string> result;
+  for (std::size_t point = 0; point < moving_points; ++point) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Rational from(query.at(0, point, axis)), to(query.at(1, point, axis));
+      result.push_back(Rational((1 - t) * from + t * to).get_str());
+    }
+  }
+  return result;
+}
+
+TEST_F(ViewBrowser, TheSliderMovesThePointsExactly) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const PosedQuery posed = of_any_size(kind);
+    const nlohmann::json result = result_of({posed}, R"(
+      choose("format", "rational");
+      const read = (step) => { move("time", step); return text("#at_now code"); };
+      say({ steps: find("time").max, all: [0, 1, 1365, 4096].map(read) });
+    )");
+    ASSERT_EQ(result.at("steps"), "4096");
+    const std::array<int, 4> steps{0, 1, 1365, 4096};
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      EXPECT_EQ(result.at("all").at(i), positions(posed.query, Rational(steps[i], 4096)));
+    }
+  }
+}
+
+TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
+  const auto certified = solvers::solver_in_process(solvers::find_method("certified"), {});
+  const auto inclusion = solvers::solver_in_process(solvers::find_method("tight_inclusion"), {});
+  ask(*certified);
+  ask(*inclusion);
+  const nlohmann::json result = result_of({falling(), falling(0x1p-52)}, R"(
+    const look = () => ({
+      verdict: find("verdict").textContent, names: text("#rows .name"), said: text("#rows .said"),
+      marks: all("#rows .mark.toi, #rows .mark.approach").map((mark) => mark.style.left),
+      pieces: all("#rows .piece").map((bar) => bar.textContent + bar.title),
+      cursor: document.querySelector("#rows .cursor").style.left, now: find("now").textContent,
+      readout: find("readout").textContent, drawn: [pixels("motion"), pixels("corners")],
+      names_there: text("#motion .names span") });
+    const first = look();
+    choose("format", "rational");
+    const at_contact = text("#at_now code");
+    press("n");
+    const second = look();
+    find("enlarge").click();
+    say([first, at_contact, second, look(), find("scale").textContent]);
+  )");
+  const nlohmann::json& first = result.at(0);
+  EXPECT_EQ(first.at("verdict"),
+            "vertex-face: collides. Time of impact: 1/3 ≈ 0.3333333333333333, (u, v) = (0.25, "
+            "0.25).");
+  EXPECT_EQ(first.at("names"),
+            nlohmann::json::array({"oracle", "certificate", "certified", "tight_inclusion"}));
+  EXPECT_EQ(first.at("marks").at(0).get<std::string>().substr(0, 7), "33.3333");
+  EXPECT_EQ(first.at("cursor").get<std::string>().substr(0, 7), "33.3333");
+  EXPECT_EQ(first.at("now"), "0.3333333333333333 (toi)");
+  EXPECT_EQ(first.at("readout"), "Contact now; nearest at (u, v) = (0.25, 0.25).");
+  EXPECT_EQ(first.at("names_there"), nlohmann::json::array({"v", "f0", "f1", "f2", "contact"}));
+  EXPECT_EQ(result.at(1), positions(falling().query, Rational(1, 3)));
+  const nlohmann::json& second = result.at(2);
+  EXPECT_EQ(second.at("verdict"), "vertex-face: no collision.");
+  EXPECT_EQ(second.at("pieces"), nlohmann::json::array({"face +separated by face +"}));
+  EXPECT_EQ(second.at("said").at(3).get<std::string>().substr(0, 3), "yes");
+  EXPECT_NE(second.at("said").at(3).get<std::string>().find("✗ false positive"), std::string::npos);
+  EXPECT_EQ(result.at(4).get<std::string>().substr(0, 22), "Radius seen: 4.44e-16 ");
+  for (const std::size_t i : std::array<std::size_t, 3>{0, 2, 3}) {
+    for (const nlohmann::json& count : result.at(i).at("drawn")) EXPECT_GT(count, 500) << i;
+  }
+}
+
+TEST_F(ViewBrowser, WhatIsCopiedIsTheSameQueryWhenPasted) {
+  const PosedQuery odd = of_any_size(Kind::edge_edge);
+  const nlohmann::json result = result_of({falling(), odd}, R"(
+    const results = {};
+    for (const index of [0, 1]) {
+      for (const name of ["Cpp", "CSV", "JSON", "OBJ"]) {
+        all("#list button")[index].click();
+        find(`copy_${name}`).click();
+        const words = find("text").value;
+        all("#list button")[1 - index].click();
+        results[name + index] = [paste(words), document.querySelector("#list [aria-current] b").textContent];
+      }
+    }
+    say(results);
+  )",
+                                          500);
+  for (const std::string name : {"Cpp", "CSV", "JSON", "OBJ"}) {
+    for (const std::string index : {"0", "1"}) {
+      EXPECT_EQ(result.at(name + index),
+                nlohmann::json::array({"This page holds its answer.", index}))
+          << name;
+    }
+  }
+}
+
+TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
+  const nlohmann::json result = result_of({falling()}, R"(
+    choose("format", "hexadecimal");
+    const start = () => text("#at_t_0 code").slice(0, 3).concat(find("verdict").textContent.split(".")[0]);
+    const rest = "0 0 0 4 0 0 0 4 0  1 1 -3 0 0 0 4 0 0 0 4 0";
+    const results = [
+      `0.1 1/3 -0x1.8p-3 ${rest}`,
+      `touchstone::Kind::edge_edge // 12 numbers, then 12\nQuery{{0x1p-1074, -1e300, 2.5, ${rest.replace(/ +/g, ", ")}}}`,
+      `{"kind": "edge-edge", "coordinates": ["0x1p+0", 2, 3, ${rest.replace(/ +/g, ", ")}]}`,
+      `[[1, 2, 4], ${rest.replace(/ +/g, ", ")}]`,
+      `# made by a simulator\nv 1 2 5\n${rest.match(/\S+ \S+ \S+/g).map((row) => `v ${row}`).join("\n")}\n`,
+      `1,2,1,1,3,1\n${rest.match(/\S+ \S+ \S+/g).map((row) => row.replace(/ /g, ",1,") + ",1").join("\n")}`,
+      `x,y,z,label\n1,2,7,0\n${rest.match(/\S+ \S+ \S+/g).map((row) => row.replace(/ /g, ",") + ",0").join("\n")}`,
+    ].map((words) => [paste(words), ...start()]);
+    const faults = ["1 2 3", "", "{\"kind\": \"edge-edge\"}", `1e400 0 0 ${rest}`].map(paste);
+    say({ results, faults, drawn: pixels("motion"), rows: text("#rows .said") });
+  )");
+  const std::vector<std::array<std::string, 5>> expected{
+      {"", "0x1.999999999999ap-4", "0x1.5555555555555p-2", "-0x1.8p-3", "vertex-face"},
+      {"", "0x0.0000000000001p-1022", "-0x1.7e43c8800759cp+996", "0x1.4p+1", "edge-edge"},
+      {"", "0x1p+0", "0x1p+1", "0x1.8p+1", "edge-edge"},
+      {"", "0x1p+0", "0x1p+1", "0x1p+2", "vertex-face"},
+      {"", "0x1p+0", "0x1p+1", "0x1.4p+2", "vertex-face"},
+      {"", "0x1p-1", "0x1p+0", "0x1.8p+1", "vertex-face"},
+      {"", "0x1p+0", "0x1p+1", "0x1.cp+2", "vertex-face"},
+  };
+  ASSERT_EQ(result.at("results").size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const nlohmann::json& found = result.at("results").at(i);
+    EXPECT_EQ(found.at(0), "Drawn. This page holds no answer to it.");
+    for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(found.at(k), expected[i].at(k)) << i;
+    EXPECT_EQ(found.at(4), expected[i][4] + ": not decided") << i;
+  }
+  EXPECT_EQ(result.at("faults").at(0), "Not drawn: there are 3 numbers, not the 24 of a query.");
+  EXPECT_EQ(result.at("faults").at(1), "Not drawn: there are 0 numbers, not the 24 of a query.");
+  EXPECT_EQ(result.at("faults").at(2), "Not drawn: the JSON has no list “coordinates”.");
+  EXPECT_EQ(result.at("faults").at(3), "Not drawn: “1e400” is no finite number.");
+  EXPECT_GT(result.at("drawn"), 500);
+  EXPECT_EQ(result.at("rows").at(0), "not asked: give this query to the tool");
+}
+
+TEST_F(ViewBrowser, DrawsEveryScale) {
+  std::vector<PosedQuery> posed{falling(5e-324), of_any_size(Kind::vertex_face),
+                                of_any_size(Kind::edge_edge)};
+  for (const double scale : {1e-300, 1e300, 4e-324}) {
+    posed.push_back(falling());
+    for (double& x : posed.back().query.coordinates) x *= scale;
+  }
+  // All points in one place, at rest.
+  posed.push_back(tests::edge_edge({}, {}));
+  const nlohmann::json result = result_of(posed, R"(
+    say(all("#list button").map((_, i) => {
+      all("#list button")[i].click();
+      return [0, 1000].map((zoom) => {
+        move("zoom", zoom);
+        move("time", 2048);
+        const drawn = [pixels("motion"), pixels("corners")];
+        find("follow").click();
+        move("time", 1024);
+        const followed = [pixels("motion"), pixels("corners")];
+        find("follow").click();
+        return { drawn, followed, text: find("query").textContent };
+      });
+    }));
+  )",
+                                          500);
+  ASSERT_EQ(result.size(), posed.size());
+  for (std::size_t i = 0; i < posed.size(); ++i) {
+    for (const nlohmann::json& zoom : result.at(i)) {
+      EXPECT_GT(zoom.at("followed").at(0), 50) << i;
+      EXPECT_GT(zoom.at("followed").at(1), 50) << i;
+      EXPECT_GT(zoom.at("drawn").at(1), 50) << i << ": the origin is always seen";
+      for (const std::string word : {"NaN", "undefined", "Infinity", "null"}) {
+        EXPECT_EQ(zoom.at("text").get<std::string>().find(word), std::string::npos)
+            << i << zoom.at("text");
+      }
+    }
+  }
+}
+
+TEST_F(ViewBrowser, KeysMoveTimeZoomAndList) {
+  const nlohmann::json result = result_of({falling(), falling(0.5)}, R"(
+    choose("format", "rational");
+    const value = (id) => Number(find(id).value);
+    const current = () => document.querySelector("#list [aria-current] b").textContent;
+    const results = { steps: [value("time")] };
+    for (const key of ["ArrowRight", "ArrowRight", "ArrowLeft", "c"]) {
+      press(key);
+      results.steps.push(value("time"));
+    }
+    press("z");
+    results.zoom = [value("zoom")];
+    press("0");
+    results.zoom.push(value("zoom"));
+    press("n");
+    results.list = [current()];
+    press("n");
+    results.list.push(current());
+    press("p");
+    results.list.push(current());
+    const before = all("#motion .names span")[1].style.transform;
+    document.querySelector("#motion canvas").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowLeft" }));
+    results.turned = before !== all("#motion .names span")[1].style.transform;
+    say(results);
+  )");
+  EXPECT_EQ(result.at("steps"), nlohmann::json::array({1365, 1397, 1429, 1397, 1365}));
+  EXPECT_EQ(result.at("zoom"), nlohmann::json::array({1000, 0}));
+  EXPECT_EQ(result.at("list"), nlohmann::json::array({"1", "0", "1"}));
+  EXPECT_EQ(result.at("turned"), true);
+}
+
+TEST_F(ViewBrowser, FitsATelephone) {
+  const nlohmann::json result = result_of({falling(), of_any_size(Kind::edge_edge)}, R"(
+    press("n");
+    say([document.documentElement.scrollWidth, window.innerWidth, pixels("motion")]);
+  )",
+                                          500);
+  EXPECT_LE(result.at(0), result.at(1));
+  EXPECT_GT(result.at(2), 50);
+}
+
+TEST_F(ViewBrowser, WithoutWebGlTheNumbersAreThere) {
+  const nlohmann::json result =
+      result_of({falling()}, R"(
+    choose("format", "rational");
+    move("time", 2048);
+    say([find("no_pictures").textContent, text("#at_now code")]);
+  )",
+                1200, "HTMLCanvasElement.prototype.getContext = () => null;");
+  EXPECT_EQ(result.at(0),
+            "This browser has no WebGL, which the pictures need. All numbers are here.");
+  EXPECT_EQ(result.at(1), positions(falling().query, Rational(1, 2)));
+}
+
+// ---- A step -------------------------------------------------------------------------------------
+
+/// A pyramid rises from y = −2 to y = 2; at rest, two points above it, each as a vertex of no element.
+std::string page_of_a_step(bool is_hit) {
+  const double x = is_hit ? 0.0 : 9.0;
+  const std::vector<std::array<double, 3>> coordinates{
+      {-1, -2, -1},           {1, -2, -1},           {1, -2, 1}, {-1, -2, 1}, {0, -1, 0},
+      {x + 0.125, 1, 0.0625}, {x - 0.125, 2, 0.0625}};
+  mesh::Mesh mesh = mesh::make_mesh(
+      coordinates, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}, {0, 1, 2}, {0, 2, 3}}, {});
+  mesh.points = {5, 6};
+  mesh::Vertices after = mesh.vertices;
+  for (Eigen::Index i = 0; i < 5; ++i) after(i, 1) += 4;
+  const ViewedStep step = find_collisions("rising", mesh, mesh.vertices, after, {});
+  std::vector<nlohmann::json> facts;
+  for (const ViewedQuery& query : first_queries(step, 1)) facts.push_back(query_facts(query, {}));
+  return view_page(facts, "touchstone view", step_facts(step));
+}
+
+/// The height of the middle of what is drawn of the mesh, from the top, in pixels; and its size.
+constexpr std::string_view height_of_mesh = R"(
+  const height = () => {
+    const canvas = document.querySelector("#mesh canvas");
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    copy.getContext("2d").drawImage(canvas, 0, 0);
+    const data = copy.getContext("2d").getImageData(0, 0, copy.width, copy.height).data;
+    let [sum, count] = [0, 0];
+    for (let i = 3; i < data.length; i += 4) {
+      if (data[i] === 0) continue;
+      sum += Math.floor(i / 4 / copy.width);
+      count += 1;
+    }
+    return [count && sum / count, count];
+  };
+  const at = (step) => { move("step_time", step); return [...height(), find("step_now").textContent]; };
+)";
+
+TEST_F(ViewBrowser, TheSliderMovesTheMesh) {
+  const nlohmann::json result = result_on(page_of_a_step(false), std::string(height_of_mesh) + R"(
+    say({ heights: [0, 2048, 4096].map(at), verdict: find("step_verdict").textContent,
+      hidden: [find("query").hidden, find("numbers").hidden] });
+  )");
+  EXPECT_EQ(result.at("verdict"), "Nothing touches.");
+  EXPECT_EQ(result.at("hidden"), nlohmann::json::array({true, true}));
+  const nlohmann::json& heights = result.at("heights");
+  const double low = heights.at(0).at(0), middle = heights.at(1).at(0), high = heights.at(2).at(0);
+  EXPECT_GT(low, middle + 5.0) << heights;
+  EXPECT_GT(middle, high + 5.0) << heights;
+  EXPECT_NEAR(middle, (low + high) / 2, 0.1 * (low - high)) << heights;
+  for (const nlohmann::json& height : heights) EXPECT_GT(height.at(1), 200);
+}
+
+TEST_F(ViewBrowser, PairsOfAStepLeadToTheirQueries) {
+  const nlohmann::json result = result_on(page_of_a_step(true), std::string(height_of_mesh) + R"(
+    choose("format", "rational");
+    const look = () => ({ label: find("label").textContent, verdict: find("verdict").textContent.split(".")[0],
+      start: text("#at_t_0 code").slice(0, 3), chosen: text("#pairs .chosen span"), past: text("#pairs .past span").length });
+    const marks = [0, 1, 4096].map((step) => { const [, count, now] = at(step); return now; });
+    const names = text("#pairs span");
+    all("#pairs button")[0].click();
+    const first = look();
+    all("#pairs button")[names.length - 1].click();
+    say({ verdict: find("step_verdict").textContent, names, marks, first, last: look(),
+      drawn: [pixels("mesh"), pixels("motion")] });
+  )");
+  const std::string verdict = result.at("verdict");
+  EXPECT_TRUE(verdict.find(" pairs touch, the first at t = ") != std::string::npos) << verdict;
+  const std::size_t pairs = result.at("names").size();
+  ASSERT_GE(pairs, 2U);
+  EXPECT_EQ(result.at("marks").at(0), fmt::format("t = 0, 0 of {} have touched", pairs));
+  EXPECT_EQ(result.at("marks").at(2), fmt::format("t = 1, {0} of {0} have touched", pairs));
+  const nlohmann::json &first = result.at("first"), &last = result.at("last");
+  EXPECT_EQ(first.at("label"), "rising: " + result.at("names").at(0).get<std::string>());
+  EXPECT_EQ(first.at("verdict"), "vertex-face: collides");
+  EXPECT_EQ(first.at("start"), nlohmann::json::array({"1/8", "1", "1/16"}));
+  EXPECT_GE(first.at("past"), 1);
+  EXPECT_EQ(last.at("verdict"), "vertex-face: not decided") << "the page holds one answer";
+  EXPECT_EQ(last.at("start"), nlohmann::json::array({"-1/8", "2", "1/16"}));
+  EXPECT_EQ(last.at("chosen"), nlohmann::json::array({result.at("names").at(pairs - 1)}));
+  EXPECT_EQ(last.at("past"), pairs);
+  for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 200);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::view::view_browser_test

@@ -1,0 +1,211 @@
+// touchstone view: a page to look at queries.
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "verify/cli/commands.hpp"
+#include "verify/cli/help.hpp"
+#include "verify/cli/options.hpp"
+#include "verify/cli/solver_options.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/io/terminal.hpp"
+#include "verify/mesh/frames.hpp"
+#include "verify/solvers/registry.hpp"
+#include "verify/view/page.hpp"
+#include "verify/view/query_facts.hpp"
+#include "verify/view/query_files.hpp"
+#include "verify/view/step_facts.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A page holds at most so many queries.
+constexpr std::size_t most_queries = 1000;
+
+struct Arguments {
+  std::vector<fs::path> paths;
+  std::vector<fs::path> step;
+  std::string points;
+  std::string kind;
+  view::QueryFileOptions files;
+  SeparationArguments separation;
+  SolverArguments solvers;
+  std::string out_file;
+};
+
+/// Where the user names no solver, those that promise something.
+SolverArguments asked_by(const Arguments& arguments) {
+  SolverArguments asked = arguments.solvers;
+  if (asked.empty()) asked.methods = solvers::default_methods();
+  return asked;
+}
+
+/// The step between two frames that the user named, if any.
+std::optional<view::ViewedStep> read_step(const Arguments& arguments) {
+  if (arguments.step.empty()) return std::nullopt;
+  const auto frames = mesh::open_frames(arguments.step);
+  if (frames->count() != 2) throw std::invalid_argument("--step needs two frames");
+  mesh::Vertices before = frames->next(), after = frames->next();
+  return view::find_collisions(fmt::format("{} to {}", frames->name(0), frames->name(1)),
+                               frames->mesh(), std::move(before), std::move(after),
+                               arguments.separation.given());
+}
+
+/// The files themselves, and of folders the datasets below them.
+std::vector<fs::path> files_of(const std::vector<fs::path>& paths) {
+  std::vector<fs::path> files;
+  for (const fs::path& path : paths) {
+    if (fs::is_directory(path)) {
+      const std::vector<fs::path> found = data::find_datasets({&path, 1});
+      files.insert(files.end(), found.begin(), found.end());
+    } else {
+      files.push_back(path);
+    }
+  }
+  return files;
+}
+
+std::vector<view::ViewedQuery> read(const Arguments& arguments) {
+  view::QueryFileOptions options = arguments.files;
+  if (!arguments.kind.empty()) options.kind = kind_from_string(arguments.kind);
+  std::vector<view::ViewedQuery> queries;
+  if (!arguments.points.empty()) {
+    if (!options.kind) throw std::invalid_argument("--points needs --kind");
+    queries.push_back({.label = "points on the command line",
+                       .kind = *options.kind,
+                       .query = view::parse_points(arguments.points)});
+  }
+  for (const fs::path& path : files_of(arguments.paths)) {
+    if (queries.size() == arguments.files.most) break;
+    options.most = arguments.files.most - queries.size();
+    for (view::ViewedQuery& query : view::read_queries(path, options)) {
+      queries.push_back(std::move(query));
+    }
+  }
+  for (view::ViewedQuery& query : queries) {
+    query.separation = arguments.separation.settle(query.separation);
+  }
+  return queries;
+}
+
+/// \throws std::runtime_error if a file that is read is the page
+void check_names(const Arguments& arguments, const OptionalOutput& out) {
+  std::vector<fs::path> inputs = arguments.paths;
+  inputs.insert(inputs.end(), arguments.step.begin(), arguments.step.end());
+  for (const fs::path& file : arguments.solvers.files()) inputs.push_back(file);
+  for (const fs::path& input : inputs) {
+    if (out.is(input)) throw std::runtime_error(input.string() + ": named for input and output");
+  }
+}
+
+/// What the page shows: the first pairs of a step, and the queries of the other inputs.
+std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
+                                           const std::optional<view::ViewedStep>& step) {
+  std::vector<view::ViewedQuery> queries;
+  if (step) queries = view::first_queries(*step, arguments.files.most);
+  for (view::ViewedQuery& query : read(arguments)) queries.push_back(std::move(query));
+  if (queries.empty() && !step) {
+    throw std::invalid_argument("no query: name a file, --points or --step");
+  }
+  return queries;
+}
+
+Status run(const Arguments& arguments) {
+  if (arguments.out_file.empty()) throw std::invalid_argument("--out has no file name");
+  OptionalOutput out(arguments.out_file);
+  check_names(arguments, out);
+  const Solvers solvers(asked_by(arguments));
+  const std::optional<view::ViewedStep> step = read_step(arguments);
+  const std::vector<view::ViewedQuery> queries = all_queries(arguments, step);
+  io::ProgressBar bar("view");
+  std::vector<nlohmann::json> facts;
+  for (const view::ViewedQuery& query : queries) {
+    if (io::interrupted()) break;
+    facts.push_back(view::query_facts(query, solvers.all()));
+    bar.update(static_cast<double>(facts.size()) / static_cast<double>(queries.size()));
+  }
+  bar.clear();
+  solvers.report_output(arguments.solvers.show_output);
+  if (facts.empty() && io::interrupted()) return Status::interrupted;
+  out.write(
+      view::view_page(facts, command_line(), step ? view::step_facts(*step) : nlohmann::json()));
+  out.close();
+  if (!out.is_standard_output()) {
+    io::print(stdout, fmt::format("{}\n", io::printable(arguments.out_file)));
+  }
+  return io::interrupted() ? Status::interrupted : Status::all_well;
+}
+
+void add_options(CLI::App& command, Arguments& arguments) {
+  command.option_defaults()->group("Input");
+  command
+      .add_option(
+          "PATH", arguments.paths,
+          "Datasets (.csv, .npy) or folders of them, findings (.json of fuzz), certificates "
+          "(.cert), or eight lines of vertices (.obj)")
+      ->type_name("");
+  command
+      .add_option("--step", arguments.step,
+                  "The step between two frames of a mesh (.ply, .obj), and the pairs that touch")
+      ->type_name("FRAME FRAME")
+      ->expected(2);
+  command
+      .add_option("--index", arguments.files.indices,
+                  "Only the query at this position of a file, from 0; repeatable")
+      ->type_name("N")
+      ->allow_extra_args(false)
+      ->check(whole_number(0, UINT64_MAX));
+  command.add_option("--most", arguments.files.most, "At most so many queries")
+      ->type_name("N")
+      ->capture_default_str()
+      ->check(whole_number(1, most_queries));
+  command
+      .add_option("--points", arguments.points,
+                  "The 24 coordinates of a query, in one word: decimal, hexadecimal or fractions")
+      ->type_name("NUMBERS");
+  add_kind_option(command, arguments.kind, "vertex-face or edge-edge, where nothing else says it");
+  command.add_flag("--round", arguments.files.round,
+                   "Round coordinates of datasets that are not doubles");
+  add_separation_options(command, arguments.separation);
+  add_solver_options(command, arguments.solvers);
+  add_exact_flag(command, arguments.solvers);
+  command.option_defaults()->group("Output");
+  command.add_option("--out", arguments.out_file, "The page")->type_name("FILE.html")->required();
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, Status& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("view", "Write a page to look at queries");
+  add_options(*command, *arguments);
+  set_help(
+      *command,
+      "touchstone view path/to/vertex-face.csv --index 17 --out query.html\n"
+      "touchstone view --step frames/92.ply frames/93.ply --out step.html\n"
+      "touchstone view found.json --method tight_inclusion --plugin ./libsolver.so --out "
+      "found.html",
+      "The page needs a browser with WebGL and nothing else. It shows motion and corners, the "
+      "exact "
+      "time of impact, a certificate, and what each solver answers; without --method and --plugin "
+      "those that promise something are asked.\n"
+      "Exit status: 0 the page is written, 2 bad input or usage, 130 interrupted.");
+  command->callback([arguments, command, &status] {
+    settle_solver_options(*command, true, arguments->solvers);
+    status = run(*arguments);
+  });
+}
+
+}  // namespace touchstone::verify::cli

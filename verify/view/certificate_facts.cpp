@@ -1,0 +1,101 @@
+#include "verify/view/certificate_facts.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "exact/algebra/number.hpp"
+#include "exact/certificate/certificate_text.hpp"
+#include "exact/checker/certificate.hpp"
+#include "exact/checker/checker.hpp"
+
+namespace touchstone::verify::view {
+namespace {
+
+checker::Certificate parsed(std::string_view stream) {
+  std::istringstream lines{std::string(stream)};
+  checker::Reader reader(lines);
+  checker::Certificate certificate;
+  try {
+    reader.advance();
+    if (!stream.starts_with(exact::certificates_header())) checker::reject("it is no certificate");
+    reader.advance();
+    checker::read_certificate(reader, certificate);
+  } catch (const checker::Rejected& rejected) {
+    throw std::invalid_argument(rejected.reason);
+  }
+  return certificate;
+}
+
+double as_double(const mpq_class& value, std::string_view name) {
+  const double nearest = exact::round_to_nearest(value);
+  if (!is_finite({&nearest, 1}) || exact::Rational(nearest) != value) {
+    throw std::invalid_argument(fmt::format("{} is no double", name));
+  }
+  return nearest;
+}
+
+std::string_view axis_name(std::size_t axis) { return std::string_view("xyz").substr(axis, 1); }
+
+/// As the certificate names it.
+std::string feature_text(const checker::Piece& piece) {
+  const char sign = piece.is_negative ? '-' : '+';
+  switch (piece.feature) {
+    case checker::Feature::vertex:
+      return fmt::format("vertex {}", piece.i);
+    case checker::Feature::edge:
+      return fmt::format("edge {} {}", piece.i, piece.j);
+    case checker::Feature::face:
+      return fmt::format("face {}", sign);
+    case checker::Feature::axis:
+      return fmt::format("axis {} {}", axis_name(piece.axis), sign);
+    default:
+      return fmt::format("cross {} {} {}", axis_name(piece.axis), piece.i, piece.j);
+  }
+}
+
+std::string_view claim_text(checker::Claim claim) {
+  switch (claim) {
+    case checker::Claim::no_collision:
+      return "no_collision";
+    case checker::Claim::collision:
+      return "collision";
+    default:
+      return "time_of_impact";
+  }
+}
+
+}  // namespace
+
+CertifiedQuery certified_query(std::string_view stream) {
+  const checker::Certificate certificate = parsed(stream);
+  CertifiedQuery result{.kind = certificate.is_edge_edge ? Kind::edge_edge : Kind::vertex_face,
+                        .label = checker::printable(certificate.label)};
+  for (std::size_t i = 0; i < certificate.coordinates.size(); ++i) {
+    result.query.coordinates.at(i) = as_double(certificate.coordinates.at(i), "a coordinate");
+  }
+  result.separation = {.distance = as_double(certificate.distance, "the distance"),
+                       .norm = certificate.is_l2 ? Norm::l2 : Norm::linf};
+  return result;
+}
+
+nlohmann::json certificate_facts(const std::string& stream) {
+  const checker::Certificate certificate = parsed(stream);
+  nlohmann::json pieces = nlohmann::json::array();
+  for (const checker::Piece& piece : certificate.pieces) {
+    pieces.push_back({{"from", piece.from.get_str()},
+                      {"to", piece.to.get_str()},
+                      {"feature", feature_text(piece)}});
+  }
+  std::istringstream lines(stream);
+  const checker::Report report = checker::check(lines);
+  return {{"claim", claim_text(certificate.claim)},
+          {"accepted", report.all_accepted()},
+          {"reason", report.rejections.empty() ? "" : report.rejections.front().reason},
+          {"pieces", pieces},
+          {"text", stream}};
+}
+
+}  // namespace touchstone::verify::view

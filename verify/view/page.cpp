@@ -1,0 +1,29 @@
+#include "verify/view/page.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "verify/io/html.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/report/page_texts.hpp"
+#include "verify/view/page_texts.hpp"
+
+namespace touchstone::verify::view {
+
+std::string view_page(const std::vector<nlohmann::json>& queries, const std::string& command,
+                      const nlohmann::json& step) {
+  const std::string style = std::string(report::page_style()) + std::string(view_style());
+  std::string page = io::html_beginning("Touchstone view", style);
+  page +=
+      "<noscript><p class=\"warning\">The pictures are drawn by a script.</p></noscript>\n"
+      "<main id=\"view\"></main>\n";
+  page += fmt::format("<footer><p>Made by</p>\n<pre class=\"command\">{}</pre></footer>\n",
+                      io::html_escaped(io::printable(command)));
+  page += io::json_element("queries", queries);
+  if (!step.is_null()) page += io::json_element("step_facts", step);
+  page += io::script_element(view_script());
+  return page + "</body>\n</html>\n";
+}
+
+}  // namespace touchstone::verify::view

@@ -1,0 +1,59 @@
+// What the page knows of its queries. The tool writes for each (verify/view/query_facts.cpp):
+//
+//   label, kind, coordinates, min_separation, norm, notes
+//   truth        collides, text, toi, u, v
+//   approach     how near they come that do not touch: above, at_most, and the time
+//   certificate  claim, accepted, reason, pieces, text, given
+//   answers      solver, promise, recorded, verdict, failure, toi_lower, toi_upper, tolerance, faults, breaks_promise
+//
+// A toi and an approach are lower and upper (doubles), exact (a rational, or null) and time (a rational near
+// it). Here texts of doubles become doubles, and texts of rationals rationals.
+
+import { parseDouble, parseRational, shortText } from "./exact.js";
+
+const double = (text) => {
+  if (text === null || text === undefined) return null;
+  if (/Infinity$/.test(text)) return Number(text);
+  return parseDouble(text);
+};
+
+const enclosure = (facts) => ({ ...facts, lower: double(facts.lower), upper: double(facts.upper) });
+const moment = (facts) => ({ ...enclosure(facts), time: parseRational(facts.time) });
+
+export function readFacts(facts) {
+  const { truth, approach, certificate } = facts;
+  return {
+    ...facts,
+    coordinates: facts.coordinates.map(double),
+    min_separation: double(facts.min_separation),
+    truth: { ...truth, toi: truth.toi ? moment(truth.toi) : null,
+      u: truth.u ? enclosure(truth.u) : null, v: truth.v ? enclosure(truth.v) : null },
+    approach: approach && { ...moment(approach), above: double(approach.above), at_most: double(approach.at_most) },
+    certificate: certificate && { ...certificate, pieces: certificate.pieces.map((piece) =>
+      ({ from: parseRational(piece.from), to: parseRational(piece.to), feature: piece.feature })) },
+    answers: facts.answers.map((answer) => ({ ...answer, toi_lower: double(answer.toi_lower),
+      toi_upper: double(answer.toi_upper) })),
+  };
+}
+
+/// A query without any answer: one that was pasted.
+export const withoutAnswer = (query, label) =>
+  ({ ...query, label, notes: [], truth: null, approach: null, certificate: null, answers: [] });
+
+/// "0.5", "1/3 ≈ 0.3333333333333333", or "between 0.70710678118654746 and 0.70710678118654757".
+export function momentText({ lower, upper, exact }) {
+  if (exact === null || exact === undefined) return `between ${lower} and ${upper}`;
+  if (lower === upper) return String(lower);
+  const value = shortText(parseRational(exact), 17);
+  return exact.length < 40 ? `${exact} ≈ ${value}` : `about ${value}`;
+}
+
+/// Do they touch, in few words.
+export function verdictText({ truth, min_separation }) {
+  if (truth === null) return "not decided";
+  if (min_separation > 0) return truth.collides ? "comes within the distance" : "stays farther";
+  return truth.collides ? "collides" : "no collision";
+}
+
+export const distanceText = ({ above, at_most }) =>
+  (above === 0 ? `at most ${at_most}` : `between ${above} and ${at_most}`);

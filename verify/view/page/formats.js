@@ -1,0 +1,97 @@
+// A query as text, and text as a query: C++, the CSV rows of datasets, JSON, and the lines `v x y z` of OBJ
+// that ipc-toolkit writes.
+
+import { hexadecimalText, parseDouble, rational, rationalText } from "./exact.js";
+
+const rows = (coordinates) => Array.from({ length: 8 }, (_, i) => coordinates.slice(3 * i, 3 * i + 3));
+const exactDecimal = (x) => (Object.is(x, -0) ? "-0" : String(x));
+
+export const writers = {
+  "C++": ({ kind, coordinates }) => {
+    const lines = rows(coordinates).map((row) => `    ${row.map(hexadecimalText).join(", ")}`);
+    return `const touchstone::Kind kind = touchstone::Kind::${kind.replace("-", "_")};\n` +
+      `const touchstone::Query query{{\n${lines.join(",\n")}}};\n`;
+  },
+  CSV: ({ coordinates }) => rows(coordinates).map((row) => row.map((x) => {
+    const text = rationalText(rational(x));
+    return text.includes("/") ? text.replace("/", ",") : `${text},1`;
+  }).join(",")).join("\n") + "\n",
+  JSON: ({ kind, coordinates, min_separation, norm }) => `${JSON.stringify({
+    kind,
+    separation: { min_separation, norm },
+    coordinates: coordinates.map(hexadecimalText),
+  })}\n`,
+  OBJ: ({ coordinates }) => rows(coordinates).map((row) => `v ${row.map(exactDecimal).join(" ")}\n`).join(""),
+};
+
+const isKind = (kind) => kind === "vertex-face" || kind === "edge-edge";
+
+/// What a text says of the kind; null if nothing.
+function kindOf(text) {
+  const found = /(vertex|edge)[-_](face|edge)/i.exec(text);
+  const kind = found && `${found[1]}-${found[2]}`.toLowerCase();
+  return isKind(kind) ? kind : null;
+}
+
+/// 24 doubles of rationals as text.
+function doubles(texts) {
+  if (texts.length !== 24) throw new Error(`there are ${texts.length} numbers, not the 24 of a query`);
+  return texts.map((text) => {
+    const value = parseDouble(text);
+    if (Number.isNaN(value)) throw new Error(`“${text.slice(0, 40)}” is no finite number`);
+    return value;
+  });
+}
+
+function fromJson(text) {
+  const json = JSON.parse(text);
+  const isList = Array.isArray(json) && typeof json[0] === "object" && !Array.isArray(json[0]);
+  const one = json.findings ? json.findings[0] : isList ? json[0] : json;
+  const list = Array.isArray(one) ? one : one.coordinates;
+  if (!Array.isArray(list)) throw new Error("the JSON has no list “coordinates”");
+  const separation = one.separation || {};
+  const distance = Number(parseDouble(String(separation.min_separation || 0)));
+  return { kind: isKind(one.kind) ? one.kind : null, coordinates: doubles(list.flat(2).map(String)),
+    min_separation: distance, norm: separation.norm === "l2" ? "l2" : "linf" };
+}
+
+/// Rows of numbers with commas: x, y, z, or numerator and denominator of each, and perhaps a label.
+function fromRows(lines) {
+  const fields = lines.map((line) => line.split(",").map((field) => field.replace(/"/g, "").trim()));
+  const width = fields[0].length;
+  if (![3, 4, 6, 7].includes(width) || fields.some((row) => row.length !== width)) return null;
+  const texts = fields.flatMap((row) => (width < 6 ? row.slice(0, 3)
+    : [0, 2, 4].map((i) => `${row[i]}/${row[i + 1]}`)));
+  return { coordinates: doubles(texts) };
+}
+
+const number = String.raw`[-+]?(?:0x[0-9a-f]*\.?[0-9a-f]*(?:p[-+]?\d+)?|(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)`;
+/// Numbers and fractions that are no parts of names.
+const numberPattern = new RegExp(String.raw`(?<![\w.])${number}(?:/${number})?(?![\w.])`, "gi");
+
+/// The query that a text holds: { kind (null where it does not say), coordinates, min_separation, norm }.
+/// \throws Error with the reason if there is none.
+export function readQuery(text) {
+  const contact = { kind: kindOf(text), min_separation: 0, norm: "linf" };
+  if (/^\s*[[{]\s*["[{\d-]/.test(text) && /[\]}]\s*$/.test(text)) {
+    let query = null;
+    try {
+      query = fromJson(text);
+    } catch (error) {
+      if (!(error instanceof SyntaxError)) throw error;
+    }
+    if (query !== null) return { ...contact, ...query, kind: query.kind || contact.kind };
+  }
+  const code = text.replace(/\/\/.*|\/\*[^]*?\*\//g, "");
+  const lines = code.split("\n").map((line) => line.trim()).filter((line) => line !== "");
+  const vertices = lines.filter((line) => /^v\s/.test(line));
+  if (vertices.length > 0) {
+    return { ...contact, coordinates: doubles(vertices.flatMap((line) => line.split(/\s+/).slice(1, 4))) };
+  }
+  const data = lines.filter((line) => /^[-+.\d"]/.test(line));
+  const query = data.length === 8 && lines.length <= 9 ? fromRows(data) : null;
+  if (query !== null) return { ...contact, ...query };
+  const start = code.indexOf("{");
+  return { ...contact, coordinates: doubles((start < 0 ? code : code.slice(start)).match(numberPattern) || []) };
+}
+

@@ -1,0 +1,339 @@
+// The page: a list of queries, of which one is looked at.
+
+import { hexadecimalText, nearest, rational, rationalText, shortText } from "./exact.js";
+import { find, make } from "./elements.js";
+import { momentText, readFacts, verdictText, withoutAnswer } from "./facts.js";
+import { readQuery, writers } from "./formats.js";
+import { Look, steps } from "./look.js";
+import { axes, directionOf } from "./motion.js";
+import { CornerPicture, MotionPicture } from "./pictures.js";
+import { canDraw, Scene, Viewpoint } from "./scene.js";
+import { queryOf, readStep, StepPart } from "./step.js";
+import { drawTimeline } from "./timeline.js";
+
+const zoomSteps = 1000;
+const secondsOfPlay = 4;
+
+const queries = JSON.parse(find("queries").textContent).map(readFacts);
+const step = find("step_facts") ? readStep(JSON.parse(find("step_facts").textContent)) : null;
+// Meshes mostly have y upwards.
+const viewpoint = new Viewpoint(step ? 1 : 2);
+let look = null;
+let pictures = [];
+let isPlaying = false;
+let format = "decimal";
+
+// ---- The parts of the page ----------------------------------------------------------------------
+
+function figure(id, caption) {
+  return make("figure", { id },
+    make("figcaption", {}, caption),
+    make("div", { class: "canvas" },
+      make("canvas", { tabindex: "0", role: "img", "aria-label": `${caption}. Arrow keys turn it, plus and minus zoom.` }),
+      make("div", { class: "names", "aria-hidden": "true" })));
+}
+
+const button = (id, text, tip, press) => make("button", { type: "button", id, title: tip, onclick: press }, text);
+
+function radios(name, values, chosen, change) {
+  return values.map((value) => make("label", {},
+    make("input", { type: "radio", name, value, checked: value === chosen, onchange: () => change(value) }), value));
+}
+
+function controls() {
+  return make("div", { class: "controls" },
+    button("play", "Play", "Space", togglePlay),
+    button("star", "To contact", "c", goToStar),
+    make("label", { class: "wide" }, "Zoom ",
+      make("input", { type: "range", id: "zoom", min: 0, max: zoomSteps, value: 0,
+        oninput: (event) => zoomTo(event.target.valueAsNumber / zoomSteps) })),
+    button("all", "All", "0", () => zoomTo(0)),
+    button("enlarge", "Enlarge", "z", () => zoomTo(1)),
+    make("label", {}, make("input", { type: "checkbox", id: "follow", onchange: (event) => {
+      look.follow(event.target.checked);
+      update(true);
+    } }), "Follow the gap"),
+    button("home", "From the front", "h", () => {
+      viewpoint.home();
+      viewpoint.change();
+    }),
+    button("tilt", "Other axis up", "u", () => viewpoint.tilt()));
+}
+
+function page() {
+  find("view").append(
+    make("header", {}, make("h1", {}, "Touchstone view"), make("nav", { id: "list", "aria-label": "Queries" })),
+    make("section", { id: "step", hidden: step === null }),
+    make("section", { id: "query", hidden: true },
+      make("h2", { id: "label" }), make("p", { id: "verdict" }), make("ul", { id: "notes", class: "findings" }),
+      make("div", { class: "pictures" },
+        figure("motion", "The primitives, and their traces"),
+        figure("corners", "The corners: contact where the origin is in their hull")),
+      make("p", { id: "scale" }),
+      controls(),
+      make("div", { class: "timeline" },
+        make("label", { class: "name", for: "time" }, "time t"),
+        make("div", { class: "slider" }, make("input", { type: "range", id: "time", min: 0, max: steps, step: 1,
+          oninput: (event) => {
+            look.setStep(event.target.valueAsNumber);
+            update(look.isFollowing);
+          } })),
+        make("output", { id: "now", for: "time", class: "said" })),
+      make("div", { class: "timeline", id: "rows" }),
+      make("p", { id: "readout" })),
+    make("section", { id: "numbers", hidden: true },
+      make("h2", {}, "Coordinates"),
+      make("div", { class: "choice", role: "radiogroup", "aria-label": "Format of coordinates" },
+        ...radios("format", ["decimal", "hexadecimal", "rational"], format, (value) => {
+          format = value;
+          writeTable();
+        })),
+      make("div", { class: "scroll", tabindex: "0" }, make("table", { id: "points" }))),
+    make("section", { id: "exchange" },
+      make("h2", {}, "Copy and paste"),
+      make("p", {}, "Text of another query (C++, rows of CSV, JSON, OBJ v lines, or 24 numbers), pasted here, is drawn."),
+      make("div", { class: "choice" },
+        ...Object.keys(writers).map((name) => button(`copy_${name.replace(/\+/g, "p")}`, `Copy as ${name}`, "", () => copy(name)))),
+      make("textarea", { id: "text", rows: 10, spellcheck: "false", "aria-label": "A query as text",
+        onpaste: () => setTimeout(draw) }),
+      make("div", { class: "choice" },
+        ...radios("kind", ["vertex-face", "edge-edge"], "vertex-face", () => {}),
+        button("draw", "Draw this text", "", draw), make("output", { id: "drawn" }))));
+}
+
+// ---- The query that is looked at ----------------------------------------------------------------
+
+function show(index) {
+  isPlaying = false;
+  look = new Look(queries[index]);
+  look.index = index;
+  const { facts } = look;
+  for (const part of ["query", "numbers"]) find(part).hidden = false;
+  find("label").textContent = facts.label;
+  find("notes").replaceChildren(...facts.notes.map((note) => make("li", {}, note)));
+  find("star").textContent = facts.truth && facts.truth.toi ? "To contact" : "To the nearest";
+  find("enlarge").disabled = find("zoom").disabled = !look.canZoom;
+  writeVerdict(facts);
+  writeList();
+  update(true);
+}
+
+function writeVerdict(facts) {
+  const { truth } = facts;
+  const separation = facts.min_separation > 0 ? `, minimum separation ${facts.min_separation} (${facts.norm})` : "";
+  const place = truth && truth.u ? `, (u, v) = (${momentText(truth.u)}, ${momentText(truth.v)})` : "";
+  const impact = truth && truth.toi ? ` Time of impact: ${momentText(truth.toi)}${place}.` : "";
+  find("verdict").replaceChildren(make("strong", {}, `${facts.kind}${separation}: ${verdictText(facts)}.`), impact);
+}
+
+function writeList() {
+  const list = find("list");
+  list.hidden = queries.length < 2 || step !== null;
+  list.replaceChildren(...queries.map((facts, i) => make("button", { type: "button", "aria-current": i === look.index && "true",
+    onclick: () => show(i) }, make("b", {}, String(i)), ` ${facts.label} `, make("em", {}, badge(facts)))));
+  const current = list.querySelector("[aria-current]");
+  if (current && !list.hidden) list.scrollTop = current.offsetTop - list.offsetTop - 40;
+}
+
+function badge(facts) {
+  const wrong = facts.answers.filter((answer) => answer.faults.length > 0).length;
+  return verdictText(facts) + (wrong > 0 ? `, ✗ ${wrong}` : "");
+}
+
+/// Draws and writes what depends on the time; and, where the frame has changed, all.
+function update(isNewFrame) {
+  const { motion, facts, t, window, frame, cornerFrame, place } = look;
+  const state = motion.at(t);
+  const near = motion.nearest(state);
+  const corners = motion.corners(state);
+  const { piece } = look;
+  const direction = piece ? directionOf(piece.feature, corners) : null;
+  const isInside = near.squared.n === 0n;
+  const radius = facts.min_separation > 0 ? facts.min_separation * 2 ** -cornerFrame.lgRadius : 0;
+  const separation = radius > 0 ? { radius, isBall: facts.norm === "l2" } : null;
+  const isContact = Boolean(facts.truth && facts.truth.u);
+  pictures.forEach((picture, i) => {
+    const own = i === 0 ? frame : cornerFrame;
+    if (isNewFrame) picture.prepare({ motion, window, frame: own });
+    picture.draw({ motion, state, near, frame: own, direction, separation, isInside, place: isContact ? place : null,
+      text: "contact" });
+  });
+  find("time").value = look.step;
+  find("now").textContent = look.timeText(t, 17);
+  find("zoom").value = Math.round(look.zoom * zoomSteps);
+  find("follow").checked = look.isFollowing;
+  find("play").textContent = isPlaying ? "Stop" : "Play";
+  find("scale").textContent = `Radius seen: ${scaleText(frame.lgRadius)} (corners ${scaleText(cornerFrame.lgRadius)}), ` +
+    `times from ${look.timeText(window.from, 6)} to ${look.timeText(window.to, 6)}.`;
+  drawTimeline(find("rows"), facts, window, t);
+  writeReadout(near, piece);
+  writeTable(state);
+}
+
+const scaleText = (lg) => {
+  const ten = lg * Math.log10(2);
+  const whole = Math.floor(ten);
+  return Math.abs(whole) < 5 ? String(Number((2 ** lg).toPrecision(3))) : `${(10 ** (ten - whole)).toPrecision(3)}e${whole}`;
+};
+
+function writeReadout(near, piece) {
+  const gap = look.motion.gap(look.motion.at(look.t));
+  const parts = [gap.n === 0n ? "Contact now" : `Distance now: ${shortText(gap, 9)}`,
+    `nearest at (u, v) = (${shortText(near.u, 9)}, ${shortText(near.v, 9)})`];
+  if (piece) parts.push(`separated by ${piece.feature}`);
+  find("readout").textContent = `${parts.join("; ")}.`;
+}
+
+// ---- Numbers ------------------------------------------------------------------------------------
+
+/// A rational in the chosen format; ≈ where that rounds it.
+function numberText(value) {
+  if (format === "rational") return rationalText(value);
+  const near = nearest(value);
+  const back = Number.isFinite(near) ? rational(near) : null;
+  const isExact = back !== null && back.n * value.d === value.n * back.d;
+  return (isExact ? "" : "≈ ") + (format === "decimal" ? String(near) : hexadecimalText(near));
+}
+
+function writeTable(state = look.motion.at(look.t)) {
+  const { motion } = look;
+  const one = 1n << motion.shift;
+  const groups = [["t = 0", motion.start, one], ["t = 1", motion.end, one], ["now", state.points, state.d]];
+  const body = groups.map(([title, points, d]) => make("tbody", { id: `at_${title.replace(/[^a-z0-9]+/g, "_")}` },
+    make("tr", {}, make("th", { scope: "rowgroup", colspan: "4" }, title)),
+    ...points.map((point, i) => make("tr", {}, make("th", { scope: "row" }, motion.names[i]),
+      ...point.map((x) => make("td", {}, make("code", {}, numberText({ n: x, d }))))))));
+  find("points").replaceChildren(
+    make("thead", {}, make("tr", {}, make("th", { scope: "col" }, "point"), ...axes.map((name) => make("th", { scope: "col" }, name)))),
+    ...body);
+}
+
+// ---- Copy and paste -----------------------------------------------------------------------------
+
+function copy(name) {
+  if (look === null) return;
+  const area = find("text");
+  area.value = writers[name](look.facts);
+  area.select();
+  for (const radio of document.getElementsByName("kind")) radio.checked = radio.value === look.facts.kind;
+  const said = find("drawn");
+  said.textContent = "The text is here.";
+  if (navigator.clipboard) navigator.clipboard.writeText(area.value).then(() => { said.textContent = "Copied."; }, () => {});
+}
+
+const isSame = (a, b) => a.kind === b.kind && a.min_separation === b.min_separation &&
+  (a.min_separation === 0 || a.norm === b.norm) && a.coordinates.every((x, i) => x === b.coordinates[i]);
+
+/// The number of a query in the list, which it joins if it is new.
+function indexOf(query) {
+  const index = queries.findIndex((one) => isSame(one, query));
+  return index < 0 ? queries.push(query) - 1 : index;
+}
+
+/// Looks at the query that the text holds: with its answer if the page holds it.
+function draw() {
+  const said = find("drawn");
+  try {
+    const read = readQuery(find("text").value);
+    const kind = read.kind || document.querySelector("input[name=kind]:checked").value;
+    const query = withoutAnswer({ ...read, kind }, "pasted");
+    show(indexOf(query));
+    said.textContent = look.facts.truth ? "This page holds its answer." : "Drawn. This page holds no answer to it.";
+    find("query").scrollIntoView();
+  } catch (error) {
+    said.textContent = `Not drawn: ${error.message}.`;
+  }
+}
+
+// ---- Time, zoom and keys ------------------------------------------------------------------------
+
+function zoomTo(zoom) {
+  look.zoomTo(zoom);
+  update(true);
+}
+
+function goToStar() {
+  look.setTime(look.star);
+  update(look.isFollowing);
+}
+
+function togglePlay() {
+  isPlaying = !isPlaying;
+  let last = performance.now();
+  let position = look.step >= steps ? 0 : look.step;
+  const tick = (now) => {
+    if (!isPlaying) return;
+    position += ((now - last) * steps) / (1000 * secondsOfPlay);
+    last = now;
+    if (position >= steps) {
+      isPlaying = false;
+      position = steps;
+    }
+    look.setStep(Math.round(position));
+    update(look.isFollowing);
+    if (isPlaying) requestAnimationFrame(tick);
+  };
+  if (isPlaying) requestAnimationFrame(tick);
+  update(false);
+}
+
+function moveTime(by) {
+  look.setStep(Math.max(0, Math.min(steps, look.step + by)));
+  update(look.isFollowing);
+}
+
+const keys = {
+  " ": togglePlay,
+  c: goToStar,
+  0: () => zoomTo(0),
+  z: () => zoomTo(1),
+  "+": () => zoomTo(look.zoom + 0.05),
+  "-": () => zoomTo(look.zoom - 0.05),
+  f: () => find("follow").click(),
+  h: () => find("home").click(),
+  u: () => viewpoint.tilt(),
+  n: () => show((look.index + 1) % queries.length),
+  p: () => show((look.index + queries.length - 1) % queries.length),
+  ArrowLeft: () => moveTime(-32),
+  ArrowRight: () => moveTime(32),
+};
+
+function onKey(event) {
+  if (look === null) return;
+  const isTyping = /^(INPUT|TEXTAREA|BUTTON|SELECT)$/.test(event.target.tagName);
+  if (isTyping || event.ctrlKey || event.altKey || event.metaKey || !keys[event.key]) return;
+  event.preventDefault();
+  keys[event.key]();
+}
+
+// ---- Start --------------------------------------------------------------------------------------
+
+function makePictures() {
+  if (!canDraw()) {
+    document.querySelector(".pictures").replaceChildren(make("p", { class: "warning", id: "no_pictures" },
+      "This browser has no WebGL, which the pictures need. All numbers are here."));
+    return;
+  }
+  const zoom = (factor) => {
+    look.zoomBy(factor);
+    update(true);
+  };
+  pictures = [new MotionPicture(new Scene(find("motion"), viewpoint, zoom)),
+    new CornerPicture(new Scene(find("corners"), viewpoint, zoom))];
+  for (const query of ["(prefers-color-scheme: dark)", "print"]) {
+    matchMedia(query).addEventListener("change", () => update(true));
+  }
+}
+
+/// A pair of the step: with its answer, if the page holds it.
+function showPair(n) {
+  const query = withoutAnswer(queryOf(step, step.pairs[n]), `${step.label}: ${step.pairs[n].name}`);
+  show(indexOf(query));
+  find("query").scrollIntoView();
+}
+
+page();
+makePictures();
+document.addEventListener("keydown", onKey);
+if (step) new StepPart(step, viewpoint, canDraw(), showPair);
+if (queries.length > 0) show(0);

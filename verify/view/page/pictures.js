@@ -1,0 +1,176 @@
+// The two pictures of a query: its primitives in motion, and its corners around the origin.
+//
+// What does not change while time runs (traces) is computed once for a frame and a window of time; the rest
+// at every time anew.
+
+import { clipped, seenPoint, toNumbers } from "./frame.js";
+
+const ghosts = 13;
+
+/// Both primitives have a colour; one has round points, the other boxes.
+export const looks = [{ color: "s1", shape: "ball" }, { color: "s3", shape: "box" }];
+
+const outline = (points) => (points.length > 2 ? [...points, points[0]] : points);
+const sides = (points) => points.slice(1).map((point, i) => [points[i], point]);
+
+/// The times of the traces: both ends of the window, and between them.
+const ghostTimes = ({ from, to }) => Array.from({ length: ghosts }, (_, i) => {
+  const [before, after] = [BigInt(ghosts - 1 - i), BigInt(i)];
+  return { n: from.n * to.d * before + to.n * from.d * after, d: from.d * to.d * BigInt(ghosts - 1) };
+});
+
+/// The traces of moving polygons: at each time a list of polygons of exact points.
+function traces(frames) {
+  const shapes = frames[0].length;
+  return Array.from({ length: shapes }, (_, k) => {
+    const paths = frames[0][k].map((_, i) => clipped([frames[0][k][i], frames[ghosts - 1][k][i]]));
+    const states = frames.map((frame) => sides(outline(frame[k])).map(clipped));
+    const strips = [];
+    for (let i = 1; i < ghosts; ++i) {
+      sides(outline(frames[i - 1][k])).forEach(([a, b], s) => {
+        const [c, d] = sides(outline(frames[i][k]))[s];
+        strips.push(clipped([a, b, d]), clipped([a, d, c]));
+      });
+    }
+    return { paths, ends: [states[0], states[ghosts - 1]], between: states.slice(1, -1), strips };
+  });
+}
+
+function drawTraces(scene, all) {
+  scene.begin(scene.still);
+  all.forEach((trace, k) => {
+    const { color } = looks[k % 2];
+    scene.surfaces(trace.strips, color, 0.05);
+    scene.lines(trace.between.flat(), color, 0.16);
+    scene.lines(trace.ends.flat(), color, 0.6);
+    scene.lines(trace.paths, color, 0.9, 0.03);
+    for (const path of trace.paths) drawArrow(scene, path, color);
+  });
+}
+
+/// At the end of a path, if it is seen.
+function drawArrow(scene, path, color) {
+  if (path.length < 2) return;
+  const [from, to] = path;
+  const step = to.map((x, k) => x - from[k]);
+  const length = Math.hypot(...step);
+  if (length < 0.08) return;
+  scene.arrow(to.map((x, k) => x - (0.06 * step[k]) / length), to, color, 0.006);
+}
+
+/// A surface, with thin lines where the picture cuts it.
+function drawSurface(scene, polygon, color) {
+  const seen = clipped(polygon);
+  scene.surfaces([seen], color, 0.3);
+  if (seen.length > 2) scene.lines([outline(seen)], color, 0.5);
+}
+
+/// A plane through a place, as a square.
+function drawPlane(scene, place, normal, color) {
+  const other = Math.abs(normal[2]) < 0.8 ? [0, 0, 1] : [1, 0, 0];
+  const turn = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+  const long = turn(normal, other);
+  const size = Math.hypot(...long);
+  const p = long.map((x) => (0.75 * x) / size);
+  const q = turn(normal, p);
+  const corner = (s, t) => place.map((x, k) => x + s * p[k] + t * q[k]);
+  const square = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+  scene.surfaces([square], color, 0.13);
+  scene.lines([[...square, square[0]]], color, 0.7);
+}
+
+/// The primitives of a query.
+export class MotionPicture {
+  constructor(scene) {
+    this.scene = scene;
+  }
+
+  prepare({ motion, window, frame }) {
+    drawTraces(this.scene, traces(ghostTimes(window).map((t) => {
+      const state = motion.at(t);
+      return motion.primitives.map((points) => points.map((i) => frame.place(state.points[i], state.d)));
+    })));
+  }
+
+  draw({ motion, state, near, frame, direction, place, text }) {
+    const { scene } = this;
+    scene.begin(scene.moving);
+    motion.primitives.forEach((indices, k) => {
+      const points = indices.map((i) => frame.place(state.points[i], state.d));
+      const { color, shape } = looks[k];
+      if (points.length > 2) drawSurface(scene, points, color);
+      for (const side of sides(outline(points))) {
+        const seen = clipped(side);
+        if (seen.length === 2) scene.rod(...seen, color);
+      }
+      points.forEach((point, i) => {
+        const seen = seenPoint(point);
+        if (seen === null) return;
+        scene.dot(seen, color, shape, points.length === 1 ? 0.04 : 0.026);
+        scene.name(seen, motion.names[indices[i]], color);
+      });
+    });
+    this.drawGap(near, frame, direction);
+    if (place) {
+      const seen = seenPoint(frame.place(place.vector, place.d));
+      if (seen) {
+        scene.dot(seen, "toi", "star", 0.026);
+        scene.name(seen, text, "toi");
+      }
+    }
+    scene.render();
+  }
+
+  /// From one nearest point to the other, and a plane between them.
+  drawGap(near, frame, direction) {
+    const ends = near.points.map((point) => frame.place(point, near.d));
+    const seen = clipped(ends);
+    if (seen.length === 2) this.scene.lines([seen], "ink", 1, 0.02);
+    if (direction === null) return;
+    const middle = ends[0].map((x, k) => (x + ends[1][k]) / 2n);
+    if (seenPoint(middle)) drawPlane(this.scene, toNumbers(middle), direction, "s5");
+  }
+}
+
+/// The corners of a query.
+export class CornerPicture {
+  constructor(scene) {
+    this.scene = scene;
+  }
+
+  prepare({ motion, window, frame }) {
+    drawTraces(this.scene, traces(ghostTimes(window).map((t) => {
+      const state = motion.at(t);
+      return [motion.corners(state).map((w) => frame.place(w, state.d))];
+    })));
+  }
+
+  draw({ motion, state, frame, direction, separation, isInside }) {
+    const { scene } = this;
+    scene.begin(scene.moving);
+    const points = motion.corners(state).map((w) => frame.place(w, state.d));
+    const { color } = looks[0];
+    drawSurface(scene, points, color);
+    for (const side of sides(outline(points))) {
+      const seen = clipped(side);
+      if (seen.length === 2) scene.rod(...seen, color);
+    }
+    points.forEach((point, i) => {
+      const seen = seenPoint(point);
+      if (seen === null) return;
+      scene.dot(seen, color, "ball", 0.026);
+      scene.name(seen, `w${"₀₁₂₃"[i]}`, color);
+    });
+    scene.dot([0, 0, 0], "toi", "star", 0.03);
+    scene.name([0, 0, 0], isInside ? "0: contact" : "0", "toi");
+    if (direction !== null) {
+      drawPlane(scene, [0, 0, 0], direction, "s5");
+      scene.arrow([0, 0, 0], direction.map((x) => 0.6 * x), "s5");
+    }
+    if (separation !== null && separation.radius > 1e-3 && separation.radius < 20) {
+      scene.neighbourhood([0, 0, 0], separation.radius, separation.isBall, "s5");
+    }
+    scene.render();
+  }
+}
+

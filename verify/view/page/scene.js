@@ -1,0 +1,256 @@
+// A picture in three dimensions of what lies in the ball of radius 1: three.js draws it, names stand above it as text.
+//
+// All pictures of a page are seen from the same side. What is drawn is a list of shapes, each of a colour of
+// the page's style; a picture is drawn when something changes, and not otherwise.
+
+import * as THREE from "three";
+
+const fieldOfView = 28;
+const distance = 1.02 / Math.sin((fieldOfView / 2) * (Math.PI / 180));
+
+/// From where all pictures are seen, and which axis is upwards in them.
+export class Viewpoint {
+  constructor(up) {
+    this.up = up;
+    this.home();
+    this.listeners = [];
+  }
+  home() {
+    this.around = -0.9;
+    this.above = 0.42;
+  }
+  change() {
+    for (const listener of this.listeners) listener();
+  }
+  turn(around, above) {
+    this.around += around;
+    this.above = Math.max(-1.55, Math.min(1.55, this.above + above));
+    this.change();
+  }
+  /// Another axis upwards.
+  tilt() {
+    this.up = (this.up + 1) % 3;
+    this.change();
+  }
+  place(camera) {
+    const [x, y, z] = [Math.cos(this.above) * Math.cos(this.around), Math.cos(this.above) * Math.sin(this.around), Math.sin(this.above)];
+    // The axes in their cyclic order, so that the picture is turned and not mirrored.
+    const turned = (a, b, c) => [[c, a, b], [b, c, a], [a, b, c]][this.up];
+    camera.up.set(...turned(0, 0, 1));
+    camera.position.set(...turned(x, y, z)).multiplyScalar(distance);
+    camera.lookAt(0, 0, 0);
+  }
+}
+
+const tube = new THREE.CylinderBufferGeometry(1, 1, 1, 10);
+const dots = {
+  ball: new THREE.SphereBufferGeometry(1, 20, 12),
+  box: new THREE.BoxBufferGeometry(1.7, 1.7, 1.7),
+  star: new THREE.OctahedronBufferGeometry(1.5),
+};
+const arrowHead = new THREE.ConeBufferGeometry(1, 2.6, 14);
+const up = new THREE.Vector3(0, 1, 0);
+const vector = (point) => new THREE.Vector3(...point);
+
+/// A colour of the page's style, as it is at present.
+export const styleColor = (name) =>
+  new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+
+export class Scene {
+  /// \param figure an element with a canvas and an element of class "names"
+  /// \param zoom called with a factor when the user zooms
+  constructor(figure, viewpoint, zoom) {
+    this.canvas = figure.querySelector("canvas");
+    this.names = figure.querySelector(".names");
+    this.viewpoint = viewpoint;
+    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.camera = new THREE.PerspectiveCamera(fieldOfView, 1, distance / 50, distance * 4);
+    this.scene = new THREE.Scene();
+    this.scene.add(new THREE.AmbientLight(0xffffff, 0.62));
+    const sun = new THREE.DirectionalLight(0xffffff, 0.5);
+    sun.position.set(0.4, -0.8, 1);
+    this.scene.add(sun);
+    // What stays while time runs, and what does not.
+    this.still = new THREE.Group();
+    this.moving = new THREE.Group();
+    this.scene.add(this.still, this.moving);
+    this.content = this.moving;
+    this.labels = [];
+    this.zoom = zoom;
+    viewpoint.listeners.push(() => this.render());
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    this.listen();
+  }
+
+  // ---- Contents ---------------------------------------------------------------------------------
+
+  /// Begins with what stays, or with what does not: what is drawn from now on takes its place.
+  begin(group) {
+    this.content = group;
+    for (const child of group.children) {
+      if (child.userData.isOwn) child.geometry.dispose();
+      child.material.dispose();
+    }
+    group.remove(...group.children);
+    if (group === this.still) return;
+    this.names.replaceChildren();
+    this.labels = [];
+  }
+
+  add(geometry, material, isOwn) {
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.userData.isOwn = isOwn;
+    this.content.add(mesh);
+    return mesh;
+  }
+
+  /// A rod from a to b.
+  rod(a, b, color, radius = 0.012) {
+    const [from, to] = [vector(a), vector(b)];
+    const length = from.distanceTo(to);
+    if (!(length > 0)) return;
+    const mesh = this.add(tube, new THREE.MeshLambertMaterial({ color: styleColor(color) }));
+    mesh.position.copy(from).add(to).multiplyScalar(0.5);
+    mesh.quaternion.setFromUnitVectors(up, to.sub(from).divideScalar(length));
+    mesh.scale.set(radius, length, radius);
+  }
+
+  arrow(a, b, color, radius = 0.01) {
+    this.rod(a, b, color, radius);
+    const head = this.add(arrowHead, new THREE.MeshLambertMaterial({ color: styleColor(color) }));
+    head.position.copy(vector(b));
+    head.quaternion.setFromUnitVectors(up, vector(b).sub(vector(a)).normalize());
+    head.scale.setScalar(radius * 2.6);
+  }
+
+  dot(point, color, shape = "ball", size = 0.028) {
+    const mesh = this.add(dots[shape], new THREE.MeshLambertMaterial({ color: styleColor(color) }));
+    mesh.position.set(...point);
+    mesh.scale.setScalar(size);
+  }
+
+  /// Thin lines, each a list of points.
+  lines(lists, color, opacity = 1, dash = 0) {
+    const ends = lists.flatMap((points) => points.slice(1).flatMap((point, i) => [...points[i], ...point]));
+    if (ends.length === 0) return;
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(ends), 3));
+    const look = { color: styleColor(color), transparent: true, opacity, depthWrite: false };
+    const material = dash > 0 ? new THREE.LineDashedMaterial({ ...look, dashSize: dash, gapSize: dash })
+      : new THREE.LineBasicMaterial(look);
+    const lines = new THREE.LineSegments(geometry, material);
+    if (dash > 0) lines.computeLineDistances();
+    lines.userData.isOwn = true;
+    this.content.add(lines);
+  }
+
+  /// Plane polygons, convex, seen from both sides.
+  surfaces(polygons, color, opacity) {
+    const corners = polygons.flatMap((polygon) =>
+      polygon.slice(2).flatMap((point, i) => [...polygon[0], ...polygon[i + 1], ...point]));
+    if (corners.length === 0) return;
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(corners), 3));
+    this.add(geometry, new THREE.MeshBasicMaterial({ color: styleColor(color), transparent: true, opacity,
+      side: THREE.DoubleSide, depthWrite: false }), true);
+  }
+
+  /// A ball or a cube around a point: what is within a distance.
+  neighbourhood(center, radius, isBall, color) {
+    const geometry = isBall ? new THREE.SphereBufferGeometry(radius, 24, 16)
+      : new THREE.BoxBufferGeometry(2 * radius, 2 * radius, 2 * radius);
+    const material = new THREE.MeshBasicMaterial({ color: styleColor(color), wireframe: true, transparent: true, opacity: 0.25 });
+    this.add(geometry, material, true).position.set(...center);
+  }
+
+  name(point, text, color) {
+    const span = document.createElement("span");
+    span.textContent = text;
+    span.style.color = `var(--${color})`;
+    this.names.append(span);
+    this.labels.push({ span, point: vector(point) });
+  }
+
+  // ---- Drawing ----------------------------------------------------------------------------------
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    // The ball fits the shorter side.
+    this.camera.zoom = Math.min(1, width / height);
+    this.camera.updateProjectionMatrix();
+    this.render();
+  }
+
+  render() {
+    this.viewpoint.place(this.camera);
+    this.renderer.render(this.scene, this.camera);
+    this.placeNames();
+  }
+
+  /// Names stand right of their points, or below one another where they would overlap.
+  placeNames() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const taken = [];
+    for (const { span, point } of this.labels) {
+      const seen = point.clone().project(this.camera);
+      const wide = 8 * span.textContent.length + 6;
+      const x = Math.max(2, Math.min((seen.x + 1) / 2 * width + 9, width - wide));
+      let y = Math.max(2, Math.min((1 - seen.y) / 2 * height - 20, height - 20));
+      const overlaps = (other) => Math.abs(other.y - y) < 16 && x < other.x + other.wide && other.x < x + wide;
+      for (let i = 0; i < 16 && taken.some(overlaps); ++i) y += 8;
+      taken.push({ x, y, wide });
+      span.style.transform = `translate(${x}px, ${y}px)`;
+    }
+  }
+
+  // ---- Hands ------------------------------------------------------------------------------------
+
+  listen() {
+    const pointers = new Map();
+    const { canvas, viewpoint } = this;
+    const spread = () => {
+      const [a, b] = [...pointers.values()];
+      return Math.hypot(a.x - b.x, a.y - b.y);
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const last = pointers.get(event.pointerId);
+      if (last === undefined) return;
+      const before = pointers.size === 2 ? spread() : 0;
+      pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+      if (pointers.size === 1) viewpoint.turn((last.x - event.clientX) / 150, (event.clientY - last.y) / 150);
+      if (pointers.size === 2 && before > 0) this.zoom(spread() / before);
+    });
+    for (const end of ["pointerup", "pointercancel"]) {
+      canvas.addEventListener(end, (event) => pointers.delete(event.pointerId));
+    }
+    canvas.addEventListener("wheel", (event) => {
+      // Only with the keyboard's focus, so that a page can be scrolled over its pictures.
+      if (document.activeElement !== canvas && !event.ctrlKey) return;
+      event.preventDefault();
+      this.zoom(2 ** (-event.deltaY / 240));
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => {
+      const turns = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
+      const zooms = { "+": 1.25, "=": 1.25, "-": 0.8 };
+      if (turns[event.key]) viewpoint.turn(...turns[event.key]);
+      else if (zooms[event.key]) this.zoom(zooms[event.key]);
+      else return;
+      event.preventDefault();
+      event.stopPropagation();
+    });
+  }
+}
+
+/// Has this browser what the pictures need?
+export function canDraw() {
+  const canvas = document.createElement("canvas");
+  return Boolean(canvas.getContext("webgl2") || canvas.getContext("webgl"));
+}

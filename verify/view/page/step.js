@@ -1,0 +1,333 @@
+// A step: a mesh at the time of a slider, and the pairs that touch by their time.
+//
+// Both ends of every vertex lie on the graphics processor; it alone computes where they are between, so that a slider
+// moves a mesh of any size at the cost of drawing it. For the pictures positions are rounded to float relative to the mesh's
+// box; a pair that is looked at is a query of the exact doubles.
+
+import * as THREE from "three";
+import { make, find } from "./elements.js";
+import { Scene, styleColor } from "./scene.js";
+
+const listed = 500;
+const mostScale = 1e5;
+
+function bytesOf(text) {
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes.buffer;
+}
+
+/// What the tool writes (verify/view/step_facts.cpp), with arrays of numbers.
+export function readStep(facts) {
+  return {
+    ...facts,
+    before: new Float64Array(bytesOf(facts.before)),
+    after: new Float64Array(bytesOf(facts.after)),
+    faces: new Uint32Array(bytesOf(facts.faces)),
+    edges: new Uint32Array(bytesOf(facts.edges)),
+  };
+}
+
+/// A pair as a query of exact coordinates.
+export function queryOf(step, { kind, name, points }) {
+  const coordinates = [step.before, step.after].flatMap((ends) =>
+    points.flatMap((i) => [ends[3 * i], ends[3 * i + 1], ends[3 * i + 2]]));
+  return { kind, coordinates, min_separation: step.min_separation, norm: step.norm, label: `${step.label}: ${name}` };
+}
+
+// ---- The picture --------------------------------------------------------------------------------
+
+const motion = `
+  attribute vec3 next;
+  uniform float t;
+  vec3 place() { return mix(position, next, t); }`;
+
+const surfaceShaders = {
+  vertexShader: `${motion}
+    varying vec3 seen;
+    void main() {
+      vec4 from_here = modelViewMatrix * vec4(place(), 1.0);
+      seen = from_here.xyz;
+      gl_Position = projectionMatrix * from_here;
+    }`,
+  fragmentShader: `
+    uniform vec3 color;
+    varying vec3 seen;
+    void main() {
+      vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
+      float light = 0.45 + 0.55 * abs(dot(normal, normalize(vec3(0.3, 0.5, 1.0))));
+      gl_FragColor = vec4(color * light, 1.0);
+    }`,
+};
+
+const markShaders = {
+  vertexShader: `${motion}
+    uniform float size;
+    void main() {
+      gl_Position = projectionMatrix * modelViewMatrix * vec4(place(), 1.0);
+      gl_PointSize = size;
+    }`,
+  fragmentShader: `
+    uniform vec3 color;
+    uniform float hollow;
+    void main() {
+      vec2 from_middle = abs(2.0 * gl_PointCoord - 1.0);
+      float out_there = from_middle.x + from_middle.y;
+      if (out_there > 1.0 || out_there < hollow) discard;
+      gl_FragColor = vec4(color, 1.0);
+    }`,
+};
+
+export class StepPicture {
+  constructor(scene, step) {
+    this.scene = scene;
+    this.step = step;
+    this.time = { value: 0 };
+    this.colors = [];
+    this.group = new THREE.Group();
+    scene.scene.add(this.group);
+    this.measure();
+    this.build();
+    this.focus = [0, 0, 0];
+    this.scale = 1;
+    this.place();
+  }
+
+  /// Middle and size of the mesh's box at both ends.
+  measure() {
+    const low = [Infinity, Infinity, Infinity];
+    const high = low.map((x) => -x);
+    for (const ends of [this.step.before, this.step.after]) {
+      ends.forEach((x, i) => {
+        if (x < low[i % 3]) low[i % 3] = x;
+        if (x > high[i % 3]) high[i % 3] = x;
+      });
+    }
+    this.middle = low.map((x, k) => x / 2 + high[k] / 2);
+    this.size = Math.max(...low.map((x, k) => high[k] / 2 - x / 2)) * 1.05 || 1;
+  }
+
+  /// A position in units of the picture.
+  unit(x, k) {
+    return (x - this.middle[k]) / this.size;
+  }
+
+  material(shaders, color, uniforms = {}, options = {}) {
+    const shade = { value: new THREE.Color() };
+    this.colors.push({ shade, color });
+    return new THREE.ShaderMaterial({ ...shaders, uniforms: { t: this.time, color: shade, ...uniforms },
+      extensions: { derivatives: true }, side: THREE.DoubleSide, ...options });
+  }
+
+  build() {
+    const { step } = this;
+    const attribute = (ends) =>
+      new THREE.BufferAttribute(Float32Array.from(ends, (x, i) => this.unit(x, i % 3)), 3);
+    const ends = { position: attribute(step.before), next: attribute(step.after) };
+    const geometry = (index, own = ends) => {
+      const result = new THREE.BufferGeometry();
+      for (const name of ["position", "next"]) result.setAttribute(name, own[name]);
+      if (index) result.setIndex(new THREE.BufferAttribute(index, 1));
+      return result;
+    };
+    const add = (object) => {
+      // Where its vertices are, only the graphics processor knows.
+      object.frustumCulled = false;
+      this.group.add(object);
+      return object;
+    };
+    const near = { polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 };
+    add(new THREE.Mesh(geometry(step.faces), this.material(surfaceShaders, "mesh")));
+    if (step.edges.length > 0) add(new THREE.LineSegments(geometry(step.edges), this.material(markShaders, "ink", this.look(1, -1))));
+    const pairs = step.pairs.map(({ points }) => points);
+    const faces = step.pairs.filter(({ kind }) => kind === "vertex-face").flatMap(({ points }) => points.slice(1));
+    const edges = step.pairs.filter(({ kind }) => kind === "edge-edge").flatMap(({ points }) => points);
+    add(new THREE.Mesh(geometry(Uint32Array.from(faces)), this.material(surfaceShaders, "s3", {}, near)));
+    add(new THREE.LineSegments(geometry(Uint32Array.from(edges)), this.material(markShaders, "s1", this.look(1, -1), { depthTest: false })));
+    // Where pairs touch: hollow marks, full for those that have touched; smaller the more there are.
+    const size = Math.max(3, 10 * Math.min(1, (200 / pairs.length) ** 0.3));
+    const places = this.contactPlaces(pairs);
+    const contacts = { position: places, next: places };
+    const mark = (size, hollow, color) => add(new THREE.Points(geometry(null, contacts),
+      this.material(markShaders, color, this.look(size, hollow), { depthTest: false })));
+    this.future = mark(size, size > 6 ? 0.55 : -1, "faint");
+    this.past = mark(size + 1, -1, "toi");
+    this.chosen = mark(22, 0.72, "bad");
+    this.chosen.geometry.setDrawRange(0, 0);
+  }
+
+  look(size, hollow) {
+    return { size: { value: size * Math.min(window.devicePixelRatio || 1, 2) }, hollow: { value: hollow } };
+  }
+
+  /// The middle of the points at the place of contact, at its time.
+  contactPlaces(pairs) {
+    const { before, after } = this.step;
+    const places = new Float32Array(3 * pairs.length);
+    this.step.pairs.forEach(({ kind, points, toi, place: [u, v] }, n) => {
+      const weights = kind === "vertex-face" ? [0, 1 - u - v, u, v] : [1 - u, u, 0, 0];
+      for (let k = 0; k < 3; ++k) {
+        const at = points.map((i) => this.unit(before[3 * i + k], k) * (1 - toi[0]) + this.unit(after[3 * i + k], k) * toi[0]);
+        places[3 * n + k] = at.reduce((sum, x, i) => sum + weights[i] * x, 0);
+      }
+    });
+    return new THREE.BufferAttribute(places, 3);
+  }
+
+  /// \param touched how many pairs have touched by the time
+  draw(t, touched, chosen) {
+    this.time.value = t;
+    this.past.geometry.setDrawRange(0, touched);
+    this.future.geometry.setDrawRange(touched, Infinity);
+    this.chosen.geometry.setDrawRange(chosen === null ? 0 : chosen, chosen === null ? 0 : 1);
+    for (const { shade, color } of this.colors) shade.value.copy(styleColor(color));
+    this.scene.render();
+  }
+
+  // ---- What is seen -----------------------------------------------------------------------------
+
+  place() {
+    this.group.scale.setScalar(this.scale);
+    this.group.position.set(...this.focus.map((x) => -x * this.scale));
+  }
+
+  zoom(factor) {
+    this.scale = Math.max(0.3, Math.min(mostScale, this.scale * factor));
+    this.place();
+  }
+
+  /// The place where a pair touches, to the middle.
+  goTo(n) {
+    const places = this.future.geometry.attributes.position.array;
+    this.focus = [0, 1, 2].map((k) => places[3 * n + k]);
+    this.place();
+  }
+
+  all() {
+    this.focus = [0, 0, 0];
+    this.scale = 1;
+    this.place();
+  }
+}
+
+// ---- The part of the page -----------------------------------------------------------------------
+
+const steps = 4096;
+
+/// \param show called with the number of a pair to look at
+export class StepPart {
+  constructor(step, viewpoint, canDraw, show) {
+    this.step = step;
+    this.chosen = null;
+    this.show = show;
+    find("step").append(...this.parts());
+    if (canDraw) {
+      const figure = find("mesh");
+      const scene = new Scene(figure, viewpoint, (factor) => {
+        this.picture.zoom(factor);
+        this.update();
+      });
+      this.picture = new StepPicture(scene, step);
+    } else {
+      find("mesh").replaceChildren(make("p", { class: "warning" }, "This browser has no WebGL, which the picture needs."));
+    }
+    this.setTime(step.pairs.length > 0 ? step.pairs[0].toi[1] : 0);
+  }
+
+  parts() {
+    const { step } = this;
+    const count = step.total === 1 ? "1 pair touches" : `${step.total} pairs touch`;
+    const first = step.pairs.length > 0 ? `, the first at t = ${step.pairs[0].toi[0]}` : "";
+    const separation = step.min_separation > 0 ? ` within ${step.min_separation} (${step.norm})` : "";
+    const elements = `${step.before.length / 3} vertices, ${step.faces.length / 3} faces`;
+    return [
+      make("h2", {}, step.label),
+      make("p", {}, make("strong", { id: "step_verdict" }, `${step.total === 0 ? "Nothing touches" : count + first}${separation}.`), ` ${elements}.`),
+      make("div", { class: "step" },
+        make("figure", { id: "mesh" },
+          make("figcaption", {}, "The mesh; a diamond where a pair touches, full once it has"),
+          make("div", { class: "canvas" },
+            make("canvas", { tabindex: "0", role: "img", "aria-label": "The mesh. Arrow keys turn it, plus and minus zoom." }),
+            make("div", { class: "names" }))),
+        make("div", {},
+          make("ol", { id: "pairs", tabindex: "0", "aria-label": "Pairs that touch, by time" },
+            ...step.pairs.slice(0, listed).map((pair, i) => make("li", {}, make("button", { type: "button", onclick: () => this.choose(i) },
+              make("span", {}, pair.name), ` t ≈ ${Number(pair.toi[0].toPrecision(9))}`)))),
+          step.total > listed ? make("p", {}, `and ${step.total - listed} more`) : null)),
+      make("div", { class: "controls" },
+        make("button", { type: "button", id: "step_play", onclick: () => this.togglePlay() }, "Play"),
+        make("label", { class: "wide" }, "time t", make("input", { type: "range", id: "step_time", min: 0, max: steps,
+          oninput: (event) => this.setTime(event.target.valueAsNumber / steps) })),
+        make("output", { id: "step_now" }),
+        make("button", { type: "button", id: "step_near", disabled: step.pairs.length === 0, onclick: () => this.goNear() }, "To the pair"),
+        make("button", { type: "button", id: "step_all", onclick: () => {
+          if (this.picture) this.picture.all();
+          this.update();
+        } }, "All")),
+    ];
+  }
+
+  /// How many pairs have touched by now.
+  get touched() {
+    const { pairs } = this.step;
+    let [low, high] = [0, pairs.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (pairs[middle].toi[0] <= this.t) low = middle + 1;
+      else high = middle;
+    }
+    return low;
+  }
+
+  setTime(t) {
+    this.t = t;
+    this.update();
+  }
+
+  update() {
+    const { touched } = this;
+    if (this.picture) this.picture.draw(this.t, touched, this.chosen);
+    find("step_time").value = Math.round(this.t * steps);
+    const { pairs, total } = this.step;
+    const all = total > pairs.length ? `the first ${pairs.length}` : String(total);
+    find("step_now").textContent = `t = ${this.t}, ${touched} of ${all} have touched`;
+    for (const [i, item] of [...find("pairs").children].entries()) {
+      item.classList.toggle("past", i < touched);
+      item.classList.toggle("chosen", i === this.chosen);
+    }
+  }
+
+  choose(n) {
+    this.chosen = n;
+    if (this.picture) this.picture.goTo(n);
+    this.setTime(this.step.pairs[n].toi[1]);
+    this.show(n);
+  }
+
+  goNear() {
+    const n = this.chosen === null ? 0 : this.chosen;
+    if (this.picture) {
+      this.picture.goTo(n);
+      this.picture.zoom(4);
+    }
+    this.chosen = n;
+    this.update();
+  }
+
+  togglePlay() {
+    this.isPlaying = !this.isPlaying;
+    find("step_play").textContent = this.isPlaying ? "Stop" : "Play";
+    let last = performance.now();
+    if (this.isPlaying && this.t >= 1) this.t = 0;
+    const tick = (now) => {
+      if (!this.isPlaying) return;
+      const t = Math.min(1, this.t + (now - last) / 4000);
+      last = now;
+      if (t >= 1) this.togglePlay();
+      this.setTime(t);
+      requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+}

@@ -1,0 +1,178 @@
+#include "verify/view/query_facts.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "exact/algebra/algebraic_number.hpp"
+#include "exact/certificate.hpp"
+#include "exact/certificate/certificate_text.hpp"
+#include "exact/oracle.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/judge/judge.hpp"
+#include "verify/solvers/answers.hpp"
+#include "verify/solvers/registry.hpp"
+#include "verify/view/certificate_facts.hpp"
+#include "verify/view/nearest_approach.hpp"
+
+namespace touchstone::verify::view {
+namespace {
+
+/// Times and places are given to so many bits where they are irrational.
+constexpr unsigned long time_bits = 256;
+
+nlohmann::json number(double value) {
+  if (std::isnan(value)) return {};
+  if (std::isinf(value)) return value > 0.0 ? "Infinity" : "-Infinity";
+  std::string text;
+  exact::write_hexadecimal(text, value);
+  return text;
+}
+
+/// Doubles around an interval, and the number itself where it is one.
+nlohmann::json enclosure(const exact::RationalInterval& interval) {
+  return {{"lower", number(exact::round_down(interval.lower))},
+          {"upper", number(exact::round_up(interval.upper))},
+          {"exact", interval.lower == interval.upper ? nlohmann::json(interval.lower.get_str())
+                                                     : nlohmann::json()}};
+}
+
+/// A time to look at: the number itself where it is known to be rational, else one within 2^-256 of it.
+exact::Rational time_near(exact::AlgebraicNumber number) {
+  if (!number.rational()) number.refine_to_level(time_bits);
+  if (number.rational()) return *number.rational();
+  const exact::RationalInterval interval = number.interval();
+  return (interval.lower + interval.upper) / 2;
+}
+
+nlohmann::json moment(const exact::AlgebraicNumber& number_in_time) {
+  const exact::DoubleInterval doubles = number_in_time.enclosure();
+  const exact::Rational near = time_near(number_in_time);
+  const bool is_exact = number_in_time == near;
+  return {{"lower", number(doubles.lower)},
+          {"upper", number(doubles.upper)},
+          {"exact", is_exact ? nlohmann::json(near.get_str()) : nlohmann::json()},
+          {"time", near.get_str()}};
+}
+
+nlohmann::json truth_facts(const exact::Verdict& verdict) {
+  nlohmann::json truth{{"collides", verdict.collides()},
+                       {"text", judge::to_text(judge::truth_of(0, verdict))}};
+  if (!verdict.toi) return truth;
+  truth["toi"] = moment(*verdict.toi);
+  if (!verdict.contact) return truth;
+  const exact::ContactParameters place =
+      exact::contact_parameters(verdict, exact::power_of_two(-static_cast<long>(time_bits)));
+  truth["u"] = enclosure(place.u);
+  truth["v"] = enclosure(place.v);
+  return truth;
+}
+
+nlohmann::json approach_facts(const ViewedQuery& viewed) {
+  const auto approach = nearest_approach(viewed.kind, viewed.query);
+  if (!approach) return {};
+  nlohmann::json facts = moment(approach->time);
+  facts["above"] = number(approach->above);
+  facts["at_most"] = number(approach->at_most);
+  return facts;
+}
+
+/// The oracle's own certificate. \return nothing where it is beyond the format's limits
+std::string proof_of(const ViewedQuery& viewed, const exact::Verdict& verdict) {
+  try {
+    return exact::certificate_stream(exact::prove(viewed.kind, viewed.query, verdict),
+                                     io::printable(viewed.label));
+  } catch (const exact::CertificateLimitError&) {
+    return {};
+  }
+}
+
+nlohmann::json certificate_of(const ViewedQuery& viewed, const exact::Verdict& verdict) {
+  const bool is_given = !viewed.certificate.empty();
+  const std::string stream = is_given ? viewed.certificate : proof_of(viewed, verdict);
+  if (stream.empty()) return {};
+  nlohmann::json facts = certificate_facts(stream);
+  facts["given"] = is_given;
+  return facts;
+}
+
+// ---- Solvers ------------------------------------------------------------------------------------
+
+/// An answer held against the truth.
+nlohmann::json answer_facts(const RecordedAnswer& given, fast::Promise promise, bool is_recorded,
+                            const judge::GroundTruth& truth) {
+  judge::Judgement judgement;
+  judgement.add(truth, given.answer, given.failure ? &*given.failure : nullptr);
+  nlohmann::json faults = nlohmann::json::array();
+  bool is_broken = false;
+  for (std::size_t i = 0; i < judge::fault_count; ++i) {
+    const auto fault = static_cast<judge::Fault>(i);
+    if (judgement.count(fault) == 0) continue;
+    faults.push_back(judge::to_string(fault));
+    is_broken = is_broken || judge::breaks(fault, promise);
+  }
+  const auto failure = given.failure ? given.failure : solvers::failure_of(given.answer);
+  return {{"solver", io::printable(given.solver)},
+          {"promise", solvers::to_string(promise)},
+          {"recorded", is_recorded},
+          {"verdict", solvers::to_string(given.answer.verdict)},
+          {"failure", failure ? solvers::to_text(*failure) : ""},
+          {"toi_lower", number(given.answer.toi_lower)},
+          {"toi_upper", number(given.answer.toi_upper)},
+          {"tolerance", number(given.answer.tolerance)},
+          {"faults", faults},
+          {"breaks_promise", is_broken}};
+}
+
+RecordedAnswer ask(const solvers::Solver& solver, const ViewedQuery& viewed) {
+  RecordedAnswer result{.solver = solver.name()};
+  const std::array<std::uint64_t, 1> index{0};
+  const solvers::SolveReply reply = solver.solve({.kind = viewed.kind,
+                                                  .queries = {&viewed.query, 1},
+                                                  .separation = viewed.separation,
+                                                  .source = viewed.label,
+                                                  .indices = index},
+                                                 {&result.answer, 1});
+  if (!reply.failures.empty()) result.failure = reply.failures.front().failure;
+  return result;
+}
+
+nlohmann::json answers_of(const ViewedQuery& viewed, const judge::GroundTruth& truth,
+                          std::span<const solvers::Solver* const> solvers) {
+  nlohmann::json answers = nlohmann::json::array();
+  for (const RecordedAnswer& recorded : viewed.answers) {
+    const fast::MethodInfo* info = solvers::find_info(recorded.solver);
+    const fast::Promise promise = info == nullptr ? fast::Promise::none : info->promise;
+    answers.push_back(answer_facts(recorded, promise, true, truth));
+  }
+  for (const solvers::Solver* solver : solvers) {
+    answers.push_back(answer_facts(ask(*solver, viewed), solver->promise(), false, truth));
+  }
+  return answers;
+}
+
+}  // namespace
+
+nlohmann::json query_facts(const ViewedQuery& viewed,
+                           std::span<const solvers::Solver* const> solvers) {
+  const exact::Verdict verdict = exact::decide(viewed.kind, viewed.query, viewed.separation);
+  nlohmann::json coordinates = nlohmann::json::array(), notes = nlohmann::json::array();
+  for (const double x : viewed.query.coordinates) coordinates.push_back(number(x));
+  for (const std::string& note : viewed.notes) notes.push_back(io::printable(note));
+  return {{"label", io::printable(viewed.label)},
+          {"kind", to_string(viewed.kind)},
+          {"coordinates", coordinates},
+          {"min_separation", number(viewed.separation.distance)},
+          {"norm", to_string(viewed.separation.norm)},
+          {"notes", notes},
+          {"truth", truth_facts(verdict)},
+          {"approach", approach_facts(viewed)},
+          {"certificate", certificate_of(viewed, verdict)},
+          {"answers", answers_of(viewed, judge::truth_of(0, verdict), solvers)}};
+}
+
+}  // namespace touchstone::verify::view

@@ -1,0 +1,48 @@
+#pragma once
+
+/// \file
+/// All that a view says about one query: what it is, the oracle's verdict, time and place, a certificate
+/// of it, how near the primitives come, and the answers of the solvers that were asked, each held
+/// against the truth.
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exact/query.hpp"
+#include "fast/method.hpp"
+#include "verify/solvers/failure.hpp"
+#include "verify/solvers/solver.hpp"
+
+namespace touchstone::verify::view {
+
+/// An answer that was recorded with a query.
+struct RecordedAnswer {
+  std::string solver;
+  fast::Answer answer = {};
+  std::optional<solvers::Failure> failure = std::nullopt;
+};
+
+/// A query to be looked at. Texts may hold any bytes.
+struct ViewedQuery {
+  std::string label;  ///< where it is from
+  Kind kind = Kind::vertex_face;
+  Query query{};  ///< finite
+  Separation separation = {};
+  std::vector<std::string> notes = {};  ///< what is recorded of it, a sentence each
+  std::vector<RecordedAnswer> answers = {};
+  /// A stream of one certificate; where it is empty, the oracle's own is shown.
+  std::string certificate = {};
+};
+
+/// As the script of a page reads it, see verify/view/page/facts.js. Doubles are texts, in hexadecimal,
+/// and rationals "P/Q".
+/// \throws std::invalid_argument if a coordinate is NaN or infinite, the separation is not valid, or the
+/// certificate is none.
+[[nodiscard]] nlohmann::json query_facts(const ViewedQuery& viewed,
+                                         std::span<const solvers::Solver* const> solvers);
+
+}  // namespace touchstone::verify::view

@@ -1,0 +1,303 @@
+#include "verify/view/query_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "exact/certificate/certificate_text.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/data/dataset_error.hpp"
+#include "verify/fuzz/finding.hpp"
+#include "verify/io/coordinate_text.hpp"
+#include "verify/io/input_file.hpp"
+#include "verify/io/json.hpp"
+#include "verify/jobs/prove.hpp"
+#include "verify/view/certificate_facts.hpp"
+
+namespace touchstone::verify::view {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t coordinate_count = 3 * query_points;
+/// Bytes that a file may have that is read as a whole.
+constexpr std::size_t file_limit = std::size_t{256} << 20U;
+
+/// What the options ask for of the queries of a file, which are offered one after the other.
+class Selection {
+ public:
+  explicit Selection(const QueryFileOptions& options) : options_(options) {}
+
+  /// Is the query at that position asked for?
+  [[nodiscard]] bool wants(std::uint64_t index) const {
+    return !is_complete() &&
+           (options_.indices.empty() || std::ranges::count(options_.indices, index) != 0);
+  }
+  /// Is there nothing more to ask for?
+  [[nodiscard]] bool is_complete() const { return queries_.size() >= wanted(); }
+  void add(ViewedQuery query) { queries_.push_back(std::move(query)); }
+
+  /// \throws DatasetError if there is none, or one that was named is not there
+  [[nodiscard]] std::vector<ViewedQuery> take(const fs::path& path, std::uint64_t offered) {
+    for (const std::uint64_t index : options_.indices) {
+      if (index < offered || is_complete()) continue;
+      throw data::DatasetError(path, {},
+                               fmt::format("there is no query {}; it has {}", index, offered));
+    }
+    if (queries_.empty()) throw data::DatasetError(path, {}, "there is no query in it");
+    return std::move(queries_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t wanted() const {
+    return options_.indices.empty() ? options_.most
+                                    : std::min(options_.most, options_.indices.size());
+  }
+
+  QueryFileOptions options_;
+  std::vector<ViewedQuery> queries_;
+};
+
+// ---- Datasets -----------------------------------------------------------------------------------
+
+std::vector<ViewedQuery> read_dataset(const fs::path& path, const QueryFileOptions& options) {
+  const auto source = data::open_dataset(path, {.kind = options.kind, .round = options.round});
+  Selection selection(options);
+  std::uint64_t offered = 0;
+  while (!selection.is_complete()) {
+    const auto recorded = source->next();
+    if (!recorded) break;
+    offered = recorded->index + 1;
+    if (!selection.wants(recorded->index)) continue;
+    ViewedQuery query{.label = jobs::certificate_label(source->name(), recorded->index),
+                      .kind = source->kind(),
+                      .query = recorded->query,
+                      .separation = source->recorded_separation()};
+    if (recorded->collides) {
+      query.notes.push_back(*recorded->collides ? "The dataset says that they collide."
+                                                : "The dataset says that they do not collide.");
+    }
+    selection.add(std::move(query));
+  }
+  return selection.take(path, offered);
+}
+
+// ---- JSON ---------------------------------------------------------------------------------------
+
+double number_of(const nlohmann::json& json) {
+  if (json.is_string()) return parse_number(json.get<std::string>());
+  const double value = json.get<double>();
+  if (!std::isfinite(value)) throw std::invalid_argument("a coordinate is not finite");
+  return value;
+}
+
+Query query_of(const nlohmann::json& coordinates) {
+  if (!coordinates.is_array() || coordinates.size() != coordinate_count) {
+    throw std::invalid_argument("coordinates must be a list of 24 numbers");
+  }
+  Query query{};
+  for (std::size_t i = 0; i < coordinate_count; ++i) {
+    query.coordinates.at(i) = number_of(coordinates[i]);
+  }
+  return query;
+}
+
+Separation separation_of(const nlohmann::json& json) {
+  const auto separation = json.find("separation");
+  if (separation == json.end() || separation->is_null()) return {};
+  const Separation result{.distance = number_of(separation->at("min_separation")),
+                          .norm = norm_from_string(separation->at("norm").get<std::string>())};
+  if (!is_valid(result)) throw std::invalid_argument("the separation must not be negative");
+  return result;
+}
+
+fast::Verdict verdict_from(std::string_view text) {
+  if (text == "no") return fast::Verdict::no;
+  if (text == "yes") return fast::Verdict::yes;
+  return text == "undecided" ? fast::Verdict::undecided : fast::Verdict::error;
+}
+
+/// The failure of a finding that is one.
+std::optional<solvers::Failure> failure_of(const nlohmann::json& finding) {
+  const auto kind = solvers::failure_kind_from_string(finding.at("what").get<std::string>());
+  if (!kind) return std::nullopt;
+  return solvers::Failure{.kind = *kind};
+}
+
+/// What a finding of the fuzzer has beyond a query.
+void add_finding(const nlohmann::json& json, ViewedQuery& query) {
+  const auto method = json.at("method").get<std::string>();
+  query.label += fmt::format(", {} of {}", json.at("what").get<std::string>(), method);
+  query.notes.push_back(fmt::format("{}: {}", method, json.at("detail").get<std::string>()));
+  const nlohmann::json& answer = json.at("answer");
+  query.answers.push_back(
+      {.solver = method,
+       .answer = {.verdict = verdict_from(answer.at("verdict").get<std::string>()),
+                  .toi_lower = io::number_from_json(answer.at("toi_lower")),
+                  .toi_upper = io::number_from_json(answer.at("toi_upper")),
+                  .tolerance = io::number_from_json(answer.at("tolerance"))},
+       .failure = failure_of(json)});
+}
+
+std::vector<ViewedQuery> read_json(const fs::path& path, const QueryFileOptions& options) {
+  std::uint64_t index = 0;
+  try {
+    nlohmann::json json = nlohmann::json::parse(io::read_file(path, file_limit));
+    if (json.is_object()) {
+      json = json.contains("findings") ? nlohmann::json(json.at("findings"))
+                                       : nlohmann::json::array({json});
+    }
+    Selection selection(options);
+    for (; index < json.size() && !selection.is_complete(); ++index) {
+      if (!selection.wants(index)) continue;
+      selection.add(query_from_json(json.at(index), jobs::certificate_label(path.string(), index),
+                                    options.kind));
+    }
+    return selection.take(path, json.size());
+  } catch (const nlohmann::json::parse_error& error) {
+    throw data::DatasetError(path, {}, error.what());
+  } catch (const std::logic_error& error) {
+    throw data::DatasetError(path, {}, fmt::format("query {}: {}", index, error.what()));
+  } catch (const nlohmann::json::exception& error) {
+    throw data::DatasetError(path, {}, fmt::format("query {}: {}", index, error.what()));
+  }
+}
+
+// ---- Certificates -------------------------------------------------------------------------------
+
+ViewedQuery query_from(std::string stream, std::string label) {
+  const CertifiedQuery certified = certified_query(stream);
+  if (!certified.label.empty()) label += ", " + certified.label;
+  return {.label = std::move(label),
+          .kind = certified.kind,
+          .query = certified.query,
+          .separation = certified.separation,
+          .certificate = std::move(stream)};
+}
+
+/// Each certificate is made a stream of its own: the lines from `query` to `end`, between header and closing line.
+std::vector<ViewedQuery> read_certificates(const fs::path& path, const QueryFileOptions& options) {
+  io::LineReader lines(path);
+  Selection selection(options);
+  std::uint64_t index = 0;
+  std::string text;
+  for (auto line = lines.next(); line && !selection.is_complete(); line = lines.next()) {
+    if (line->text.starts_with("query ")) text = exact::certificates_header();
+    if (text.empty()) {
+      if (line->number == 1 && !exact::certificates_header().starts_with(line->text)) {
+        throw data::DatasetError(path, {.line = 1}, "this is no stream of certificates");
+      }
+      continue;
+    }
+    text.append(line->text).append("\n");
+    if (line->text != "end") continue;
+    if (selection.wants(index)) {
+      text += exact::certificates_closing_line(1);
+      try {
+        selection.add(query_from(text, jobs::certificate_label(path.string(), index)));
+      } catch (const std::invalid_argument& error) {
+        throw data::DatasetError(path, {.line = line->number}, error.what());
+      }
+    }
+    ++index;
+    text.clear();
+  }
+  return selection.take(path, index);
+}
+
+// ---- Points -------------------------------------------------------------------------------------
+
+std::vector<ViewedQuery> read_obj(const fs::path& path, const QueryFileOptions& options) {
+  io::LineReader lines(path);
+  std::string numbers;
+  for (auto line = lines.next(); line; line = lines.next()) {
+    if (!line->text.starts_with("v ")) continue;
+    numbers.append(line->text.substr(2)).append("\n");
+    if (numbers.size() > io::LineReader::longest_line) {
+      throw data::DatasetError(path, {}, "a query has eight lines of vertices");
+    }
+  }
+  try {
+    return {{.label = path.string(),
+             .kind = options.kind ? *options.kind : data::kind_from_path(path),
+             .query = parse_points(numbers)}};
+  } catch (const std::invalid_argument& error) {
+    throw data::DatasetError(path, {}, error.what());
+  }
+}
+
+double parse_hexadecimal(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() + text.size())
+    throw std::invalid_argument("\"" + text + "\" is no number");
+  return value;
+}
+
+}  // namespace
+
+ViewedQuery query_from_json(const nlohmann::json& json, std::string label,
+                            std::optional<Kind> kind) {
+  ViewedQuery query{.label = std::move(label)};
+  if (const auto named = json.find("kind"); named != json.end()) {
+    query.kind = kind_from_string(named->get<std::string>());
+  } else if (kind) {
+    query.kind = *kind;
+  } else {
+    throw std::invalid_argument("nothing says the kind; add --kind");
+  }
+  query.query = query_of(json.at("coordinates"));
+  query.separation = separation_of(json);
+  if (json.contains("what") && json.contains("answer")) add_finding(json, query);
+  return query;
+}
+
+double parse_number(std::string_view text) {
+  double value = std::numeric_limits<double>::infinity();
+  if (text.find_first_of("xX") != std::string_view::npos) {
+    value = parse_hexadecimal(std::string(text));
+  } else {
+    const std::size_t slash = text.find('/');
+    value = io::parse_coordinate(text.substr(0, slash),
+                                 slash == std::string_view::npos ? "1" : text.substr(slash + 1))
+                .value;
+  }
+  if (!std::isfinite(value)) throw std::invalid_argument("a coordinate is not finite");
+  return value;
+}
+
+Query parse_points(std::string_view text) {
+  static constexpr std::string_view separators = " \t\r\n,;{}()[]";
+  Query query{};
+  std::size_t count = 0;
+  for (std::size_t at = text.find_first_not_of(separators); at != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
+    if (count < coordinate_count) {
+      query.coordinates.at(count) = parse_number(text.substr(at, end - at));
+    }
+    ++count;
+    at = text.find_first_not_of(separators, end);
+  }
+  if (count != coordinate_count) {
+    throw std::invalid_argument(fmt::format("{} numbers, not the 24 of a query", count));
+  }
+  return query;
+}
+
+std::vector<ViewedQuery> read_queries(const fs::path& path, const QueryFileOptions& options) {
+  const std::string extension = path.extension().string();
+  if (extension == ".json") return read_json(path, options);
+  if (extension == ".cert") return read_certificates(path, options);
+  if (extension == ".obj") return read_obj(path, options);
+  return read_dataset(path, options);
+}
+
+}  // namespace touchstone::verify::view

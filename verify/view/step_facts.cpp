@@ -1,0 +1,136 @@
+#include "verify/view/step_facts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "fast/broad_phase.hpp"
+#include "verify/io/html.hpp"
+#include "verify/io/printable.hpp"
+
+namespace touchstone::verify::view {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "a page's arrays are little-endian");
+
+/// The edges of a mesh that no face has.
+std::vector<fast::Edge> edges_of_no_face(const mesh::Mesh& mesh) {
+  const std::vector<fast::Edge> of_faces = fast::edges_of(mesh.faces);
+  std::vector<fast::Edge> result;
+  // Both lists are in this order.
+  const auto key = [](const fast::Edge& edge) { return std::pair(edge[1], edge[0]); };
+  std::ranges::set_difference(mesh.edges, of_faces, std::back_inserter(result), {}, key, key);
+  return result;
+}
+
+/// The numbers of the four points of a pair's query, in the order of fast::Step::query_of.
+std::array<std::int32_t, 4> points_of(const fast::Step& step, std::span<const fast::Face> faces,
+                                      const fast::StepCollision& collision) {
+  const auto [first, second] = collision.pair;
+  const auto edge = [&](std::int32_t number) {
+    return step.edges()[static_cast<std::size_t>(number)];
+  };
+  switch (collision.kind) {
+    case fast::PairKind::vertex_face: {
+      const fast::Face& face = faces[static_cast<std::size_t>(second)];
+      return {first, face[0], face[1], face[2]};
+    }
+    case fast::PairKind::edge_edge:
+      return {edge(first)[0], edge(first)[1], edge(second)[0], edge(second)[1]};
+    case fast::PairKind::vertex_edge:
+      return {first, edge(second)[0], edge(second)[1], edge(second)[0]};
+    default:
+      return {first, second, second, second};
+  }
+}
+
+std::string pair_text(const fast::StepCollision& collision) {
+  static constexpr std::array<std::array<std::string_view, 2>, 4> names{
+      {{"vertex", "face"}, {"edge", "edge"}, {"vertex", "edge"}, {"vertex", "vertex"}}};
+  const auto& [first, second] = names.at(static_cast<std::size_t>(collision.kind));
+  return fmt::format("{} {}, {} {}", first, collision.pair[0], second, collision.pair[1]);
+}
+
+template <class Number>
+std::string array_text(std::span<const Number> numbers) {
+  return io::base64(std::as_bytes(numbers));
+}
+
+std::string array_text(const mesh::Vertices& vertices) {
+  return array_text(std::span(vertices.data(), static_cast<std::size_t>(vertices.size())));
+}
+
+template <std::size_t count>
+std::string array_text(const std::vector<std::array<std::int32_t, count>>& elements) {
+  return array_text(
+      std::span(elements.empty() ? nullptr : elements.front().data(), count * elements.size()));
+}
+
+}  // namespace
+
+ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh, mesh::Vertices before,
+                           mesh::Vertices after, const Separation& separation) {
+  const fast::Step step(before, after,
+                        {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
+                        {.separation = separation});
+  ViewedStep result{.label = std::move(label),
+                    .before = std::move(before),
+                    .after = std::move(after),
+                    .faces = mesh.faces,
+                    .codimensional_edges = edges_of_no_face(mesh),
+                    .separation = separation,
+                    .collisions = step.collisions(),
+                    .queries = {},
+                    .points = {}};
+  std::ranges::sort(result.collisions, {}, [](const fast::StepCollision& collision) {
+    return std::tuple(collision.toi_lower, collision.toi_upper, collision.kind, collision.pair);
+  });
+  for (const fast::StepCollision& collision : result.collisions) {
+    result.queries.push_back(step.query_of(collision.kind, collision.pair));
+    result.points.push_back(points_of(step, mesh.faces, collision));
+  }
+  return result;
+}
+
+std::vector<ViewedQuery> first_queries(const ViewedStep& step, std::size_t most) {
+  std::vector<ViewedQuery> queries;
+  for (std::size_t i = 0; i < std::min(most, step.collisions.size()); ++i) {
+    queries.push_back({.label = fmt::format("{}: {}", step.label, pair_text(step.collisions[i])),
+                       .kind = fast::Step::kind_of(step.collisions[i].kind),
+                       .query = step.queries[i],
+                       .separation = step.separation});
+  }
+  return queries;
+}
+
+nlohmann::json step_facts(const ViewedStep& step) {
+  nlohmann::json pairs = nlohmann::json::array();
+  for (std::size_t i = 0; i < std::min(most_listed_pairs, step.collisions.size()); ++i) {
+    const fast::StepCollision& collision = step.collisions[i];
+    pairs.push_back({{"kind", to_string(fast::Step::kind_of(collision.kind))},
+                     {"name", pair_text(collision)},
+                     {"points", step.points[i]},
+                     {"toi", {collision.toi_lower, collision.toi_upper}},
+                     {"place", {collision.u, collision.v}}});
+  }
+  return {{"label", io::printable(step.label)},
+          {"before", array_text(step.before)},
+          {"after", array_text(step.after)},
+          {"faces", array_text(step.faces)},
+          {"edges", array_text(step.codimensional_edges)},
+          {"pairs", std::move(pairs)},
+          {"total", step.collisions.size()},
+          {"min_separation", step.separation.distance},
+          {"norm", to_string(step.separation.norm)}};
+}
+
+}  // namespace touchstone::verify::view
