@@ -43,9 +43,9 @@ Query with_room(const Query& query) {
 /// The greatest difference of two coordinates on an axis.
 double extent(const Query& query) {
   double result = 0.0;
-  for (std::size_t axis = 0; axis < axes; ++axis) {
+  for (std::size_t axis = 0; axis < point_axes; ++axis) {
     double least = query.coordinates[axis], greatest = least;
-    for (std::size_t i = axis; i < coordinate_count; i += axes) {
+    for (std::size_t i = axis; i < coordinate_count; i += point_axes) {
       least = std::min(least, query.coordinates[i]);
       greatest = std::max(greatest, query.coordinates[i]);
     }
@@ -64,7 +64,7 @@ Query shape(const Query& query) {
   const int exponent = std::ilogb(size);
   for (std::size_t i = 0; i < coordinate_count; ++i) {
     result.coordinates[i] =
-        std::ldexp(roomy.coordinates[i] - roomy.coordinates[i % axes], -exponent);
+        std::ldexp(roomy.coordinates[i] - roomy.coordinates[i % point_axes], -exponent);
   }
   return result;
 }
@@ -87,7 +87,7 @@ std::uint64_t collapsed_edge(const Query& shape, std::size_t end, std::size_t fi
 
 std::uint64_t collapsed_in_shape(Kind kind, const Query& shape) {
   std::uint64_t result = 0;
-  for (std::size_t end = 0; end < ends; ++end) {
+  for (std::size_t end = 0; end < motion_ends; ++end) {
     result += kind == Kind::vertex_face
                   ? collapsed_triangle(shape, end)
                   : collapsed_edge(shape, end, 0) + collapsed_edge(shape, end, 2);
@@ -126,8 +126,8 @@ std::uint64_t length(const Query& query, const std::vector<double>& of_query) {
 }
 
 bool is_greater(const Query& query, const PointPair& pair) {
-  for (std::size_t end = 0; end < ends; ++end) {
-    for (std::size_t axis = 0; axis < axes; ++axis) {
+  for (std::size_t end = 0; end < motion_ends; ++end) {
+    for (std::size_t axis = 0; axis < point_axes; ++axis) {
       const double first = query.at(end, pair[0], axis), second = query.at(end, pair[1], axis);
       if (first != second) return first > second;
     }

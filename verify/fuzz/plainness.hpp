@@ -34,11 +34,11 @@
 namespace touchstone::verify::fuzz {
 
 // A query's coordinates: coordinate_count numbers at t=0 and t=1 each, x, y and z of each point.
-inline constexpr std::size_t axes = 3;
-inline constexpr std::size_t ends = 2;
-inline constexpr std::size_t coordinate_count = axes * query_points;
+inline constexpr std::size_t point_axes = 3;
+inline constexpr std::size_t motion_ends = 2;
+inline constexpr std::size_t coordinate_count = point_axes * query_points;
 /// Distance of a point's coordinate at t=0 from the one at t=1.
-inline constexpr std::size_t to_other_end = axes * moving_points;
+inline constexpr std::size_t to_other_end = point_axes * moving_points;
 
 /// As above. Two queries may be equally plain.
 struct Plainness {

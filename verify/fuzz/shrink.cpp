@@ -143,7 +143,7 @@ class Shrinker {
   template <class Change>
   bool attempt_axis(std::size_t axis, const Change& change) {
     Query plainer = query_;
-    for (std::size_t i = axis; i < coordinate_count; i += axes) {
+    for (std::size_t i = axis; i < coordinate_count; i += point_axes) {
       plainer.coordinates[i] = change(plainer.coordinates[i]);
     }
     return attempt(plainer);
@@ -160,7 +160,7 @@ class Shrinker {
       while (scale_by(-size_exponent(query_) / part)) {
       }
     }
-    for (std::size_t axis = 0; axis < axes; ++axis) scale_axis(axis);
+    for (std::size_t axis = 0; axis < point_axes; ++axis) scale_axis(axis);
   }
 
   bool scale_by(int shift) {
@@ -171,7 +171,7 @@ class Shrinker {
 
   void scale_axis(std::size_t axis) {
     double greatest = 0.0;
-    for (std::size_t i = axis; i < coordinate_count; i += axes) {
+    for (std::size_t i = axis; i < coordinate_count; i += point_axes) {
       greatest = std::max(greatest, std::abs(query_.coordinates[i]));
     }
     if (greatest == 0.0) return;
@@ -187,15 +187,15 @@ class Shrinker {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
       const double origin = query_.coordinates[i];
       if (origin == 0.0) continue;
-      attempt_axis(i % axes, [&](double x) { return x - origin; });
-      attempt_axis(i % axes, [&](double x) { return to_digits(x - origin, digits_of_sums); });
+      attempt_axis(i % point_axes, [&](double x) { return x - origin; });
+      attempt_axis(i % point_axes, [&](double x) { return to_digits(x - origin, digits_of_sums); });
     }
   }
 
   /// Seen from a point: it rests, the others move relative to it.
   void follow_points() {
     for (std::size_t point = 0; point < moving_points; ++point) {
-      for (std::size_t axis = 0; axis < axes; ++axis) {
+      for (std::size_t axis = 0; axis < point_axes; ++axis) {
         const double motion = query_.at(1, point, axis) - query_.at(0, point, axis);
         Query plainer = query_;
         for (std::size_t other = 0; other < moving_points; ++other) {
@@ -209,7 +209,7 @@ class Shrinker {
   /// All coordinates, and those of each axis, to so many digits, and to so many places of the greatest
   /// one. Equal ones stay equal, and the order too.
   void round_all() {
-    for (std::size_t axis = 0; axis <= axes; ++axis) {
+    for (std::size_t axis = 0; axis <= point_axes; ++axis) {
       double greatest = 0.0;
       for_each_of(axis, query_, [&](double& x) { greatest = std::max(greatest, std::abs(x)); });
       if (greatest == 0.0) continue;
@@ -231,7 +231,7 @@ class Shrinker {
   /// The values of all coordinates, and of those of each axis, in their order with equal steps between:
   /// what is decided by order and equality stays so.
   void space_evenly() {
-    for (std::size_t axis = 0; axis <= axes; ++axis) {
+    for (std::size_t axis = 0; axis <= point_axes; ++axis) {
       std::vector<double> values;
       for_each_of(axis, query_, [&](double& x) { values.push_back(x); });
       std::ranges::sort(values);
@@ -265,30 +265,30 @@ class Shrinker {
     attempt(plainer);
   }
 
-  /// Calls use(x) for the coordinates of an axis, of all axes if it is behind the last one.
+  /// Calls use(x) for the coordinates of an axis, of all point_axes if it is behind the last one.
   template <class Use>
   static void for_each_of(std::size_t axis, Query& query, const Use& use) {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
-      if (axis == axes || i % axes == axis) use(query.coordinates[i]);
+      if (axis == point_axes || i % point_axes == axis) use(query.coordinates[i]);
     }
   }
 
   // ---- Axes and points ----
 
   void simplify_axes() {
-    for (std::size_t axis = 0; axis < axes; ++axis) {
+    for (std::size_t axis = 0; axis < point_axes; ++axis) {
       attempt_axis(axis, [](double) { return 0.0; });
       attempt_axis(axis, [](double x) { return 0.0 - x; });
-      for (std::size_t end = 0; end < ends; ++end) {
+      for (std::size_t end = 0; end < motion_ends; ++end) {
         Query at_rest = query_;
         for (std::size_t point = 0; point < moving_points; ++point) {
           at_rest.at(1 - end, point, axis) = at_rest.at(end, point, axis);
         }
         attempt(at_rest);
       }
-      for (std::size_t other = 0; other < axes; ++other) {
+      for (std::size_t other = 0; other < point_axes; ++other) {
         Query alike = query_;
-        for (std::size_t i = axis; i < coordinate_count; i += axes) {
+        for (std::size_t i = axis; i < coordinate_count; i += point_axes) {
           alike.coordinates[i] = query_.coordinates[i - axis + other];
         }
         attempt(alike);
@@ -296,7 +296,7 @@ class Shrinker {
     }
   }
 
-  /// Points in the place of another, at both ends or at one; at 0; at rest on an axis, which makes
+  /// Points in the place of another, at both motion_ends or at one; at 0; at rest on an axis, which makes
   /// elements some that are none.
   void simplify_points() {
     for (std::size_t to = 0; to < query_points; ++to) {
@@ -307,13 +307,14 @@ class Shrinker {
         copy_point(from, to, false);
         if (from < moving_points && to < moving_points) copy_point(from, to, true);
       }
-      for (std::size_t axis = 0; axis < axes && to < moving_points; ++axis) put_on_axis(to, axis);
+      for (std::size_t axis = 0; axis < point_axes && to < moving_points; ++axis)
+        put_on_axis(to, axis);
     }
   }
 
   void put_on_axis(std::size_t point, std::size_t axis) {
     Query plainer = query_;
-    for (std::size_t end = 0; end < ends; ++end) {
+    for (std::size_t end = 0; end < motion_ends; ++end) {
       plainer.point(end, point).setZero();
       plainer.at(end, point, axis) = 1.0;
     }
@@ -322,8 +323,8 @@ class Shrinker {
 
   void copy_point(std::size_t from, std::size_t to, bool at_both_ends) {
     Query plainer = query_;
-    for (std::size_t axis = 0; axis < axes; ++axis) {
-      const std::size_t source = axes * from + axis, target = axes * to + axis;
+    for (std::size_t axis = 0; axis < point_axes; ++axis) {
+      const std::size_t source = point_axes * from + axis, target = point_axes * to + axis;
       plainer.coordinates[target] = query_.coordinates[source];
       if (!at_both_ends) continue;
       plainer.coordinates[target + to_other_end] = query_.coordinates[source + to_other_end];
@@ -334,7 +335,7 @@ class Shrinker {
   void exchange_points() {
     for (const PointPair& pair : exchangeable(kind_)) {
       Query plainer = query_;
-      for (std::size_t end = 0; end < ends; ++end) {
+      for (std::size_t end = 0; end < motion_ends; ++end) {
         plainer.point(end, pair[0]) = query_.point(end, pair[1]);
         plainer.point(end, pair[1]) = query_.point(end, pair[0]);
       }
@@ -366,7 +367,7 @@ class Shrinker {
     return attempt(plainer);
   }
 
-  /// Each coordinate alone, and where it is at rest at both ends.
+  /// Each coordinate alone, and where it is at rest at both motion_ends.
   void simplify_coordinates() {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
       for (const double candidate : candidates_for(i)) {
