@@ -54,6 +54,8 @@ extern DecideDistance TOUCHSTONE_PLANTED exact_without_last_bound, exact_without
     fault_on_boundary, fault_on_line, fault_in_enclosure, fault_in_neighbour, fault_in_filter,
     fault_in_general, fault_in_side, fault_in_vertex, fault_in_face, fault_in_cube, fault_in_dip,
     fault_in_horizon;
+/// Without a fault: it counts its work (limb_products.hpp).
+extern DecideDistance TOUCHSTONE_PLANTED exact_that_counts;
 
 #undef TOUCHSTONE_PLANTED
 

@@ -265,7 +265,7 @@ class Shrinker {
     attempt(plainer);
   }
 
-  /// Calls use(x) for the coordinates of an axis, of all point_axes if it is behind the last one.
+  /// Calls use(x) for the coordinates of an axis, of all axes if it is behind the last one.
   template <class Use>
   static void for_each_of(std::size_t axis, Query& query, const Use& use) {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
@@ -296,7 +296,7 @@ class Shrinker {
     }
   }
 
-  /// Points in the place of another, at both motion_ends or at one; at 0; at rest on an axis, which makes
+  /// Points in the place of another, at both ends or at one; at 0; at rest on an axis, which makes
   /// elements some that are none.
   void simplify_points() {
     for (std::size_t to = 0; to < query_points; ++to) {
@@ -367,7 +367,7 @@ class Shrinker {
     return attempt(plainer);
   }
 
-  /// Each coordinate alone, and where it is at rest at both motion_ends.
+  /// Each coordinate alone, and where it is at rest at both ends.
   void simplify_coordinates() {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
       for (const double candidate : candidates_for(i)) {

@@ -199,7 +199,7 @@ BigInteger& BigInteger::operator<<=(long bits) {
 
 BigInteger& BigInteger::operator>>=(long bits) {
   if (size_ == 0 || bits == 0) return *this;
-  const auto whole = static_cast<std::size_t>(bits / limb_bits);
+  const auto whole = std::min(static_cast<std::size_t>(bits / limb_bits), size_);
   const long part = bits % limb_bits;
   std::uint64_t* const limb = limbs();
   for (std::size_t i = 0; i + whole < size_; ++i) {
@@ -230,6 +230,30 @@ BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   product.negative_ = a.negative_ != b.negative_;
   product.trim();
   return product;
+}
+
+// Newton's iteration for the inverse x of d: x + x (1 − x d), which doubles the bits that are right.
+// Here d is b / 2^length, with a magnitude in [1/2, 1), and x is in units of 2^-known.
+BigInteger approximate_quotient(const BigInteger& a, const BigInteger& b, long bits) {
+  if (b.sign() == 0) return 0;
+  const auto leading = [](const BigInteger& x, long count) {
+    const long beyond = x.bit_length() - count;
+    return beyond > 0 ? x >> beyond : x << -beyond;
+  };
+  constexpr long double_bits = 50, lost_bits = 6;
+  const long needed = bits + 2 * lost_bits;
+  long known = double_bits;
+  BigInteger inverse(static_cast<std::int64_t>(0x1p50 / b.approximation().significand));
+  while (known < needed) {
+    const long next = std::min(2 * known - lost_bits, needed);
+    inverse <<= next - known;
+    const BigInteger error = (BigInteger(1) << 2 * next) - inverse * leading(b, next);
+    inverse += (inverse * error) >> 2 * next;
+    known = next;
+  }
+  const BigInteger product = leading(a, known) * inverse;
+  const long beyond = 2 * known - bits + b.bit_length() - a.bit_length();
+  return beyond > 0 ? product >> beyond : product << -beyond;
 }
 
 }  // namespace touchstone::fast::exact_stage

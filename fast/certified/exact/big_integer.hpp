@@ -53,7 +53,7 @@ class BigInteger {
   BigInteger& operator-=(const BigInteger& other) { return add(other, !other.negative_); }
   /// Multiplies by 2^bits. \pre bits ≥ 0.
   BigInteger& operator<<=(long bits);
-  /// Divides by 2^bits. \pre 0 ≤ bits ≤ trailing_zeros(), or the number is 0.
+  /// Divides by 2^bits and drops the fraction. \pre bits ≥ 0.
   BigInteger& operator>>=(long bits);
 
   friend BigInteger operator+(BigInteger a, const BigInteger& b) { return a += b; }
@@ -87,5 +87,8 @@ class BigInteger {
   std::size_t size_ = 0;             // limbs of the magnitude; the top one is not 0
   bool negative_ = false;
 };
+
+/// Near 2^bits a/b: wrong by less than 2 if |a| ≤ |b|. 0 if b is 0. \pre bits ≥ 0.
+[[nodiscard]] BigInteger approximate_quotient(const BigInteger& a, const BigInteger& b, long bits);
 
 }  // namespace touchstone::fast::exact_stage

@@ -36,13 +36,17 @@ Dyadic from_one(const Dyadic& t) {
   return {(BigInteger(1) << t.exponent) - t.numerator, t.exponent};
 }
 
-/// lower + (upper − lower) · part
+/// lower + (upper − lower) · part, without its bits below 2^-64 times the length and times the unit of
+/// `part`, which is in (0,1): so that numbers are as long as their intervals are short, and no longer.
 Dyadic between(const Dyadic& lower, const Dyadic& upper, const Dyadic& part) {
+  constexpr long kept_bits = 64;
   const long exponent = std::max(lower.exponent, upper.exponent);
   const BigInteger low = lower.numerator << (exponent - lower.exponent);
   const BigInteger high = upper.numerator << (exponent - upper.exponent);
-  return reduced(
-      {(low << part.exponent) + (high - low) * part.numerator, exponent + part.exponent});
+  const BigInteger length = high - low;
+  const long dropped = std::max(length.bit_length() - kept_bits, 0L);
+  return reduced({((low << part.exponent) + length * part.numerator) >> dropped,
+                  exponent + part.exponent - dropped});
 }
 
 /// Σ c_k x^(n−k) y^k for numbers or, with x and y linear forms, on an interval.
@@ -177,12 +181,25 @@ Approximation difference(const Approximation& a, double a_divisor, const Approxi
           top};
 }
 
+/// A number in [0,1]: the double of these bits, divided by 2^exponent.
+struct Position {
+  std::uint64_t bits = bits_of_zero;
+  long exponent = 0;
+};
+
+Dyadic dyadic_of(const Position& position) {
+  Dyadic result = exact_stage::dyadic_of(position.bits);
+  result.exponent += position.exponent;
+  return result;
+}
+
 /// The form at y in (0,1), x = 1 − y, times a power of two that brings it near 1.
-double value_at(const Guess& c, double y) {
+double value_at(const Guess& c, const Position& at) {
   int y_exponent = 0;
-  const double significand = std::frexp(y, &y_exponent), x = 1.0 - y;
+  const double y = std::bit_cast<double>(at.bits), significand = std::frexp(y, &y_exponent);
+  const double x = 1.0 - scaled(y, -at.exponent);
   const auto exponent_of = [&](std::size_t k) {
-    return c[k].exponent + static_cast<long>(k) * y_exponent;
+    return c[k].exponent + static_cast<long>(k) * (y_exponent - at.exponent);
   };
   long top = std::numeric_limits<long>::min();
   for (std::size_t k = 0; k < c.size(); ++k) {
@@ -197,17 +214,25 @@ double value_at(const Guess& c, double y) {
   return value;
 }
 
-/// Where in (0,1) the form changes its sign, by bisection over the doubles.
-std::uint64_t guess_root(const Guess& c, int sign_below) {
-  const auto is_below_root = [&](std::uint64_t bits) {
-    return value_at(c, std::bit_cast<double>(bits)) * sign_below > 0.0;
-  };
-  return enclose(0.5, 1, is_below_root).upper;
+/// Where in (0,1) the form changes its sign, by bisection over the doubles: first over those with the
+/// usual exponents, and as long as it is below them, over those 2^-1000 times as large.
+Position guess_root(const Guess& c, int sign_below) {
+  constexpr std::uint64_t least = std::bit_cast<std::uint64_t>(0x1p-1000);
+  constexpr long most = 1000000;
+  Position at;
+  for (;; at.exponent += 1000) {
+    const auto is_below_root = [&](std::uint64_t bits) {
+      return value_at(c, {bits, at.exponent}) * sign_below > 0.0;
+    };
+    if (at.exponent < most && !is_below_root(least)) continue;
+    at.bits = enclose(0.5, 1, is_below_root).upper;
+    return at;
+  }
 }
 
 /// Where in (0,1) a form that is positive at 0 is least, if it has one extremum. With Bernstein's
 /// coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
-std::uint64_t guess_minimum(const Guess& c) {
+Position guess_minimum(const Guess& c) {
   const auto degree = static_cast<double>(c.size() - 1);
   Guess derivative;
   double here = 1.0, next = degree, lower = 1.0;  // binomials of n over k, k + 1; of n − 1 over k
@@ -224,19 +249,41 @@ std::uint64_t guess_minimum(const Guess& c) {
 
 // ---- Isolation of roots -------------------------------------------------------------------------
 
+/// By t, of a form in x and y: the derivative by y less that by x.
+Polynomial derivative(const Polynomial& f) {
+  const auto degree = static_cast<std::int64_t>(f.size() - 1);
+  Polynomial result;
+  for (std::int64_t k = 0; k < degree; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    result.push_back(BigInteger(k + 1) * f[i + 1] - BigInteger(degree - k) * f[i]);
+  }
+  return result;
+}
+
 /// Where roots may be.
 struct Interval {
   Dyadic lower, upper;
-  bool guess = true;  ///< may a guess say where to split it?
+  bool guess = true;      ///< may a guess say where to split it?
+  bool isolates = false;  ///< is there just one root inside?
 };
 
+/// What is before and after a guess by so many spacings of doubles, in an interval; nothing if that is
+/// beyond its ends.
+struct Around {
+  Dyadic before, after;
+};
+std::optional<Around> around(const Position& guess, std::uint64_t slack, const Dyadic& from,
+                             const Dyadic& to) {
+  const std::uint64_t rounded = guess.bits & ~(slack - 1);
+  if (rounded <= slack || rounded + 2 * slack >= bits_of_one) return std::nullopt;
+  return Around{between(from, to, dyadic_of({rounded - slack, guess.exponent})),
+                between(from, to, dyadic_of({rounded + 2 * slack, guess.exponent}))};
+}
+
 /// Between which numbers a guess says that the form's roots are close together, if it does.
-std::optional<Interval> cluster(const Polynomial& f, const Interval& in) {
-  constexpr std::uint64_t slack = std::uint64_t{1} << 12U;  // in spacings of doubles
-  const std::uint64_t least = guess_minimum(local_guess(f, in.lower, in.upper)) & ~(slack - 1);
-  if (least <= slack || least + 2 * slack >= bits_of_one) return std::nullopt;
-  return Interval{between(in.lower, in.upper, dyadic_of(least - slack)),
-                  between(in.lower, in.upper, dyadic_of(least + 2 * slack))};
+std::optional<Around> cluster(const Polynomial& f, const Interval& in) {
+  constexpr std::uint64_t slack = std::uint64_t{1} << 12U;
+  return around(guess_minimum(local_guess(f, in.lower, in.upper)), slack, in.lower, in.upper);
 }
 
 /// Intervals still to be searched for roots of f, the first last.
@@ -251,18 +298,24 @@ class RootSearch {
       const Interval interval = std::move(open_.back());
       open_.pop_back();
       if (equal(interval.lower, interval.upper)) return Instant(interval.lower);
-      const int changes = signs_between(f_, interval.lower, interval.upper).changes;
-      if (changes == 1) return Instant(f_, interval.lower, interval.upper);
-      if (changes > 1) divide(interval);
+      if (interval.isolates) return Instant(f_, interval.lower, interval.upper);
+      const LocalSigns local = signs_between(f_, interval.lower, interval.upper);
+      if (local.changes == 1) return Instant(f_, interval.lower, interval.upper);
+      if (local.changes > 1) divide(interval, local);
     }
     return std::nullopt;
   }
 
  private:
-  /// Searches the parts of an interval. Roots that are still together after some divisions may be one.
-  void divide(const Interval& interval) {
+  /// Searches the parts of an interval. Roots that are still together after some divisions may be one,
+  /// or so near to each other that only the extremum between them can be told apart from both.
+  void divide(const Interval& interval, const LocalSigns& local) {
     constexpr int patience = 3;
     if (++divisions_ == patience) f_ = squarefree(f_);
+    if (divisions_ > patience) {
+      divide_at_extrema(interval, local);
+      return;
+    }
     const auto close = interval.guess ? cluster(f_, interval) : std::nullopt;
     if (!close) {
       const Dyadic middle = split(interval.lower, interval.upper);
@@ -271,11 +324,33 @@ class RootSearch {
       open_.push_back({interval.lower, middle});
       return;
     }
-    open_.push_back({close->upper, interval.upper, false});
-    push_point(close->upper);
-    open_.push_back({close->lower, close->upper});
-    push_point(close->lower);
-    open_.push_back({interval.lower, close->lower, false});
+    open_.push_back({close->after, interval.upper, false});
+    push_point(close->after);
+    open_.push_back({close->before, close->after});
+    push_point(close->before);
+    open_.push_back({interval.lower, close->before, false});
+  }
+
+  /// At the extrema, where f is squarefree: between neighbours is one root or none.
+  void divide_at_extrema(const Interval& interval, const LocalSigns& local) {
+    std::vector<Interval> parts;
+    Dyadic start = interval.lower;
+    int sign = local.first;
+    const auto add_until = [&](const Dyadic& end, int sign_there) {
+      if (sign_there != sign) parts.push_back({start, end, false, true});
+      sign = sign_there;
+    };
+    RootSearch extrema(inner_polynomial(derivative(f_)), interval.lower, interval.upper);
+    while (auto extremum = extrema.next()) {
+      const int here = extremum->sign_of(f_);
+      while (sign_at(f_, extremum->lower()) == 0 || sign_at(f_, extremum->upper()) == 0) {
+        extremum->narrow();
+      }
+      add_until(extremum->lower(), here);
+      start = extremum->upper();
+    }
+    add_until(interval.upper, local.changes % 2 == 0 ? local.first : -local.first);
+    open_.insert(open_.end(), parts.rbegin(), parts.rend());
   }
 
   void push_point(const Dyadic& t) {
@@ -338,31 +413,48 @@ bool Instant::cut(const Dyadic& t) {
 }
 
 bool Instant::narrow_by_guess() {
-  constexpr std::uint64_t slack = std::uint64_t{1} << 8U;  // in spacings of doubles
+  constexpr std::uint64_t slack = std::uint64_t{1} << 8U;
   Guess local = local_guess(f_, lower_, upper_);
   // From the nearer end: doubles are dense near 0 only.
-  const bool from_upper = value_at(local, 0.5) * sign_below_ > 0.0;
+  const bool from_upper =
+      value_at(local, {std::bit_cast<std::uint64_t>(0.5), 0}) * sign_below_ > 0.0;
   if (from_upper) std::ranges::reverse(local);
-  const std::uint64_t root =
-      guess_root(local, from_upper ? -sign_below_ : sign_below_) & ~(slack - 1);
-  if (root <= slack || root + 2 * slack >= bits_of_one) return false;
-  const Dyadic &from = from_upper ? upper_ : lower_, &to = from_upper ? lower_ : upper_;
-  Dyadic before = between(from, to, dyadic_of(root - slack));
-  Dyadic after = between(from, to, dyadic_of(root + 2 * slack));
-  if (from_upper) std::swap(before, after);
+  const Position root = guess_root(local, from_upper ? -sign_below_ : sign_below_);
+  auto near =
+      from_upper ? around(root, slack, upper_, lower_) : around(root, slack, lower_, upper_);
+  if (!near) return false;
+  if (from_upper) std::swap(near->before, near->after);
+  return cut(near->before) && !cut(near->after);
+}
+
+bool Instant::narrow_by_secant() {
+  // The values in one unit.
+  const auto degree = static_cast<long>(f_.size() - 1);
+  const BigInteger at_lower = evaluate(f_, time_of(lower_)) << degree * upper_.exponent;
+  const BigInteger at_upper = evaluate(f_, time_of(upper_)) << degree * lower_.exponent;
+  const BigInteger root = approximate_quotient(at_lower, at_lower - at_upper, gain_);
+  const BigInteger first = root - 1, last = root + 2;
+  if (first.sign() <= 0 || last.bit_length() > gain_) return false;
+  const Dyadic before = between(lower_, upper_, {first, gain_});
+  const Dyadic after = between(lower_, upper_, {last, gain_});
   return cut(before) && !cut(after);
 }
 
 void Instant::narrow() {
   if (is_dyadic()) return;
-  if (narrow_by_guess() || is_dyadic()) return;
-  static_cast<void>(cut(split(lower_, upper_)));
+  if (gain_ > guess_gain ? narrow_by_secant() : narrow_by_guess()) {
+    gain_ *= 2;
+    return;
+  }
+  gain_ = std::max(gain_ / 2, least_gain);
+  if (!is_dyadic()) static_cast<void>(cut(split(lower_, upper_)));
 }
 
 int Instant::sign_of(std::span<const BigInteger> q) {
   if (is_zero(q)) return 0;
   constexpr int patience = 1;  // narrowing is cheaper than a divisor
   Polynomial inner;
+  gain_ = least_gain;
   for (int round = 0;; ++round) {
     if (is_dyadic()) return sign_at(q, lower_);
     const LocalSigns local = signs_between(q, lower_, upper_);
@@ -399,14 +491,17 @@ bool Instant::shares_root(const Instant& other) const {
 
 int compare(Instant& a, Instant& b) {
   constexpr int patience = 1;
+  a.gain_ = b.gain_ = Instant::least_gain;
   for (int round = 0;; ++round) {
     if (b.is_dyadic()) return a.compare_with(b.lower_);
     if (a.is_dyadic()) return -b.compare_with(a.lower_);
     if (compare(a.upper_, b.lower_) <= 0) return -1;
     if (compare(b.upper_, a.lower_) <= 0) return 1;
     if (round == patience && a.shares_root(b)) return 0;
-    a.narrow();
-    b.narrow();
+    // What takes many steps is no reason for the other to get ahead.
+    const long gain = std::min(a.gain_, b.gain_);
+    if (a.gain_ == gain) a.narrow();
+    if (b.gain_ == gain) b.narrow();
   }
 }
 
@@ -433,6 +528,7 @@ double Instant::quotient_of(const Form<BigInteger, 2>& numerator,
     return quotient(evaluate(numerator, time).approximation(),
                     evaluate(denominator, time).approximation());
   };
+  gain_ = least_gain;
   for (;;) {
     const double first = at(lower_);
     if (is_dyadic()) return first;

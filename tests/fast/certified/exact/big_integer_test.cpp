@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "exact/algebra/number.hpp"
 #include "tests/support/random.hpp"
@@ -52,6 +53,7 @@ TEST(BigInteger, ShiftsAndMeasuresBits) {
     const BigInteger shifted = big(a) << shift;
     EXPECT_TRUE(shifted == big(a << static_cast<unsigned>(shift)));
     EXPECT_TRUE(shifted >> shift == big(a));
+    EXPECT_TRUE(big(a) >> 8 * shift == big(a / (Integer(1) << static_cast<unsigned>(8 * shift))));
     if (a == 0) continue;
     EXPECT_EQ(big(a).bit_length(), static_cast<long>(mpz_sizeinbase(a.get_mpz_t(), 2)));
     EXPECT_EQ(big(a).trailing_zeros(), static_cast<long>(mpz_scan1(a.get_mpz_t(), 0)));
@@ -86,6 +88,20 @@ TEST(BigInteger, DividesMultiplesExactly) {
     if (b == 0) continue;
     EXPECT_TRUE(big(a * b).divided_exactly(big(b)) == big(a)) << a << ' ' << b;
   }
+}
+
+TEST(BigInteger, ApproximatesQuotients) {
+  Random random(7);
+  for (int i = 0; i < 2000; ++i) {
+    Integer a = draw(random), b = draw(random);
+    if (abs(a) > abs(b)) std::swap(a, b);
+    if (b == 0) continue;
+    const int bits = random.between(0, 3000);
+    const BigInteger scaled = big(a) << bits, divisor = big(b), most = big(2 * b);
+    const BigInteger error = approximate_quotient(big(a), divisor, bits) * divisor - scaled;
+    EXPECT_TRUE((error - most).sign() * (error + most).sign() < 0) << a << ' ' << b;
+  }
+  EXPECT_EQ(approximate_quotient(5, 0, 10).sign(), 0);
 }
 
 TEST(BigInteger, TakesResiduesAndDropsFractions) {

@@ -17,6 +17,7 @@
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/exact/general_contact_decision.hpp"
 #include "tests/fast/certified/decisions.hpp"
+#include "tests/faults/limb_products.hpp"
 #include "tests/faults/planted_faults.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
@@ -322,6 +323,68 @@ TEST(SeparatedDecision, DipsBeforeASeparatorsEndCount) {
   const auto impact = decide(dipping, separation);
   ASSERT_TRUE(impact.has_value());
   expect_impact(dipping, *impact, *truth.toi);
+}
+
+// ---- Work ---------------------------------------------------------------------------------------
+
+/// Queries in which roots are hardly apart: coordinates next to nothing among those that nearly overflow
+/// make roots that differ by parts of 2^-2000, 2^-4000 and so on. Each took some seconds or more once.
+struct Slow {
+  PosedQuery posed;
+  Separation separation;
+  std::optional<double> toi_upper;  ///< as it was found then, by bisection in integers
+};
+
+std::vector<Slow> slow_queries() {
+  constexpr double s = 0x1p-1074, l = 0x1p1022;
+  return {
+      {tests::vertex_face({s, -l, -l, -l, l, -s, -l, s, s, l, -s, -l},
+                          {-l, s, -s, -s, -l, -s, -s, l, s, s, l, l}),
+       {l, Norm::l2},
+       0x1.9c3be0c5b2633p-2},
+      {tests::edge_edge({-s, -l, s, l, -l, s, l, s, l, l, s, s},
+                        {-s, l, l, -l, s, -s, -l, -s, s, -s, -s, s}),
+       {0x1p-942, Norm::linf},
+       0.5},
+      {tests::vertex_face({0, -l, 0, -s, 0, s, 0, -l, -l, 0, 0, 0},
+                          {-l, 0, 0, l, 0, 0, 0, 0, 0, 0, s, l}),
+       {0x1p-496, Norm::l2},
+       std::nullopt},
+      {tests::edge_edge({0, 0, 0x1.ep977, 0x1.4p-1000, 0x1.ap949, 0, 0, 0, -0x1.8p-999, 0, 0, 0},
+                        {0, 0, -0x1.ap-981, -0x1.ap988, -0x1p904, 0, 0, 0, 0, -0x1.8p-999,
+                         -0x1.ap988, -0x1.ep1003}),
+       {0x1.ep454, Norm::l2},
+       1.0},
+      {tests::edge_edge(
+           {0, -2 * s, -1.5 * l, 1.875 * l, 0, -2 * s, 0, -2 * s, -2 * s, 0, 0, -1.125 * l},
+           {l, 0, -2 * s, -s, 0, 0, -2 * s, 0, 0, -2 * s, l, 0}),
+       {0x1.ap-903, Norm::l2},
+       1.0},
+      {tests::vertex_face({-l, -l, s, -s, l, s, l, l, -s, s, s, -l},
+                          {-s, -s, l, l, s, -s, -s, s, s, l, l, l}),
+       {0x1p-685, Norm::l2},
+       std::nullopt},
+      {tests::edge_edge({-1.375, 0, 0, 0, 0, 0, 0, 0, -1.625, 0, 1, 0},
+                        {1.25, 0, 0, 0, 0, 0, 0, 0, 0, -1.5, -1.375, 0}),
+       {0x1.8p-481, Norm::l2},
+       1.0}};
+}
+
+TEST(SeparatedDecision, RootsThatAreHardlyApartTakeFewSteps) {
+  constexpr std::uint64_t most = 800'000'000;  // less than a second
+  for (const auto& [posed, separation, toi_upper] : slow_queries()) {
+    const auto impact = decide(posed, separation);
+    ASSERT_EQ(impact.has_value(), toi_upper.has_value()) << posed;
+    if (impact) {
+      EXPECT_EQ(impact->toi_upper, *toi_upper) << posed;
+    }
+    DecideDistance* const counting = &exact_that_counts;
+    if (counting == nullptr) continue;  // not in this build
+    tests::limb_products = 0;
+    static_cast<void>(counting(posed.kind, posed.query, separation, 0.0, 1.0));
+    EXPECT_LE(tests::limb_products, most) << posed;
+    EXPECT_GT(tests::limb_products, 0U);
+  }
 }
 
 // ---- Planted faults -----------------------------------------------------------------------------

@@ -178,6 +178,46 @@ TEST(AlgebraicInstant, NarrowsQuicklyBesideAnEnd) {
   }
 }
 
+/// The logarithm of the interval's length to the base of 2, rounded up.
+long length(const Instant& root) {
+  return ((root.upper().numerator << root.lower().exponent) -
+          (root.lower().numerator << root.upper().exponent))
+             .bit_length() -
+         root.lower().exponent - root.upper().exponent;
+}
+
+TEST(AlgebraicInstant, NarrowsByTwiceAsManyBitsEachTime) {
+  Instant root(cubic(1, 0, -2, 0), {0, 0}, {1, 0});  // √½
+  for (int i = 0; i < 10; ++i) root.narrow();
+  EXPECT_LT(length(root), -10000);
+  EXPECT_GT(length(root), -30000);
+}
+
+TEST(AlgebraicInstant, ComparesRootsThatAreHardlyApart) {
+  const BigInteger large = BigInteger(1) << 20000;
+  const Polynomial f = cubic(1, 0, -2, 0) * large;  // 1 − 2t², t = √½
+  for (const int sign : {1, -1}) {
+    Polynomial other = f;
+    for (std::size_t k = 0; k < 4; ++k) other[k] += BigInteger(sign) * cubic(1, 0, 0, 0)[k];
+    Instant a(f, {0, 0}, {1, 0}), b(other, {0, 0}, {1, 0});
+    EXPECT_EQ(compare(a, b), -sign);
+    EXPECT_EQ(compare(b, a), sign);
+    EXPECT_GT(length(a), -100000);
+  }
+}
+
+TEST(AlgebraicInstant, NarrowsQuicklyBesideAnyTime) {
+  // (3t − 1)² 2^20000 = t: a root some 2^-10000 after 1/3, from a lower end that is just before 1/3.
+  const BigInteger large = BigInteger(1) << 20000;
+  const Polynomial pair = polynomial(in_time(1, -6, 9)) * large - polynomial(in_time(0, 1, 0));
+  const long exponent = 12000;
+  BigInteger third = 0;
+  for (long k = 0; k < exponent; k += 2) third = (third << 2) + BigInteger(1);
+  Instant root(pair, {third, exponent}, {1, 1});
+  for (int i = 0; i < 8; ++i) root.narrow();
+  EXPECT_LT(length(root), -11000);
+}
+
 TEST(AlgebraicInstant, ComparesInstants) {
   Instant a(cubic(1, 0, -2, 0), {0, 0}, {1, 0});   // √½
   Instant b(cubic(-3, 0, 6, 0), {1, 1}, {3, 2});   // the same

@@ -1,0 +1,13 @@
+#pragma once
+
+/// \file
+/// The work of exact_that_counts, decide_exactly as it is but for this count.
+
+#include <cstdint>
+
+namespace touchstone::tests {
+
+/// Products of limbs since it was last set.
+extern std::uint64_t limb_products;  // NOLINT(cppcoreguidelines-avoid-non-const-global-variables)
+
+}  // namespace touchstone::tests
