@@ -430,9 +430,8 @@ void add_fuzz_command(CLI::App& app, Status& status) {
       "give the same findings. "
       "What is searched "
       "and who judges: docs/testing.md.\n"
-      "Exit status: 0 nothing found, 1 findings, 2 bad input or usage, or nothing judged, 130 "
-      "interrupted with "
-      "nothing found.");
+      "Exit status: 0 nothing found (130: interrupted), 1 findings, 2 bad input or usage, nothing "
+      "judged.");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solver);
     status = FuzzRun(*arguments).run();

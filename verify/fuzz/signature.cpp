@@ -35,8 +35,9 @@ class ScaleSearch {
   }
 
   [[nodiscard]] std::optional<int> end_below() {
-    for (auto scale = scales_to_ask.rbegin(); scale != scales_to_ask.rend(); ++scale) {
-      if (*scale >= least_ && *scale < exponent_ && is_right_at(*scale)) return *scale;
+    for (std::size_t i = scales_to_ask.size(); i > 0; --i) {
+      const int scale = scales_to_ask.at(i - 1);
+      if (scale >= least_ && scale < exponent_ && is_right_at(scale)) return scale;
     }
     return std::nullopt;
   }

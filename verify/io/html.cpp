@@ -31,7 +31,7 @@ std::string script_element(std::string_view script) {
 }
 
 std::string json_element(std::string_view id, const nlohmann::json& json) {
-  std::string text = fmt::format("<script type=\"application/json\" id=\"{}\">", id);
+  std::string text = fmt::format(R"(<script type="application/json" id="{}">)", id);
   for (const char c : json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
     if (c == '<') {
       text += "\\u003c";

@@ -11,8 +11,6 @@
 namespace touchstone::verify::report {
 namespace {
 
-using Row = std::vector<std::string>;
-
 constexpr const char* same = "=";
 
 const Measurement* find_alike(const std::vector<const Measurement*>& all,
@@ -65,9 +63,10 @@ Table changes_between(const Measurements& before, const Measurements& after) {
       table.rows.push_back({m->method, "new", "new", "new", "new", data_text(*m)});
       continue;
     }
-    Row row{m->method, count_text(*old, *m, &Measurement::false_negatives),
-            count_text(*old, *m, &Measurement::false_positives),
-            count_text(*old, *m, &Measurement::late_tois), time_text(*old, *m)};
+    std::vector<std::string> row{m->method, count_text(*old, *m, &Measurement::false_negatives),
+                                 count_text(*old, *m, &Measurement::false_positives),
+                                 count_text(*old, *m, &Measurement::late_tois),
+                                 time_text(*old, *m)};
     const auto old_digest = digest_of(before, *old), new_digest = digest_of(after, *m);
     const bool is_other_data = old_digest && new_digest && *old_digest != *new_digest;
     if (std::all_of(row.begin() + 1, row.end(), [](const auto& text) { return text == same; })) {

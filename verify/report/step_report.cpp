@@ -18,7 +18,7 @@ namespace touchstone::verify::report {
 namespace {
 
 /// Of what is found, so many lines are printed.
-constexpr std::size_t most_printed = 10;
+constexpr std::size_t most_pairs = 10;
 
 std::uint64_t count_of(const jobs::PairCounts& counts, fast::PairKind kind) {
   return counts.at(static_cast<std::size_t>(kind));
@@ -133,8 +133,8 @@ std::string pair_text(const StepReport& report, const fast::StepCollision& colli
 
 /// The number of those that are not printed, and where they are.
 std::string rest_text(std::size_t all, std::string_view where) {
-  if (all <= most_printed) return "";
-  return fmt::format("  ... and {} more ({})\n", all - most_printed, where);
+  if (all <= most_pairs) return "";
+  return fmt::format("  ... and {} more ({})\n", all - most_pairs, where);
 }
 
 void append_collisions(std::string& text, const StepReport& report, std::size_t i) {
@@ -146,7 +146,7 @@ void append_collisions(std::string& text, const StepReport& report, std::size_t 
   io::TextTable table(
       {io::word_column("  pair", 30), {"from t", 24}, {"to", 24}, {"u", 10}, {"v", 10}});
   for (const fast::StepCollision& pair :
-       std::span(pairs).first(std::min(pairs.size(), most_printed))) {
+       std::span(pairs).first(std::min(pairs.size(), most_pairs))) {
     table.add({"  " + pair_text(report, pair), fmt::format("{}", pair.toi_lower),
                fmt::format("{}", pair.toi_upper), fmt::format("{:.6g}", pair.u),
                fmt::format("{:.6g}", pair.v)});
@@ -158,7 +158,7 @@ void append_piercings(std::string& text, const StepReport& report, const FrameRe
   if (frame.piercings.empty()) return;
   text += fmt::format("\n{}: the mesh intersects itself; edges that pierce faces: {}\n",
                       io::printable(frame.name), frame.piercings.size());
-  const std::size_t printed = std::min(frame.piercings.size(), most_printed);
+  const std::size_t printed = std::min(frame.piercings.size(), most_pairs);
   for (const mesh::Piercing& piercing : std::span(frame.piercings).first(printed)) {
     text += fmt::format("  edge {} ({}), face {} ({})\n", piercing.edge,
                         vertices_text(report.edges, piercing.edge), piercing.face,

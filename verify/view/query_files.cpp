@@ -34,7 +34,7 @@ constexpr std::size_t file_limit = std::size_t{256} << 20U;
 /// What the options ask for of the queries of a file, which are offered one after the other.
 class Selection {
  public:
-  explicit Selection(const QueryFileOptions& options) : options_(options) {}
+  explicit Selection(QueryFileOptions options) : options_(std::move(options)) {}
 
   /// Is the query at that position asked for?
   [[nodiscard]] bool wants(std::uint64_t index) const {
@@ -82,8 +82,8 @@ std::vector<ViewedQuery> read_dataset(const fs::path& path, const QueryFileOptio
                       .query = recorded->query,
                       .separation = source->recorded_separation()};
     if (recorded->collides) {
-      query.notes.push_back(*recorded->collides ? "The dataset says that they collide."
-                                                : "The dataset says that they do not collide.");
+      query.notes.emplace_back(*recorded->collides ? "The dataset says that they collide."
+                                                   : "The dataset says that they do not collide.");
     }
     selection.add(std::move(query));
   }

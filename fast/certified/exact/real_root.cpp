@@ -217,7 +217,7 @@ double value_at(const Guess& c, const Position& at) {
 /// Where in (0,1) the form changes its sign, by bisection over the doubles: first over those with the
 /// usual exponents, and as long as it is below them, over those 2^-1000 times as large.
 Position guess_root(const Guess& c, int sign_below) {
-  constexpr std::uint64_t least = std::bit_cast<std::uint64_t>(0x1p-1000);
+  constexpr auto least = std::bit_cast<std::uint64_t>(0x1p-1000);
   constexpr long most = 1000000;
   Position at;
   for (;; at.exponent += 1000) {
