@@ -41,6 +41,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "exact/query.hpp"
@@ -103,6 +104,24 @@ template <class A, std::size_t a_size, class B, std::size_t b_size>
     while (++i < a_size && i <= k) product[k] += a[i] * b[k - i];
   }
   return product;
+}
+
+/// What the signs of a form's coefficients on an interval tell.
+struct IntervalSigns {
+  int changes = 0;  ///< of sign, zeros left out
+  int first = 0;    ///< the sign near the lower end; 0 if all are 0
+  int last = 0;     ///< near the upper end
+};
+
+[[nodiscard]] inline IntervalSigns interval_signs(std::span<const int> coefficients) {
+  IntervalSigns result;
+  for (const int sign : coefficients) {
+    if (sign == 0) continue;
+    if (result.first == 0) result.first = sign;
+    if (sign == -result.last) ++result.changes;
+    result.last = sign;
+  }
+  return result;
 }
 
 /// Component k of a × b.

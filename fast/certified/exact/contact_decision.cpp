@@ -91,23 +91,11 @@ std::array<int, count> signs_on(const FilteredForm<limbs, count>& b, const AnyTi
   return signs;
 }
 
-template <std::size_t size>
-int sign_changes(const std::array<int, size>& signs) {
-  int changes = 0, last = 0;
-  for (const int sign : signs) {
-    if (sign == 0) continue;
-    if (sign == -last) ++changes;
-    last = sign;
-  }
-  return changes;
-}
-
-template <std::size_t size>
-int first_sign(const std::array<int, size>& signs) {
-  for (const int sign : signs) {
-    if (sign != 0) return sign;
-  }
-  return 0;
+/// What they tell.
+template <std::size_t limbs, std::size_t count, class AnyTime>
+IntervalSigns signs_between(const FilteredForm<limbs, count>& b, const AnyTime& lower,
+                            const AnyTime& upper) {
+  return interval_signs(signs_on(b, lower, upper));
 }
 
 // ---- Signs at roots ----------------------------------------------------------------------------
@@ -130,21 +118,6 @@ Fixed<f_limbs + g_limbs, 1> remainder(const Fixed<f_limbs, 2>& f, const Fixed<g_
   return {f[0] * g[2] - f[2] * g[0], f[1] * g[2] - f[2] * g[1]};
 }
 
-/// What a form does on an open interval.
-struct Course {
-  int changes = 0;
-  int first = 0;  ///< its sign near the lower end
-  int last = 0;   ///< its sign near the upper end
-};
-
-template <std::size_t limbs, std::size_t count, class AnyTime>
-Course course(const FilteredForm<limbs, count>& b, const AnyTime& lower, const AnyTime& upper) {
-  auto signs = signs_on(b, lower, upper);
-  const int first = first_sign(signs);
-  std::ranges::reverse(signs);
-  return {sign_changes(signs), first, first_sign(signs)};
-}
-
 template <std::size_t limbs, std::size_t count, class AnyTime>
 bool changes_sign(const FilteredForm<limbs, count>& b, const AnyTime& lower, const AnyTime& upper) {
   return b.sign_at(lower) * b.sign_at(upper) < 0;
@@ -162,11 +135,12 @@ int sign_at_root(const Fixed<limbs, 1>& line, const Fixed<q_limbs, 2>& q) {
 /// If the linear form changes its sign, the sign of q at its root says on which side of that β is.
 /// So the sign of f(β) is known, and with it on which side of α β is.
 template <std::size_t limbs, std::size_t q_limbs, class Weight>
-std::optional<int> sign_by_remainder(const Fixed<limbs, 1>& line, int factor, const Course& of_f,
-                                     const Fixed<q_limbs, 2>& q, const BasicTime<Weight>& lower,
+std::optional<int> sign_by_remainder(const Fixed<limbs, 1>& line, int factor,
+                                     const IntervalSigns& of_f, const Fixed<q_limbs, 2>& q,
+                                     const BasicTime<Weight>& lower,
                                      const BasicTime<Weight>& upper) {
-  const Course of_q = course(FilteredForm(q), lower, upper);
-  const Course of_line = course(FilteredForm(line), lower, upper);
+  const IntervalSigns of_q = signs_between(FilteredForm(q), lower, upper);
+  const IntervalSigns of_line = signs_between(FilteredForm(line), lower, upper);
   if (of_q.changes != 1) return std::nullopt;
   int at_beta = of_line.first;
   if (of_line.changes == 1) {
@@ -194,8 +168,8 @@ std::optional<int> sign_at_root(const Fixed<f_limbs, 2>& f, const Fixed<q_limbs,
   if (q[2].sign() == 0 && q[0].sign() != 0) {
     return sign_at_root(reversed(f), reversed(q), mirrored(upper), mirrored(lower));
   }
-  return sign_by_remainder(remainder(f, q), q[2].sign(), course(FilteredForm(f), lower, upper), q,
-                           lower, upper);
+  return sign_by_remainder(remainder(f, q), q[2].sign(),
+                           signs_between(FilteredForm(f), lower, upper), q, lower, upper);
 }
 
 /// With g such that x g = q_2 f − f_3 y q, the remainder at β is g q_2 / x = f q_2² / x².
@@ -207,8 +181,8 @@ std::optional<int> sign_at_root(const Fixed<f_limbs, 3>& f, const Fixed<q_limbs,
   }
   const Fixed<f_limbs + q_limbs, 2> g{f[0] * q[2], f[1] * q[2] - f[3] * q[0],
                                       f[2] * q[2] - f[3] * q[1]};
-  return sign_by_remainder(remainder(g, q), 1, course(FilteredForm(f), lower, upper), q, lower,
-                           upper);
+  return sign_by_remainder(remainder(g, q), 1, signs_between(FilteredForm(f), lower, upper), q,
+                           lower, upper);
 }
 
 /// What is special about the roots of a cubic form.
@@ -414,7 +388,7 @@ class Decision {
         normal_(normal(motion)),
         determinant_(determinant(motion, normal_)) {}
 
-  QuickAnswer run() {
+  FixedSizeAnswer run() {
     const Outcome outcome = first();
     return {outcome != Outcome::unknown, impact_};
   }
@@ -462,7 +436,7 @@ class Decision {
     int changes = 0;
     const AnyEvent* active = nullptr;
     for (const auto& event : events) {
-      const int here = sign_changes(signs_on(event, lower, upper));
+      const int here = signs_between(event, lower, upper).changes;
       if (here != 0) active = &event;
       changes += here;
     }
@@ -497,13 +471,14 @@ class Decision {
                                     const Time& lower, const Time& upper) {
     std::vector<const PlaneEvent*> active;
     for (const PlaneEvent& event : events) {
-      const int changes = sign_changes(signs_on(event, lower, upper));
+      const int changes = signs_between(event, lower, upper).changes;
       if (changes > 1) return std::nullopt;
       if (changes == 1) active.push_back(&event);
     }
     // The root of f is before that of g iff g has there the sign that it begins with.
     std::ranges::sort(active, [&](const PlaneEvent* f, const PlaneEvent* g) {
-      return sign_at_root(f->form(), g->form(), lower, upper) == course(*g, lower, upper).first;
+      return sign_at_root(f->form(), g->form(), lower, upper) ==
+             signs_between(*g, lower, upper).first;
     });
     for (const PlaneEvent* event : active) {
       const Outcome outcome = at_root(*event, lower, upper);
@@ -531,13 +506,12 @@ class Decision {
   /// Do N_k and a bound keep opposite signs in the open interval?
   bool is_separated(const Time& lower, const Time& upper) {
     for (const std::size_t k : axes_at(0.5 * (lower.guess() + upper.guess()))) {
-      const auto on_normal = signs_on(n_at(k), lower, upper);
-      const int orientation = first_sign(on_normal);
-      if (orientation == 0 || sign_changes(on_normal) != 0) continue;
+      const IntervalSigns on_normal = signs_between(n_at(k), lower, upper);
+      if (on_normal.first == 0 || on_normal.changes != 0) continue;
       const auto& in = bounds_at(k);
       for (std::size_t i = 0; i < in.count; ++i) {
-        const auto on_bound = signs_on(in.bound[i], lower, upper);
-        if (first_sign(on_bound) == -orientation && sign_changes(on_bound) == 0) return true;
+        const IntervalSigns on_bound = signs_between(in.bound[i], lower, upper);
+        if (on_bound.first == -on_normal.first && on_bound.changes == 0) return true;
       }
       return false;
     }
@@ -585,7 +559,7 @@ class Decision {
   /// The same for a root that is perhaps irrational, with doubles as times of a type.
   template <class AnyTime, class AnyEvent>
   Outcome at_irrational(const AnyEvent& event, double root, const Time& lower, const Time& upper) {
-    const int sign_below = first_sign(signs_on(event, lower, upper));
+    const int sign_below = signs_between(event, lower, upper).first;
     bool beyond = false;
     const auto is_above = [&](std::uint64_t bits) {
       const auto t = time_of<AnyTime>(bits);
@@ -623,8 +597,8 @@ class Decision {
     bool unsure = false;
     const auto sign_of = [&](const Filtered& form) {
       if (is_high) return form.sign_at(high);
-      const auto signs = signs_on(form, low, high);
-      if (sign_changes(signs) == 0) return first_sign(signs);
+      const IntervalSigns here = signs_between(form, low, high);
+      if (here.changes == 0) return here.first;
       const auto sign = sign_at_root(event.form(), form.form(), low, high);
       if (!sign) unsure = true;
       return sign.value_or(0);
@@ -733,13 +707,13 @@ class Decision {
 
 }  // namespace
 
-QuickAnswer quick_first_impact(const Motion<FixedInteger<1>>& motion, std::uint64_t latest,
-                               std::uint64_t step) {
+FixedSizeAnswer fixed_size_first_impact(const Motion<FixedInteger<1>>& motion, std::uint64_t latest,
+                                        std::uint64_t step) {
   return Decision<FixedInteger<1>>(motion, latest, step).run();
 }
 
-QuickAnswer quick_first_impact(const Motion<FixedInteger<2>>& motion, std::uint64_t latest,
-                               std::uint64_t step) {
+FixedSizeAnswer fixed_size_first_impact(const Motion<FixedInteger<2>>& motion, std::uint64_t latest,
+                                        std::uint64_t step) {
   return Decision<FixedInteger<2>>(motion, latest, step).run();
 }
 

@@ -106,14 +106,15 @@ std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64
   const std::array<Axis, 3> axes{axis_of(query, 0), axis_of(query, 1), axis_of(query, 2)};
   int bits = 0;
   for (const Axis& axis : axes) bits = std::max(bits, axis.highest - axis.lowest);
-  QuickAnswer quick;
+  FixedSizeAnswer answer;
   if (bits <= one_limb_bits) {
-    quick = quick_first_impact(motion_of<FixedInteger<1>, std::int64_t>(kind, axes), latest, step);
+    answer =
+        fixed_size_first_impact(motion_of<FixedInteger<1>, std::int64_t>(kind, axes), latest, step);
   } else if (bits <= two_limb_bits) {
-    quick =
-        quick_first_impact(motion_of<FixedInteger<2>, SignedWideLimb>(kind, axes), latest, step);
+    answer = fixed_size_first_impact(motion_of<FixedInteger<2>, SignedWideLimb>(kind, axes), latest,
+                                     step);
   }
-  if (quick.decided) return quick.impact;
+  if (answer.decided) return answer.impact;
   return first_impact(motion_of<BigInteger, BigInteger>(kind, axes), latest);
 }
 

@@ -7,21 +7,22 @@
 namespace touchstone::fast::exact_stage {
 namespace {
 
-constexpr std::int64_t one = std::int64_t{1} << RoughForm::fraction_bits;
+constexpr std::int64_t one = std::int64_t{1} << FixedPointForm::fraction_bits;
 
-using Coefficients = std::array<std::int64_t, RoughForm::largest_degree + 1>;
+using Coefficients = std::array<std::int64_t, FixedPointForm::largest_degree + 1>;
 
 /// One step of de Casteljau's on the first `size` coefficients, which leaves one fewer.
 void step(Coefficients& b, std::size_t size, std::int64_t t) {
   for (std::size_t k = 0; k + 1 < size; ++k) {
     const SignedWideLimb sum = SignedWideLimb{b[k]} * (one - t) + SignedWideLimb{b[k + 1]} * t;
-    b[k] = static_cast<std::int64_t>(sum >> RoughForm::fraction_bits);
+    b[k] = static_cast<std::int64_t>(sum >> FixedPointForm::fraction_bits);
   }
 }
 
 }  // namespace
 
-RoughForm::RoughForm(std::span<const BigInteger> c, std::int64_t lower, std::int64_t upper)
+FixedPointForm::FixedPointForm(std::span<const BigInteger> c, std::int64_t lower,
+                               std::int64_t upper)
     : size_(c.size()) {
   long top = 0;
   for (const BigInteger& x : c) top = std::max(top, x.bit_length());
@@ -40,7 +41,7 @@ RoughForm::RoughForm(std::span<const BigInteger> c, std::int64_t lower, std::int
   }
 }
 
-int RoughForm::sign(std::size_t k) const {
+int FixedPointForm::sign(std::size_t k) const {
   const auto error = static_cast<std::int64_t>(2 + 3 * (size_ - 1));
   if (b_[k] > error) return 1;
   return b_[k] < -error ? -1 : 0;
@@ -48,21 +49,23 @@ int RoughForm::sign(std::size_t k) const {
 
 // Between coefficients of two signs there is one change, or three and more, if there is one in doubt:
 // so at most one may be in doubt there, and none between coefficients of one sign or outermost.
-std::optional<int> RoughForm::sign_changes() const {
-  int changes = 0, last = 0, doubts = 0;
+std::optional<IntervalSigns> FixedPointForm::signs() const {
+  IntervalSigns result;
+  int doubts = 0;
   for (std::size_t k = 0; k < size_; ++k) {
     const int here = sign(k);
     if (here == 0) {
       ++doubts;
       continue;
     }
-    if (doubts > 1 || (doubts == 1 && here != -last)) return std::nullopt;
-    if (here == -last) ++changes;
-    last = here;
+    if (doubts > 1 || (doubts == 1 && here != -result.last)) return std::nullopt;
+    if (result.first == 0) result.first = here;
+    if (here == -result.last) ++result.changes;
+    result.last = here;
     doubts = 0;
   }
   if (doubts > 0) return std::nullopt;
-  return changes;
+  return result;
 }
 
 }  // namespace touchstone::fast::exact_stage

@@ -16,6 +16,9 @@
 /// 5 + 3n ≤ 14 of these, so it is wrong by less than 15v of its magnitude. m is the sum of these
 /// magnitudes, and computed at least 1 − 15v of it; 15v / (1 − 15v) < 2^-48. Nothing but 0 is below 1
 /// where all are integers; what overflows makes m infinite, and then no sign is told. ∎
+///
+/// Why beside the integers: without it `touchstone bench handcrafted --method certified` takes 1.2
+/// (vertex-face) and 1.6 times (edge-edge) as long (medians of three runs a program, 23 November 2026).
 
 #include <algorithm>
 #include <array>

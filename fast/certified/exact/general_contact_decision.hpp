@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// The first contact of any motion with integer coordinates of any size. Nothing here is in a hurry.
+/// The first contact of any motion with integer coordinates of any size. What contact_decision.hpp does not decide
+/// comes here.
 
 #include <cstdint>
 #include <optional>

@@ -89,55 +89,36 @@ Polynomial restricted(std::span<const BigInteger> c, const Dyadic& lower, const 
   return restricted(c, time(lower), time(upper));
 }
 
-int sign_changes(const Polynomial& c) {
-  int changes = 0, last = 0;
-  for (const BigInteger& x : c) {
-    const int sign = x.sign();
-    if (sign == 0) continue;
-    if (sign == -last) ++changes;
-    last = sign;
-  }
-  return changes;
-}
-
-/// The sign of the first coefficient that is not 0: near the interval's lower end. 0 for zero.
-int first_sign(const Polynomial& c) {
-  for (const BigInteger& x : c) {
-    if (x.sign() != 0) return x.sign();
-  }
-  return 0;
+IntervalSigns signs_of(const Polynomial& c) {
+  std::vector<int> signs;
+  for (const BigInteger& x : c) signs.push_back(x.sign());
+  return interval_signs(signs);
 }
 
 // ---- What fixed point says, or else the integers ------------------------------------------------
 
-/// In the units of RoughForm.
-std::int64_t rough(const Dyadic& t) {
-  return t.numerator.truncated(RoughForm::fraction_bits - t.exponent);
+/// In the units of FixedPointForm.
+std::int64_t in_fixed_point(const Dyadic& t) {
+  return t.numerator.truncated(FixedPointForm::fraction_bits - t.exponent);
 }
 
-std::optional<RoughForm> rough_form(std::span<const BigInteger> c, const Dyadic& lower,
-                                    const Dyadic& upper) {
-  if (c.size() > RoughForm::largest_degree + 1) return std::nullopt;
-  return RoughForm(c, rough(lower), rough(upper));
+std::optional<FixedPointForm> fixed_point_form(std::span<const BigInteger> c, const Dyadic& lower,
+                                               const Dyadic& upper) {
+  if (c.size() > FixedPointForm::largest_degree + 1) return std::nullopt;
+  return FixedPointForm(c, in_fixed_point(lower), in_fixed_point(upper));
 }
 
-/// The number of sign changes on an interval, and the sign near its lower end.
-struct LocalSigns {
-  int changes = 0;
-  int first = 0;
-};
-
-LocalSigns signs_between(std::span<const BigInteger> c, const Dyadic& lower, const Dyadic& upper) {
-  if (const auto form = rough_form(c, lower, upper)) {
-    if (const auto changes = form->sign_changes()) return {*changes, form->first_sign()};
+IntervalSigns signs_between(std::span<const BigInteger> c, const Dyadic& lower,
+                            const Dyadic& upper) {
+  if (const auto form = fixed_point_form(c, lower, upper)) {
+    if (const auto signs = form->signs()) return *signs;
   }
-  const Polynomial local = restricted(c, lower, upper);
-  return {sign_changes(local), first_sign(local)};
+  return signs_of(restricted(c, lower, upper));
 }
 
 /// The sign at a time.
 int sign_at(std::span<const BigInteger> c, const Dyadic& t) {
-  if (const auto form = rough_form(c, t, t)) {
+  if (const auto form = fixed_point_form(c, t, t)) {
     if (form->first_sign() != 0) return form->first_sign();
   }
   return evaluate(c, time_of(t)).sign();
@@ -152,7 +133,7 @@ using Guess = std::vector<Approximation>;
 Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
   constexpr std::int64_t accurate = std::int64_t{1} << 54;
   Guess result;
-  if (const auto form = rough_form(f, lower, upper)) {
+  if (const auto form = fixed_point_form(f, lower, upper)) {
     const auto b = form->coefficients();
     const bool is_accurate =
         std::ranges::any_of(b, [](std::int64_t x) { return x > accurate || x < -accurate; });
@@ -299,7 +280,7 @@ class RootSearch {
       open_.pop_back();
       if (equal(interval.lower, interval.upper)) return Instant(interval.lower);
       if (interval.isolates) return Instant(f_, interval.lower, interval.upper);
-      const LocalSigns local = signs_between(f_, interval.lower, interval.upper);
+      const IntervalSigns local = signs_between(f_, interval.lower, interval.upper);
       if (local.changes == 1) return Instant(f_, interval.lower, interval.upper);
       if (local.changes > 1) divide(interval, local);
     }
@@ -309,7 +290,7 @@ class RootSearch {
  private:
   /// Searches the parts of an interval. Roots that are still together after some divisions may be one,
   /// or so near to each other that only the extremum between them can be told apart from both.
-  void divide(const Interval& interval, const LocalSigns& local) {
+  void divide(const Interval& interval, const IntervalSigns& local) {
     constexpr int patience = 3;
     if (++divisions_ == patience) f_ = squarefree(f_);
     if (divisions_ > patience) {
@@ -332,7 +313,7 @@ class RootSearch {
   }
 
   /// At the extrema, where f is squarefree: between neighbours is one root or none.
-  void divide_at_extrema(const Interval& interval, const LocalSigns& local) {
+  void divide_at_extrema(const Interval& interval, const IntervalSigns& local) {
     std::vector<Interval> parts;
     Dyadic start = interval.lower;
     int sign = local.first;
@@ -349,7 +330,7 @@ class RootSearch {
       add_until(extremum->lower(), here);
       start = extremum->upper();
     }
-    add_until(interval.upper, local.changes % 2 == 0 ? local.first : -local.first);
+    add_until(interval.upper, local.last);
     open_.insert(open_.end(), parts.rbegin(), parts.rend());
   }
 
@@ -457,7 +438,7 @@ int Instant::sign_of(std::span<const BigInteger> q) {
   gain_ = least_gain;
   for (int round = 0;; ++round) {
     if (is_dyadic()) return sign_at(q, lower_);
-    const LocalSigns local = signs_between(q, lower_, upper_);
+    const IntervalSigns local = signs_between(q, lower_, upper_);
     if (local.changes == 0) return local.first;
     if (round == 0) {
       inner = inner_polynomial(q);
@@ -533,7 +514,7 @@ double Instant::quotient_of(const Form<BigInteger, 2>& numerator,
     const double first = at(lower_);
     if (is_dyadic()) return first;
     const double last = at(upper_);
-    const bool regular = sign_changes(restricted(denominator, lower_, upper_)) == 0 &&
+    const bool regular = signs_of(restricted(denominator, lower_, upper_)).changes == 0 &&
                          evaluate(denominator, time_of(lower_)).sign() != 0 &&
                          evaluate(denominator, time_of(upper_)).sign() != 0;
     if (regular && std::abs(first - last) <= accuracy) return first;
@@ -551,17 +532,17 @@ bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit) {
 }
 
 int weak_sign_between(std::span<const BigInteger> form, const Dyadic& from, const Dyadic& to) {
-  const LocalSigns local = signs_between(form, from, to);
+  const IntervalSigns local = signs_between(form, from, to);
   return local.changes == 0 ? local.first : 0;
 }
 
 bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from, const Dyadic& to) {
   if (equal(from, to)) return sign_at(form, from) > 0;
-  if (const auto rough = rough_form(form, from, to)) {
-    if (rough->sign_changes() == 0) return rough->first_sign() > 0;
+  if (const auto rounded = fixed_point_form(form, from, to)) {
+    if (const auto signs = rounded->signs(); signs && signs->changes == 0) return signs->first > 0;
   }
   const Polynomial local = restricted(form, from, to);
-  return sign_changes(local) == 0 && local.front().sign() > 0 && local.back().sign() > 0;
+  return signs_of(local).changes == 0 && local.front().sign() > 0 && local.back().sign() > 0;
 }
 
 std::optional<Instant> first_root_after(Instant& from, const Dyadic& end,

@@ -16,9 +16,9 @@ using tests::PosedQuery;
 using tests::Random;
 
 template <class Number>
-QuickAnswer decide(const PosedQuery& posed, std::uint64_t step = 1,
-                   std::uint64_t latest = bits_of_one, double scale = 1.0) {
-  return quick_first_impact(integer_motion<Number>(posed, scale), latest, step);
+FixedSizeAnswer decide(const PosedQuery& posed, std::uint64_t step = 1,
+                       std::uint64_t latest = bits_of_one, double scale = 1.0) {
+  return fixed_size_first_impact(integer_motion<Number>(posed, scale), latest, step);
 }
 
 /// All that are decided must be true, and nearly all must be decided.
@@ -31,7 +31,7 @@ void expect_truth_of_small_integers(std::uint64_t seed, double scale) {
     const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
     const PosedQuery posed{kind, tests::integer_query(random, 1 + i % 4)};
     const std::uint64_t step = i % 3 == 0 ? 4503 : 1;
-    const QuickAnswer answer = decide<Number>(posed, step, bits_of_one, scale);
+    const FixedSizeAnswer answer = decide<Number>(posed, step, bits_of_one, scale);
     if (!answer.decided) {
       ++undecided;
       continue;
@@ -42,35 +42,35 @@ void expect_truth_of_small_integers(std::uint64_t seed, double scale) {
   EXPECT_LT(undecided, count / 50);
 }
 
-TEST(QuickDecision, AgreesWithTheOracleOnSmallIntegers) {
+TEST(FixedSizeDecision, AgreesWithTheOracleOnSmallIntegers) {
   expect_truth_of_small_integers<FixedInteger<1>>(1, 1.0);
 }
 
-TEST(QuickDecision, AgreesWithTheOracleOnTheLargestIntegersItTakes) {
+TEST(FixedSizeDecision, AgreesWithTheOracleOnTheLargestIntegersItTakes) {
   // Differences of up to 16 in units of 2^57.
   expect_truth_of_small_integers<FixedInteger<1>>(2, 0x1p57);
   expect_truth_of_small_integers<FixedInteger<2>>(3, 0x1p57);
 }
 
-TEST(QuickDecision, TakesTheLatestTimeExactly) {
+TEST(FixedSizeDecision, TakesTheLatestTimeExactly) {
   const PosedQuery posed = tests::over_edge(1, 1, 1, -2);  // at t = 1/3
-  const QuickAnswer answer = decide<FixedInteger<1>>(posed);
+  const FixedSizeAnswer answer = decide<FixedInteger<1>>(posed);
   ASSERT_TRUE(answer.decided && answer.impact);
   const BitInterval time = answer.impact->time;
-  const QuickAnswer before = decide<FixedInteger<1>>(posed, 1, time.lower),
-                    after = decide<FixedInteger<1>>(posed, 1, time.upper);
+  const FixedSizeAnswer before = decide<FixedInteger<1>>(posed, 1, time.lower),
+                        after = decide<FixedInteger<1>>(posed, 1, time.upper);
   EXPECT_TRUE(before.decided && !before.impact);
   EXPECT_TRUE(after.decided && after.impact);
 }
 
-TEST(QuickDecision, FindsATinyTimeThatIsNoSmallFraction) {
+TEST(FixedSizeDecision, FindsATinyTimeThatIsNoSmallFraction) {
   const PosedQuery posed = tests::over_triangle(1, 1, 3, -0x1p43 - 1);
-  const QuickAnswer answer = decide<FixedInteger<1>>(posed);
+  const FixedSizeAnswer answer = decide<FixedInteger<1>>(posed);
   ASSERT_TRUE(answer.decided);
   tests::expect_truth(posed, answer.impact, 1);
 }
 
-TEST(QuickDecision, DecidesSignsFarBelowTheWidthOfItsEnclosure) {
+TEST(FixedSizeDecision, DecidesSignsFarBelowTheWidthOfItsEnclosure) {
   // Over the triangle's side x + y = 4 and one part in 2^52 beside it, to either side and not.
   for (const double x : {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0)}) {
     PosedQuery posed = tests::over_triangle(0x1p53 * x, 0x1p53 * 3, 0x1p20 + 1, -0x1p21);
@@ -79,17 +79,17 @@ TEST(QuickDecision, DecidesSignsFarBelowTheWidthOfItsEnclosure) {
     for (double& coordinate : std::span(posed.query.coordinates).subspan(15, 9)) {
       coordinate *= 0x1p53;
     }
-    const QuickAnswer answer = decide<FixedInteger<1>>(posed);
+    const FixedSizeAnswer answer = decide<FixedInteger<1>>(posed);
     ASSERT_TRUE(answer.decided);
     tests::expect_truth(posed, answer.impact, 1);
   }
 }
 
-TEST(QuickDecision, HandsOnWhatItCannotHold) {
+TEST(FixedSizeDecision, HandsOnWhatItCannotHold) {
   // A time near 3·2^-120.
   auto motion = integer_motion<FixedInteger<2>>(tests::over_triangle(1, 1, 3, -1));
   motion.r[2][1] = FixedInteger<2>(-(SignedWideLimb{1} << 120U));
-  EXPECT_FALSE(quick_first_impact(motion, bits_of_one, 1).decided);
+  EXPECT_FALSE(fixed_size_first_impact(motion, bits_of_one, 1).decided);
 }
 
 }  // namespace

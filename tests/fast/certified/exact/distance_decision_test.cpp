@@ -371,7 +371,7 @@ std::vector<Slow> slow_queries() {
 }
 
 TEST(SeparatedDecision, RootsThatAreHardlyApartTakeFewSteps) {
-  constexpr std::uint64_t most = 800'000'000;  // less than a second
+  constexpr std::uint64_t most = 400'000'000;  // less than half a second
   for (const auto& [posed, separation, toi_upper] : slow_queries()) {
     const auto impact = decide(posed, separation);
     ASSERT_EQ(impact.has_value(), toi_upper.has_value()) << posed;

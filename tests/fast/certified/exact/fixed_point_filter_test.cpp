@@ -17,7 +17,7 @@ namespace {
 using exact::Rational;
 using tests::Random;
 
-constexpr std::int64_t one = std::int64_t{1} << RoughForm::fraction_bits;
+constexpr std::int64_t one = std::int64_t{1} << FixedPointForm::fraction_bits;
 
 /// Bernstein's coefficients on [lower, upper] by de Casteljau's steps without rounding.
 std::vector<Rational> exact_coefficients(const std::vector<std::int64_t>& c, const Rational& lower,
@@ -41,7 +41,7 @@ std::vector<Rational> exact_coefficients(const std::vector<std::int64_t>& c, con
   return result;
 }
 
-TEST(RoughForm, IsWithinItsBound) {
+TEST(FixedPointForm, IsWithinItsBound) {
   Random random(1);
   for (int i = 0; i < 3000; ++i) {
     const auto degree = static_cast<std::size_t>(random.between(0, 8));
@@ -52,7 +52,7 @@ TEST(RoughForm, IsWithinItsBound) {
     std::int64_t lower = std::abs(random.integer<std::int64_t>(60));
     std::int64_t upper = random.coin() ? one : std::abs(random.integer<std::int64_t>(60));
     if (lower > upper) std::swap(lower, upper);
-    const RoughForm rough(form, lower, upper);
+    const FixedPointForm rough(form, lower, upper);
     // True times may be up to a unit later.
     const Rational late = random.coin() ? Rational(0) : Rational(9, 10);
     const auto time = [&](std::int64_t t) {
@@ -65,27 +65,27 @@ TEST(RoughForm, IsWithinItsBound) {
   }
 }
 
-TEST(RoughForm, CountsSignChangesOrSaysThatItCannot) {
+TEST(FixedPointForm, CountsSignChangesOrSaysThatItCannot) {
   const std::vector<BigInteger> line{1, -1}, parabola{2, -5, 3}, positive{1, 0, 1};
-  EXPECT_EQ(RoughForm(line, 0, one).sign_changes(), 1);
-  EXPECT_EQ(RoughForm(line, 0, one / 4).sign_changes(), 0);
-  EXPECT_EQ(RoughForm(line, 0, one / 2).sign_changes(), std::nullopt);  // 0 at the end
-  EXPECT_EQ(RoughForm(line, one / 2, one / 2).first_sign(), 0);
-  EXPECT_EQ(RoughForm(parabola, 0, one).sign_changes(), 2);
-  EXPECT_EQ(RoughForm(positive, 0, one).sign_changes(), std::nullopt);
-  EXPECT_EQ(RoughForm(positive, one / 4, one).sign_changes(), 0);
+  EXPECT_EQ(FixedPointForm(line, 0, one).signs()->changes, 1);
+  EXPECT_EQ(FixedPointForm(line, 0, one / 4).signs()->changes, 0);
+  EXPECT_FALSE(FixedPointForm(line, 0, one / 2).signs().has_value());  // 0 at the end
+  EXPECT_EQ(FixedPointForm(line, one / 2, one / 2).first_sign(), 0);
+  EXPECT_EQ(FixedPointForm(parabola, 0, one).signs()->changes, 2);
+  EXPECT_FALSE(FixedPointForm(positive, 0, one).signs().has_value());
+  EXPECT_EQ(FixedPointForm(positive, one / 4, one).signs()->changes, 0);
   const std::vector<BigInteger> doubtful{1, 0, -1}, zero{0, 0};
-  EXPECT_EQ(RoughForm(doubtful, 0, one).sign_changes(), 1);
-  EXPECT_EQ(RoughForm(zero, 0, one).sign_changes(), std::nullopt);
+  EXPECT_EQ(FixedPointForm(doubtful, 0, one).signs()->changes, 1);
+  EXPECT_FALSE(FixedPointForm(zero, 0, one).signs().has_value());
 }
 
-TEST(RoughForm, TakesNumbersOfAnySize) {
+TEST(FixedPointForm, TakesNumbersOfAnySize) {
   const BigInteger large = BigInteger(1) << 3000;
   const std::vector<BigInteger> form{large, BigInteger(0) - large - large - large};
-  EXPECT_EQ(RoughForm(form, 0, one).sign_changes(), 1);
-  EXPECT_EQ(RoughForm(form, 0, one / 5).sign_changes(), 0);
-  EXPECT_EQ(RoughForm(form, one / 5, one / 5).first_sign(), 1);
-  EXPECT_EQ(RoughForm(form, one / 3, one / 3).first_sign(), -1);
+  EXPECT_EQ(FixedPointForm(form, 0, one).signs()->changes, 1);
+  EXPECT_EQ(FixedPointForm(form, 0, one / 5).signs()->changes, 0);
+  EXPECT_EQ(FixedPointForm(form, one / 5, one / 5).first_sign(), 1);
+  EXPECT_EQ(FixedPointForm(form, one / 3, one / 3).first_sign(), -1);
 }
 
 }  // namespace
