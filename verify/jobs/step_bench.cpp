@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <stdexcept>
 #include <utility>
 
 #include "verify/jobs/cores.hpp"
 #include "verify/jobs/deadline.hpp"
 #include "verify/jobs/statistics.hpp"
-#include "verify/jobs/thread_clock.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
@@ -19,16 +17,13 @@ class Repetitions {
  public:
   template <class Work>
   void add(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    const double processor_start = process_seconds();
-    work();
-    processor_.push_back(process_seconds() - processor_start);
-    wall_.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    const WorkTime time = work_time_of(work);
+    wall_.push_back(time.wall);
+    processor_.push_back(time.processor);
   }
 
   [[nodiscard]] bool empty() const { return wall_.empty(); }
-  [[nodiscard]] StepTime median() const {
+  [[nodiscard]] WorkTime median() const {
     return {.wall = jobs::median(wall_), .processor = jobs::median(processor_)};
   }
 

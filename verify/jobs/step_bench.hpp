@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fast/certified.hpp"
+#include "verify/jobs/work_time.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
 namespace touchstone::verify::jobs {
@@ -29,18 +30,12 @@ struct StepBenchOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Seconds that a part of a step takes, medians over the repetitions.
-struct StepTime {
-  double wall = 0.0;       ///< from beginning to end
-  double processor = 0.0;  ///< of all threads together
-};
-
-/// The times with so many threads.
+/// The times with so many threads, medians over the repetitions.
 struct StepTimes {
   int threads = 0;
-  StepTime broad_phase;  ///< of both kinds
-  StepTime collisions;   ///< verdict and time of impact of all candidates of both kinds
-  StepTime earliest;     ///< the earliest contact of both kinds alone
+  WorkTime broad_phase;  ///< of both kinds
+  WorkTime collisions;   ///< verdict and time of impact of all candidates of both kinds
+  WorkTime earliest;     ///< the earliest contact of both kinds alone
 };
 
 /// The counts of one kind.

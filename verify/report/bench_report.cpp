@@ -97,7 +97,7 @@ void append_group(std::string& text, const jobs::BenchResult& group) {
 
 /// One clock's times of a step.
 io::TextRow step_row(const jobs::StepTimes& times, std::string_view clock,
-                     double jobs::StepTime::*time) {
+                     double jobs::WorkTime::*time) {
   const auto milliseconds = [time](auto... parts) {
     return io::number_text(1e3 * (... + (parts.*time)), "{:.1f} ms");
   };
@@ -132,8 +132,8 @@ void append_step(std::string& text, const jobs::StepResult& step) {
                        {"step, all", 13},
                        {"step, earliest", 15}});
   for (const jobs::StepTimes& times : step.times) {
-    table.add(step_row(times, "wall", &jobs::StepTime::wall));
-    table.add(step_row(times, "processor", &jobs::StepTime::processor));
+    table.add(step_row(times, "wall", &jobs::WorkTime::wall));
+    table.add(step_row(times, "processor", &jobs::WorkTime::processor));
   }
   text += table.text() + '\n';
 }

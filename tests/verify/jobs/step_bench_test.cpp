@@ -73,7 +73,7 @@ TEST(StepBench, TimesOneThreadAndMany) {
   EXPECT_EQ(both.times[0].threads, 1);
   EXPECT_EQ(both.times[1].threads, 3);
   for (const StepTimes& times : both.times) {
-    for (const StepTime& time : {times.broad_phase, times.collisions, times.earliest}) {
+    for (const WorkTime& time : {times.broad_phase, times.collisions, times.earliest}) {
       EXPECT_GT(time.wall, 0.0);
       EXPECT_GT(time.processor, 0.0);
     }
