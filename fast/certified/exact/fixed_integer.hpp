@@ -128,8 +128,26 @@ class FixedInteger {
     return product;
   }
 
+  /// A limb times the factor and a carry of 64 bits fit into two limbs with a sign.
+  [[nodiscard]] FixedInteger<size + 1> times_signed(std::int64_t factor) const {
+    FixedInteger<size + 1> product;
+    SignedWideLimb carry = 0;
+    for (std::size_t i = 0; i + 1 < size; ++i) {
+      const SignedWideLimb sum = SignedWideLimb{factor} * limb_[i] + carry;
+      product.limb_[i] = static_cast<std::uint64_t>(sum);
+      carry = sum >> 64U;
+    }
+    const auto top = static_cast<std::int64_t>(limb_[size - 1]);
+    const SignedWideLimb sum = SignedWideLimb{factor} * top + carry;
+    product.limb_[size - 1] = static_cast<std::uint64_t>(sum);
+    product.limb_[size] = static_cast<std::uint64_t>(sum >> 64U);
+    return product;
+  }
+
   template <std::size_t other_size>
   [[nodiscard]] FixedInteger<size + other_size> times(const FixedInteger<other_size>& b) const {
+    if constexpr (other_size == 1) return times_signed(static_cast<std::int64_t>(b.limb_[0]));
+    if constexpr (size == 1) return b.times_signed(static_cast<std::int64_t>(limb_[0]));
     if constexpr (size == 2 && other_size == 2) return times_of_two(b);
     FixedInteger<size + other_size> product{};
     for (std::size_t i = 0; i < size; ++i) {

@@ -150,6 +150,10 @@ Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper)
 
 /// significand · 2^exponent; 0 far below what a double holds.
 double scaled(double significand, long exponent) {
+  // As std::ldexp, and faster, where the power of two is a double.
+  if (exponent >= -1022 && exponent <= 1023) {
+    return significand * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
+  }
   return std::ldexp(significand, static_cast<int>(std::clamp(exponent, -3000L, 3000L)));
 }
 

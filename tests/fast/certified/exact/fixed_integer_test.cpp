@@ -100,6 +100,21 @@ TEST(FixedInteger, MultipliesTwoLimbsAtTheirExtremes) {
   }
 }
 
+TEST(FixedInteger, MultipliesByALimbAtItsExtremes) {
+  const Integer most = (Integer(1) << 191U) - 1, low = (Integer(1) << 128U) - 1;
+  for (const std::int64_t factor : {INT64_MIN, INT64_MIN + 1, std::int64_t{-1}, INT64_MAX}) {
+    for (const Integer& b : {most, Integer(-most), low, Integer(-low), Integer(0)}) {
+      const Integer expected = b * Integer(static_cast<long>(factor));
+      EXPECT_TRUE(FixedInteger<1>(factor) * fixed<3>(b) == fixed<4>(expected))
+          << factor << ' ' << b;
+      EXPECT_TRUE(fixed<3>(b) * FixedInteger<1>(factor) == fixed<4>(expected))
+          << factor << ' ' << b;
+    }
+  }
+  EXPECT_TRUE(FixedInteger<1>(INT64_MIN) * FixedInteger<1>(INT64_MIN) ==
+              fixed<2>(Integer(1) << 126U));
+}
+
 TEST(FixedInteger, RoundsWithin50BitsInEveryMode) {
   Random random(4);
   for (int i = 0; i < 1000; ++i) {
