@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "filters/derivation/catalogue.hpp"
-#include "filters/derivation/derivation.hpp"
+#include "filters/derivation/bound_table.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "verify/fuzz/triage.hpp"
+#include "verify/fuzz/diagnosis.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
 #include "verify/io/printable.hpp"

@@ -20,7 +20,7 @@
 #include "verify/fuzz/scheduler.hpp"
 #include "verify/fuzz/signature.hpp"
 #include "verify/fuzz/symmetry.hpp"
-#include "verify/fuzz/triage.hpp"
+#include "verify/fuzz/diagnosis.hpp"
 #include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/solver_process.hpp"

@@ -5,7 +5,7 @@
 ///
 /// Blocks of queries come from generators (generators.hpp) that the scheduler (scheduler.hpp) prefers
 /// by what they have brought so far. The solver answers them in a child process (solver_process.hpp), the
-/// certified solver judges (triage.hpp), and the oracle judges a share again and everything that
+/// certified solver judges (diagnosis.hpp), and the oracle judges a share again and everything that
 /// is doubtful. Some queries are asked once more as an exact image (symmetry.hpp).
 ///
 /// The same seed gives the same queries and findings on every machine, for any solver that answers

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "verify/fuzz/signature.hpp"
-#include "verify/fuzz/triage.hpp"
+#include "verify/fuzz/diagnosis.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"

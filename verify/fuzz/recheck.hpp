@@ -14,7 +14,7 @@
 #include "fast/method.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/fuzz/triage.hpp"
+#include "verify/fuzz/diagnosis.hpp"
 #include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/solver_process.hpp"

@@ -1,4 +1,4 @@
-#include "verify/fuzz/triage.hpp"
+#include "verify/fuzz/diagnosis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/registry.hpp"
 
-namespace touchstone::verify::fuzz::triage_test {
+namespace touchstone::verify::fuzz::diagnosis_test {
 namespace {
 
 using fast::Answer;
@@ -45,7 +45,7 @@ Answer yes(double lower, double upper, double tolerance = Answer::none) {
   return {.verdict = Verdict::yes, .toi_lower = lower, .toi_upper = upper, .tolerance = tolerance};
 }
 
-TEST(Triage, KnowsEveryFaultOfACollision) {
+TEST(Diagnose, KnowsEveryFaultOfACollision) {
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::no}), FindingKind::false_negative);
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::error}), FindingKind::no_verdict);
   EXPECT_EQ(fault(at_half, {.verdict = Verdict::undecided}), std::nullopt);
@@ -59,7 +59,7 @@ TEST(Triage, KnowsEveryFaultOfACollision) {
 }
 
 /// 1/3 is no double: its neighbours are the tightest right bounds.
-TEST(Triage, IsExactAboutTimesThatAreNoDoubles) {
+TEST(Diagnose, IsExactAboutTimesThatAreNoDoubles) {
   const double third = 1.0 / 3.0;  // rounded down
   const double above = std::nextafter(third, 1.0);
   EXPECT_EQ(fault(at_third, yes(third, above)), std::nullopt);
@@ -67,7 +67,7 @@ TEST(Triage, IsExactAboutTimesThatAreNoDoubles) {
   EXPECT_EQ(fault(at_third, yes(0.0, third)), FindingKind::early_toi_upper);
 }
 
-TEST(Triage, HoldsOnlyWhatIsExactToMisses) {
+TEST(Diagnose, HoldsOnlyWhatIsExactToMisses) {
   const Standard exact{.promise = Promise::exact};
   EXPECT_EQ(fault(never, {.verdict = Verdict::yes}), std::nullopt);
   EXPECT_EQ(fault(never, {.verdict = Verdict::yes}, exact), FindingKind::false_positive);
@@ -78,7 +78,7 @@ TEST(Triage, HoldsOnlyWhatIsExactToMisses) {
 }
 
 /// The primitives come within 1, and no nearer.
-TEST(Triage, HoldsAYesToItsTolerance) {
+TEST(Diagnose, HoldsAYesToItsTolerance) {
   const Standard standard{.promise = Promise::conservative, .filter = fast::ErrorModel::derived};
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 1.0), standard), std::nullopt);
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.99), standard), FindingKind::beyond_tolerance);
@@ -88,7 +88,7 @@ TEST(Triage, HoldsAYesToItsTolerance) {
 }
 
 /// In the norm of the separation, for a solver of which no more is known.
-TEST(Triage, HoldsAYesToItsToleranceBeyondTheSeparation) {
+TEST(Diagnose, HoldsAYesToItsToleranceBeyondTheSeparation) {
   const Separation separation{.distance = 0.5, .norm = Norm::l2};
   const Standard standard{.separation = separation};
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.5), standard), std::nullopt);
@@ -96,7 +96,7 @@ TEST(Triage, HoldsAYesToItsToleranceBeyondTheSeparation) {
   EXPECT_EQ(fault(never, yes(0.5, Answer::none, 0.0), standard), FindingKind::beyond_tolerance);
 }
 
-TEST(Triage, TellsFailuresApart) {
+TEST(Diagnose, TellsFailuresApart) {
   const auto what = [](const solvers::Failure& failure) {
     return diagnose_failure(failure, 10.0).what;
   };
@@ -109,14 +109,14 @@ TEST(Triage, TellsFailuresApart) {
             "exit: status 3");
 }
 
-TEST(Triage, JudgesAtTheSeparation) {
+TEST(Diagnose, JudgesAtTheSeparation) {
   const Standard standard{.promise = Promise::exact, .separation = {.distance = 1.5}};
   EXPECT_EQ(fault(never, {.verdict = Verdict::no}, standard), FindingKind::false_negative);
   EXPECT_EQ(fault(never, yes(0.5, 0.5), standard), std::nullopt);
   EXPECT_EQ(fault(never, yes(0.75, 0.75), standard), FindingKind::late_toi);
 }
 
-TEST(Triage, FindsMostRightAnswersRightAtAGlance) {
+TEST(Diagnose, FindsMostRightAnswersRightAtAGlance) {
   const auto glance = [](const tests::PosedQuery& posed, const Answer& answer,
                          const Standard& standard) {
     return is_beyond_doubt(posed.kind, posed.query, fast::certified(posed.kind, posed.query),
@@ -129,7 +129,7 @@ TEST(Triage, FindsMostRightAnswersRightAtAGlance) {
   EXPECT_TRUE(glance(never, yes(0.5, Answer::none, 2.0), {.filter = fast::ErrorModel::derived}));
 }
 
-TEST(Triage, DiagnosesAJudgeThatTheOracleContradicts) {
+TEST(Diagnose, DiagnosesAJudgeThatTheOracleContradicts) {
   const judge::GroundTruth truth = judge::truth_of(0, exact::decide(at_half.kind, at_half.query));
   CertifiedResult judged = fast::certified(at_half.kind, at_half.query);
   EXPECT_FALSE(diagnose_judge(truth, judged));
@@ -141,10 +141,10 @@ TEST(Triage, DiagnosesAJudgeThatTheOracleContradicts) {
   EXPECT_EQ(diagnose_judge(miss, {.verdict = Verdict::yes})->what, FindingKind::false_positive);
 }
 
-TEST(Triage, SaysAnswersInWords) {
+TEST(Diagnose, SaysAnswersInWords) {
   EXPECT_EQ(to_text(Answer{.verdict = Verdict::no}), "no");
   EXPECT_EQ(to_text(yes(0.5, Answer::none, 1e-6)), "yes, toi_lower 0.5, tolerance 1e-06");
 }
 
 }  // namespace
-}  // namespace touchstone::verify::fuzz::triage_test
+}  // namespace touchstone::verify::fuzz::diagnosis_test

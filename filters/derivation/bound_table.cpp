@@ -1,4 +1,4 @@
-#include "filters/derivation/derivation.hpp"
+#include "filters/derivation/bound_table.hpp"
 
 #include <fmt/format.h>
 

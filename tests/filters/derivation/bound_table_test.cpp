@@ -1,4 +1,4 @@
-#include "filters/derivation/derivation.hpp"
+#include "filters/derivation/bound_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "filters/derivation/catalogue.hpp"
 
-namespace touchstone::filters::derivation_test {
+namespace touchstone::filters::bound_table_test {
 namespace {
 
 DeriveOptions quick(std::set<Model> models) {
@@ -29,7 +29,7 @@ std::size_t rows_in(const std::vector<Format>& formats) {
   return rows;
 }
 
-TEST(Derivation, HasARowForEachExpressionAndPrecision) {
+TEST(BoundTable, HasARowForEachExpressionAndPrecision) {
   const DeriveResult result = derive(quick({Model::published, Model::rigorous, Model::observed}));
   ASSERT_EQ(result.rows.size(), rows_in({double_format, float_format, double_double_format}));
   EXPECT_EQ(result.rows.size(), 29U);
@@ -46,7 +46,7 @@ TEST(Derivation, HasARowForEachExpressionAndPrecision) {
   EXPECT_EQ(row.tightness(), row.rigorous->get_d() / row.observed->units);
 }
 
-TEST(Derivation, HasRowsOfPairsInTheirOwnUnits) {
+TEST(BoundTable, HasRowsOfPairsInTheirOwnUnits) {
   DeriveOptions options = quick({Model::published, Model::rigorous, Model::observed});
   options.formats = {double_double_format};
   const DeriveResult result = derive(options);
@@ -60,7 +60,7 @@ TEST(Derivation, HasRowsOfPairsInTheirOwnUnits) {
   EXPECT_LT(row.observed->units, 64);
 }
 
-TEST(Derivation, LeavesOutWhatIsNotAskedFor) {
+TEST(BoundTable, LeavesOutWhatIsNotAskedFor) {
   DeriveOptions options = quick({Model::rigorous});
   options.formats = {double_format};
   const DeriveResult result = derive(options);
@@ -71,7 +71,7 @@ TEST(Derivation, LeavesOutWhatIsNotAskedFor) {
   }
 }
 
-TEST(Derivation, GivesTheSameInAnyNumberOfThreads) {
+TEST(BoundTable, GivesTheSameInAnyNumberOfThreads) {
   DeriveOptions one = quick({Model::observed}), many = one;
   one.threads = 1;
   many.threads = 5;
@@ -81,7 +81,7 @@ TEST(Derivation, GivesTheSameInAnyNumberOfThreads) {
   }
 }
 
-TEST(Derivation, ReportsProgressAndStops) {
+TEST(BoundTable, ReportsProgressAndStops) {
   DeriveOptions options = quick({Model::observed});
   options.threads = 1;
   std::vector<double> fractions;
@@ -96,7 +96,7 @@ TEST(Derivation, ReportsProgressAndStops) {
   EXPECT_FALSE(stopped.rows.front().observed);
 }
 
-TEST(Derivation, MissingGappaLeavesItsColumnEmpty) {
+TEST(BoundTable, MissingGappaLeavesItsColumnEmpty) {
   const char* const path = std::getenv("PATH");
   const std::string before = path == nullptr ? "" : path;
   setenv("PATH", "/nonexistent", 1);
@@ -107,7 +107,7 @@ TEST(Derivation, MissingGappaLeavesItsColumnEmpty) {
   EXPECT_TRUE(result.rows.front().rigorous);
 }
 
-TEST(Derivation, PrintsALineARow) {
+TEST(BoundTable, PrintsALineARow) {
   DeriveOptions options = quick({Model::published, Model::rigorous});
   options.formats = {double_format};
   const std::string table = to_table(derive(options));
@@ -117,4 +117,4 @@ TEST(Derivation, PrintsALineARow) {
 }
 
 }  // namespace
-}  // namespace touchstone::filters::derivation_test
+}  // namespace touchstone::filters::bound_table_test

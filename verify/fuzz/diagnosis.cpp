@@ -1,4 +1,4 @@
-#include "verify/fuzz/triage.hpp"
+#include "verify/fuzz/diagnosis.hpp"
 
 #include <fmt/format.h>
 
