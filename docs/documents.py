@@ -20,7 +20,7 @@ import urllib.parse
 
 DATA = ["handcrafted", "simulation", ""]  # "": the built-in queries
 STEPS = {"cloth-ball": ["", *(f" --min-separation {d} --norm {norm}" for d in ("1e-8", "1e-2") for norm in ("linf", "l2"))],
-         "armadillo-rollers": [""]}
+         "armadillo-rollers": [""], "cloth-funnel": [""]}
 
 # The commands of each file of data. They run in the folder of the public data.
 COMMANDS = {
@@ -191,12 +191,17 @@ def patches(data):
                                   "error of the time of impact, median / greatest"], rows)
 
 
+def scene_of(run):
+    """The step that a run of bench --step measured, and its separation."""
+    separation = re.search(r"--min-separation (\S+) --norm (\S+)", run["command"])
+    d = f"{separation[1]} {'L2' if separation[2] == 'l2' else 'L∞'}" if separation else 0
+    return re.search(r"simulation/([^/]*)", run["command"])[1], d
+
+
 def steps(data):
     rows = []
     for one in data["runs"]:
-        step = re.search(r"simulation/([^/]*)", one["command"])[1]
-        separation = re.search(r"--min-separation (\S+) --norm (\S+)", one["command"])
-        d = f"{separation[1]} {'L2' if separation[2] == 'l2' else 'L∞'}" if separation else 0
+        step, d = scene_of(one)
         for group in one["result"]["groups"]:
             counts, methods = one["result"]["step"][group["kind"].replace("-", "_")], by_name(group)
             ended = (f"{100 * methods['certified']['stages'][stage] / group['queries']:.1f}"
@@ -208,6 +213,23 @@ def steps(data):
     return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
         ["step", "d", "candidates", "collisions", "`certified`", "`certified_queries`", "`certified_pairs`",
          "`tight_inclusion`", "ended by axis / direction / determinant / bisection"], rows)
+
+
+def whole_steps(data):
+    rows = []
+    for one in data["runs"]:
+        step = one["result"]["step"]
+        of = step["times"][0]  # one thread
+
+        def passes(*parts):
+            return rounded(sum(of[f"{part}_processor_s"] for part in parts) / step["memory_pass_s"])
+
+        rows.append([*scene_of(one), f"{step['vertices']:,} / {step['edges']:,} / {step['faces']:,}",
+                     f"{1e3 * step['memory_pass_s']:.2f} ms", passes("trees"), passes("candidates"),
+                     passes("trees", "earliest"), passes("trees", "collisions")])
+    return made_by(data, "touchstone bench --step FRAME0 FRAME1 …") + table(
+        ["step", "d", "vertices / edges / faces", "pass", "trees", "candidates", "earliest impact, trees included",
+         "all collisions, trees included"], rows)
 
 
 def bounds(data):
@@ -238,7 +260,7 @@ def certificates(data):
 # The marked parts of the documents, in their order, each with its file of data.
 PARTS = {"README.md": [(printed, "certify"), (results, "results")],
          "docs/benchmarks.md": [(judged, "certify"), (files, "files"), (patches, "patches"), (steps, "steps"),
-                                (bounds, "bounds"), (certificates, "certificates")]}
+                                (whole_steps, "steps"), (bounds, "bounds"), (certificates, "certificates")]}
 
 
 # ---- Documents -------------------------------------------------------------------------------------------------------

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/broad_phase/search.hpp"
 #include "fast/certified.hpp"
 #include "fast/certified/kernel.hpp"
 #include "verify/cli/commands.hpp"
@@ -148,9 +149,16 @@ class BenchRun {
     report_.step =
         jobs::bench_step(mesh, {.repetitions = report_.options.repetitions,
                                 .threads = arguments_.sources.threads,
-                                .certified = certified_,
+                                .step = {.separation = separation_,
+                                         .kernel = certified_.kernel,
+                                         .search = search_kernel()},
                                 .on_progress = [&bar](double fraction) { bar.update(fraction); },
                                 .stop = &io::interrupted()});
+  }
+
+  /// Of the instruction set that the user chose.
+  [[nodiscard]] const fast::SearchKernel* search_kernel() const {
+    return certified_.kernel ? fast::find_search_kernel(certified_.kernel->instructions) : nullptr;
   }
 
   /// The queries below a path, of one kind at a time: both may not fit into memory.
@@ -230,7 +238,7 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
       ->excludes(command.get_option("PATH"));
   command
       .add_option("--kernel", arguments.kernel,
-                  "Kernel of the certified solver: scalar, avx2, avx512 or best")
+                  "Kernel of the certified solver and of steps: scalar, avx2, avx512 or best")
       ->type_name("NAME")
       ->capture_default_str()
       ->check(CLI::IsMember({"scalar", "avx2", "avx512", "best"}).description(""));

@@ -1,47 +1,59 @@
 #include "verify/jobs/memory_pass.hpp"
 
+#include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
+#include <cstring>
 
 namespace touchstone::verify::jobs {
 namespace {
 
 using Bits = std::uint64_t;
 
-constexpr std::size_t lanes = 3 * query_points;
+/// Words that are read together.
+constexpr std::size_t lanes = 24;
+using Block = std::array<Bits, lanes>;
 
 /// Places that are read at the same time: the processor fetches ahead of each of them, which keeps
 /// more of memory busy than one place does (a quarter of the time less than with one; eight are no
 /// better than four).
 constexpr std::size_t places = 4;
 
-[[gnu::always_inline]] inline void read(const Query& query, std::array<Bits, lanes>& sums) {
-  for (std::size_t i = 0; i < lanes; ++i) sums[i] ^= std::bit_cast<Bits>(query.coordinates[i]);
+[[gnu::always_inline]] inline void read(const std::byte* from, std::size_t size, Block& sums) {
+  Block block{};
+  std::memcpy(block.data(), from, size);
+  for (std::size_t i = 0; i < lanes; ++i) sums[i] ^= block[i];
 }
 
-[[gnu::always_inline]] inline Bits read_all(std::span<const Query> queries) {
-  std::array<Bits, lanes> sums{};
-  const std::size_t step = queries.size() / places;
-  const Query* const first = queries.data();
+[[gnu::always_inline]] inline Bits read_all(std::span<const std::byte> bytes) {
+  Block sums{};
+  const std::size_t step = bytes.size() / sizeof(Block) / places;
+  const std::byte* const first = bytes.data();
   for (std::size_t i = 0; i < step; ++i) {
-    for (std::size_t place = 0; place < places; ++place) read(first[place * step + i], sums);
+    for (std::size_t place = 0; place < places; ++place) {
+      read(first + (place * step + i) * sizeof(Block), sizeof(Block), sums);
+    }
   }
-  for (const Query& query : queries.subspan(places * step)) read(query, sums);
+  for (std::span<const std::byte> rest = bytes.subspan(places * step * sizeof(Block));
+       !rest.empty();) {
+    const std::size_t size = std::min(rest.size(), sizeof(Block));
+    read(rest.data(), size, sums);
+    rest = rest.subspan(size);
+  }
   Bits all = 0;
   for (const Bits sum : sums) all ^= sum;
   return all;
 }
 
-Bits read_all_as_built(std::span<const Query> queries) { return read_all(queries); }
+Bits read_all_as_built(std::span<const std::byte> bytes) { return read_all(bytes); }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] Bits read_all_avx2(std::span<const Query> queries) {
-  return read_all(queries);
+[[gnu::target("avx2")]] Bits read_all_avx2(std::span<const std::byte> bytes) {
+  return read_all(bytes);
 }
 #endif
 
-using Reader = Bits (*)(std::span<const Query>);
+using Reader = Bits (*)(std::span<const std::byte>);
 
 Reader best_reader() {
 #if defined(__x86_64__)
@@ -52,9 +64,9 @@ Reader best_reader() {
 
 }  // namespace
 
-std::uint64_t memory_pass(std::span<const Query> queries) {
+std::uint64_t memory_pass(std::span<const std::byte> bytes) {
   static const Reader reader = best_reader();
-  return reader(queries);
+  return reader(bytes);
 }
 
 }  // namespace touchstone::verify::jobs

@@ -1,17 +1,24 @@
 #pragma once
 
 /// \file
-/// Reading queries and nothing else: the time that no solver of an array of queries can beat.
+/// Reading the input and nothing else: the time that no solver can beat.
 
+#include <cstddef>
 #include <cstdint>
+#include <ranges>
 #include <span>
-
-#include "exact/query.hpp"
 
 namespace touchstone::verify::jobs {
 
-/// Reads every coordinate once, in this thread, as fast as the processor can, and returns the
-/// exclusive or of their bit patterns, so that no compiler can leave out the reading.
-[[nodiscard]] std::uint64_t memory_pass(std::span<const Query> queries);
+/// Reads every byte once, in this thread, as fast as the processor can, and returns the exclusive or
+/// of the words of eight bytes (the last one filled up with zeros), so that no compiler can leave out
+/// the reading.
+[[nodiscard]] std::uint64_t memory_pass(std::span<const std::byte> bytes);
+
+/// Of an array of queries, vertices, edges …
+template <std::ranges::contiguous_range Array>
+[[nodiscard]] std::uint64_t memory_pass(const Array& array) {
+  return memory_pass(std::as_bytes(std::span(array)));
+}
 
 }  // namespace touchstone::verify::jobs

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "verify/jobs/cores.hpp"
 #include "verify/jobs/deadline.hpp"
+#include "verify/jobs/memory_pass.hpp"
 #include "verify/jobs/statistics.hpp"
 
 namespace touchstone::verify::jobs {
@@ -32,28 +35,27 @@ class Repetitions {
   std::vector<double> processor_;
 };
 
-/// Candidates of one kind and their results.
-struct Part {
-  Kind kind;
-  std::vector<fast::IndexPair> pairs = {};
-  std::vector<fast::CertifiedResult> results = {};
-};
-
 /// The times of all repetitions with so many threads.
 struct Series {
   int threads = 1;
-  Repetitions broad_phase = {};
+  Repetitions trees = {};
+  Repetitions candidates = {};
   Repetitions collisions = {};
   Repetitions earliest = {};
 };
 
-/// The earlier of two impacts, of which either may be missing.
-std::optional<fast::EarliestImpact> earlier(const std::optional<fast::EarliestImpact>& a,
-                                            const std::optional<fast::EarliestImpact>& b) {
-  if (!a || !b) return a ? a : b;
-  return fast::EarliestImpact{.toi_lower = std::min(a->toi_lower, b->toi_lower),
-                              .toi_upper = std::min(a->toi_upper, b->toi_upper)};
-}
+/// Candidates by kinds, of several threads at once.
+class CandidateCounts {
+ public:
+  void add(const fast::StepCandidates& some) { count(some.kind) += some.pairs.size(); }
+
+  [[nodiscard]] std::atomic<std::size_t>& count(fast::PairKind kind) {
+    return counts_.at(static_cast<std::size_t>(kind));
+  }
+
+ private:
+  std::array<std::atomic<std::size_t>, 4> counts_{};
+};
 
 class StepRun {
  public:
@@ -67,11 +69,12 @@ class StepRun {
   [[nodiscard]] StepResult result() {
     StepResult result;
     result.name = mesh_.name;
-    result.separation = options_.certified.separation;
+    result.separation = options_.step.separation;
     result.vertices = mesh_.vertices.size();
     result.edges = mesh_.edges.size();
     result.faces = mesh_.faces.size();
     for (std::size_t i = 0; i < options_.repetitions && !stopped(); ++i) {
+      if (!stopped()) pass_over_memory();
       for (Series& series : series_) {
         if (!stopped()) repeat(series);
       }
@@ -81,13 +84,15 @@ class StepRun {
       }
     }
     result.interrupted = stopped();
-    result.vertex_face = counts(parts_[0]);
-    result.edge_edge = counts(parts_[1]);
+    result.vertex_face = counts(fast::PairKind::vertex_face);
+    result.edge_edge = counts(fast::PairKind::edge_edge);
     result.earliest = earliest_;
+    result.memory_pass = memory_pass_.median();
     for (const Series& series : series_) {
       if (series.earliest.empty()) continue;
       result.times.push_back({.threads = series.threads,
-                              .broad_phase = series.broad_phase.median(),
+                              .trees = series.trees.median(),
+                              .candidates = series.candidates.median(),
                               .collisions = series.collisions.median(),
                               .earliest = series.earliest.median()});
     }
@@ -98,60 +103,53 @@ class StepRun {
  private:
   [[nodiscard]] bool stopped() const { return is_stopped(options_.stop); }
 
+  void pass_over_memory() {
+    memory_pass_.add([&] {
+      const std::span vertices(mesh_.vertices.data(), mesh_.vertices.size());
+      checksum_ =
+          checksum_ ^ memory_pass(vertices) ^ memory_pass(mesh_.edges) ^ memory_pass(mesh_.faces);
+    });
+  }
+
   void repeat(Series& series) {
-    fast::CertifiedOptions certified = options_.certified;
-    certified.max_threads = series.threads;
-    series.broad_phase.add([&] {
-      for (Part& part : parts_)
-        part.pairs = mesh::find_candidates(mesh_, part.kind, series.threads,
-                                           options_.certified.separation.distance);
-    });
-    for (Part& part : parts_) part.results.resize(part.pairs.size());
-    series.collisions.add([&] {
-      for (Part& part : parts_) {
-        fast::solve(mesh_.vertices, candidates(part), part.results, certified);
-      }
-    });
-    series.earliest.add([&] {
-      earliest_ = std::nullopt;
-      for (const Part& part : parts_) {
-        earliest_ = earlier(earliest_, fast::earliest(mesh_.vertices, candidates(part), certified));
-      }
-    });
+    fast::StepOptions options = options_.step;
+    options.max_threads = series.threads;
+    std::optional<fast::Step> step;
+    const fast::MeshElements elements{.edges = mesh_.edges, .faces = mesh_.faces, .points = {}};
+    series.trees.add([&] { step.emplace(mesh_.vertices, elements, options); });
+    CandidateCounts candidates;
+    series.candidates.add(
+        [&] { step->candidates([&](const fast::StepCandidates& some) { candidates.add(some); }); });
+    series.collisions.add([&] { collisions_ = step->collisions(); });
+    series.earliest.add([&] { earliest_ = step->earliest(); });
+    vertex_face_ = candidates.count(fast::PairKind::vertex_face);
+    edge_edge_ = candidates.count(fast::PairKind::edge_edge);
   }
 
-  [[nodiscard]] fast::Candidates candidates(const Part& part) const {
-    return mesh::candidates_of(mesh_, part.kind, part.pairs);
+  [[nodiscard]] StepCounts counts(fast::PairKind kind) const {
+    return {.candidates = kind == fast::PairKind::vertex_face ? vertex_face_ : edge_edge_,
+            .collisions = static_cast<std::size_t>(
+                std::ranges::count(collisions_, kind, &fast::StepCollision::kind))};
   }
 
-  static StepCounts counts(const Part& part) {
-    const auto collides = [](const fast::CertifiedResult& result) {
-      return result.verdict == fast::Verdict::yes;
-    };
-    return {.candidates = part.pairs.size(),
-            .collisions = static_cast<std::size_t>(std::ranges::count_if(part.results, collides))};
-  }
-
-  /// The earliest impact is promised to be that of the results.
+  /// The earliest impact is promised to be that of the collisions.
   [[nodiscard]] bool earliest_agrees() const {
-    std::optional<fast::EarliestImpact> expected;
-    for (const Part& part : parts_) {
-      for (const fast::CertifiedResult& result : part.results) {
-        if (result.verdict != fast::Verdict::yes) continue;
-        expected = earlier(expected, fast::EarliestImpact{.toi_lower = result.toi_lower,
-                                                          .toi_upper = result.toi_upper});
-      }
-    }
-    return expected.has_value() == earliest_.has_value() &&
-           (!expected || (expected->toi_lower == earliest_->toi_lower &&
-                          expected->toi_upper == earliest_->toi_upper));
+    if (collisions_.empty() || !earliest_) return collisions_.empty() && !earliest_;
+    return earliest_->toi_lower ==
+               std::ranges::min(collisions_, {}, &fast::StepCollision::toi_lower).toi_lower &&
+           earliest_->toi_upper ==
+               std::ranges::min(collisions_, {}, &fast::StepCollision::toi_upper).toi_upper;
   }
 
   const mesh::MovingMesh& mesh_;
   const StepBenchOptions& options_;
-  std::array<Part, 2> parts_{{{.kind = Kind::vertex_face}, {.kind = Kind::edge_edge}}};
   std::vector<Series> series_;
-  std::optional<fast::EarliestImpact> earliest_;
+  Repetitions memory_pass_;
+  volatile std::uint64_t checksum_ = 0;
+  std::size_t vertex_face_ = 0;
+  std::size_t edge_edge_ = 0;
+  std::vector<fast::StepCollision> collisions_;
+  std::optional<fast::StepImpact> earliest_;
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// A whole step of a simulation from end to end: the broad phase, then all collisions, or the
-/// earliest one alone, by the certified solver from index pairs.
+/// The time of a whole step of a scene (fast/step.hpp) and of its parts, beside that of reading the
+/// mesh once.
 
 #include <atomic>
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "fast/certified.hpp"
+#include "fast/step.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
@@ -22,8 +22,8 @@ struct StepBenchOptions {
   std::size_t repetitions = 5;
   /// Timed with one thread and with so many; 0: all cores.
   unsigned threads = 0;
-  /// Its separation is that of the broad phase too; max_threads is set by the benchmark.
-  fast::CertifiedOptions certified = {};
+  /// max_threads is set by the benchmark.
+  fast::StepOptions step = {};
   /// Called now and then with the fraction of the repetitions that is done, from this thread.
   std::function<void(double)> on_progress = nullptr;
   /// Once true, no further repetition is begun.
@@ -33,9 +33,10 @@ struct StepBenchOptions {
 /// The times with so many threads, medians over the repetitions.
 struct StepTimes {
   int threads = 0;
-  WorkTime broad_phase;  ///< of both kinds
-  WorkTime collisions;   ///< verdict and time of impact of all candidates of both kinds
-  WorkTime earliest;     ///< the earliest contact of both kinds alone
+  WorkTime trees;       ///< making the step: copies of the vertices, boxes and trees of them
+  WorkTime candidates;  ///< finding all candidates, which are counted and not stored
+  WorkTime collisions;  ///< all pairs that touch with their times of impact, the search included
+  WorkTime earliest;    ///< the earliest impact alone, the search included
 };
 
 /// The counts of one kind.
@@ -52,11 +53,13 @@ struct StepResult {
   std::size_t faces = 0;
   StepCounts vertex_face;
   StepCounts edge_edge;
+  /// Reading the vertices and the elements once, in one thread: the median.
+  WorkTime memory_pass;
   /// With one thread, then with as many as asked for if these are more.
   std::vector<StepTimes> times;
-  /// Around the earliest time of impact; nothing if nothing collides.
-  std::optional<fast::EarliestImpact> earliest;
-  /// Is it that of the collisions, as fast::earliest promises?
+  /// The earliest impact; nothing if nothing touches.
+  std::optional<fast::StepImpact> earliest;
+  /// Is it that of the collisions, as fast::Step promises?
   bool earliest_agrees = true;
   /// Then there are fewer repetitions or, if there was none, no times.
   bool interrupted = false;

@@ -103,21 +103,22 @@ io::TextRow step_row(const jobs::StepTimes& times, std::string_view clock,
   };
   return {std::to_string(times.threads),
           std::string(clock),
-          milliseconds(times.broad_phase),
+          milliseconds(times.trees),
+          milliseconds(times.candidates),
           milliseconds(times.collisions),
           milliseconds(times.earliest),
-          milliseconds(times.broad_phase, times.collisions),
-          milliseconds(times.broad_phase, times.earliest)};
+          milliseconds(times.trees, times.collisions),
+          milliseconds(times.trees, times.earliest)};
 }
 
 void append_step(std::string& text, const jobs::StepResult& step) {
   text += fmt::format(
       "{}{}: {} vertices, {} edges, {} faces; vertex-face {} candidates, {} collisions; edge-edge "
-      "{} "
-      "candidates, {} collisions{}\n",
+      "{} candidates, {} collisions; memory pass {} ms{}\n",
       io::printable(step.name), separation_text(step.separation), step.vertices, step.edges,
       step.faces, step.vertex_face.candidates, step.vertex_face.collisions,
       step.edge_edge.candidates, step.edge_edge.collisions,
+      io::number_text(1e3 * step.memory_pass.processor, "{:.3f}"),
       step.interrupted ? " (interrupted)" : "");
   if (step.earliest) {
     text += fmt::format("earliest impact between {} and {}{}\n", step.earliest->toi_lower,
@@ -126,7 +127,8 @@ void append_step(std::string& text, const jobs::StepResult& step) {
   }
   io::TextTable table({{"threads", 7},
                        io::word_column("time", 9),
-                       {"broad phase", 11},
+                       {"trees", 10},
+                       {"candidates", 10},
                        {"collisions", 10},
                        {"earliest", 10},
                        {"step, all", 13},
@@ -148,10 +150,14 @@ std::string legend(const BenchReport& report) {
       report.options.repetitions);
   if (report.step) {
     text +=
-        "The table of whole steps has medians of as many repetitions: wall is the time from "
-        "beginning "
-        "to end, processor\n"
-        "that of all threads together, which the other tables have.\n";
+        "Whole steps: medians of as many repetitions; wall is the time from beginning to end, "
+        "processor\n"
+        "that of all threads together, which the other tables have. trees: making them; "
+        "candidates: "
+        "finding all and\n"
+        "storing none; collisions and earliest search once more. Their memory pass reads vertices, "
+        "edges "
+        "and faces.\n";
   }
   const auto is_sampled = [](const jobs::BenchResult& group) {
     return std::ranges::any_of(group.solvers, [&](const jobs::SolverResult& solver) {
@@ -249,13 +255,15 @@ nlohmann::json json_of(const std::optional<jobs::StepResult>& step) {
   if (!step) return {};
   nlohmann::json times = nlohmann::json::array();
   for (const jobs::StepTimes& time : step->times) {
-    times.push_back({{"threads", time.threads},
-                     {"broad_phase_s", time.broad_phase.wall},
-                     {"collisions_s", time.collisions.wall},
-                     {"earliest_s", time.earliest.wall},
-                     {"broad_phase_processor_s", time.broad_phase.processor},
-                     {"collisions_processor_s", time.collisions.processor},
-                     {"earliest_processor_s", time.earliest.processor}});
+    nlohmann::json& json = times.emplace_back(nlohmann::json{{"threads", time.threads}});
+    const auto add = [&json](const std::string& part, const jobs::WorkTime& of) {
+      json[part + "_s"] = of.wall;
+      json[part + "_processor_s"] = of.processor;
+    };
+    add("trees", time.trees);
+    add("candidates", time.candidates);
+    add("collisions", time.collisions);
+    add("earliest", time.earliest);
   }
   nlohmann::json earliest;
   if (step->earliest) {
@@ -270,6 +278,7 @@ nlohmann::json json_of(const std::optional<jobs::StepResult>& step) {
                       {"earliest", std::move(earliest)},
                       {"earliest_agrees", step->earliest_agrees},
                       {"interrupted", step->interrupted},
+                      {"memory_pass_s", step->memory_pass.processor},
                       {"times", std::move(times)}};
   if (!is_contact(step->separation)) json["separation"] = judge::to_json(step->separation);
   return json;

@@ -49,8 +49,9 @@ struct BenchReport {
 ///
 /// `step` has `name`, `vertices`, `edges`, `faces`, `vertex_face` and `edge_edge` (`candidates` and
 /// `collisions` each), `earliest` (null, or `toi_lower` and `toi_upper`), `earliest_agrees`,
-/// `interrupted`, and `times`, a list of `threads` and of seconds: `broad_phase_s`, `collisions_s` and
-/// `earliest_s` are wall time, `broad_phase_processor_s` and so on processor time of all threads together.
+/// `interrupted`, `memory_pass_s` (the time of reading the mesh once), and `times`, a list of `threads` and of
+/// seconds: `trees_s`, `candidates_s`, `collisions_s` and `earliest_s` (jobs::StepTimes) are wall time,
+/// `trees_processor_s` and so on processor time of all threads together.
 [[nodiscard]] nlohmann::json to_json(const BenchReport& report);
 
 }  // namespace touchstone::verify::report

@@ -4,8 +4,10 @@
 
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "exact/query.hpp"
 #include "tests/support/random.hpp"
 
 namespace touchstone::verify::jobs::memory_pass_test {
@@ -48,6 +50,14 @@ TEST(MemoryPass, ChangesWithEveryCoordinate) {
       x = old;
     }
   }
+}
+
+TEST(MemoryPass, FillsUpTheLastWord) {
+  EXPECT_EQ(memory_pass(std::vector<unsigned char>{}), 0U);
+  EXPECT_EQ(memory_pass(std::vector<std::uint32_t>{1, 2, 4}), (std::uint64_t{2} << 32U) ^ 5U);
+  std::vector<unsigned char> bytes(10'001);
+  bytes.back() = 3;
+  EXPECT_EQ(memory_pass(bytes), 3U) << "the last byte is the first of its word";
 }
 
 }  // namespace

@@ -73,11 +73,12 @@ TEST(StepBench, TimesOneThreadAndMany) {
   EXPECT_EQ(both.times[0].threads, 1);
   EXPECT_EQ(both.times[1].threads, 3);
   for (const StepTimes& times : both.times) {
-    for (const WorkTime& time : {times.broad_phase, times.collisions, times.earliest}) {
+    for (const WorkTime& time : {times.trees, times.candidates, times.collisions, times.earliest}) {
       EXPECT_GT(time.wall, 0.0);
       EXPECT_GT(time.processor, 0.0);
     }
   }
+  EXPECT_GT(both.memory_pass.wall, 0.0);
   const StepResult one = bench_step(mesh, {.repetitions = 1, .threads = 1});
   ASSERT_EQ(one.times.size(), 1U);
   EXPECT_EQ(one.times[0].threads, 1);

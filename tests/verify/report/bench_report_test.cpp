@@ -71,14 +71,17 @@ jobs::StepResult step() {
   step.vertex_face = {.candidates = 100, .collisions = 5};
   step.edge_edge = {.candidates = 300, .collisions = 7};
   step.times = {{.threads = 1,
-                 .broad_phase = {.wall = 0.25, .processor = 0.24},
+                 .trees = {.wall = 0.25, .processor = 0.24},
+                 .candidates = {.wall = 0.75, .processor = 0.74},
                  .collisions = {.wall = 0.5, .processor = 0.49},
                  .earliest = {.wall = 0.125, .processor = 0.12}},
                 {.threads = 8,
-                 .broad_phase = {.wall = 0.03, .processor = 0.21},
+                 .trees = {.wall = 0.03, .processor = 0.21},
+                 .candidates = {.wall = 0.09, .processor = 0.65},
                  .collisions = {.wall = 0.07, .processor = 0.55},
                  .earliest = {.wall = 0.02, .processor = 0.15}}};
-  step.earliest = fast::EarliestImpact{.toi_lower = 0.1, .toi_upper = 0.2};
+  step.earliest = fast::StepImpact{.toi_lower = 0.1, .toi_upper = 0.2, .pairs = {}};
+  step.memory_pass = {.wall = 0.003, .processor = 0.002};
   return step;
 }
 
@@ -155,12 +158,12 @@ TEST(BenchReport, TextHasTheStep) {
   ASSERT_GE(lines.size(), 8U);
   EXPECT_EQ(lines[0],
             "92-93: 10 vertices, 30 edges, 20 faces; vertex-face 100 candidates, 5 collisions; "
-            "edge-edge 300 candidates, 7 collisions");
+            "edge-edge 300 candidates, 7 collisions; memory pass 2.000 ms");
   EXPECT_EQ(lines[1], "earliest impact between 0.1 and 0.2");
-  EXPECT_EQ(words(lines[3]), (Words{"1", "wall", "250.0", "ms", "500.0", "ms", "125.0", "ms",
-                                    "750.0", "ms", "375.0", "ms"}));
-  EXPECT_EQ(words(lines[4]), (Words{"1", "processor", "240.0", "ms", "490.0", "ms", "120.0", "ms",
-                                    "730.0", "ms", "360.0", "ms"}));
+  EXPECT_EQ(words(lines[3]), (Words{"1", "wall", "250.0", "ms", "750.0", "ms", "500.0", "ms",
+                                    "125.0", "ms", "750.0", "ms", "375.0", "ms"}));
+  EXPECT_EQ(words(lines[4]), (Words{"1", "processor", "240.0", "ms", "740.0", "ms", "490.0", "ms",
+                                    "120.0", "ms", "730.0", "ms", "360.0", "ms"}));
   EXPECT_EQ(words(lines[5])[0], "8");
   EXPECT_EQ(words(lines[6])[1], "processor");
   static constexpr auto legend = "wall is the time from beginning to end, processor\n";
@@ -246,12 +249,15 @@ TEST(BenchReport, JsonHasTheStep) {
   EXPECT_EQ(json.at("earliest"), (nlohmann::json{{"toi_lower", 0.1}, {"toi_upper", 0.2}}));
   EXPECT_EQ(json.at("earliest_agrees"), true);
   EXPECT_EQ(json.at("interrupted"), false);
+  EXPECT_EQ(json.at("memory_pass_s"), 0.002);
   ASSERT_EQ(json.at("times").size(), 2U);
   EXPECT_EQ(json.at("times")[1], (nlohmann::json{{"threads", 8},
-                                                 {"broad_phase_s", 0.03},
+                                                 {"trees_s", 0.03},
+                                                 {"candidates_s", 0.09},
                                                  {"collisions_s", 0.07},
                                                  {"earliest_s", 0.02},
-                                                 {"broad_phase_processor_s", 0.21},
+                                                 {"trees_processor_s", 0.21},
+                                                 {"candidates_processor_s", 0.65},
                                                  {"collisions_processor_s", 0.55},
                                                  {"earliest_processor_s", 0.15}}));
   stepped.step->earliest.reset();
