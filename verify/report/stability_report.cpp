@@ -166,9 +166,14 @@ StabilityMark mark_of(const stability::StabilityCell& cell, std::size_t method) 
 }  // namespace
 
 std::string promise_text(const jobs::MethodResult& method) {
-  return fmt::format("{} ({}): {} its promise", io::printable(method.name),
-                     solvers::to_string(method.promise),
-                     judge::keeps(method.judgement, method.promise) ? "keeps" : "breaks");
+  const bool keeps = judge::keeps(method.judgement, method.promise);
+  const std::string name = io::printable(method.name);
+  if (method.promise == fast::Promise::none) {
+    return fmt::format("{}: promises nothing; {} worse than false positives", name,
+                       keeps ? "nothing" : "answers");
+  }
+  return fmt::format("{} ({}): {} its promise", name, solvers::to_string(method.promise),
+                     keeps ? "keeps" : "breaks");
 }
 
 std::string to_text(const stability::StabilityResult& result) {

@@ -31,7 +31,7 @@ namespace touchstone::verify::report {
 /// fault) with its `worst_rate`, `ns_per_query` and `checks_per_query` (null where unknown).
 [[nodiscard]] nlohmann::json to_json(const stability::StabilityResult& result);
 
-/// "certified (exact): keeps its promise".
+/// "certified (exact): keeps its promise", "tccd: promises nothing; answers worse than false positives".
 [[nodiscard]] std::string promise_text(const jobs::MethodResult& method);
 
 /// The cells as a report holds them, method by method within a cell.

@@ -87,6 +87,17 @@ TEST(StabilityText, KeepsItsPromiseWithFalsePositivesOnly) {
                        "planted (conservative): keeps its promise\n"));
 }
 
+TEST(StabilityText, HoldsNoSolverToAPromiseThatItDoesNotMake) {
+  stability::StabilityResult result = result_of({cell("scale", 0, faults(1, 0))});
+  result.total.methods[0].promise = fast::Promise::none;
+  EXPECT_TRUE(
+      contains(to_text(result), "planted: promises nothing; answers worse than false positives\n"));
+  result = result_of({cell("scale", 0, faults(0, 5))});
+  result.total.methods[0].promise = fast::Promise::none;
+  EXPECT_TRUE(
+      contains(to_text(result), "planted: promises nothing; nothing worse than false positives\n"));
+}
+
 TEST(StabilityText, NamesSeparationAndDisagreements) {
   stability::StabilityResult result = result_of({cell("angle", -1, faults(0, 0))});
   EXPECT_FALSE(contains(to_text(result), "minimum separation"));

@@ -415,7 +415,9 @@
       write(svg, left + cell * (i + 0.5), height - 24, panel.powers ? `2${superscript(level)}` : `${level}`, "middle",
         "tick");
     });
-    write(svg, (left + width) / 2, height - 6, panel.caption, "middle", "axis");
+    // In the middle, and inside where it is wide.
+    const half = 3.1 * panel.caption.length;
+    write(svg, Math.min((left + width) / 2, width - half), height - 6, panel.caption, "middle", "axis");
   }
 
   const forms = { points: drawPoints, lines: drawLines, ridges: drawRidges, bars: drawBars, marks: drawGrid,
