@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/tool_test.hpp"
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
 #include "verify/data/npy.hpp"
@@ -87,6 +88,16 @@ TEST_F(Tool, HelpBeginsWithAnExampleAndFitsAScreen) {
     EXPECT_LT(example, help.out.find("\n\nUsage: touchstone " + name)) << help.out;
     EXPECT_TRUE(contains(help.out, "\n\nOutput:\n")) << help.out;
     EXPECT_TRUE(contains(help.out, "Exit status: 0 ")) << help.out;
+  }
+}
+
+TEST_F(Tool, EachSubcommandIsAVerbOfTheProject) {
+  const std::string script = read_file(fs::path(tests::source_folder()) / "run");
+  for (const std::string& name : subcommands_in(run({"--help"}).out)) {
+    EXPECT_TRUE(contains(script, "\n  " + name + " ")) << "./run " << name << " is not explained";
+    EXPECT_TRUE(contains(script, " " + name + " |") || contains(script, "| " + name + ")") ||
+                contains(script, "\n  " + name + ")"))
+        << name;
   }
 }
 
