@@ -115,5 +115,14 @@ TEST_F(Standalone, asks_a_plugin) {
   EXPECT_EQ(finish(start({path("none.so")}, to_file, program)).status, 2);
 }
 
+/// Linked with our adapter, which is right.
+TEST_F(Standalone, asks_through_the_interface_of_tight_inclusion) {
+  const std::filesystem::path folder =
+      std::filesystem::path(tests::plugin_library("always_yes")).parent_path();
+  const tests::Outcome right = finish(start({}, to_file, (folder / "standalone_ticcd").string()));
+  EXPECT_EQ(right.status, 0) << right.out << right.err;
+  EXPECT_TRUE(tests::contains(right.out, "yes, toi 0.49999999999")) << right.out;
+}
+
 }  // namespace
 }  // namespace touchstone::verify::fuzz::standalone_test

@@ -1,0 +1,19 @@
+#pragma once
+
+/// \file
+/// The types of Tight-Inclusion's interface: double, or float where TOUCHSTONE_TICCD_FLOAT is defined (as that library
+/// when it is configured for single precision).
+
+#include <Eigen/Core>
+
+namespace ticcd {
+
+#ifdef TOUCHSTONE_TICCD_FLOAT
+using Scalar = float;
+#else
+using Scalar = double;
+#endif
+using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+using Array3 = Eigen::Array<Scalar, 3, 1>;
+
+}  // namespace ticcd
