@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "filters/derivation/catalogue.hpp"
 #include "filters/derivation/bound_table.hpp"
+#include "filters/derivation/catalogue.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"

@@ -13,6 +13,7 @@
 
 #include "fast/certified.hpp"
 #include "verify/fuzz/coverage.hpp"
+#include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"
@@ -20,7 +21,6 @@
 #include "verify/fuzz/scheduler.hpp"
 #include "verify/fuzz/signature.hpp"
 #include "verify/fuzz/symmetry.hpp"
-#include "verify/fuzz/diagnosis.hpp"
 #include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/solver_process.hpp"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string_view>
 
-#include "verify/fuzz/signature.hpp"
 #include "verify/fuzz/diagnosis.hpp"
+#include "verify/fuzz/signature.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
