@@ -158,7 +158,8 @@ class BenchRun {
 
   /// Of the instruction set that the user chose.
   [[nodiscard]] const fast::SearchKernel* search_kernel() const {
-    return certified_.kernel ? fast::find_search_kernel(certified_.kernel->instructions) : nullptr;
+    if (certified_.kernel == nullptr) return nullptr;
+    return fast::find_search_kernel(certified_.kernel->instructions);
   }
 
   /// The queries below a path, of one kind at a time: both may not fit into memory.
