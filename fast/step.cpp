@@ -311,6 +311,12 @@ Step::~Step() = default;
 Step::Step(Step&& other) noexcept = default;
 Step& Step::operator=(Step&& other) noexcept = default;
 
+Step Step::with_places(MovingVertices vertices, const Separation& separation) const {
+  return Step(with_threads(scene_->certified().max_threads, [&] {
+    return std::make_unique<const Scene>(std::move(vertices), *scene_, separation);
+  }));
+}
+
 std::optional<StepImpact> Step::earliest() const {
   return with_threads(scene_->certified().max_threads,
                       [this] { return EarliestSearch(*scene_).run(); });
@@ -361,6 +367,8 @@ Query Step::query_of(PairKind kind, const IndexPair& pair) const {
 }
 
 const MovingVertices& Step::vertices() const { return scene_->vertices(); }
+
+const CertifiedOptions& Step::certified() const { return scene_->certified(); }
 
 std::span<const Edge> Step::edges() const { return scene_->elements().edges; }
 

@@ -159,6 +159,15 @@ class Step {
   Step(const Step&) = delete;
   Step& operator=(const Step&) = delete;
 
+  /// The same mesh at other places, with the same options but for the separation. What does not depend on
+  /// places is shared; this step may go before that one does.
+  /// \throws std::invalid_argument unless there are as many vertices, or for a separation that makes no
+  /// sense; std::domain_error as above.
+  [[nodiscard]] Step with_places(MovingVertices vertices, const Separation& separation) const;
+  [[nodiscard]] Step with_separation(const Separation& separation) const {
+    return with_places(vertices(), separation);
+  }
+
   // ---- Impacts ----
 
   /// The earliest impact; nothing if nothing touches.
@@ -208,6 +217,8 @@ class Step {
   }
 
   [[nodiscard]] const MovingVertices& vertices() const;
+  /// How it decides pairs: separation, tolerance, t_max and so on.
+  [[nodiscard]] const CertifiedOptions& certified() const;
   /// All edges that it looks at.
   [[nodiscard]] std::span<const Edge> edges() const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
 
 #include "fast/broad_phase.hpp"
@@ -29,6 +30,14 @@ MovingVertices checked(MovingVertices vertices, const MeshElements& elements) {
   require_in_range(vertices, elements.edges);
   require_in_range(vertices, elements.faces);
   require_in_range(vertices, elements.points);
+  return vertices;
+}
+
+MovingVertices checked(MovingVertices vertices, const Scene& other) {
+  if (vertices.size() != other.vertices().size()) {
+    throw std::invalid_argument("step: there must be as many vertices as before");
+  }
+  require_finite(vertices);
   return vertices;
 }
 
@@ -126,13 +135,18 @@ Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOp
           std::make_shared<const SceneMesh>(vertices_.size(), bounds_, elements, options.groups)) {}
 
 Scene::Scene(MovingVertices vertices, const Scene& other)
-    : vertices_(std::move(vertices)),
+    : Scene(std::move(vertices), other, other.certified_.separation) {
+  certified_.t_max = 1.0;
+}
+
+Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& separation)
+    : vertices_(checked(std::move(vertices), other)),
       certified_(other.certified_),
       search_(other.search_),
       bounds_(vertices_),
       mesh_(other.mesh_) {
-  require_finite(vertices_);
-  certified_.t_max = 1.0;
+  certified_.separation = separation;
+  require_valid(certified_);
 }
 
 // ---- Searching ----------------------------------------------------------------------------------

@@ -81,6 +81,8 @@ class Scene {
   Scene(MovingVertices vertices, const MeshElements& elements, const StepOptions& options);
   /// The same mesh at other places, with the same options but for t_max, which is 1.
   Scene(MovingVertices vertices, const Scene& other);
+  /// The same mesh at other places, with the same options but for the separation.
+  Scene(MovingVertices vertices, const Scene& other, const Separation& separation);
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
   Scene(Scene&&) = delete;

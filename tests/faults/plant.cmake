@@ -124,3 +124,9 @@ function(faulty_exact_stage source file name)
   target_link_libraries(touchstone_planted_faults INTERFACE ${object})
   add_dependencies(touchstone_planted_faults ${name})
 endfunction()
+
+# faulty_distance(STAGE FILE NAME …): fast::NAME, a stage of the distance, exact or filtered, with a fault in one of its
+# files. Other names too are changed: what is inline must not be taken for the true one.
+function(faulty_distance stage file name)
+  faulty(fast/distance/${stage}_distance.cpp "${stage}_distance;polygon;Ball;ball_arithmetic" ${file} ${name} ${ARGN})
+endfunction()

@@ -12,6 +12,7 @@
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/distance.hpp"
 #include "fast/method.hpp"
 #include "fast/tight_inclusion.hpp"
 #include "fast/tight_inclusion/box_kernel.hpp"
@@ -56,6 +57,13 @@ extern DecideDistance TOUCHSTONE_PLANTED exact_without_last_bound, exact_without
     fault_in_horizon;
 /// Without a fault: it counts its work (limb_products.hpp).
 extern DecideDistance TOUCHSTONE_PLANTED exact_that_counts;
+
+// The distance of two primitives: its exact stage and its filter.
+using ExactDistance = Distance(Kind, const Query&, double, Norm);
+extern ExactDistance TOUCHSTONE_PLANTED distance_to_lines, distance_to_planes,
+    distance_with_short_axes, distance_without_sides;
+using FilteredDistance = std::optional<Distance>(Kind, const Query&, double, Norm);
+extern FilteredDistance TOUCHSTONE_PLANTED distance_without_radius, distance_without_rounding;
 
 #undef TOUCHSTONE_PLANTED
 

@@ -1,0 +1,125 @@
+#include "fast/active_set.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+
+#include "fast/platform/floating_point_state.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+using Eigen::Vector3d;
+
+/// F at the contact, in units of the greatest coordinate so that nothing overflows: F = r − u p − v q.
+struct Contact {
+  Vector3d p, q;
+  Vector3d f;     ///< F
+  Vector3d rate;  ///< F'
+  double error;   ///< of F, about: by rounding, and since the time is not known better
+};
+
+Contact contact_of(Kind kind, const Query& query, const StepCollision& collision) {
+  double greatest = 0.0;
+  for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
+  int exponent = 0;
+  std::frexp(greatest, &exponent);
+  const auto at = [&](std::size_t end, const std::array<std::size_t, 2>& points) -> Vector3d {
+    const auto scaled = [&](double x) { return std::ldexp(x, -exponent); };
+    return query.point(end, points[0]).unaryExpr(scaled) -
+           query.point(end, points[1]).unaryExpr(scaled);
+  };
+  const auto [r, p, q] = affine_vectors(kind);
+  const double t = collision.toi_upper, u = collision.u, v = collision.v;
+  const auto now = [&](const std::array<std::size_t, 2>& points) -> Vector3d {
+    return (1.0 - t) * at(0, points) + t * at(1, points);
+  };
+  const auto moved = [&](const std::array<std::size_t, 2>& points) -> Vector3d {
+    return at(1, points) - at(0, points);
+  };
+  Contact result;
+  result.p = now(p);
+  result.q = now(q);
+  result.f = now(r) - u * result.p - v * result.q;
+  result.rate = moved(r) - u * moved(p) - v * moved(q);
+  constexpr double rounding = 0x1p-40;
+  const double size =
+      std::max({now(r).lpNorm<Eigen::Infinity>(), result.p.lpNorm<Eigen::Infinity>(),
+                result.q.lpNorm<Eigen::Infinity>()});
+  result.error = rounding * size + (t - collision.toi_lower) * result.rate.stableNorm();
+  return result;
+}
+
+/// The normal of a pair with a product p × q.
+Vector3d normal_along(const Contact& contact, const Vector3d& product) {
+  const Vector3d n = product.stableNormalized();
+  const double height = n.dot(contact.f), speed = n.dot(contact.rate);
+  const bool is_apart = std::abs(height) > contact.error;
+  return (is_apart ? height < 0.0 : speed > 0.0) ? Vector3d(-n) : n;
+}
+
+/// The normal of a pair without one.
+Vector3d normal_of_degenerate(const Contact& contact) {
+  const Vector3d& longer = contact.p.stableNorm() >= contact.q.stableNorm() ? contact.p : contact.q;
+  const Vector3d along = longer.stableNormalized();
+  const auto upright = [&](const Vector3d& x) -> Vector3d { return x - x.dot(along) * along; };
+  if (contact.f.stableNorm() > contact.error) return contact.f.stableNormalized();
+  const Vector3d against = upright(-contact.rate);
+  constexpr double noise = 0x1p-40;
+  if (against.stableNorm() > noise * contact.rate.stableNorm()) return against.stableNormalized();
+  Eigen::Index axis = 0;
+  along.cwiseAbs().minCoeff(&axis);
+  return upright(Vector3d::Unit(axis)).normalized();
+}
+
+Vector3d normal_of(const Contact& contact) {
+  constexpr double least_sine = 0x1p-20;
+  const Vector3d product = contact.p.stableNormalized().cross(contact.q.stableNormalized());
+  if (product.norm() > least_sine) return normal_along(contact, product);
+  return normal_of_degenerate(contact);
+}
+
+/// The place of a point of the query at a time.
+Vector3d place(const Query& query, std::size_t point, double t) {
+  return (1.0 - t) * query.point(0, point) + t * query.point(1, point);
+}
+
+ActiveContact active_contact(const Step& step, const StepCollision& collision) {
+  const Kind kind = Step::kind_of(collision.kind);
+  const Query query = step.query_of(collision.kind, collision.pair);
+  const double u = collision.u, v = collision.v;
+  const auto at = [&](std::size_t point) { return place(query, point, collision.toi_upper); };
+  const bool is_face = kind == Kind::vertex_face;
+  return {.kind = collision.kind,
+          .pair = collision.pair,
+          .toi_lower = collision.toi_lower,
+          .toi_upper = collision.toi_upper,
+          .u = u,
+          .v = v,
+          .first = is_face ? at(0) : Vector3d((1.0 - u) * at(0) + u * at(1)),
+          .second = is_face ? Vector3d((1.0 - u - v) * at(1) + u * at(2) + v * at(3))
+                            : Vector3d((1.0 - v) * at(2) + v * at(3)),
+          .normal = normal_of(contact_of(kind, query, collision))};
+}
+
+}  // namespace
+
+std::vector<ActiveContact> active_set(const Step& step, double eta, Norm norm) {
+  const std::vector<StepCollision> collisions =
+      step.with_separation({.distance = eta, .norm = norm}).collisions();
+  const StrictFloatingPoint strict;
+  std::vector<ActiveContact> result;
+  result.reserve(collisions.size());
+  for (const StepCollision& one : collisions) result.push_back(active_contact(step, one));
+  std::ranges::sort(result, [](const ActiveContact& a, const ActiveContact& b) {
+    return std::tie(a.toi_lower, a.toi_upper, a.kind, a.pair) <
+           std::tie(b.toi_lower, b.toi_upper, b.kind, b.pair);
+  });
+  return result;
+}
+
+}  // namespace touchstone::fast

@@ -1,0 +1,182 @@
+#include "fast/distance.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "fast/distance/exact_distance.hpp"
+#include "fast/distance/filtered_distance.hpp"
+#include "fast/platform/floating_point_state.hpp"
+#include "fast/platform/threads.hpp"
+#include "filters/error_bounds.hpp"
+#include "filters/expressions.hpp"
+
+namespace touchstone::fast {
+namespace {
+
+namespace tbb = oneapi::tbb;
+
+void require_time(double t) {
+  // Written so that NaN fails too.
+  if (!(t >= 0.0 && t <= 1.0)) throw std::invalid_argument("distance: the time must be in [0,1]");
+}
+
+void require_finite(const Query& query) {
+  if (!is_finite(query)) throw std::domain_error("distance: a coordinate is not finite");
+}
+
+/// \pre strict floating point
+Distance distance_at(Kind kind, const Query& query, double t, Norm norm) {
+  if (const auto result = filtered_distance(kind, query, t, norm)) return *result;
+  return exact_distance(kind, query, t, norm);
+}
+
+// ---- The least of a step ------------------------------------------------------------------------
+
+/// Whether one distance is surely less than another: if an interval between neighbouring doubles, or a
+/// double, is before another in this order, what it holds is less.
+bool is_less(const Distance& a, const Distance& b) {
+  return std::tie(a.lower, a.upper) < std::tie(b.lower, b.upper);
+}
+
+/// Finds the least distance by looking at all pairs whose boxes are within a radius, beginning with 0. As
+/// soon as a pair is known, no other matters than those whose boxes are as near as it is.
+///
+/// The boxes are of places rounded to doubles. Each rounding moves a coordinate by the bound of
+/// filters::Position at most, so they are at most `slack_` farther apart than the true ones.
+class LeastDistanceSearch {
+ public:
+  LeastDistanceSearch(const Step& step, double t, Norm norm) : step_(step), t_(t), norm_(norm) {
+    const MovingVertices& vertices = step.vertices();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      for (const std::array<double, 4>& place : {vertices[i].start, vertices[i].end}) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          greatest_ = std::max(greatest_, std::abs(place[axis]));
+        }
+      }
+    }
+    if (greatest_ > far_from_overflow) scale_ = 0x1p-3;
+    slack_ = 4.0 * filters::position_double(scale_ * greatest_) + 0x1p-1070;
+  }
+
+  [[nodiscard]] std::optional<LeastDistance> run() {
+    const Step resting = step_.with_places(places(), {});
+    // All boxes are within this.
+    const double most = 2.0 * scale_ * greatest_;
+    for (double radius = 0.0;;) {
+      search(resting, radius);
+      const double wider = radius == 0.0 ? most * 0x1p-12 : 8.0 * radius;
+      const double next = std::min(pairs_.empty() ? wider : least_.upper * scale_, most);
+      if (next <= radius) break;
+      radius = next;
+    }
+    if (pairs_.empty()) return std::nullopt;
+    std::ranges::sort(pairs_, [](const PairDistance& a, const PairDistance& b) {
+      return std::tie(a.kind, a.pair) < std::tie(b.kind, b.pair);
+    });
+    return LeastDistance{least_, std::move(pairs_)};
+  }
+
+ private:
+  static constexpr double far_from_overflow = 0x1p1000;
+
+  /// Where the vertices are, about, times the scale.
+  [[nodiscard]] MovingVertices places() const {
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+    const MovingVertices& vertices = step_.vertices();
+    Rows rows(static_cast<Eigen::Index>(vertices.size()), 3);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const MovingVertex& vertex = vertices[static_cast<std::size_t>(i)];
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        const double start = scale_ * vertex.start[axis], end = scale_ * vertex.end[axis];
+        rows(i, k) = start == end || t_ == 0.0
+                         ? start
+                         : filters::Position::evaluate<double>({start, end}, {1.0 - t_, t_});
+      }
+    }
+    return {rows, rows};
+  }
+
+  /// Looks at all pairs whose places' boxes are within that radius, and lists the nearest.
+  void search(const Step& resting, double radius) {
+    pairs_.clear();
+    const Step near = resting.with_places(resting.vertices(), {.distance = radius + slack_});
+    near.candidates([this](const StepCandidates& some) {
+      for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
+    });
+  }
+
+  void consider(PairKind kind, const IndexPair& pair) {
+    const Query query = step_.query_of(kind, pair);
+    const Distance distance = distance_at(Step::kind_of(kind), query, t_, norm_);
+    if (distance.lower > known_.load(std::memory_order_relaxed)) return;
+    const std::scoped_lock lock(mutex_);
+    if (is_less(least_, distance)) return;
+    if (is_less(distance, least_)) pairs_.clear();
+    least_ = distance;
+    known_ = distance.upper;
+    pairs_.push_back({kind, pair, distance});
+  }
+
+  const Step& step_;
+  double t_;
+  Norm norm_;
+  double greatest_ = 0.0;
+  double scale_ = 1.0;
+  double slack_ = 0.0;
+
+  std::mutex mutex_;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  Distance least_{infinity, infinity};
+  std::vector<PairDistance> pairs_;       ///< that have it, of those looked at
+  std::atomic<double> known_ = infinity;  ///< an upper bound of the least
+};
+
+}  // namespace
+
+Distance distance(Kind kind, const Query& query, double t, Norm norm) {
+  require_time(t);
+  require_finite(query);
+  const StrictFloatingPoint strict;
+  return distance_at(kind, query, t, norm);
+}
+
+void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
+               std::span<Distance> results, int max_threads) {
+  require_time(t);
+  if (queries.size() != results.size()) {
+    throw std::invalid_argument("distances: there must be as many results as queries");
+  }
+  if (max_threads < 0) {
+    throw std::invalid_argument("distances: max_threads must not be negative");
+  }
+  constexpr std::size_t queries_of_task = 256;
+  with_threads(max_threads, [&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), queries_of_task),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        const StrictFloatingPoint strict;
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          require_finite(queries[i]);
+                          results[i] = distance_at(kind, queries[i], t, norm);
+                        }
+                      });
+  });
+}
+
+std::optional<LeastDistance> least_distance(const Step& step, double t, Norm norm) {
+  require_time(t);
+  const StrictFloatingPoint strict;
+  return LeastDistanceSearch(step, t, norm).run();
+}
+
+}  // namespace touchstone::fast

@@ -1,0 +1,57 @@
+#pragma once
+
+/// \file
+/// A number that is not negative between the nearest doubles, found by comparisons with doubles.
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "fast/distance.hpp"
+
+namespace touchstone::fast {
+
+/// The greatest double that is not above the number α and the least that is not below it: both are α if
+/// that is a double, and the upper one is infinity beyond the greatest double. `sign_of(x)` is the sign of
+/// α − x for a finite x ≥ 0, or nothing if it does not know; then there is no answer either. Fast if α
+/// is near the guess, right in any case. \pre α ≥ 0.
+template <class SignOf>
+[[nodiscard]] std::optional<Distance> neighbouring_doubles(double guess, const SignOf& sign_of) {
+  constexpr double greatest = std::numeric_limits<double>::max();
+  constexpr auto last = std::bit_cast<std::uint64_t>(greatest);
+  const auto at = [](std::uint64_t bits) { return std::bit_cast<double>(bits); };
+  // NaN is not above 0.
+  const auto start = std::bit_cast<std::uint64_t>(guess > 0.0 ? std::fmin(guess, greatest) : 0.0);
+  std::optional<int> sign = sign_of(at(start));
+  // Doubles by their bits, which are in their order: one below α, and one above, or behind the last.
+  std::uint64_t below = start, above = start;
+  if (sign && *sign > 0) {
+    for (std::uint64_t stride = 1; sign && *sign > 0; stride *= 2) {
+      below = above;
+      if (below == last) return Distance{greatest, std::numeric_limits<double>::infinity()};
+      above = below + std::min(stride, last - below);
+      sign = sign_of(at(above));
+    }
+    if (sign && *sign == 0) return Distance{at(above), at(above)};
+  } else {
+    for (std::uint64_t stride = 1; sign && *sign < 0; stride *= 2) {
+      above = below;
+      below -= std::min(stride, below);
+      sign = sign_of(at(below));
+    }
+    if (sign && *sign == 0) return Distance{at(below), at(below)};
+  }
+  while (sign && above - below > 1) {
+    const std::uint64_t middle = below + (above - below) / 2;
+    sign = sign_of(at(middle));
+    if (sign && *sign == 0) return Distance{at(middle), at(middle)};
+    if (sign) (*sign > 0 ? below : above) = middle;
+  }
+  if (!sign) return std::nullopt;
+  return Distance{at(below), at(above)};
+}
+
+}  // namespace touchstone::fast

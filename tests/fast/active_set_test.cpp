@@ -1,0 +1,191 @@
+#include "fast/active_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+#include <vector>
+
+#include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/trials.hpp"
+
+namespace touchstone::fast::active_set_test {
+namespace {
+
+using Eigen::Vector3d;
+using tests::Places;
+using tests::Random;
+using tests::Scene;
+
+Scene scene_of(const Places& start, const Places& end) {
+  return {.start = start,
+          .end = end,
+          .edges = {},
+          .faces = {},
+          .points = {},
+          .groups = {},
+          .apart = {}};
+}
+
+/// A point that falls from height 1 to −1 over (1,1) of a face in the plane z=0.
+Scene falling_point() {
+  Places start(4, 3), end(4, 3);
+  start << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1;
+  end = start;
+  end(3, 2) = -1;
+  Scene scene = scene_of(start, end);
+  scene.faces = {{0, 1, 2}};
+  scene.edges = edges_of(scene.faces);
+  scene.points = {3};
+  return scene;
+}
+
+TEST(ActiveSet, OfAFallingPointIsItsFace) {
+  const auto contacts = active_set(falling_point().step(), 0.5);
+  ASSERT_EQ(contacts.size(), 1U);
+  const ActiveContact& one = contacts[0];
+  EXPECT_EQ(one.kind, PairKind::vertex_face);
+  EXPECT_EQ(one.pair, (IndexPair{3, 0}));
+  EXPECT_LT(one.toi_lower, 0.25);
+  EXPECT_GE(one.toi_upper, 0.25);
+  EXPECT_TRUE(one.first.isApprox(Vector3d(1, 1, 0.5)));
+  EXPECT_TRUE(one.second.isApprox(Vector3d(1, 1, 0)));
+  EXPECT_EQ(one.normal, Vector3d(0, 0, 1));
+}
+
+TEST(ActiveSet, HasTheNormalOfTheSideThatAPrimitiveComesFrom) {
+  for (const double eta : {0.0, 0.25}) {
+    Scene scene = falling_point();
+    EXPECT_EQ(active_set(scene.step(), eta)[0].normal, Vector3d(0, 0, 1));
+    // From below, and with the face turned round.
+    scene.start(3, 2) = -1;
+    scene.end(3, 2) = 1;
+    EXPECT_EQ(active_set(scene.step(), eta)[0].normal, Vector3d(0, 0, -1));
+    scene.faces = {{0, 2, 1}};
+    EXPECT_EQ(active_set(scene.step(), eta)[0].normal, Vector3d(0, 0, -1));
+  }
+}
+
+/// Two edges without a face, the second one at rest.
+Scene edges(const Places& start, const Vector3d& motion) {
+  Scene scene = scene_of(start, start);
+  scene.edges = {{0, 1}, {2, 3}};
+  scene.end.topRows(2).rowwise() += motion.transpose();
+  return scene;
+}
+
+TEST(ActiveSet, HasTheCrossProductOfEdgesForNormal) {
+  Places start(4, 3);
+  start << -1, 0, 1, 1, 0, 1, 0, -1, 0, 0, 1, 0;
+  for (const double eta : {0.0, 0.25}) {
+    const auto contacts = active_set(edges(start, {0, 0, -2}).step(), eta);
+    ASSERT_EQ(contacts.size(), 1U);
+    EXPECT_EQ(contacts[0].normal, Vector3d(0, 0, 1));
+    EXPECT_NEAR((contacts[0].first - contacts[0].second).norm(), eta, 1e-10);
+  }
+}
+
+TEST(ActiveSet, HasADefinedNormalForParallelEdges) {
+  Places start(4, 3);
+  start << -1, 0, 1, 1, 0, 1, -1, 0, 0, 1, 0, 0;
+  const auto normal = [&](const Places& at, const Vector3d& motion, double eta) {
+    const auto contacts = active_set(edges(at, motion).step(), eta);
+    EXPECT_EQ(contacts.size(), 1U);
+    return contacts.at(0).normal;
+  };
+  const double root = std::sqrt(0.5);
+  EXPECT_TRUE(normal(start, {0, 0, -2}, 0.25).isApprox(Vector3d(0, 0, 1)));
+  // Touching: against the motion, upright on the edge.
+  EXPECT_TRUE(normal(start, {0.5, 0, -2}, 0.0).isApprox(Vector3d(0, 0, 1)));
+  start.topRows(2).col(1).array() += 1.0;
+  EXPECT_TRUE(normal(start, {0.5, -2, -2}, 0.0).isApprox(Vector3d(0, root, root)));
+  // Touching all the time: upright on the edge.
+  start.topRows(2) = start.bottomRows(2);
+  const Vector3d any = normal(start, {0, 0, 0}, 0.0);
+  EXPECT_NEAR(any.norm(), 1.0, 1e-15);
+  EXPECT_EQ(any.x(), 0.0);
+  EXPECT_EQ(normal(start, {0.5, 0, 0}, 0.0), any);
+}
+
+TEST(ActiveSet, HasTheDirectionOfNearestPointsForCodimensionalPairs) {
+  Places start(4, 3), end(4, 3);
+  start << 0, 0, 0, 4, 0, 0, 1, 3, 4, 2, 3, 4;
+  end = start;
+  end.row(2) << 1, -3, -4;
+  Scene scene = scene_of(start, end);
+  scene.edges = {{0, 1}};
+  scene.points = {2};
+  for (const double eta : {0.0, 1.0}) {
+    const auto contacts = active_set(scene.step(), eta);
+    ASSERT_EQ(contacts.size(), 1U);
+    EXPECT_EQ(contacts[0].kind, PairKind::vertex_edge);
+    EXPECT_TRUE(contacts[0].normal.isApprox(Vector3d(0, 0.6, 0.8)));
+    EXPECT_NEAR(contacts[0].u, 0.25, 1e-10);
+  }
+  scene.edges.clear();
+  scene.points = {0, 2};
+  scene.end.row(2) << -1, -3, -4;
+  for (const double eta : {0.0, 1.0}) {
+    const auto contacts = active_set(scene.step(), eta);
+    ASSERT_EQ(contacts.size(), 1U);
+    EXPECT_EQ(contacts[0].kind, PairKind::vertex_vertex);
+    EXPECT_TRUE(contacts[0].normal.isApprox(Vector3d(-1, -3, -4).normalized()));
+  }
+}
+
+TEST(ActiveSet, IsTheCollisionsAtThatSeparationInOrder) {
+  Random random(2200);
+  std::size_t found = 0;
+  for (int round = 0; round < tests::trials(30); ++round) {
+    for (const tests::Shape& shape : tests::shapes()) {
+      const Scene scene = tests::random_scene(random, shape, random.between(2, 10));
+      const Norm norm = random.coin() ? Norm::l2 : Norm::linf;
+      const double eta = random.coin() ? shape.separation : 0.0;
+      // The separation that a step is made with is of no matter.
+      const auto contacts =
+          active_set(scene.step({.separation = {.distance = 3 * shape.separation}}), eta, norm);
+      auto collisions = scene.step({.separation = {.distance = eta, .norm = norm}}).collisions();
+      std::ranges::sort(collisions, {}, [](const StepCollision& one) {
+        return std::tuple(one.toi_lower, one.toi_upper, one.kind, one.pair);
+      });
+      ASSERT_EQ(contacts.size(), collisions.size());
+      for (std::size_t i = 0; i < contacts.size(); ++i) {
+        const ActiveContact& one = contacts[i];
+        EXPECT_EQ((StepCollision{one.kind, one.pair, one.toi_lower, one.toi_upper, one.u, one.v}),
+                  collisions[i]);
+        EXPECT_NEAR(one.normal.norm(), 1.0, 1e-14) << shape.name;
+      }
+      found += contacts.size();
+    }
+  }
+  EXPECT_GT(found, tests::trials(200U));
+}
+
+TEST(ActiveSet, NormalsPointFromTheSecondPrimitiveToTheFirst) {
+  Random random(2201);
+  constexpr double eta = 0.05;
+  int seen = 0;
+  for (int round = 0; round < tests::trials(20); ++round) {
+    const Scene scene = tests::soup(random, 30, 0.2);
+    for (const ActiveContact& one : active_set(scene.step(), eta)) {
+      const Vector3d between = one.first - one.second;
+      if (one.toi_lower == 0.0) continue;
+      EXPECT_NEAR(between.norm(), eta, 1e-9);
+      EXPECT_GT(one.normal.dot(between), -1e-9);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, tests::trials(100));
+}
+
+TEST(ActiveSet, RefusesWhatMakesNoSense) {
+  const Step step = falling_point().step();
+  EXPECT_THROW((void)active_set(step, -1.0), std::invalid_argument);
+  EXPECT_THROW((void)active_set(step, std::nan("")), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace touchstone::fast::active_set_test

@@ -1,0 +1,413 @@
+#include "fast/distance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fast/broad_phase.hpp"
+#include "fast/distance/exact_distance.hpp"
+#include "fast/distance/filtered_distance.hpp"
+#include "fast/distance/neighbouring_doubles.hpp"
+#include "tests/faults/planted_faults.hpp"
+#include "tests/support/distance_at_time.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/trials.hpp"
+
+namespace touchstone::fast::distance_test {
+namespace {
+
+using exact::Rational;
+using tests::PosedQuery;
+using tests::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double greatest = std::numeric_limits<double>::max();
+constexpr double tiniest = std::numeric_limits<double>::denorm_min();
+constexpr auto kinds = std::to_array<Kind>({Kind::vertex_face, Kind::edge_edge});
+constexpr auto norms = std::to_array<Norm>({Norm::l2, Norm::linf});
+
+// ---- The truth ----------------------------------------------------------------------------------
+
+/// The distance, about, whether or not its square is a double.
+double approximately(const Rational& measure, Norm norm) {
+  if (measure == 0) return 0.0;
+  long above = 0, below = 0;
+  double ratio = mpz_get_d_2exp(&above, measure.get_num_mpz_t());
+  ratio /= mpz_get_d_2exp(&below, measure.get_den_mpz_t());
+  const auto exponent = static_cast<int>(above - below);
+  if (norm == Norm::linf) return std::ldexp(ratio, exponent);
+  const int odd = exponent & 1;
+  return std::ldexp(std::sqrt(std::ldexp(ratio, odd)), (exponent - odd) / 2);
+}
+
+/// The doubles that belong around the distance.
+Distance truth(const PosedQuery& posed, double t, Norm norm) {
+  const Rational measure = tests::DistanceAtTime(posed.kind, posed.query, t).measure(norm);
+  const auto sign_of = [&](double x) -> std::optional<int> {
+    return tests::compare_distance(measure, norm, Rational(x));
+  };
+  return *neighbouring_doubles(approximately(measure, norm), sign_of);
+}
+
+/// Is that what is said of the query? The text names it otherwise.
+std::string fault(const PosedQuery& posed, double t, Norm norm) {
+  const Distance expected = truth(posed, t, norm);
+  const auto difference = [&](const char* who, const Distance& found) -> std::string {
+    if (found == expected) return "";
+    std::ostringstream text;
+    text << who << std::hexfloat << ": [" << found.lower << ", " << found.upper << "] and not ["
+         << expected.lower << ", " << expected.upper << "] at " << t << " in " << to_string(norm)
+         << " of " << posed;
+    return text.str();
+  };
+  if (auto what = difference("exact", exact_distance(posed.kind, posed.query, t, norm));
+      !what.empty()) {
+    return what;
+  }
+  if (const auto filtered = filtered_distance(posed.kind, posed.query, t, norm)) {
+    if (auto what = difference("filtered", *filtered); !what.empty()) return what;
+  }
+  return difference("distance", distance(posed.kind, posed.query, t, norm));
+}
+
+double random_time(Random& random) {
+  switch (random.between(0, 5)) {
+    case 0:
+      return 0.0;
+    case 1:
+      return 1.0;
+    case 2:
+      return 0.125 * random.between(0, 8);
+    case 3:
+      return std::ldexp(random.uniform(0.5, 1), -random.between(0, 1070));
+    default:
+      return random.uniform(0, 1);
+  }
+}
+
+TEST(Distance, IsThatOfRationalsForEveryFamily) {
+  Random random(2001);
+  for (int round = 0; round < tests::trials(150); ++round) {
+    for (const Kind kind : kinds) {
+      for (const tests::Family family : tests::all_families) {
+        const PosedQuery posed = tests::random_query(random, kind, family);
+        const double t = random_time(random);
+        for (const Norm norm : norms) ASSERT_EQ(fault(posed, t, norm), "");
+      }
+    }
+  }
+}
+
+TEST(Distance, IsThatOfRationalsAtAllScales) {
+  Random random(2002);
+  for (int round = 0; round < tests::trials(60); ++round) {
+    for (const Kind kind : kinds) {
+      PosedQuery posed = tests::random_query(random, kind, tests::Family::full_significands);
+      PosedQuery mixed = posed, flat = posed;
+      const int exponent = random.between(-1070, 1021);
+      for (double& x : posed.query.coordinates) x = std::ldexp(x, exponent);
+      for (double& x : mixed.query.coordinates) x = random.finite_double();
+      // A size of 1 but for one axis.
+      for (std::size_t i = 2; i < flat.query.coordinates.size(); i += 3) {
+        flat.query.coordinates[i] = std::ldexp(flat.query.coordinates[i], -std::abs(exponent));
+      }
+      const double t = random.coin() ? 0.0 : random_time(random);
+      for (const Norm norm : norms) {
+        ASSERT_EQ(fault(posed, t, norm), "");
+        ASSERT_EQ(fault(mixed, t, norm), "");
+        ASSERT_EQ(fault(flat, t, norm), "");
+      }
+    }
+  }
+}
+
+TEST(Distance, OfDegeneratePrimitivesIsThatOfRationals) {
+  Random random(2003);
+  for (int round = 0; round < tests::trials(300); ++round) {
+    for (const Kind kind : kinds) {
+      PosedQuery posed = tests::random_query(random, kind, tests::Family::full_significands);
+      // Some points are others, or on a line with two others, at one end or at both.
+      for (int i = random.between(1, 3); i > 0; --i) {
+        const auto from = static_cast<std::size_t>(random.between(0, 3));
+        const auto to = static_cast<std::size_t>(random.between(0, 3));
+        const auto third = static_cast<std::size_t>(random.between(0, 3));
+        const bool is_middle = random.coin();
+        for (const std::size_t end : {0U, 1U}) {
+          if (random.between(0, 4) == 0) continue;
+          const Eigen::Vector3d a = posed.query.point(end, from), b = posed.query.point(end, third);
+          posed.query.point(end, to) = is_middle ? Eigen::Vector3d(0.5 * (a + b)) : a;
+        }
+      }
+      for (const Norm norm : norms) ASSERT_EQ(fault(posed, random_time(random), norm), "");
+    }
+  }
+}
+
+// ---- What follows -------------------------------------------------------------------------------
+
+TEST(Distance, IsADoubleWhereThereIsOne) {
+  for (const double height : {1.0, 0.1, 1e-300, tiniest, 1e300, 0.0}) {
+    const PosedQuery face = tests::over_triangle(1, 1, height, -height);
+    const PosedQuery edges = tests::over_edge(1, 1, height, height);
+    for (const Norm norm : norms) {
+      EXPECT_EQ(distance(face.kind, face.query, 0.0, norm), (Distance{height, height}));
+      EXPECT_EQ(distance(face.kind, face.query, 0.5, norm), (Distance{0.0, 0.0}));
+      EXPECT_EQ(distance(edges.kind, edges.query, 0.5, norm), (Distance{height, height}));
+    }
+  }
+}
+
+TEST(Distance, BelowTheLeastDoubleIsPositive) {
+  const PosedQuery posed = tests::over_triangle(1, 1, tiniest, 0.0);
+  EXPECT_EQ(distance(posed.kind, posed.query, 0.75), (Distance{0.0, tiniest}));
+  EXPECT_EQ(distance(posed.kind, posed.query, 1.0), (Distance{0.0, 0.0}));
+}
+
+TEST(Distance, BeyondTheGreatestDoubleIsInfinite) {
+  const PosedQuery posed = tests::vertex_face(
+      {greatest, greatest, greatest, -greatest, 0, 0, -greatest, 0, 0, -greatest, 0, 0},
+      {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  for (const Norm norm : norms) {
+    EXPECT_EQ(distance(posed.kind, posed.query, 0.0, norm), (Distance{greatest, infinity}));
+  }
+}
+
+TEST(Distance, IsTheSameOfTwoPointsAndOfDegenerateFacesAndEdges) {
+  // 3² + 4² + 12² = 13².
+  const PosedQuery face = tests::vertex_face({3, 4, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+                                             {3, 4, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+  const PosedQuery edges = tests::edge_edge({3, 4, 12, 3, 4, 12, 0, 0, 0, 0, 0, 0},
+                                            {3, 4, 12, 3, 4, 12, 0, 0, 0, 0, 0, 0});
+  for (const PosedQuery& posed : {face, edges}) {
+    EXPECT_EQ(distance(posed.kind, posed.query, 0.25), (Distance{13.0, 13.0}));
+    EXPECT_EQ(distance(posed.kind, posed.query, 0.25, Norm::linf), (Distance{12.0, 12.0}));
+  }
+}
+
+TEST(Distance, FollowsPowersOfTwoExchangeTranslationAndReflection) {
+  Random random(2004);
+  for (int round = 0; round < tests::trials(1000); ++round) {
+    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+    const Query query = tests::random_query(random, kind, tests::Family::full_significands).query;
+    const double t = random.uniform(0, 1);
+    for (const Norm norm : norms) {
+      const Distance expected = distance(kind, query, t, norm);
+      for (const int exponent : {-900, -30, 7, 1000}) {
+        Query other = query;
+        for (double& x : other.coordinates) x = std::ldexp(x, exponent);
+        EXPECT_EQ(distance(kind, other, t, norm), (Distance{std::ldexp(expected.lower, exponent),
+                                                            std::ldexp(expected.upper, exponent)}));
+      }
+      Query turned = query, exchanged = query;
+      for (std::size_t end = 0; end < 2; ++end) {
+        for (std::size_t i = 0; i < moving_points; ++i) {
+          turned.point(end, i) << -query.at(end, i, 2), query.at(end, i, 0), query.at(end, i, 1);
+          const std::size_t to = kind == Kind::edge_edge ? (i + 2) % 4 : i == 0 ? 0 : 1 + i % 3;
+          exchanged.point(end, to) = query.point(end, i);
+        }
+      }
+      EXPECT_EQ(distance(kind, turned, t, norm), expected);
+      EXPECT_EQ(distance(kind, exchanged, t, norm), expected);
+      // Coordinates of few bits, so that a translation rounds nothing.
+      Query coarse = query, translated = query;
+      for (std::size_t i = 0; i < coarse.coordinates.size(); ++i) {
+        coarse.coordinates[i] = std::ldexp(std::round(std::ldexp(query.coordinates[i], 20)), -20);
+        translated.coordinates[i] = coarse.coordinates[i] + 1024.0;
+      }
+      EXPECT_EQ(distance(kind, translated, t, norm), distance(kind, coarse, t, norm));
+    }
+  }
+}
+
+TEST(Distance, IsFilteredAsARule) {
+  Random random(2005);
+  for (const Norm norm : norms) {
+    int filtered = 0;
+    const int count = tests::trials(2000);
+    for (int i = 0; i < count; ++i) {
+      const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
+      const Query query = tests::random_query(random, kind, tests::Family::full_significands).query;
+      filtered += filtered_distance(kind, query, random.uniform(0, 1), norm) ? 1 : 0;
+    }
+    // Those that touch are not.
+    EXPECT_GT(filtered, count * 9 / 10) << to_string(norm);
+  }
+}
+
+TEST(Distance, OfManyIsThatOfEach) {
+  Random random(2006);
+  std::vector<Query> queries;
+  for (int i = 0; i < 1000; ++i) {
+    queries.push_back(
+        tests::random_query(random, Kind::edge_edge, tests::Family::near_contact).query);
+  }
+  for (const int threads : {1, 0}) {
+    std::vector<Distance> found(queries.size());
+    distances(Kind::edge_edge, queries, 0.5, Norm::l2, found, threads);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      EXPECT_EQ(found[i], distance(Kind::edge_edge, queries[i], 0.5));
+    }
+  }
+}
+
+TEST(Distance, RefusesWhatMakesNoSense) {
+  Query query = tests::over_triangle(1, 1, 1, 0).query;
+  EXPECT_THROW((void)distance(Kind::vertex_face, query, -0.5), std::invalid_argument);
+  EXPECT_THROW((void)distance(Kind::vertex_face, query, std::nan("")), std::invalid_argument);
+  std::vector<Distance> two(2);
+  EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, two),
+               std::invalid_argument);
+  query.coordinates[5] = infinity;
+  EXPECT_THROW((void)distance(Kind::vertex_face, query, 0.5), std::domain_error);
+  EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, std::span(two).first(1)),
+               std::domain_error);
+}
+
+// ---- Faults -------------------------------------------------------------------------------------
+
+/// Does an answer differ from the truth, in a few hundred queries of all families?
+template <class DistanceOf>
+bool is_found(const DistanceOf& distance_of) {
+  Random random(2010);
+  for (int round = 0; round < 200; ++round) {
+    for (const Kind kind : kinds) {
+      for (const tests::Family family : tests::all_families) {
+        const PosedQuery posed = tests::random_query(random, kind, family);
+        // Where they have just begun to touch they are hardly apart.
+        const CertifiedResult impact = certified(kind, posed.query);
+        const double t = impact.verdict == Verdict::yes ? impact.toi_lower : random_time(random);
+        for (const Norm norm : norms) {
+          const std::optional<Distance> found = distance_of(kind, posed.query, t, norm);
+          if (found && *found != exact_distance(kind, posed.query, t, norm)) return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+TEST(Distance, PlantedFaultsAreFound) {
+  int planted = 0;
+  for (auto* const stage : {&distance_to_lines, &distance_to_planes, &distance_with_short_axes,
+                            &distance_without_sides}) {
+    if (stage == nullptr) continue;  // not planted in this build
+    ++planted;
+    EXPECT_TRUE(is_found(*stage)) << planted;
+  }
+  for (auto* const stage : {&distance_without_radius, &distance_without_rounding}) {
+    if (stage == nullptr) continue;
+    ++planted;
+    EXPECT_TRUE(is_found(*stage)) << planted;
+  }
+  EXPECT_GE(planted, tests::least_planted(2));
+  EXPECT_FALSE(is_found(filtered_distance));
+}
+
+// ---- The least of a step ------------------------------------------------------------------------
+
+/// From all pairs, one by one.
+std::optional<LeastDistance> least_of(const tests::Scene& scene, double t, Norm norm) {
+  std::optional<LeastDistance> result;
+  const tests::AllPairs all(scene);
+  for (const auto& named : all.pairs()) {
+    const Distance found = exact_distance(Step::kind_of(named.first), all.query(named), t, norm);
+    const auto order = [](const Distance& d) { return std::pair(d.lower, d.upper); };
+    if (!result || order(found) < order(result->distance)) result = LeastDistance{found, {}};
+    if (found == result->distance) result->pairs.push_back({named.first, named.second, found});
+  }
+  if (result) {
+    std::ranges::sort(result->pairs, {},
+                      [](const PairDistance& one) { return std::pair(one.kind, one.pair); });
+  }
+  return result;
+}
+
+TEST(LeastDistance, IsThatOfAllPairs) {
+  Random random(2007);
+  int positive = 0, of_many = 0;
+  for (int round = 0; round < tests::trials(60); ++round) {
+    for (const tests::Shape& shape : tests::shapes()) {
+      const tests::Scene scene = tests::random_scene(random, shape, random.between(1, 10));
+      const Step step = scene.step();
+      const double t = random_time(random);
+      for (const Norm norm : norms) {
+        const auto expected = least_of(scene, t, norm);
+        ASSERT_EQ(least_distance(step, t, norm), expected) << shape.name << ' ' << t;
+        positive += expected && expected->distance.lower > 0.0 ? 1 : 0;
+        of_many += expected && expected->pairs.size() > 1 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(positive, tests::trials(200));
+  EXPECT_GT(of_many, tests::trials(50));
+}
+
+TEST(LeastDistance, OfLargerScenesIsThatOfAllPairs) {
+  Random random(2008);
+  for (const double size : {0.01, 0.05}) {
+    tests::Scene scene = tests::soup(random, 60, size);
+    for (const double t : {0.0, 0.3}) {
+      const auto expected = least_of(scene, t, Norm::l2);
+      for (const int threads : {1, 0}) {
+        EXPECT_EQ(least_distance(scene.step({.max_threads = threads}), t), expected);
+      }
+    }
+  }
+}
+
+/// Two triangles in parallel planes, so far apart.
+tests::Scene two_triangles(double distance) {
+  tests::Scene scene{.start = tests::Places(6, 3),
+                     .end = {},
+                     .edges = {},
+                     .faces = {{0, 1, 2}, {3, 4, 5}},
+                     .points = {},
+                     .groups = {},
+                     .apart = {}};
+  scene.start << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, distance, 2, 1, distance, 1, 2, distance;
+  scene.end = scene.start;
+  scene.edges = edges_of(scene.faces);
+  return scene;
+}
+
+TEST(LeastDistance, IsAsExactForPrimitivesFarFromEachOther) {
+  for (const double distance : {1e-300, 1e-3, 1.0, 1e3, 1e17, 1e300}) {
+    const auto least = least_distance(two_triangles(distance).step());
+    ASSERT_TRUE(least);
+    EXPECT_EQ(least->distance, (Distance{distance, distance}));
+    // Three vertices over the face.
+    EXPECT_GE(least->pairs.size(), 3U);
+  }
+}
+
+TEST(LeastDistance, OfNoPairIsNone) {
+  tests::Scene scene = two_triangles(1.0);
+  scene.groups = std::vector<std::int32_t>(6, 0);
+  scene.apart = {{0, 0}};
+  EXPECT_EQ(least_distance(scene.step()), std::nullopt);
+  scene.faces.clear();
+  scene.edges.clear();
+  EXPECT_EQ(least_distance(scene.step()), std::nullopt);
+}
+
+TEST(LeastDistance, DependsOnNeitherSeparationNorEndOfTheStep) {
+  Random random(2009);
+  const tests::Scene scene = tests::soup(random, 20, 0.05);
+  const auto expected = least_distance(scene.step(), 0.75);
+  EXPECT_EQ(least_distance(scene.step({.separation = {.distance = 5.0}, .t_max = 0.25}), 0.75),
+            expected);
+}
+
+}  // namespace
+}  // namespace touchstone::fast::distance_test
