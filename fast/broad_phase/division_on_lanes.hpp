@@ -9,10 +9,8 @@
 /// everywhere.
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "fast/broad_phase/float_bounds.hpp"
 #include "fast/broad_phase/seeds.hpp"
@@ -86,17 +84,6 @@ class Division {
     return static_cast<std::size_t>(count);
   }
 
-  /// The place of a float among all floats, and the float there.
-  static std::int64_t order_of(float x) {
-    const auto bits = std::bit_cast<std::int32_t>(x);
-    return bits < 0 ? std::int64_t{std::numeric_limits<std::int32_t>::min()} - bits : bits;
-  }
-  static float float_at(std::int64_t order) {
-    const std::int64_t bits =
-        order < 0 ? std::int64_t{std::numeric_limits<std::int32_t>::min()} - order : order;
-    return std::bit_cast<float>(static_cast<std::int32_t>(bits));
-  }
-
   /// Sets the cut: `rank` seeds are those below the pivot and the first ones at it. Pivots are tried:
   /// the first few are interpolated (by the Illinois method), which is enough unless coordinates are of
   /// very different size; the others halve what floats are left. \pre 0 < rank < count
@@ -110,7 +97,7 @@ class Division {
     bool was_below = false;
     for (int attempt = 0; float_after(from) < to; ++attempt) {
       pivot_ = attempt < interpolated ? between(from, to, missing / (missing + excess))
-                                      : float_at((order_of(from) + order_of(to)) / 2);
+                                      : float_at(middle(order_of(from), order_of(to)));
       const std::size_t count = count_below(pivot_);
       at_pivot_ = 0;
       if (count == rank) return;
@@ -130,6 +117,10 @@ class Division {
     }
     pivot_ = from;
     at_pivot_ = rank - below;
+  }
+
+  static std::int32_t middle(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int32_t>((a + b) / 2);
   }
 
   /// A float between others that are not neighbours, about so far on the way.
