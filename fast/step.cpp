@@ -362,6 +362,11 @@ void Step::candidates(const std::function<void(const StepCandidates&)>& take) co
   });
 }
 
+std::array<std::int32_t, moving_points> Step::vertices_of(PairKind kind,
+                                                          const IndexPair& pair) const {
+  return scene_->vertices_of(kind, pair);
+}
+
 Query Step::query_of(PairKind kind, const IndexPair& pair) const {
   return scene_->query_of(kind, pair);
 }

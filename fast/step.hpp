@@ -209,8 +209,11 @@ class Step {
   /// it throws ends the search and is handed on.
   void candidates(const std::function<void(const StepCandidates&)>& take) const;
 
-  /// A pair as the certified solver takes it: a vertex and an edge as vertex and face (e0, e1, e0),
-  /// two vertices as vertex and face (w, w, w). \pre Its numbers are in range.
+  /// The vertices of a pair as the certified solver takes them: a vertex and an edge as vertex and
+  /// face (e0, e1, e0), two vertices as vertex and face (w, w, w). \pre Its numbers are in range.
+  [[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(PairKind kind,
+                                                                    const IndexPair& pair) const;
+  /// A pair as a query, whose points are these vertices. \pre Its numbers are in range.
   [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
   [[nodiscard]] static Kind kind_of(PairKind kind) {
     return kind == PairKind::edge_edge ? Kind::edge_edge : Kind::vertex_face;

@@ -4,7 +4,11 @@
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 
 #include "fast/platform/floating_point_state.hpp"
@@ -65,30 +69,60 @@ double scaled(double x, double scale) {
   return product;
 }
 
-/// A number of doubles, rounded down and up.
-struct FloatInterval {
-  float lower;
-  float upper;
-};
+/// x, y, z and 0 of a vertex at a time.
+using Place = std::array<double, 4>;
 
-FloatInterval around(double x) {
-  const float below = rounded_down(x);
-  return {below, static_cast<double>(below) == x ? below : float_after(below)};
+Place scaled(const Place& place, double scale) {
+  Place result;
+  for (std::size_t axis = 0; axis < 4; ++axis) result[axis] = scaled(place[axis], scale);
+  return result;
 }
 
-/// The place at a time of a coordinate that moves from x to y.
-FloatInterval around_position(double x, double y, double time) {
-  const auto position = filters::Position::evaluate<double>({x, y}, {1.0 - time, time});
-  const double error = filters::position_double(std::max(std::abs(x), std::abs(y)));
-  return {rounded_down(position - 2.0 * error), rounded_up(position + 2.0 * error)};
+struct RowBounds {
+  FloatRow lower;
+  FloatRow upper;
+};
+
+/// Rounded down and up, without a branch: no processor could foresee which way rounding goes.
+RowBounds around(const Place& place) {
+  using DoubleRow = double __attribute__((vector_size(32)));
+  using WholeRow = std::int32_t __attribute__((vector_size(16)));
+  DoubleRow exact;
+  std::memcpy(&exact, place.data(), sizeof(exact));
+  const FloatRow nearest = __builtin_convertvector(exact, FloatRow);
+  const DoubleRow rounded = __builtin_convertvector(nearest, DoubleRow);
+  // −1 where it is, 0 elsewhere.
+  const auto is_above = __builtin_convertvector(rounded > exact, WholeRow);
+  const auto is_below = __builtin_convertvector(rounded < exact, WholeRow);
+  // As order_of and float_at.
+  const auto turned = [](const WholeRow& row) { return row ^ ((row >> 31) & 0x7FFFFFFF); };
+  const WholeRow order = turned(std::bit_cast<WholeRow>(nearest));
+  return {std::bit_cast<FloatRow>(turned(order + is_above)),
+          std::bit_cast<FloatRow>(turned(order - is_below))};
+}
+
+bool is_exact(const RowBounds& bounds) {
+  const auto& [a, b] = bounds;
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/// Around the place at a time of a vertex that moves from one place to another.
+RowBounds around_position(const Place& from, const Place& to, double time) {
+  Place lower = from, upper = from;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double x = from[axis], y = to[axis];
+    if (x == y) continue;
+    const auto position = filters::Position::evaluate<double>({x, y}, {1.0 - time, time});
+    const double error = filters::position_double(std::max(std::abs(x), std::abs(y)));
+    lower[axis] = position - 2.0 * error;
+    upper[axis] = position + 2.0 * error;
+  }
+  return {around(lower).lower, around(upper).upper};
 }
 
 }  // namespace
 
-float rounded_down(double x) {
-  const auto nearest = static_cast<float>(x);
-  return static_cast<double>(nearest) > x ? float_before(nearest) : nearest;
-}
+float rounded_down(double x) { return around({x, 0.0, 0.0, 0.0}).lower[0]; }
 
 FloatBounds::FloatBounds(const MovingVertices& vertices, double end)
     // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
@@ -111,21 +145,15 @@ float FloatBounds::scaled_down(double distance) const {
 }
 
 bool FloatBounds::set(VertexBounds& bounds, const MovingVertex& vertex, double end) const {
-  bool exact = true;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double start = scaled(vertex.start[axis], scale_);
-    const double at_one = scaled(vertex.end[axis], scale_);
-    const FloatInterval first = around(start);
-    const FloatInterval last =
-        end == 1.0 || start == at_one ? around(at_one) : around_position(start, at_one, end);
-    bounds.lower[0][axis] = first.lower;
-    bounds.upper[0][axis] = first.upper;
-    bounds.lower[1][axis] = last.lower;
-    bounds.upper[1][axis] = last.upper;
-    exact &= first.lower == first.upper && last.lower == last.upper;
-  }
-  bounds.lower[0][3] = bounds.upper[0][3] = bounds.lower[1][3] = bounds.upper[1][3] = 0.0F;
-  return exact;
+  const auto set_to = [&](const Place& start, const Place& at_one) {
+    const RowBounds first = around(start);
+    const RowBounds last = end == 1.0 ? around(at_one) : around_position(start, at_one, end);
+    bounds.lower = {first.lower, last.lower};
+    bounds.upper = {first.upper, last.upper};
+    return is_exact(first) && is_exact(last);
+  };
+  if (scale_ == 1.0) return set_to(vertex.start, vertex.end);
+  return set_to(scaled(vertex.start, scale_), scaled(vertex.end, scale_));
 }
 
 }  // namespace touchstone::fast

@@ -31,12 +31,20 @@
 
 namespace touchstone::fast {
 
+/// The place of a float among all floats, of which −0 is the one before 0; and the float there.
+[[nodiscard]] inline std::int32_t order_of(float x) {
+  const auto bits = std::bit_cast<std::int32_t>(x);
+  return bits ^ ((bits >> 31) & std::numeric_limits<std::int32_t>::max());
+}
+[[nodiscard]] inline float float_at(std::int32_t order) {
+  return std::bit_cast<float>(order ^ ((order >> 31) & std::numeric_limits<std::int32_t>::max()));
+}
+
 /// The float after x; infinity has none and stays. \pre x is a number.
 [[nodiscard]] inline float float_after(float x) {
   if (x == 0.0F) return std::numeric_limits<float>::denorm_min();
   if (x == std::numeric_limits<float>::infinity()) return x;
-  const auto bits = std::bit_cast<std::int32_t>(x);
-  return std::bit_cast<float>(bits < 0 ? bits - 1 : bits + 1);
+  return float_at(order_of(x) + 1);
 }
 
 /// The float before x, likewise.

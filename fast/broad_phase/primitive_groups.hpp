@@ -14,13 +14,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "fast/broad_phase/float_bounds.hpp"
 #include "fast/mesh.hpp"
 
 namespace touchstone::fast {
+
+struct SearchKernel;
 
 /// Primitives of a group, children of a node.
 inline constexpr std::size_t group_size = 16;
@@ -49,21 +51,28 @@ class PrimitiveGroups {
  public:
   /// `Element` is std::int32_t (a vertex), Edge or Face. The groups depend on nothing but the arguments. Uses
   /// the threads of the task arena that it is called in.
+  /// \param kernel For tests: instead of the best one for this processor. All make the same groups.
   /// \pre there are at most 2^31−1 elements, and their indices are in range.
   template <class Element>
-  PrimitiveGroups(const FloatBounds& bounds, std::span<const Element> elements);
+  PrimitiveGroups(const FloatBounds& bounds, std::span<const Element> elements,
+                  const SearchKernel* kernel = nullptr);
 
   /// How many primitives there are.
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] std::span<const GroupMembers> members() const { return members_; }
+  [[nodiscard]] std::span<const GroupMembers> members() const { return {members_.get(), groups_}; }
 
  private:
   std::size_t size_;
-  std::vector<GroupMembers> members_;
+  std::size_t groups_;
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
+  std::unique_ptr<GroupMembers[]> members_;
 };
 
-extern template PrimitiveGroups::PrimitiveGroups(const FloatBounds&, std::span<const std::int32_t>);
-extern template PrimitiveGroups::PrimitiveGroups(const FloatBounds&, std::span<const Edge>);
-extern template PrimitiveGroups::PrimitiveGroups(const FloatBounds&, std::span<const Face>);
+extern template PrimitiveGroups::PrimitiveGroups(const FloatBounds&, std::span<const std::int32_t>,
+                                                 const SearchKernel*);
+extern template PrimitiveGroups::PrimitiveGroups(const FloatBounds&, std::span<const Edge>,
+                                                 const SearchKernel*);
+extern template PrimitiveGroups::PrimitiveGroups(const FloatBounds&, std::span<const Face>,
+                                                 const SearchKernel*);
 
 }  // namespace touchstone::fast

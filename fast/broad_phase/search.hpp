@@ -11,6 +11,7 @@
 
 #include "fast/broad_phase/body_tree.hpp"
 #include "fast/broad_phase/box_tree.hpp"
+#include "fast/broad_phase/seeds.hpp"
 #include "fast/mesh.hpp"
 #include "fast/platform/instruction_set.hpp"
 
@@ -79,6 +80,11 @@ struct SearchKernel {
                      PairBuffer& pairs);
   void (*find_at_ends)(const SearchInput<2>& input, std::size_t first, std::size_t end,
                        PairBuffer& pairs);
+
+  /// Divides seeds by their centres on the axis where these spread most: the `rank` least are the first
+  /// of them then, and the others are where `room` was; both in their order. Which of equal ones are
+  /// among the least depends on their order. \pre count > rank ≥ 16
+  void (*divide)(const SeedPart& part, std::size_t rank);
 
   void find(const SearchInput<1>& input, std::size_t first, std::size_t end,
             PairBuffer& pairs) const {

@@ -46,9 +46,25 @@ struct Lanes {
     const __m256 all = _mm256_set1_ps(x);
     return {all, all};
   }
+  static Numbers load_unaligned(const float* from) {
+    return {_mm256_loadu_ps(from), _mm256_loadu_ps(from + 8)};
+  }
+  static void store(float* to, const Numbers& numbers) {
+    _mm256_store_ps(to, numbers.low);
+    _mm256_store_ps(to + 8, numbers.high);
+  }
+  static Numbers least(const Numbers& a, const Numbers& b) {
+    return {_mm256_min_ps(a.low, b.low), _mm256_min_ps(a.high, b.high)};
+  }
+  static Numbers greatest(const Numbers& a, const Numbers& b) {
+    return {_mm256_max_ps(a.low, b.low), _mm256_max_ps(a.high, b.high)};
+  }
   static Mask none() { return {_mm256_setzero_ps(), _mm256_setzero_ps()}; }
   static Mask greater(const Numbers& a, const Numbers& b) {
     return {_mm256_cmp_ps(a.low, b.low, _CMP_GT_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_GT_OQ)};
+  }
+  static Mask equal(const Numbers& a, const Numbers& b) {
+    return {_mm256_cmp_ps(a.low, b.low, _CMP_EQ_OQ), _mm256_cmp_ps(a.high, b.high, _CMP_EQ_OQ)};
   }
   static Mask greater_where(const Mask& mask, const Numbers& a, const Numbers& b) {
     const Mask found = greater(a, b);
@@ -67,6 +83,21 @@ struct Lanes {
     return bits({equal(values), equal(values + 8)});
   }
 
+  struct Words {
+    __m256i low, high;
+  };
+  template <class Word>
+  static Words load_words(const Word* from) {
+    return {load_whole(from), load_whole(from + 8)};
+  }
+  template <class Word>
+  static void write(Word* to, const Words& words, unsigned bits) {
+    const unsigned low = bits & 0xFFU;
+    store_whole(to, _mm256_permutevar8x32_epi32(words.low, order_of(low)));
+    store_whole(to + __builtin_popcount(low),
+                _mm256_permutevar8x32_epi32(words.high, order_of(bits >> 8U)));
+  }
+
   template <bool is_ordered>
   static IndexPair* append(IndexPair* to, std::int32_t number, const std::int32_t* numbers,
                            unsigned bits) {
@@ -75,17 +106,23 @@ struct Lanes {
   }
 
  private:
-  static __m256i load_whole(const std::int32_t* from) {
-    return _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+  static __m256i load_whole(const void* from) {
+    return _mm256_load_si256(static_cast<const __m256i*>(from));
+  }
+  static void store_whole(void* to, __m256i words) {
+    _mm256_storeu_si256(static_cast<__m256i*>(to), words);
+  }
+
+  /// What brings the lanes that the bits name to the front.
+  static __m256i order_of(unsigned bits) {
+    return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(places[bits])));
   }
 
   template <bool is_ordered>
   static IndexPair* append_half(IndexPair* to, std::int32_t number, const std::int32_t* numbers,
                                 unsigned bits) {
-    const __m256i order =
-        _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(places[bits])));
     __m256i first = _mm256_set1_epi32(number);
-    __m256i second = _mm256_permutevar8x32_epi32(load_whole(numbers), order);
+    __m256i second = _mm256_permutevar8x32_epi32(load_whole(numbers), order_of(bits));
     if constexpr (is_ordered) {
       const __m256i less = _mm256_min_epi32(first, second);
       second = _mm256_max_epi32(first, second);

@@ -22,9 +22,18 @@ struct Lanes {
 
   static Numbers load(const float* from) { return {_mm512_load_ps(from)}; }
   static Numbers broadcast(float x) { return {_mm512_set1_ps(x)}; }
+  static Numbers load_unaligned(const float* from) { return {_mm512_loadu_ps(from)}; }
+  static void store(float* to, const Numbers& numbers) { _mm512_store_ps(to, numbers.all); }
+  static Numbers least(const Numbers& a, const Numbers& b) { return {_mm512_min_ps(a.all, b.all)}; }
+  static Numbers greatest(const Numbers& a, const Numbers& b) {
+    return {_mm512_max_ps(a.all, b.all)};
+  }
   static Mask none() { return {0}; }
   static Mask greater(const Numbers& a, const Numbers& b) {
     return {_mm512_cmp_ps_mask(a.all, b.all, _CMP_GT_OQ)};
+  }
+  static Mask equal(const Numbers& a, const Numbers& b) {
+    return {_mm512_cmp_ps_mask(a.all, b.all, _CMP_EQ_OQ)};
   }
   static Mask greater_where(Mask mask, const Numbers& a, const Numbers& b) {
     return {_mm512_mask_cmp_ps_mask(mask.set, a.all, b.all, _CMP_GT_OQ)};
@@ -33,6 +42,11 @@ struct Lanes {
 
   static unsigned equal_bits(const std::int32_t* values, std::int32_t value) {
     return _mm512_cmpeq_epi32_mask(_mm512_load_si512(values), _mm512_set1_epi32(value));
+  }
+
+  static __m512i load_words(const void* from) { return _mm512_load_si512(from); }
+  static void write(void* to, __m512i words, unsigned bits) {
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), words));
   }
 
   template <bool is_ordered>

@@ -21,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fast/broad_phase/division_on_lanes.hpp"
 #include "fast/broad_phase/search.hpp"
 
 namespace touchstone::fast::search {
@@ -319,7 +320,8 @@ template <class Lanes>
 constexpr SearchKernel search_kernel_on(InstructionSet instructions) {
   return {.instructions = instructions,
           .find_swept = search::find<Lanes, 1>,
-          .find_at_ends = search::find<Lanes, 2>};
+          .find_at_ends = search::find<Lanes, 2>,
+          .divide = division::divide<Lanes>};
 }
 
 }  // namespace touchstone::fast

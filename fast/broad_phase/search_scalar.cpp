@@ -30,10 +30,29 @@ struct Lanes {
     for (float& lane : result) lane = x;
     return result;
   }
+  static Numbers load_unaligned(const float* from) { return load(from); }
+  static void store(float* to, const Numbers& numbers) {
+    for (std::size_t i = 0; i < group_size; ++i) to[i] = numbers[i];
+  }
+  static Numbers least(const Numbers& a, const Numbers& b) {
+    Numbers result;
+    for (std::size_t i = 0; i < group_size; ++i) result[i] = a[i] < b[i] ? a[i] : b[i];
+    return result;
+  }
+  static Numbers greatest(const Numbers& a, const Numbers& b) {
+    Numbers result;
+    for (std::size_t i = 0; i < group_size; ++i) result[i] = a[i] > b[i] ? a[i] : b[i];
+    return result;
+  }
   static Mask none() { return {}; }
   static Mask greater(const Numbers& a, const Numbers& b) {
     Mask result;
     for (std::size_t i = 0; i < group_size; ++i) result.set[i] = a[i] > b[i] ? -1 : 0;
+    return result;
+  }
+  static Mask equal(const Numbers& a, const Numbers& b) {
+    Mask result;
+    for (std::size_t i = 0; i < group_size; ++i) result.set[i] = a[i] == b[i] ? -1 : 0;
     return result;
   }
   static Mask greater_where(const Mask& mask, const Numbers& a, const Numbers& b) {
@@ -51,6 +70,20 @@ struct Lanes {
     Mask equal;
     for (std::size_t i = 0; i < group_size; ++i) equal.set[i] = values[i] == value ? -1 : 0;
     return bits(equal);
+  }
+
+  template <class Word>
+  static std::array<Word, group_size> load_words(const Word* from) {
+    std::array<Word, group_size> result;
+    for (std::size_t i = 0; i < group_size; ++i) result[i] = from[i];
+    return result;
+  }
+  template <class Word>
+  static void write(Word* to, const std::array<Word, group_size>& words, unsigned bits) {
+    for (std::size_t i = 0; i < group_size; ++i) {
+      *to = words[i];
+      to += bits >> i & 1U;
+    }
   }
 
   template <bool is_ordered>

@@ -260,22 +260,32 @@ StepCollision Scene::collision(PairKind kind, const IndexPair& pair,
           .v = has_v ? result.v : 0.0};
 }
 
+std::array<std::int32_t, moving_points> Scene::vertices_of(PairKind kind,
+                                                           const IndexPair& pair) const {
+  const auto [first, second] = pair;
+  const auto edge = [this](std::int32_t number) { return at(elements().edges, number); };
+  switch (kind) {
+    case PairKind::vertex_face: {
+      const auto [a, b, c] = at(elements().faces, second);
+      return {first, a, b, c};
+    }
+    case PairKind::edge_edge:
+      return {edge(first)[0], edge(first)[1], edge(second)[0], edge(second)[1]};
+    case PairKind::vertex_edge:
+      return {first, edge(second)[0], edge(second)[1], edge(second)[0]};
+    case PairKind::vertex_vertex:
+      break;
+  }
+  return {first, second, second, second};
+}
+
 Query Scene::query_of(PairKind kind, const IndexPair& pair) const {
-  const Candidates of_all{.kind = Step::kind_of(kind),
-                          .pairs = {},
-                          .edges = elements().edges,
-                          .faces = elements().faces};
-  if (kind == PairKind::vertex_face || kind == PairKind::edge_edge) {
-    return fast::query_of(vertices_, of_all, pair);
-  }
-  Candidates of_one = of_all;
-  Face face{pair[1], pair[1], pair[1]};
-  if (kind == PairKind::vertex_edge) {
-    const auto [a, b] = at(elements().edges, pair[1]);
-    face = {a, b, a};
-  }
-  of_one.faces = std::span<const Face>(&face, 1);
-  return fast::query_of(vertices_, of_one, {pair[0], 0});
+  const auto [a, b, c, d] = vertices_of(kind, pair);
+  const std::array<Edge, 2> edges{{{a, b}, {c, d}}};
+  const std::array<Face, 1> faces{{{b, c, d}}};
+  const Candidates of_one{.kind = Step::kind_of(kind), .pairs = {}, .edges = edges, .faces = faces};
+  return fast::query_of(vertices_, of_one,
+                        of_one.kind == Kind::edge_edge ? IndexPair{0, 1} : IndexPair{a, 0});
 }
 
 std::array<Primitive, 2> Scene::primitives_of(PairKind kind, const IndexPair& pair) const {

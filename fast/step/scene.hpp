@@ -137,7 +137,9 @@ class Scene {
         });
   }
 
-  /// A pair with the numbers that users see, as a query.
+  /// The vertices of a pair with the numbers that users see, and this pair as a query: as Step.
+  [[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(PairKind kind,
+                                                                    const IndexPair& pair) const;
   [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
 
  private:

@@ -94,6 +94,9 @@ std::string fault(const Scene& scene, const StepOptions& options) {
     const Kind kind = Step::kind_of(pair.first);
     const Query query = all.query(pair);
     if (step.query_of(pair.first, pair.second) != query) return "another query: " + named(pair);
+    if (!std::ranges::equal(step.vertices_of(pair.first, pair.second), all.vertices(pair))) {
+      return "other vertices: " + named(pair);
+    }
     CertifiedResult result{.verdict = Verdict::no};
     if (const auto collision = found.extract(pair)) {
       const StepCollision& one = collision.mapped();

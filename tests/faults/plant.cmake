@@ -96,6 +96,12 @@ function(faulty_pairs file name)
   faulty(fast/broad_phase/search_scalar.cpp scalar_search_kernel ${file} ${name} ${ARGN})
 endfunction()
 
+# faulty_bounds(NAME …): fast::NAME, the bounds of FloatBounds (vertex_bounds.cpp) with a fault in it.
+function(faulty_bounds name)
+  faulty(tests/faults/vertex_bounds.cpp "vertex_bounds;FloatBounds;rounded_down" fast/broad_phase/float_bounds.cpp ${name}
+    ${ARGN})
+endfunction()
+
 # faulty_search(NAME …): fast::NAME, tight_inclusion_method with a fault in the search.
 function(faulty_search name)
   faulty(fast/tight_inclusion.cpp "tight_inclusion_method;tight_inclusion" fast/tight_inclusion.cpp ${name} ${ARGN})

@@ -186,11 +186,16 @@ class AllPairs {
     return {number};
   }
 
-  [[nodiscard]] Query query(const NumberedPair& pair) const {
+  [[nodiscard]] std::vector<std::int32_t> vertices(const NumberedPair& pair) const {
     std::vector<std::int32_t> vertices = first(pair), others = second(pair);
     if (pair.first == PairKind::vertex_edge) others.push_back(others[0]);
     if (pair.first == PairKind::vertex_vertex) others.resize(3, others[0]);
     vertices.insert(vertices.end(), others.begin(), others.end());
+    return vertices;
+  }
+
+  [[nodiscard]] Query query(const NumberedPair& pair) const {
+    const std::vector<std::int32_t> vertices = this->vertices(pair);
     Query query;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       query.point(0, i) = scene_.start.row(vertices[i]).transpose();

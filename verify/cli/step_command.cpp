@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "fast/step/bodies.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
@@ -64,7 +65,8 @@ class StepRun {
         options_(arguments.check),
         frames_(mesh::open_frames(arguments.frames)),
         groups_(groups_for(arguments, frames_->mesh())),
-        apart_(mesh::numbers_of(groups_, arguments.apart)) {
+        apart_(mesh::numbers_of(groups_, arguments.apart)),
+        bodies_(static_cast<std::size_t>(frames_->mesh().vertices.rows()), collision_groups()) {
     require_separate_files(arguments);
     if (frames_->count() < 2) {
       throw std::runtime_error(arguments.frames.front().string() +
@@ -72,7 +74,7 @@ class StepRun {
     }
     const mesh::Mesh& mesh = frames_->mesh();
     options_.step.separation = arguments.separation.given();
-    options_.step.groups = {.of_vertices = groups_.of_vertex, .apart = apart_};
+    options_.step.groups = collision_groups();
     report_ = {.separation = options_.step.separation,
                .question = options_.question,
                .alpha = options_.alpha,
@@ -119,33 +121,22 @@ class StepRun {
     }
   }
 
+  /// Refers to the members.
+  [[nodiscard]] fast::CollisionGroups collision_groups() const {
+    return {.of_vertices = groups_.of_vertex, .apart = apart_};
+  }
+
   void check_frame(std::size_t i, const mesh::Vertices& vertices) {
     report::FrameRecord frame{.name = frames_->name(i), .piercings = {}, .time = {}};
     const mesh::Mesh& mesh = frames_->mesh();
     frame.time = jobs::work_time_of([&] {
       frame.piercings = mesh::find_piercings(
-          vertices, mesh.edges, mesh.faces,
-          [&](std::int32_t edge, std::int32_t face) { return can_meet(edge, face); });
+          vertices, mesh.edges, mesh.faces, [&](std::int32_t edge, std::int32_t face) {
+            return bodies_.meet(mesh.edges[static_cast<std::size_t>(edge)],
+                                mesh.faces[static_cast<std::size_t>(face)]);
+          });
     });
     report_.frames.push_back(std::move(frame));
-  }
-
-  /// As fast::CollisionGroups has it.
-  [[nodiscard]] bool can_meet(std::int32_t edge, std::int32_t face) const {
-    if (apart_.empty()) return true;
-    const mesh::Mesh& mesh = frames_->mesh();
-    const auto group_of = [&](std::int32_t vertex) {
-      return groups_.of_vertex[static_cast<std::size_t>(vertex)];
-    };
-    const auto meets = [&](std::int32_t a, std::int32_t b) {
-      return std::ranges::none_of(apart_, [a, b](const std::array<std::int32_t, 2>& pair) {
-        return pair == std::array{a, b} || pair == std::array{b, a};
-      });
-    };
-    return std::ranges::any_of(mesh.edges[static_cast<std::size_t>(edge)], [&](std::int32_t a) {
-      return std::ranges::any_of(mesh.faces[static_cast<std::size_t>(face)],
-                                 [&](std::int32_t b) { return meets(group_of(a), group_of(b)); });
-    });
   }
 
   Status finish() {
@@ -164,6 +155,7 @@ class StepRun {
   std::unique_ptr<mesh::Frames> frames_;
   mesh::Groups groups_;
   std::vector<std::array<std::int32_t, 2>> apart_;
+  fast::Bodies bodies_;
   report::StepReport report_;
 };
 

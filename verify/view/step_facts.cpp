@@ -32,27 +32,6 @@ std::vector<fast::Edge> edges_of_no_face(const mesh::Mesh& mesh) {
   return result;
 }
 
-/// The numbers of the four points of a pair's query, in the order of fast::Step::query_of.
-std::array<std::int32_t, 4> points_of(const fast::Step& step, std::span<const fast::Face> faces,
-                                      const fast::StepCollision& collision) {
-  const auto [first, second] = collision.pair;
-  const auto edge = [&](std::int32_t number) {
-    return step.edges()[static_cast<std::size_t>(number)];
-  };
-  switch (collision.kind) {
-    case fast::PairKind::vertex_face: {
-      const fast::Face& face = faces[static_cast<std::size_t>(second)];
-      return {first, face[0], face[1], face[2]};
-    }
-    case fast::PairKind::edge_edge:
-      return {edge(first)[0], edge(first)[1], edge(second)[0], edge(second)[1]};
-    case fast::PairKind::vertex_edge:
-      return {first, edge(second)[0], edge(second)[1], edge(second)[0]};
-    default:
-      return {first, second, second, second};
-  }
-}
-
 std::string pair_text(const fast::StepCollision& collision) {
   static constexpr std::array<std::array<std::string_view, 2>, 4> names{
       {{"vertex", "face"}, {"edge", "edge"}, {"vertex", "edge"}, {"vertex", "vertex"}}};
@@ -96,7 +75,7 @@ ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh, mesh::Vert
   });
   for (const fast::StepCollision& collision : result.collisions) {
     result.queries.push_back(step.query_of(collision.kind, collision.pair));
-    result.points.push_back(points_of(step, mesh.faces, collision));
+    result.points.push_back(step.vertices_of(collision.kind, collision.pair));
   }
   return result;
 }

@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -334,6 +335,152 @@ TEST(Search, OfNothingFindsNothing) {
     EXPECT_TRUE(found<1>(*kernel, {&trees.faces, &trees.vertices, {}}).empty());
     EXPECT_TRUE(found<1>(*kernel, {&trees.edges, &trees.edges, {.of_edges = true}}).empty());
   }
+}
+
+// ---- The division into groups -------------------------------------------------------------------
+
+/// Seeds in arrays of their own, with what is behind them.
+class SomeSeeds {
+ public:
+  explicit SomeSeeds(std::size_t count)
+      : capacity_((count + group_size - 1) / group_size * group_size),
+        centres_(6 * capacity_ / group_size),
+        numbers_(2 * capacity_ / group_size),
+        part_{array(0), array(1), count, capacity_} {}
+
+  [[nodiscard]] const SeedPart& part() const { return part_; }
+
+ private:
+  struct alignas(64) Floats {
+    FloatLanes lanes{};
+  };
+  struct alignas(64) Numbers {
+    IndexLanes lanes{};
+  };
+
+  Seeds array(std::size_t i) {
+    float* const x = centres_[0].lanes.data() + 3 * i * capacity_;
+    return {{x, x + capacity_, x + 2 * capacity_}, numbers_[0].lanes.data() + i * capacity_};
+  }
+
+  std::size_t capacity_;
+  std::vector<Floats> centres_;
+  std::vector<Numbers> numbers_;
+  SeedPart part_;
+};
+
+using Centres = std::vector<std::array<float, 3>>;
+
+/// The numbers of the least ones, and of the others, as they come out.
+std::array<std::vector<std::int32_t>, 2> divided(const SearchKernel& kernel, const Centres& centres,
+                                                 std::size_t rank) {
+  SomeSeeds seeds(centres.size());
+  const SeedPart& part = seeds.part();
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) part.seeds.centres[axis][i] = centres[i][axis];
+    part.seeds.numbers[i] = static_cast<std::int32_t>(i);
+  }
+  kernel.divide(part, rank);
+  std::array<std::vector<std::int32_t>, 2> result;
+  const std::array<SeedPart, 2> parts{part.first(rank), part.others(rank)};
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t i = 0; i < parts[side].count; ++i) {
+      const std::int32_t number = parts[side].seeds.numbers[i];
+      result[side].push_back(number);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (parts[side].seeds.centres[axis][i] != centres[static_cast<std::size_t>(number)][axis]) {
+          return {};
+        }
+      }
+    }
+  }
+  return result;
+}
+
+/// What has to come out: a stable sort on the widest axis tells which come first.
+std::array<std::vector<std::int32_t>, 2> expected_of(const Centres& centres, std::size_t rank) {
+  std::array<float, 3> widths{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [least, most] = std::ranges::minmax(
+        centres, {}, [axis](const std::array<float, 3>& centre) { return centre[axis]; });
+    widths[axis] = most[axis] - least[axis];
+  }
+  const auto axis = static_cast<std::size_t>(std::ranges::max_element(widths) - widths.begin());
+  std::vector<std::int32_t> order(centres.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(
+      order, {}, [&](std::int32_t i) { return centres[static_cast<std::size_t>(i)][axis]; });
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::array<std::vector<std::int32_t>, 2> result{std::vector(order.begin(), middle),
+                                                  std::vector(middle, order.end())};
+  for (auto& numbers : result) std::ranges::sort(numbers);
+  return result;
+}
+
+/// The first centres that a kernel divides wrongly, or nothing.
+std::string first_wrong_division(const SearchKernel& kernel) {
+  Random random(26);
+  for (const int kind : {0, 1, 2, 3, 4}) {
+    for (const std::size_t count : {17U, 31U, 32U, 33U, 100U, 256U, 1000U}) {
+      Centres centres(count);
+      for (auto& centre : centres) {
+        for (float& x : centre) {
+          switch (kind) {
+            case 0:
+              x = static_cast<float>(random.uniform(-1, 1));
+              break;
+            case 1:  // many equal ones
+              x = static_cast<float>(random.between(-2, 2));
+              break;
+            case 2:  // all sizes
+              x = static_cast<float>(std::ldexp(random.coin() ? 1 : -1, random.between(-140, 60)));
+              break;
+            case 3:  // both zeros
+              x = random.coin() ? 0.0F : -0.0F;
+              break;
+            default:
+              x = 1.0F;
+          }
+        }
+      }
+      for (std::size_t rank = group_size; rank < count; rank += group_size) {
+        if (divided(kernel, centres, rank) != expected_of(centres, rank)) {
+          return "kind " + std::to_string(kind) + ", " + std::to_string(count) + " at " +
+                 std::to_string(rank);
+        }
+      }
+    }
+  }
+  return "";
+}
+
+TEST(Division, IsThatOfASort) {
+  for (const SearchKernel* const kernel : all_kernels()) {
+    EXPECT_EQ(first_wrong_division(*kernel), "") << to_string(kernel->instructions);
+  }
+}
+
+TEST(Division, MakesTheSameGroupsWithAllKernels) {
+  Random random(27);
+  const Scene scene = random_scene(random, 3000, 0.1, 0.01);
+  const FloatBounds bounds(MovingVertices(scene.start, scene.end));
+  const PrimitiveGroups groups(bounds, std::span<const Edge>(scene.edges));
+  for (const SearchKernel* const kernel : all_kernels()) {
+    const PrimitiveGroups others(bounds, std::span<const Edge>(scene.edges), kernel);
+    for (std::size_t i = 0; i < groups.members().size(); ++i) {
+      ASSERT_EQ(groups.members()[i].numbers, others.members()[i].numbers);
+    }
+  }
+}
+
+TEST(Division, FaultsInItAreFound) {
+  int planted = 0;
+  for (const SearchKernel* const kernel : {&division_by_another_rank, &division_on_another_axis}) {
+    if (kernel == nullptr) continue;  // not planted in this build
+    ++planted;
+    EXPECT_NE(first_wrong_division(*kernel), "") << planted;
+  }
+  EXPECT_GE(planted, tests::least_planted(1));
 }
 
 TEST(SearchKernels, AreFoundByTheirInstructions) {

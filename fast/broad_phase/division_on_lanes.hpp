@@ -1,0 +1,185 @@
+#pragma once
+
+/// \file
+/// The division of seeds in two, by rank, along the axis where their centres spread most: written once for
+/// sixteen lanes, and included by one file an instruction set (search_*.cpp), as search_on_lanes.hpp is.
+///
+/// What decides are comparisons of coordinates, and a few operations on single floats and doubles, which
+/// all instruction sets do alike. Seeds stay in their order on either side. So the result is the same
+/// everywhere.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "fast/broad_phase/float_bounds.hpp"
+#include "fast/broad_phase/seeds.hpp"
+
+namespace touchstone::fast::division {
+
+/// `Lanes` as in search_on_lanes.hpp. It also has
+/// - load_unaligned, and least(a, b) and greatest(a, b) of Numbers;
+/// - equal(a, b): a Mask;
+/// - Words, load_words(from): sixteen numbers of 32 bits, and
+/// - write(to, words, bits): writes those that the bits name one after the other. It may write sixteen.
+template <class Lanes>
+class Division {
+ public:
+  explicit Division(const SeedPart& part) : part_(part) {}
+
+  void run(std::size_t rank) {
+    choose_axis();
+    cut(rank);
+    move();
+  }
+
+ private:
+  static constexpr std::size_t lanes = 16;
+
+  // ---- The axis ----
+
+  /// Sets the axis, and the least and the greatest coordinate there.
+  void choose_axis() {
+    float widest = -1.0F;
+    for (const float* const coordinates : part_.seeds.centres) {
+      const auto [lower, upper] = range(coordinates);
+      if (upper - lower > widest) {
+        widest = upper - lower;
+        coordinates_ = coordinates;
+        lower_ = lower;
+        upper_ = upper;
+      }
+    }
+  }
+
+  struct Range {
+    float lower;
+    float upper;
+  };
+
+  [[nodiscard]] Range range(const float* coordinates) const {
+    auto lower = Lanes::load_unaligned(coordinates + (part_.count - lanes)), upper = lower;
+    for (std::size_t i = 0; i + lanes <= part_.count; i += lanes) {
+      const auto some = Lanes::load(coordinates + i);
+      lower = Lanes::least(lower, some);
+      upper = Lanes::greatest(upper, some);
+    }
+    alignas(64) std::array<float, lanes> lowest;
+    alignas(64) std::array<float, lanes> uppermost;
+    Lanes::store(lowest.data(), lower);
+    Lanes::store(uppermost.data(), upper);
+    Range result{lowest[0], uppermost[0]};
+    for (std::size_t i = 1; i < lanes; ++i) {
+      result.lower = lowest[i] < result.lower ? lowest[i] : result.lower;
+      result.upper = uppermost[i] > result.upper ? uppermost[i] : result.upper;
+    }
+    return result;
+  }
+
+  // ---- The cut ----
+
+  [[nodiscard]] std::size_t count_below(float pivot) const {
+    std::int32_t count = 0;
+    for (std::size_t i = 0; i < part_.count; ++i) count += coordinates_[i] < pivot ? 1 : 0;
+    return static_cast<std::size_t>(count);
+  }
+
+  /// Sets the cut: `rank` seeds are those below the pivot and the first ones at it. Pivots are tried:
+  /// the first few are interpolated (by the Illinois method), which is enough unless coordinates are of
+  /// very different size; the others halve what floats are left. \pre 0 < rank < count
+  void cut(std::size_t rank) {
+    static constexpr int interpolated = 8;
+    // Fewer than `rank` are below `from`, and more below `to`: by so many, or half of it.
+    float from = lower_, to = float_after(upper_);
+    auto missing = static_cast<double>(rank);
+    auto excess = static_cast<double>(part_.count - rank);
+    std::size_t below = 0;
+    bool was_below = false;
+    for (int attempt = 0; float_after(from) < to; ++attempt) {
+      pivot_ = attempt < interpolated ? between(from, to, missing / (missing + excess))
+                                      : float_at(middle(order_of(from), order_of(to)));
+      const std::size_t count = count_below(pivot_);
+      at_pivot_ = 0;
+      if (count == rank) return;
+      const bool is_below = count < rank;
+      const bool is_again = attempt > 0 && is_below == was_below;
+      was_below = is_below;
+      if (is_below) {
+        from = pivot_;
+        below = count;
+        missing = static_cast<double>(rank - count);
+        if (is_again) excess /= 2.0;
+      } else {
+        to = pivot_;
+        excess = static_cast<double>(count - rank);
+        if (is_again) missing /= 2.0;
+      }
+    }
+    pivot_ = from;
+    at_pivot_ = rank - below;
+  }
+
+  static std::int32_t middle(std::int64_t a, std::int64_t b) {
+    return static_cast<std::int32_t>((a + b) / 2);
+  }
+
+  /// A float between others that are not neighbours, about so far on the way.
+  static float between(float from, float to, double part) {
+    const float pivot = from + (to - from) * static_cast<float>(part);
+    if (!(pivot > from)) return float_after(from);
+    return pivot < to ? pivot : float_before(to);
+  }
+
+  // ---- Moving ----
+
+  /// What is in front of the cut moves to the front, where nothing is that has not been read; the
+  /// others to the room.
+  void move() {
+    const auto pivot = Lanes::broadcast(pivot_);
+    std::size_t in_front = 0, behind = 0;
+    for (std::size_t i = 0; i < part_.count; i += lanes) {
+      const std::size_t rest = part_.count - i;
+      const unsigned valid = rest < lanes ? (1U << rest) - 1U : 0xFFFFU;
+      const auto coordinates = Lanes::load(coordinates_ + i);
+      unsigned front = Lanes::bits(Lanes::greater(pivot, coordinates)) & valid;
+      if (at_pivot_ > 0)
+        front |= first_at_pivot(Lanes::bits(Lanes::equal(pivot, coordinates)) & valid);
+      const unsigned back = valid & ~front;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        float* const from = part_.seeds.centres[axis];
+        const auto words = Lanes::load_words(from + i);
+        Lanes::write(from + in_front, words, front);
+        Lanes::write(part_.room.centres[axis] + behind, words, back);
+      }
+      const auto words = Lanes::load_words(part_.seeds.numbers + i);
+      Lanes::write(part_.seeds.numbers + in_front, words, front);
+      Lanes::write(part_.room.numbers + behind, words, back);
+      in_front += static_cast<std::size_t>(__builtin_popcount(front));
+      behind += static_cast<std::size_t>(__builtin_popcount(back));
+    }
+  }
+
+  /// Of lanes at the pivot, the first ones, as far as they are wanted.
+  unsigned first_at_pivot(unsigned equal) {
+    unsigned result = 0;
+    for (; equal != 0 && at_pivot_ > 0; equal &= equal - 1) {
+      result |= equal & (0U - equal);
+      --at_pivot_;
+    }
+    return result;
+  }
+
+  const SeedPart& part_;
+  const float* coordinates_ = nullptr;  ///< on the axis
+  float lower_ = 0.0F;
+  float upper_ = 0.0F;
+  float pivot_ = 0.0F;
+  std::size_t at_pivot_ = 0;
+};
+
+template <class Lanes>
+void divide(const SeedPart& part, std::size_t rank) {
+  Division<Lanes>(part).run(rank);
+}
+
+}  // namespace touchstone::fast::division
