@@ -79,6 +79,10 @@ constexpr auto permissions = std::to_array<Permission>({
     {"adapters/", "fast/"},
     {"adapters/", "exact/query.hpp"},
     {"adapters/", "Eigen/"},
+    {"adapters/ipc_toolkit/", "adapters/"},
+    {"adapters/ipc_toolkit/", "fast/"},
+    {"adapters/ipc_toolkit/", "exact/query.hpp"},
+    {"adapters/ipc_toolkit/", "ipc/ccd/narrow_phase_ccd.hpp"},
 
     // What speakers of C include is to need nothing of ours.
     {"adapters/c/touchstone.h", "stddef.h"},
