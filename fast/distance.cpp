@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 
 #include "fast/distance/exact_distance.hpp"
 #include "fast/distance/filtered_distance.hpp"
+#include "fast/distance/nearness.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 #include "filters/error_bounds.hpp"
@@ -51,8 +53,10 @@ bool is_less(const Distance& a, const Distance& b) {
 /// Finds the least distance by looking at all pairs whose boxes are within a radius, beginning with 0. As
 /// soon as a pair is known, no other matters than those whose boxes are as near as it is.
 ///
-/// The boxes are of places rounded to doubles. Each rounding moves a coordinate by the bound of
-/// filters::Position at most, so they are at most `slack_` farther apart than the true ones.
+/// Boxes, and the quick test of nearness, are of places rounded to doubles, unless these are the start.
+/// A coordinate is moved by the bound of filters::Position, which is four roundings at most, and by that
+/// of 1 − t, which is one. So distances are off by less than twice three bounds in L∞, and less than
+/// `slack_` in L2.
 class LeastDistanceSearch {
  public:
   LeastDistanceSearch(const Step& step, double t, Norm norm) : step_(step), t_(t), norm_(norm) {
@@ -65,7 +69,9 @@ class LeastDistanceSearch {
       }
     }
     if (greatest_ > far_from_overflow) scale_ = 0x1p-3;
-    slack_ = 4.0 * filters::position_double(scale_ * greatest_) + 0x1p-1070;
+    if (t > 0.0 || scale_ != 1.0) {
+      slack_ = 8.0 * filters::position_double(scale_ * greatest_) + 0x1p-1070;
+    }
   }
 
   [[nodiscard]] std::optional<LeastDistance> run() {
@@ -74,7 +80,8 @@ class LeastDistanceSearch {
     const double most = 2.0 * scale_ * greatest_;
     for (double radius = 0.0;;) {
       search(resting, radius);
-      const double wider = radius == 0.0 ? most * 0x1p-12 : 8.0 * radius;
+      constexpr double least_radius = std::numeric_limits<double>::denorm_min();
+      const double wider = radius == 0.0 ? std::max(most * 0x1p-12, least_radius) : 8.0 * radius;
       const double next = std::min(pairs_.empty() ? wider : least_.upper * scale_, most);
       if (next <= radius) break;
       radius = next;
@@ -88,6 +95,7 @@ class LeastDistanceSearch {
 
  private:
   static constexpr double far_from_overflow = 0x1p1000;
+  static constexpr double most_for_kernel = 0x1p1000;
 
   /// Where the vertices are, about, times the scale.
   [[nodiscard]] MovingVertices places() const {
@@ -110,9 +118,21 @@ class LeastDistanceSearch {
   /// Looks at all pairs whose places' boxes are within that radius, and lists the nearest.
   void search(const Step& resting, double radius) {
     pairs_.clear();
-    const Step near = resting.with_places(resting.vertices(), {.distance = radius + slack_});
-    near.candidates([this](const StepCandidates& some) {
-      for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
+    const Step near = resting.with_separation({.distance = radius + slack_});
+    near.candidates([&](const StepCandidates& some) {
+      const double known = known_.load(std::memory_order_relaxed) * scale_ + slack_;
+      if (!(known <= most_for_kernel)) {
+        for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
+        return;
+      }
+      std::vector<Query> queries;
+      queries.reserve(some.pairs.size());
+      for (const IndexPair& pair : some.pairs) queries.push_back(near.query_of(some.kind, pair));
+      for (const std::uint32_t i :
+           perhaps_within(Step::kind_of(some.kind), queries, {.distance = known, .norm = norm_},
+                          step_.certified().kernel)) {
+        consider(some.kind, some.pairs[i]);
+      }
     });
   }
 

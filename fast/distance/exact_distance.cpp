@@ -125,20 +125,21 @@ double approximate_root(const Fraction& fraction, long unit, int degree) {
 }  // namespace
 
 Distance exact_distance(Kind kind, const Query& query, double t, Norm norm) {
-  const auto [polygon, unit] = polygon_at(kind, query, t);
+  const ScaledPolygon scaled = polygon_at(kind, query, t);
   const int degree = norm == Norm::l2 ? 2 : 1;
-  const Fraction fraction = norm == Norm::l2 ? squared_distance(polygon) : greatest_gap(polygon);
+  const Fraction fraction =
+      norm == Norm::l2 ? squared_distance(scaled.polygon) : greatest_gap(scaled.polygon);
   if (fraction.numerator.sign() == 0) return {0.0, 0.0};
   const auto sign_of = [&](double x) -> std::optional<int> {
     const BinaryFraction s = exact_stage::odd_fraction(x);
     BigInteger beyond = fraction.denominator * BigInteger(s.numerator);
     if (degree == 2) beyond = beyond * BigInteger(s.numerator);
     // The fraction times 2^(degree · unit), less `beyond` times 2^(degree · exponent).
-    const long shift = degree * (unit - s.exponent);
+    const long shift = degree * (scaled.unit - s.exponent);
     if (shift >= 0) return ((fraction.numerator << shift) - beyond).sign();
     return (fraction.numerator - (beyond << -shift)).sign();
   };
-  return *neighbouring_doubles(approximate_root(fraction, unit, degree), sign_of);
+  return *neighbouring_doubles(approximate_root(fraction, scaled.unit, degree), sign_of);
 }
 
 }  // namespace touchstone::fast

@@ -70,7 +70,7 @@ struct Polygon {
   std::size_t count = 0;
 
   [[nodiscard]] std::size_t sides() const { return count < 3 ? count - 1 : count; }
-  [[nodiscard]] std::size_t next(std::size_t i) const { return (i + 1) % count; }
+  [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < count ? i + 1 : 0; }
   [[nodiscard]] bool has_face() const { return count > 2; }
 };
 

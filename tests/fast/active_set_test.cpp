@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tests/faults/planted_faults.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/trials.hpp"
@@ -181,8 +182,16 @@ TEST(ActiveSet, NormalsPointFromTheSecondPrimitiveToTheFirst) {
   EXPECT_GT(seen, tests::trials(100));
 }
 
+TEST(ActiveSet, PlantedFaultIsFound) {
+  if (&active_set_without_side == nullptr) GTEST_SKIP() << "not planted in this build";
+  const Scene scene = falling_point();
+  const Step step = scene.step();
+  EXPECT_NE(active_set_without_side(step, 0.0, Norm::l2), active_set(step, 0.0));
+}
+
 TEST(ActiveSet, RefusesWhatMakesNoSense) {
-  const Step step = falling_point().step();
+  const Scene scene = falling_point();
+  const Step step = scene.step();
   EXPECT_THROW((void)active_set(step, -1.0), std::invalid_argument);
   EXPECT_THROW((void)active_set(step, std::nan("")), std::invalid_argument);
 }

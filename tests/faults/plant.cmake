@@ -136,3 +136,8 @@ endfunction()
 function(faulty_distance stage file name)
   faulty(fast/distance/${stage}_distance.cpp "${stage}_distance;polygon;Ball;ball_arithmetic" ${file} ${name} ${ARGN})
 endfunction()
+
+# faulty_line_search(NAME …): fast::NAME, line_search_limit with a fault.
+function(faulty_line_search name)
+  faulty(fast/line_search.cpp line_search_limit fast/line_search.cpp ${name} ${ARGN})
+endfunction()

@@ -11,11 +11,13 @@
 
 #include "exact/query.hpp"
 #include "fast/broad_phase/float_bounds.hpp"
+#include "fast/active_set.hpp"
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/distance.hpp"
 #include "fast/mesh.hpp"
+#include "fast/line_search.hpp"
 #include "fast/method.hpp"
 #include "fast/tight_inclusion.hpp"
 #include "fast/tight_inclusion/box_kernel.hpp"
@@ -72,6 +74,12 @@ extern ExactDistance TOUCHSTONE_PLANTED distance_to_lines, distance_to_planes,
     distance_with_short_axes, distance_without_sides;
 using FilteredDistance = std::optional<Distance>(Kind, const Query&, double, Norm);
 extern FilteredDistance TOUCHSTONE_PLANTED distance_without_radius, distance_without_rounding;
+
+// Active set and line search.
+using FindActive = std::vector<ActiveContact>(const Step&, double, Norm);
+extern FindActive TOUCHSTONE_PLANTED active_set_without_side;
+using LimitStep = LineSearchLimit(const Step&, double, const LineSearchOptions&);
+extern LimitStep TOUCHSTONE_PLANTED line_search_too_far, line_search_too_near, line_search_of_few;
 
 #undef TOUCHSTONE_PLANTED
 

@@ -1,0 +1,28 @@
+#include "fast/distance/nearness.hpp"
+
+#include <algorithm>
+
+namespace touchstone::fast {
+
+std::vector<std::uint32_t> perhaps_within(Kind kind, std::span<Query> queries,
+                                          const Separation& separation,
+                                          const CertifiedKernel* kernel) {
+  thread_local KernelOutput output;
+  for (Query& query : queries) {
+    const auto start = std::span(query.coordinates).first<3 * moving_points>();
+    std::ranges::copy(start, query.coordinates.begin() + start.size());
+  }
+  KernelInput block{.kind = kind, .count = queries.size(), .queries = queries.data()};
+  block.separation = separation;
+  block.t_limit = 0.0;
+  (kernel != nullptr ? *kernel : best_certified_kernel()).decide(block, output);
+  std::vector<std::uint32_t> result;
+  result.reserve(output.hits.count + output.undecided.count);
+  for (std::size_t i = 0; i < output.hits.count; ++i) result.push_back(output.hits.items[i].index);
+  for (std::size_t i = 0; i < output.undecided.count; ++i) {
+    result.push_back(output.undecided.items[i]);
+  }
+  return result;
+}
+
+}  // namespace touchstone::fast

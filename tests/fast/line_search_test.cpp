@@ -1,0 +1,434 @@
+#include "fast/line_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "exact/oracle.hpp"
+#include "fast/distance/exact_distance.hpp"
+#include "fast/filter.hpp"
+#include "fast/tight_inclusion.hpp"
+#include "tests/faults/planted_faults.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/trials.hpp"
+
+namespace touchstone::fast::line_search_test {
+namespace {
+
+using exact::Rational;
+using tests::Places;
+using tests::Random;
+using tests::Scene;
+
+constexpr double tiniest = std::numeric_limits<double>::denorm_min();
+constexpr auto norms = std::to_array<Norm>({Norm::l2, Norm::linf});
+
+/// A triangle over the origin of one that is larger, at that height, and where it is at t=1.
+Scene falling_triangle(double height, double end) {
+  Scene scene{.start = Places(6, 3),
+              .end = {},
+              .edges = {},
+              .faces = {{0, 1, 2}, {3, 4, 5}},
+              .points = {},
+              .groups = {},
+              .apart = {}};
+  scene.start << -4, -4, 0, 8, -4, 0, -4, 8, 0,  //
+      -1, -1, height, 1, -1, height + 1, -1, 1, height + 2;
+  scene.end = scene.start;
+  scene.end.bottomRows(3).col(2).array() += end - height;
+  scene.edges = edges_of(scene.faces);
+  return scene;
+}
+
+// ---- One step -----------------------------------------------------------------------------------
+
+TEST(LineSearch, StopsAtTheShareOfTheDistance) {
+  const Scene scene = falling_triangle(1.0, -1.0);
+  for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
+    for (const Norm norm : norms) {
+      for (const double p : {0.125, 0.5, 0.75}) {
+        const auto limit =
+            line_search_limit(scene.step(), p, {.norm = norm, .start_distance = start});
+        EXPECT_EQ(limit.status, LineSearchStatus::limited);
+        EXPECT_EQ(limit.distance, (Distance{1.0, 1.0}));
+        // From 1 to p at a speed of 2.
+        EXPECT_LE(limit.step_size, (1.0 - p) / 2.0);
+        EXPECT_GT(limit.step_size, (1.0 - p) / 2.0 * (1.0 - 1e-11));
+        ASSERT_EQ(limit.pairs.size(), 1U);
+        EXPECT_EQ(limit.pairs[0].pair, (IndexPair{3, 0}));
+      }
+    }
+  }
+}
+
+TEST(LineSearch, IsWholeIfNothingComesNear) {
+  for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
+    const LineSearchOptions options{.start_distance = start};
+    const auto limit = line_search_limit(falling_triangle(1.0, 0.75).step(), 0.5, options);
+    EXPECT_EQ(limit.status, LineSearchStatus::whole);
+    EXPECT_EQ(limit.step_size, 1.0);
+    EXPECT_TRUE(limit.pairs.empty());
+    const auto part =
+        line_search_limit(falling_triangle(1.0, -1.0).step({.t_max = 0.125}), 0.5, options);
+    EXPECT_EQ(part.status, LineSearchStatus::whole);
+    EXPECT_EQ(part.step_size, 0.125);
+    Scene none = falling_triangle(1.0, -1.0);
+    none.faces.clear();
+    none.edges.clear();
+    EXPECT_EQ(line_search_limit(none.step(), 0.5, options).step_size, 1.0);
+  }
+}
+
+TEST(LineSearch, SaysWhatTouchesAtTheStart) {
+  for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
+    const auto limit =
+        line_search_limit(falling_triangle(0.0, 1.0).step(), 0.5, {.start_distance = start});
+    EXPECT_EQ(limit.status, LineSearchStatus::in_contact);
+    EXPECT_EQ(limit.step_size, 0.0);
+    EXPECT_EQ(limit.distance, (Distance{0.0, 0.0}));
+    ASSERT_EQ(limit.pairs.size(), 1U);
+    EXPECT_EQ(limit.pairs[0].kind, PairKind::vertex_face);
+  }
+}
+
+TEST(LineSearch, SaysWhatIsTooSmallForDoubles) {
+  for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
+    const LineSearchOptions options{.start_distance = start};
+    // Nothing is left between half of the least double and itself.
+    const auto near = line_search_limit(falling_triangle(tiniest, -1.0).step(), 0.5, options);
+    EXPECT_EQ(near.status, LineSearchStatus::too_small);
+    EXPECT_EQ(near.step_size, 0.0);
+    EXPECT_EQ(near.pairs.size(), 1U);
+    // The least double is half of the second one. It takes a time of 2^-1073 2^-10 to get there.
+    const auto early =
+        line_search_limit(falling_triangle(4 * tiniest, -0x1p10).step(), 0.5, options);
+    EXPECT_EQ(early.status, LineSearchStatus::too_small);
+    EXPECT_EQ(early.step_size, 0.0);
+    EXPECT_EQ(early.pairs.size(), 1U);
+    const auto slow = line_search_limit(falling_triangle(8 * tiniest, 0.0).step(), 0.5, options);
+    EXPECT_EQ(slow.status, LineSearchStatus::limited);
+    EXPECT_GT(slow.step_size, 0.3);
+  }
+}
+
+TEST(LineSearch, RefusesWhatMakesNoSense) {
+  const Scene scene = falling_triangle(1.0, 0.0);
+  const Step step = scene.step();
+  for (const double p : {0.0, -0.5, 1.0, 1.0 - 0x1p-52, std::nan("")}) {
+    EXPECT_THROW((void)line_search_limit(step, p), std::invalid_argument);
+  }
+}
+
+// ---- What it promises ---------------------------------------------------------------------------
+
+/// Is a pair, up to that time, nearer than p times its distance or that of the scene? By the oracle.
+bool comes_nearer(Kind kind, const Query& query, double time, Norm norm, double p,
+                  double distance) {
+  // Nearer than p d is within what is less than it.
+  const double less = std::nextafter(exact::round_down(Rational(p) * Rational(distance)), 0.0);
+  const exact::Verdict verdict = exact::decide(kind, query, {.distance = less, .norm = norm});
+  return verdict.collides() && *verdict.toi <= exact::AlgebraicNumber(Rational(time));
+}
+
+/// What is wrong with a limit by the scene's distance, or nothing.
+std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, Norm norm) {
+  const auto least = least_distance(scene.step(), 0.0, norm);
+  const bool touches = least && least->distance.upper == 0.0;
+  if ((limit.status == LineSearchStatus::in_contact) != touches) return "contact";
+  if (!least || limit.step_size == 0.0) return "";
+  if (limit.distance != least->distance) return "distance";
+  const tests::AllPairs all(scene);
+  for (const auto& named : all.pairs()) {
+    const Kind kind = Step::kind_of(named.first);
+    const double distance = least->distance.lower;
+    if (comes_nearer(kind, all.query(named), limit.step_size, norm, p, distance)) return "too far";
+  }
+  if (limit.status == LineSearchStatus::whole) return "";
+  // The first pair is as near as that, about, up to the upper end of its enclosure.
+  const StepCollision& first = limit.pairs.at(0);
+  const double kept = p * least->distance.upper * (1.0 + 0x1p-40) + 2 * tiniest;
+  const auto verdict =
+      exact::decide(Step::kind_of(first.kind), scene.step().query_of(first.kind, first.pair),
+                    {.distance = kept, .norm = norm});
+  if (!verdict.collides()) return "not limited";
+  const bool is_first = *verdict.toi <= exact::AlgebraicNumber(Rational(first.toi_upper));
+  return is_first ? "" : "not so soon";
+}
+
+/// The first fault in random scenes.
+std::string first_fault(LimitStep& limit_of, int rounds, std::map<LineSearchStatus, int>* seen) {
+  Random random(2300);
+  for (int round = 0; round < rounds; ++round) {
+    for (const tests::Shape& shape : tests::shapes()) {
+      const Scene scene = tests::random_scene(random, shape, random.between(2, 9));
+      const Norm norm = random.coin() ? Norm::l2 : Norm::linf;
+      const double p = random.uniform(0.05, 0.95);
+      const LineSearchLimit limit = limit_of(scene.step(), p, {.norm = norm});
+      const std::string what = fault(scene, limit, p, norm);
+      if (!what.empty()) return shape.name + ": " + what;
+      if (seen != nullptr) ++(*seen)[limit.status];
+    }
+  }
+  return "";
+}
+
+TEST(LineSearch, KeepsAllApartAndGoesAsFarAsThatAllows) {
+  std::map<LineSearchStatus, int> seen;
+  EXPECT_EQ(first_fault(line_search_limit, tests::trials(40), &seen), "");
+  EXPECT_GT(seen[LineSearchStatus::limited], tests::trials(40));
+  EXPECT_GT(seen[LineSearchStatus::whole], tests::trials(20));
+}
+
+/// What the rule for pairs says, from all pairs one by one.
+std::optional<double> limit_of_pairs(const Scene& scene, double p, Norm norm) {
+  const tests::AllPairs all(scene);
+  double result = 1.0;
+  for (const auto& named : all.pairs()) {
+    if (!all.are_near(named, 0.0)) continue;
+    const Kind kind = Step::kind_of(named.first);
+    const Query query = all.query(named);
+    const Distance apart = exact_distance(kind, query, 0.0, norm);
+    const double kept = std::nextafter(p * apart.upper, std::numeric_limits<double>::infinity());
+    if (kept > apart.lower || (kept == apart.upper)) return std::nullopt;
+    const auto found = certified(kind, query, {.separation = {.distance = kept, .norm = norm}});
+    if (found.verdict == Verdict::yes) result = std::min(result, found.toi_lower);
+  }
+  return result;
+}
+
+/// In how many of random scenes is the limit by the pairs' distances another, and how many have one?
+struct Compared {
+  int different = 0;
+  int limited = 0;
+};
+
+Compared compare_pairs(LimitStep& limit_of, int rounds) {
+  Random random(2301);
+  Compared result;
+  for (int round = 0; round < rounds; ++round) {
+    for (const tests::Shape& shape : tests::shapes()) {
+      const Scene scene = tests::random_scene(random, shape, random.between(2, 9));
+      const Norm norm = random.coin() ? Norm::l2 : Norm::linf;
+      const double p = random.uniform(0.05, 0.95);
+      const LineSearchLimit limit =
+          limit_of(scene.step(), p, {.norm = norm, .start_distance = StartDistance::of_pair});
+      const double expected = limit_of_pairs(scene, p, norm).value_or(0.0);
+      result.different += limit.step_size == expected ? 0 : 1;
+      result.limited += limit.status == LineSearchStatus::limited ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+TEST(LineSearch, OfPairsIsThatOfAllOfThem) {
+  const Compared compared = compare_pairs(line_search_limit, tests::trials(40));
+  EXPECT_EQ(compared.different, 0);
+  EXPECT_GT(compared.limited, tests::trials(40));
+}
+
+TEST(LineSearch, PlantedFaultsAreFound) {
+  int planted = 0;
+  for (LimitStep* const limit_of : {&line_search_too_far, &line_search_too_near}) {
+    if (limit_of == nullptr) continue;  // not planted in this build
+    ++planted;
+    EXPECT_NE(first_fault(*limit_of, 40, nullptr), "");
+  }
+  if (LimitStep* const limit_of = &line_search_of_few; limit_of != nullptr) {
+    ++planted;
+    EXPECT_GT(compare_pairs(*limit_of, 40).different, 0);
+  }
+  EXPECT_GE(planted, tests::least_planted(1));
+}
+
+TEST(LineSearch, IsTheSameForAllNumbersOfThreads) {
+  Random random(2302);
+  const Scene scene = tests::soup(random, 200, 0.02);
+  for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
+    const LineSearchOptions options{.start_distance = start};
+    const auto expected = line_search_limit(scene.step({.max_threads = 1}), 0.5, options);
+    EXPECT_EQ(expected.status, LineSearchStatus::limited);
+    for (int i = 0; i < 5; ++i) {
+      const auto limit = line_search_limit(scene.step(), 0.5, options);
+      EXPECT_EQ(limit.step_size, expected.step_size);
+      EXPECT_EQ(limit.distance, expected.distance);
+      EXPECT_EQ(limit.pairs, expected.pairs);
+    }
+  }
+}
+
+// ---- Again and again ----------------------------------------------------------------------------
+
+/// Where all is after a step of that size, in doubles as simulators compute it.
+Places advanced(const Scene& scene, double step_size) {
+  return scene.start + step_size * (scene.end - scene.start);
+}
+
+/// Scenes in which something at height 1 falls onto something in the plane z=0, to −1.
+std::vector<Scene> falls() {
+  const Scene blank = falling_triangle(1.0, -1.0);
+  std::vector<Scene> result{blank};
+  Scene edges = blank;
+  edges.faces.clear();
+  edges.start.topRows(2) << -1, 0, 0, 1, 0, 0;
+  edges.start.middleRows(2, 2) << 0, -1, 1, 0.125, 1, 1;
+  edges.end = edges.start;
+  edges.end.middleRows(2, 2).col(2).array() = -1;
+  edges.edges = {{0, 1}, {2, 3}};
+  result.push_back(edges);
+  Scene point = edges;
+  point.start.row(2) << 0, 0, 1;
+  point.end.row(2) << 0, 0, -1;
+  point.edges = {{0, 1}};
+  point.points = {2};
+  result.push_back(point);
+  Scene points = point;
+  points.edges.clear();
+  points.points = {1, 2};
+  points.start.row(1).setZero();
+  points.end.row(1).setZero();
+  result.push_back(points);
+  return result;
+}
+
+/// What became of a line search that was repeated along one direction.
+struct Repetition {
+  long steps = 0;        ///< that were not 0
+  double least = 1.0;    ///< distance
+  bool stalled = false;  ///< the last step was 0
+};
+
+/// Repeats ours until the distance is below that, and checks each step: what is left of the distance is p,
+/// to the tolerance of the time and the rounding of places.
+Repetition repeat(Scene scene, double p, StartDistance start_distance, double until) {
+  Repetition result;
+  while (result.least > until) {
+    const auto limit =
+        line_search_limit(scene.step({.max_threads = 1}), p, {.start_distance = start_distance});
+    result.stalled = !(limit.step_size > 0.0);
+    if (result.stalled || limit.status != LineSearchStatus::limited) break;
+    EXPECT_EQ(limit.distance.lower, result.least);
+    scene.start = advanced(scene, limit.step_size);
+    const double now = least_distance(scene.step({.max_threads = 1}))->distance.lower;
+    EXPECT_LT(now, result.least);
+    EXPECT_GE(now, p * result.least * (1.0 - 0x1p-50));
+    EXPECT_LE(now, p * result.least * (1.0 + 0x1p-36));
+    result.least = now;
+    ++result.steps;
+    if (testing::Test::HasFailure()) break;
+  }
+  return result;
+}
+
+TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
+  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
+  long steps = 0;
+  for (const Scene& scene : falls()) {
+    for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
+      for (const double p : {0.25, 0.5, 0.9, 0.98}) {
+        if (p > 0.25 && !soak) continue;
+        const Repetition run = repeat(scene, p, start, 1e-300);
+        EXPECT_FALSE(run.stalled);
+        EXPECT_LE(run.least, 1e-300);
+        // p^steps = 1e-300
+        EXPECT_NEAR(static_cast<double>(run.steps), std::log(1e-300) / std::log(p), 2.0);
+        steps += run.steps;
+      }
+    }
+  }
+  EXPECT_GT(steps, soak ? 300'000 : 3'900);
+}
+
+// ---- The published line search ------------------------------------------------------------------
+
+/// Algorithm 4 of [wang2021] up to its backtracking, as its text means it: p is halved until
+/// p < (d_i − δ − ε − ρ) / d_i, the distance is kept at p d_i, but at δ at least, and where the search
+/// for impacts ends with a greater δ, all of it is repeated with that.
+class PublishedLineSearch {
+ public:
+  explicit PublishedLineSearch(double delta) : delta_(delta) {}
+
+  [[nodiscard]] double step_size(const Scene& scene, double p) const {
+    const tests::AllPairs all(scene);
+    double distance_i = std::numeric_limits<double>::infinity();
+    for (const auto& named : all.pairs()) {
+      const Kind kind = Step::kind_of(named.first);
+      distance_i = std::min(distance_i, distance(kind, all.query(named), 0.0, Norm::linf).lower);
+    }
+    const double epsilon = filter(scene);
+    for (double delta = delta_;;) {
+      const auto is_valid = [&] { return p < (distance_i - delta - epsilon - rho) / distance_i; };
+      double kept = std::max(p * distance_i, delta);
+      while (!is_valid() && p > least_p) {
+        p /= 2.0;
+        kept = p * distance_i;
+      }
+      double alpha = 1.0, reached = delta;
+      for (const auto& named : all.pairs()) {
+        if (!all.are_near(named, kept)) continue;
+        const auto found = tight_inclusion(Step::kind_of(named.first), all.query(named),
+                                           {.tolerance = delta,
+                                            .min_separation = kept,
+                                            .t_max = alpha,
+                                            .error_model = ErrorModel::published});
+        if (found.verdict != Verdict::yes) continue;
+        alpha = std::min(alpha, found.toi);
+        reached = std::max(reached, found.tolerance);
+      }
+      if (reached <= delta) return alpha;
+      delta = reached;
+    }
+  }
+
+ private:
+  static constexpr double rho = 1e-9, least_p = 0x1p-60;
+
+  /// ε for the whole scene.
+  static double filter(const Scene& scene) {
+    std::array<double, 3> greatest{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto column = static_cast<Eigen::Index>(axis);
+      greatest[axis] = std::max(scene.start.col(column).cwiseAbs().maxCoeff(),
+                                scene.end.col(column).cwiseAbs().maxCoeff());
+    }
+    return std::ranges::max(error_filter(Kind::vertex_face, greatest, 1.0, ErrorModel::published));
+  }
+
+  double delta_;
+};
+
+TEST(LineSearch, PublishedStallsWhereOursGoesOn) {
+  constexpr double p = 0.5;
+  for (const double delta : {1e-3, 1e-6}) {
+    for (Scene scene : falls()) {
+      const PublishedLineSearch published(delta);
+      int steps = 0;
+      double least = 1.0;
+      for (; steps < 1000; ++steps) {
+        const double step_size = published.step_size(scene, p);
+        if (step_size == 0.0) break;
+        scene.start = advanced(scene, step_size);
+        least = least_distance(scene.step())->distance.lower;
+      }
+      // A little below δ.
+      EXPECT_LT(steps, 100);
+      EXPECT_GT(least, delta / 100);
+      const auto ours = line_search_limit(scene.step(), p);
+      EXPECT_EQ(ours.status, LineSearchStatus::limited);
+      EXPECT_GT(ours.step_size, 0.0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::fast::line_search_test
