@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "exact/query.hpp"
-#include "fast/broad_phase/float_bounds.hpp"
 #include "fast/active_set.hpp"
+#include "fast/broad_phase/float_bounds.hpp"
 #include "fast/broad_phase/search.hpp"
 #include "fast/certified/exact/exact_stage.hpp"
 #include "fast/certified/kernel.hpp"
 #include "fast/distance.hpp"
-#include "fast/mesh.hpp"
 #include "fast/line_search.hpp"
+#include "fast/mesh.hpp"
 #include "fast/method.hpp"
 #include "fast/tight_inclusion.hpp"
 #include "fast/tight_inclusion/box_kernel.hpp"

@@ -429,8 +429,11 @@ TEST(Fuzz, JudgesWhatIsAnsweredWhenTheTimeIsOver) {
     });
     const FuzzResult result = fuzz(method, options);
     EXPECT_EQ(result.ended_by, FuzzEnd::time);
-    EXPECT_EQ(result.queries + result.unjudged, answered.value()) << last_look;
-    EXPECT_EQ(result.queries == 0, answered.value() == 0) << last_look;
+    // Some answers may still be on their way from the solver's process.
+    const std::uint64_t received = result.queries + result.unjudged;
+    EXPECT_LE(received, answered.value()) << last_look;
+    EXPECT_GE(received + result.unanswered, answered.value()) << last_look;
+    EXPECT_EQ(result.queries == 0, received == 0) << last_look;
     judged_some = judged_some || result.queries != 0;
     left_some = left_some || result.unjudged != 0;
   }
