@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "fast/distance/exact_distance.hpp"
+#include "fast/distance/filter_kernel.hpp"
 #include "fast/distance/filtered_distance.hpp"
 #include "fast/distance/nearness.hpp"
 #include "fast/platform/floating_point_state.hpp"
@@ -40,6 +41,22 @@ void require_finite(const Query& query) {
 Distance distance_at(Kind kind, const Query& query, double t, Norm norm) {
   if (const auto result = filtered_distance(kind, query, t, norm)) return *result;
   return exact_distance(kind, query, t, norm);
+}
+
+/// Answers query i in results[i].
+void answer(Kind kind, std::span<const Query> queries, double t, Norm norm,
+            std::span<Distance> results) {
+  const StrictFloatingPoint strict;
+  std::ranges::for_each(queries, require_finite);
+  if (norm == Norm::l2) {
+    const DistanceKernel& kernel = *distance_kernels().back();
+    kernel.filter(kind, queries.data(), queries.size(), t, results.data());
+  } else {
+    std::ranges::fill(results, open_distance);
+  }
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (results[i] == open_distance) results[i] = distance_at(kind, queries[i], t, norm);
+  }
 }
 
 // ---- The least of a step ------------------------------------------------------------------------
@@ -184,11 +201,10 @@ void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
   with_threads(max_threads, [&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, queries.size(), queries_of_task),
                       [&](const tbb::blocked_range<std::size_t>& range) {
-                        const StrictFloatingPoint strict;
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          require_finite(queries[i]);
-                          results[i] = distance_at(kind, queries[i], t, norm);
-                        }
+                        const auto part = [&](auto all) {
+                          return all.subspan(range.begin(), range.size());
+                        };
+                        answer(kind, part(queries), t, norm, part(results));
                       });
   });
 }

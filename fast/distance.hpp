@@ -14,7 +14,9 @@
 ///
 /// **How.** fast/distance/polygon_features.hpp says which expressions are the distance. They are
 /// evaluated in numbers of 106 bits that carry their error bounds (filters/ball.hpp), which settles
-/// nearly all; the others are decided in integers.
+/// nearly all; the others are decided in integers. Many queries in L2 are evaluated on lanes
+/// (fast/distance/filter_on_lanes.hpp). The least distance of a step first asks which pairs are no farther
+/// apart than the nearest that is known, also on lanes (fast/distance/nearness.hpp).
 
 #include <optional>
 #include <span>

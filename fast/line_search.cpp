@@ -18,13 +18,13 @@
 namespace touchstone::fast {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double positive_infinity = std::numeric_limits<double>::infinity();
 
 /// A double s with p d ≤ s < d, if one is certain. (A product is rounded by at most half the spacing to
 /// the next double. For distances that no double exceeds, s is the greatest double.)
 std::optional<double> kept_distance(double p, const Distance& d) {
   const double s =
-      std::min(std::nextafter(p * d.upper, infinity), std::numeric_limits<double>::max());
+      std::min(std::nextafter(p * d.upper, positive_infinity), std::numeric_limits<double>::max());
   const bool is_below = s < d.lower || (s == d.lower && d.lower < d.upper);
   return is_below ? std::optional(s) : std::nullopt;
 }
@@ -67,19 +67,20 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
 
 // ---- The pairs' own distances -------------------------------------------------------------------
 
-/// No vertex moves farther than this relative to another, in L2 or L∞. Perhaps infinity.
+/// No vertex moves farther than this relative to another, in L2 or L∞. Perhaps infinite.
 double greatest_relative_motion(const MovingVertices& vertices) {
   double result = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    double least = infinity, most = -infinity;
+    double least = positive_infinity, most = -positive_infinity;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const double motion = vertices[i].end[axis] - vertices[i].start[axis];
       least = std::min(least, motion);
       most = std::max(most, motion);
     }
     // Each difference is rounded by at most half the spacing to the next double.
-    const double range = std::nextafter(most, infinity) - std::nextafter(least, -infinity);
-    result = std::max(result, std::nextafter(range, infinity));
+    const double range =
+        std::nextafter(most, positive_infinity) - std::nextafter(least, -positive_infinity);
+    result = std::max(result, std::nextafter(range, positive_infinity));
   }
   constexpr double root_of_three = 1.7320508075688776;
   return result * root_of_three;
@@ -140,7 +141,8 @@ class SearchOfPairs {
     const double rest = 1.0 - step_.certified().toi_tolerance;
     if (!(rest > 0.0)) return greatest;
     const double reach = 4.0 * motion_ * (time / (1.0 - p_) / rest);
-    return std::clamp(reach, least, greatest);
+    // Written so that NaN is the greatest too.
+    return reach <= greatest ? std::max(reach, least) : greatest;
   }
 
   void consider(PairKind kind, const IndexPair& pair) {
@@ -187,7 +189,7 @@ class SearchOfPairs {
   double p_;
   Norm norm_;
   double motion_;
-  std::atomic<double> upper_ = infinity;
+  std::atomic<double> upper_ = positive_infinity;
   std::mutex mutex_;
   std::vector<StepCollision> touching_;  ///< at the start
   std::vector<StepCollision> too_near_;  ///< for a distance that is kept

@@ -19,68 +19,87 @@
 ///   times those of their high parts. The radius is computed by operations on numbers that are not
 ///   negative, six in a row at most, each wrong by at most u of its result and 2^-1075; the factor of
 ///   1 + 2^-49 and the addition of 2^-1070 are more than all of that.
-/// - A factor that is exactly 0 makes a product that is.
+/// - A factor that is exactly 0 makes a product that is. (In plain C++: on lanes it has a radius too.)
 ///
 /// \pre Nothing overflows, and magnitudes are at most 2^490: so those of factors' halves are in the
 /// range of filters/double_double.hpp.
 
-#include <array>
+#include <type_traits>
 
 #include "filters/double_double.hpp"
 
 namespace touchstone::filters {
 
-struct Ball {
-  DoubleDouble<double> center{0.0, 0.0};
-  double radius = 0.0;
+/// Over double, or over lanes with the operations of double.
+template <class Scalar>
+struct BallOf {
+  DoubleDouble<Scalar> center{Scalar(0.0), Scalar(0.0)};
+  Scalar radius{0.0};
 
-  constexpr Ball() = default;
+  constexpr BallOf() = default;
   /// Exactly this number.
-  constexpr explicit Ball(double x) : center{x, 0.0} {}
-  constexpr explicit Ball(const DoubleDouble<double>& x) : center(x) {}
-  constexpr Ball(const DoubleDouble<double>& x, double error) : center(x), radius(error) {}
-
-  [[nodiscard]] constexpr bool is_exact_zero() const { return center.high == 0.0 && radius == 0.0; }
+  constexpr explicit BallOf(double x) : center{Scalar(x), Scalar(0.0)} {}
+  constexpr explicit BallOf(const DoubleDouble<Scalar>& x) : center(x) {}
+  constexpr BallOf(const DoubleDouble<Scalar>& x, const Scalar& error) : center(x), radius(error) {}
 };
+
+using Ball = BallOf<double>;
+
+[[nodiscard]] constexpr bool is_exact_zero(const Ball& a) {
+  return a.center.high == 0.0 && a.radius == 0.0;
+}
 
 /// Are all numbers of the ball positive? (The low part is at most half a last place of the high
 /// one, and the rounding of twice the radius cannot make up for the half that is left.)
-[[nodiscard]] constexpr bool is_positive(const Ball& a) {
-  return a.center.high > 0.0 && a.center.high > 2.0 * a.radius;
-}
-
-[[nodiscard]] constexpr double magnitude(double x) { return x < 0.0 ? -x : x; }
-
-[[nodiscard]] constexpr Ball operator-(const Ball& a) {
-  return {{-a.center.high, -a.center.low}, a.radius};
-}
-
-namespace ball_arithmetic {
-
-[[nodiscard]] constexpr Ball sum(const DoubleDouble<double>& center, double radii) {
-  constexpr double rounding = 0x1p-102, enough = 1.0 + 0x1p-50;
-  return {center, (radii + magnitude(center.high) * rounding) * enough};
-}
-
-}  // namespace ball_arithmetic
-
-[[nodiscard]] constexpr Ball operator+(const Ball& a, const Ball& b) {
-  return ball_arithmetic::sum(a.center + b.center, a.radius + b.radius);
-}
-[[nodiscard]] constexpr Ball operator-(const Ball& a, const Ball& b) {
-  return ball_arithmetic::sum(a.center - b.center, a.radius + b.radius);
-}
-
-[[nodiscard]] constexpr Ball operator*(const Ball& a, const Ball& b) {
-  if (a.is_exact_zero() || b.is_exact_zero()) return {};
-  constexpr double rounding = 0x1p-102, underflow = 0x1p-1070, enough = 1.0 + 0x1p-49;
-  const DoubleDouble<double> center = a.center * b.center;
-  const double spread =
-      magnitude(a.center.high) * b.radius + (magnitude(b.center.high) + b.radius) * a.radius;
-  return {center, (spread + magnitude(center.high) * rounding) * enough + underflow};
+template <class Scalar>
+[[nodiscard]] constexpr auto is_positive(const BallOf<Scalar>& a) {
+  return (a.center.high > Scalar(0.0)) & (a.center.high > Scalar(2.0) * a.radius);
 }
 
 /// |x|.
+template <class Scalar>
+[[nodiscard]] constexpr Scalar magnitude(const Scalar& x) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    return x < 0.0 ? -x : x;
+  } else {
+    return abs(x);
+  }
+}
+template <class Scalar>
+[[nodiscard]] constexpr BallOf<Scalar> operator-(const BallOf<Scalar>& a) {
+  const Scalar zero(0.0);
+  return {{zero - a.center.high, zero - a.center.low}, a.radius};
+}
 [[nodiscard]] constexpr Ball abs(const Ball& a) { return a.center.high < 0.0 ? -a : a; }
+
+/// The sum or difference with this center, of balls whose radii add up to that.
+template <class Scalar>
+[[nodiscard]] constexpr BallOf<Scalar> ball_of_sum(const DoubleDouble<Scalar>& center,
+                                                   const Scalar& radii) {
+  constexpr double rounding = 0x1p-102, enough = 1.0 + 0x1p-50;
+  return {center, (radii + magnitude(center.high) * Scalar(rounding)) * Scalar(enough)};
+}
+
+template <class Scalar>
+[[nodiscard]] constexpr BallOf<Scalar> operator+(const BallOf<Scalar>& a, const BallOf<Scalar>& b) {
+  return ball_of_sum<Scalar>(a.center + b.center, a.radius + b.radius);
+}
+template <class Scalar>
+[[nodiscard]] constexpr BallOf<Scalar> operator-(const BallOf<Scalar>& a, const BallOf<Scalar>& b) {
+  return ball_of_sum<Scalar>(a.center - b.center, a.radius + b.radius);
+}
+
+template <class Scalar>
+[[nodiscard]] constexpr BallOf<Scalar> operator*(const BallOf<Scalar>& a, const BallOf<Scalar>& b) {
+  if constexpr (std::is_same_v<Scalar, double>) {
+    if (is_exact_zero(a) || is_exact_zero(b)) return {};
+  }
+  constexpr double rounding = 0x1p-102, underflow = 0x1p-1070, enough = 1.0 + 0x1p-49;
+  const DoubleDouble<Scalar> center = a.center * b.center;
+  const Scalar spread =
+      magnitude(a.center.high) * b.radius + (magnitude(b.center.high) + b.radius) * a.radius;
+  return {center, (spread + magnitude(center.high) * Scalar(rounding)) * Scalar(enough) +
+                      Scalar(underflow)};
+}
 
 }  // namespace touchstone::filters

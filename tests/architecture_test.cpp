@@ -156,6 +156,8 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/certified/block.hpp", "a part of the solver, tested through it"},
     {"fast/step/scene.hpp", "a part of Step, tested through it"},
     {"fast/distance/exact_distance.hpp", "a stage of the distance, tested in distance_test.cpp"},
+    {"fast/distance/filter_kernel.hpp", "a stage of the distance, tested in distance_test.cpp"},
+    {"fast/distance/filter_on_lanes.hpp", "a part of the kernels, tested through them"},
     {"fast/distance/filtered_distance.hpp", "a stage of the distance, tested in distance_test.cpp"},
     {"fast/distance/polygon_features.hpp", "a part of both stages, tested through them"},
     {"fast/certified/kernel_on_lanes.hpp", "a part of the kernels, tested through them"},

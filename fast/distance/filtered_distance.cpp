@@ -216,37 +216,52 @@ class CubeComparison {
 
   [[nodiscard]] double guess() const { return guess_; }
 
-  /// Theorem 3.
+  /// Theorem 3. Differences of coordinates are often doubles, so that a coordinate axis may have just this
+  /// quotient.
   [[nodiscard]] std::optional<int> operator()(double s) const {
-    if (separates(axes_.items[widest_], s)) return 1;
-    const bool is_within = std::ranges::all_of(
-        std::span(axes_.items).first(axes_.count),
-        [&](const auto& axis) { return axis.length.is_exact_zero() || is_blocked(axis, s); });
-    if (is_within) return -1;
+    const auto is_at_most = [](const Ball& a, const Ball& b) {
+      return is_positive(b - a) || is_exact_zero(b - a);
+    };
+    const auto is_less = [](const Ball& a, const Ball& b) { return bool(is_positive(b - a)); };
+    if (separates(widest_, s, is_less)) return 1;
+    if (are_blocked(s, is_less)) return -1;
+    if (separates(widest_, s, is_at_most) && are_blocked(s, is_at_most)) return 0;
     return std::nullopt;
   }
 
  private:
   using Axis = polygon::Axis<Ball>;
+  static constexpr std::size_t coordinate_axes = 3;
 
   static std::span<const Ball> values(const Axis& axis) {
     return std::span(axis.values).first(axis.count);
   }
 
-  /// Is its quotient certainly more than s?
-  static bool separates(const Axis& axis, double s) {
-    const Ball reach = Ball(s) * axis.length;
-    return std::ranges::all_of(values(axis),
-                               [&](const Ball& x) { return is_positive(x - reach); }) ||
-           std::ranges::all_of(values(axis),
-                               [&](const Ball& x) { return is_positive(-x - reach); });
+  /// s |a|₁.
+  [[nodiscard]] Ball reach(std::size_t axis, double s) const {
+    if (axis < coordinate_axes) return Ball(s);
+    return Ball(s) * axes_.items[axis].length;
   }
-  /// Is it certainly less?
-  static bool is_blocked(const Axis& axis, double s) {
-    const Ball reach = Ball(s) * axis.length;
-    return std::ranges::any_of(values(axis),
-                               [&](const Ball& x) { return is_positive(reach - x); }) &&
-           std::ranges::any_of(values(axis), [&](const Ball& x) { return is_positive(reach + x); });
+
+  /// Is its quotient certainly more than s, or as much?
+  template <class IsLess>
+  [[nodiscard]] bool separates(std::size_t axis, double s, const IsLess& is_less) const {
+    const Ball far = reach(axis, s);
+    const auto all = values(axes_.items[axis]);
+    return std::ranges::all_of(all, [&](const Ball& x) { return is_less(far, x); }) ||
+           std::ranges::all_of(all, [&](const Ball& x) { return is_less(x, -far); });
+  }
+  /// Are all quotients certainly less, or at most that?
+  template <class IsLess>
+  [[nodiscard]] bool are_blocked(double s, const IsLess& is_less) const {
+    for (std::size_t i = 0; i < axes_.count; ++i) {
+      if (is_exact_zero(axes_.items[i].length)) continue;
+      const Ball far = reach(i, s);
+      const auto all = values(axes_.items[i]);
+      if (std::ranges::none_of(all, [&](const Ball& x) { return is_less(x, far); })) return false;
+      if (std::ranges::none_of(all, [&](const Ball& x) { return is_less(-far, x); })) return false;
+    }
+    return true;
   }
 
   polygon::AxisList<Ball> axes_;

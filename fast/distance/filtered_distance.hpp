@@ -18,8 +18,8 @@
 
 namespace touchstone::fast {
 
-/// As `distance`, or nothing if rounding, overflow or underflow leave it open, as they do if the distance
-/// is a double. Under strict floating point.
+/// As `distance`, or nothing if rounding, overflow or underflow leave it open, as they do in L2 if the
+/// distance is a double. Under strict floating point.
 /// \pre All coordinates are finite; 0 ≤ t ≤ 1.
 [[nodiscard]] std::optional<Distance> filtered_distance(Kind kind, const Query& query, double t,
                                                         Norm norm);

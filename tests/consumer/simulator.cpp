@@ -1,7 +1,10 @@
 // What a simulator includes: single queries by both solvers, and a whole step.
 
 #include <exact/query.hpp>
+#include <fast/active_set.hpp>
 #include <fast/certified.hpp>
+#include <fast/distance.hpp>
+#include <fast/line_search.hpp>
 #include <fast/platform/arithmetic_check.hpp>
 #include <fast/primitive_pairs.hpp>
 #include <fast/step.hpp>
@@ -32,6 +35,14 @@ bool answers_single_queries() {
          inclusion.verdict == fast::Verdict::yes && inclusion.toi <= expected_toi;
 }
 
+bool answers_a_solver(const fast::Step& step) {
+  const auto least = fast::least_distance(step);
+  const fast::LineSearchLimit limit = fast::line_search_limit(step, 0.5);
+  const std::vector<fast::ActiveContact> active = fast::active_set(step, 0.25);
+  return least && least->distance.lower == 1.0 && limit.step_size <= 0.5 * expected_toi &&
+         limit.step_size > 0.1 && active.size() == 3 && active[0].normal.z() == 1.0;
+}
+
 bool answers_a_step() {
   // A triangle falls through a larger one that rests.
   Eigen::MatrixXd before(6, 3);
@@ -45,7 +56,7 @@ bool answers_a_step() {
   step.candidates([&](const fast::StepCandidates& some) { candidates += some.pairs.size(); });
   return impact && impact->toi_lower <= expected_toi && impact->toi_upper >= expected_toi &&
          step.collisions().size() == 3 && candidates >= 3 && !step.is_free() &&
-         step.scaled(0.25).is_free();
+         step.scaled(0.25).is_free() && answers_a_solver(step);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "fast/broad_phase.hpp"
 #include "fast/distance/exact_distance.hpp"
+#include "fast/distance/filter_kernel.hpp"
 #include "fast/distance/filtered_distance.hpp"
 #include "fast/distance/neighbouring_doubles.hpp"
 #include "tests/faults/planted_faults.hpp"
@@ -247,16 +248,49 @@ TEST(Distance, IsFilteredAsARule) {
 
 TEST(Distance, OfManyIsThatOfEach) {
   Random random(2006);
-  std::vector<Query> queries;
-  for (int i = 0; i < 1000; ++i) {
-    queries.push_back(
-        tests::random_query(random, Kind::edge_edge, tests::Family::near_contact).query);
+  for (const Kind kind : kinds) {
+    for (const Norm norm : norms) {
+      for (const double t : {0.0, 0.3, 1.0}) {
+        std::vector<Query> queries;
+        for (std::size_t i = 0; i < 500; ++i) {
+          queries.push_back(tests::random_query(random, kind, tests::all_families[i % 4]).query);
+          if (i % 50 == 0) queries.back().coordinates[i % 24] = random.finite_double();
+        }
+        std::vector<Distance> expected;
+        for (const Query& query : queries) expected.push_back(distance(kind, query, t, norm));
+        for (const int threads : {1, 0}) {
+          std::vector<Distance> found(queries.size());
+          distances(kind, queries, t, norm, found, threads);
+          EXPECT_EQ(found, expected);
+        }
+      }
+    }
   }
-  for (const int threads : {1, 0}) {
-    std::vector<Distance> found(queries.size());
-    distances(Kind::edge_edge, queries, 0.5, Norm::l2, found, threads);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      EXPECT_EQ(found[i], distance(Kind::edge_edge, queries[i], 0.5));
+}
+
+TEST(Distance, OfAllInstructionSetsIsTheSameAndAsARuleFiltered) {
+  Random random(2011);
+  for (const Kind kind : kinds) {
+    for (const double t : {0.0, 0.3}) {
+      // No multiple of the width of any lanes.
+      std::vector<Query> queries;
+      for (int i = 0; i < 501; ++i) {
+        queries.push_back(
+            tests::random_query(random, kind, tests::Family::full_significands).query);
+      }
+      for (const DistanceKernel* const kernel : distance_kernels()) {
+        std::vector<Distance> found(queries.size());
+        kernel->filter(kind, queries.data(), queries.size(), t, found.data());
+        int open = 0;
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+          if (found[i] == open_distance) {
+            ++open;
+          } else {
+            EXPECT_EQ(found[i], exact_distance(kind, queries[i], t, Norm::l2));
+          }
+        }
+        EXPECT_LT(open, 50) << to_string(kernel->instructions);
+      }
     }
   }
 }

@@ -134,7 +134,7 @@ endfunction()
 # faulty_distance(STAGE FILE NAME …): fast::NAME, a stage of the distance, exact or filtered, with a fault in one of its
 # files. Other names too are changed: what is inline must not be taken for the true one.
 function(faulty_distance stage file name)
-  faulty(fast/distance/${stage}_distance.cpp "${stage}_distance;polygon;Ball;ball_arithmetic" ${file} ${name} ${ARGN})
+  faulty(fast/distance/${stage}_distance.cpp "${stage}_distance;polygon;BallOf" ${file} ${name} ${ARGN})
 endfunction()
 
 # faulty_line_search(NAME …): fast::NAME, line_search_limit with a fault.

@@ -79,10 +79,10 @@ TEST(Ball, IsNarrow) {
 
 TEST(Ball, KeepsZero) {
   const Ball a(0.1), zero(0.0), little(tiniest);
-  EXPECT_TRUE((a - a).is_exact_zero());
-  EXPECT_TRUE((a * zero).is_exact_zero());
-  EXPECT_TRUE((zero * a + (a - a)).is_exact_zero());
-  EXPECT_FALSE((little * little).is_exact_zero());
+  EXPECT_TRUE(is_exact_zero(a - a));
+  EXPECT_TRUE(is_exact_zero(a * zero));
+  EXPECT_TRUE(is_exact_zero(zero * a + (a - a)));
+  EXPECT_FALSE(is_exact_zero(little * little));
   EXPECT_FALSE(is_positive(little * little));
   EXPECT_FALSE(is_positive(zero));
   EXPECT_TRUE(is_positive(little));
