@@ -51,6 +51,10 @@ using Ball = BallOf<double>;
 
 /// Are all numbers of the ball positive? (The low part is at most half a last place of the high
 /// one, and the rounding of twice the radius cannot make up for the half that is left.)
+[[nodiscard]] constexpr bool is_positive(const Ball& a) {
+  return a.center.high > 0.0 && a.center.high > 2.0 * a.radius;
+}
+/// The same in each lane.
 template <class Scalar>
 [[nodiscard]] constexpr auto is_positive(const BallOf<Scalar>& a) {
   return (a.center.high > Scalar(0.0)) & (a.center.high > Scalar(2.0) * a.radius);

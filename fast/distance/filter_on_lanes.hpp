@@ -79,8 +79,8 @@ class Filter {
   static bool is_plain(const Query& query) {
     constexpr double usual = 0x1p64;
     double greatest = 0.0;
-    for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
-      const double x = __builtin_fabs(query.coordinates[i]);
+    for (const double coordinate : query.coordinates) {
+      const double x = __builtin_fabs(coordinate);
       greatest = x > greatest ? x : greatest;
     }
     if (!(greatest <= usual && greatest >= 1.0 / usual)) return false;

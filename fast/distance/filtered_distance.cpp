@@ -222,7 +222,7 @@ class CubeComparison {
     const auto is_at_most = [](const Ball& a, const Ball& b) {
       return is_positive(b - a) || is_exact_zero(b - a);
     };
-    const auto is_less = [](const Ball& a, const Ball& b) { return bool(is_positive(b - a)); };
+    const auto is_less = [](const Ball& a, const Ball& b) { return is_positive(b - a); };
     if (separates(widest_, s, is_less)) return 1;
     if (are_blocked(s, is_less)) return -1;
     if (separates(widest_, s, is_at_most) && are_blocked(s, is_at_most)) return 0;
