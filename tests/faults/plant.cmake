@@ -65,11 +65,12 @@ endfunction()
 # faulty(SOURCE SYMBOLS FILES NAME …): SOURCE with a fault in it or in headers that it includes, FILES; the first of its
 # SYMBOLS is called NAME, any other NAME_SYMBOL.
 function(faulty source symbols files name)
+  # In every build, so that a fault without a place is told at once.
+  with_fault(folder "${files}" ${name} ${ARGN})
   is_planted(planted ${name})
   if(NOT planted)
     return()
   endif()
-  with_fault(folder "${files}" ${name} ${ARGN})
   list(POP_FRONT symbols symbol)
   set(renamed "#define ${symbol} ${name}\n")
   foreach(other ${symbols})
@@ -111,11 +112,11 @@ endfunction()
 # includes, FILE. Only SOURCE is compiled: the linker joins it to the other objects of the library, and all names but that
 # of decide_exactly become local to the result.
 function(faulty_exact_stage source file name)
+  with_fault(folder ${file} ${name} ${ARGN})
   is_planted(planted ${name})
   if(NOT planted)
     return()
   endif()
-  with_fault(folder ${file} ${name} ${ARGN})
   if(NOT source STREQUAL file)
     file(CONFIGURE OUTPUT ${folder}/${source} CONTENT "#include \"${PROJECT_SOURCE_DIR}/${source}\"\n")
   endif()
