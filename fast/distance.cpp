@@ -61,8 +61,8 @@ void answer(Kind kind, std::span<const Query> queries, double t, Norm norm,
 
 // ---- The least of a step ------------------------------------------------------------------------
 
-/// Whether one distance is surely less than another: if an interval between neighbouring doubles, or a
-/// double, is before another in this order, what it holds is less.
+/// Is one distance surely less than another? Doubles, and the open intervals between neighbouring doubles, do
+/// not overlap: what is in one that is before another in this order is less.
 bool is_less(const Distance& a, const Distance& b) {
   return std::tie(a.lower, a.upper) < std::tie(b.lower, b.upper);
 }
@@ -70,10 +70,10 @@ bool is_less(const Distance& a, const Distance& b) {
 /// Finds the least distance by looking at all pairs whose boxes are within a radius, beginning with 0. As
 /// soon as a pair is known, no other matters than those whose boxes are as near as it is.
 ///
-/// Boxes, and the quick test of nearness, are of places rounded to doubles, unless these are the start.
-/// A coordinate is moved by the bound of filters::Position, which is four roundings at most, and by that
-/// of 1 − t, which is one. So distances are off by less than twice three bounds in L∞, and less than
-/// `slack_` in L2.
+/// Boxes, and the quick test of nearness, are of places rounded to doubles, unless these are the start. A
+/// coordinate is off by the bound of filters::Position, 2u of its magnitude, and by the rounding of 1 − t,
+/// u of it at most. So distances are off by three bounds in L∞ at most, and by less than six in L2.
+/// `slack_` is eight, which also covers its own rounding.
 class LeastDistanceSearch {
  public:
   LeastDistanceSearch(const Step& step, double t, Norm norm) : step_(step), t_(t), norm_(norm) {

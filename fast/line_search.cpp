@@ -1,15 +1,16 @@
 #include "fast/line_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "fast/certified.hpp"
 #include "fast/distance/nearness.hpp"

@@ -162,7 +162,7 @@ TEST(ActiveSet, IsTheCollisionsAtThatSeparationInOrder) {
       found += contacts.size();
     }
   }
-  EXPECT_GT(found, tests::trials(200U));
+  EXPECT_GT(found, tests::trials(80U));
 }
 
 TEST(ActiveSet, NormalsPointFromTheSecondPrimitiveToTheFirst) {
