@@ -152,6 +152,8 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/broad_phase/search_on_lanes.hpp", "a part of the searches, tested through them"},
     {"fast/broad_phase/division_on_lanes.hpp", "a part of the searches, tested through them"},
     {"fast/broad_phase/seeds.hpp", "what they divide, tested through them"},
+    {"fast/platform/avx2_doubles.hpp", "a part of the kernels, tested through them"},
+    {"fast/platform/avx512_doubles.hpp", "a part of the kernels, tested through them"},
     {"fast/platform/avx_rows.hpp", "a part of the kernels, tested through them"},
     {"fast/certified/block.hpp", "a part of the solver, tested through it"},
     {"fast/step/scene.hpp", "a part of Step, tested through it"},
