@@ -79,6 +79,8 @@ export class Scene {
     this.labels = [];
     this.zoom = zoom;
     viewpoint.listeners.push(() => this.render());
+    // At once too: the observer reports only after the next frame, and what is drawn until then would be of another size.
+    this.resize();
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.listen();
   }
