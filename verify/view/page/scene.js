@@ -79,9 +79,7 @@ export class Scene {
     this.labels = [];
     this.zoom = zoom;
     viewpoint.listeners.push(() => this.render());
-    // At once too: the observer reports only after the next frame, and what is drawn until then would be of another size.
-    this.resize();
-    new ResizeObserver(() => this.resize()).observe(this.canvas);
+    new ResizeObserver(() => this.render()).observe(this.canvas);
     this.listen();
   }
 
@@ -176,18 +174,22 @@ export class Scene {
 
   // ---- Drawing ----------------------------------------------------------------------------------
 
-  resize() {
+  /// Gives the picture the size of its place on the page. Asked at every drawing: an observer reports a new place only
+  /// after the next frame.
+  fit() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
+    const drawn = this.renderer.getSize(new THREE.Vector2());
     if (width === 0 || height === 0) return;
+    if (height === drawn.y && width / height === this.camera.aspect) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     // The ball fits the shorter side.
     this.camera.zoom = Math.min(1, width / height);
     this.camera.updateProjectionMatrix();
-    this.render();
   }
 
   render() {
+    this.fit();
     this.viewpoint.place(this.camera);
     this.renderer.render(this.scene, this.camera);
     this.placeNames();
