@@ -85,6 +85,10 @@ TouchstoneOptions given(const TouchstoneOptions* options) {
   return options != nullptr ? *options : touchstone_default_options();
 }
 
+Separation separation_of(const TouchstoneOptions& options) {
+  return {.distance = options.min_separation, .norm = norm_of(options.norm)};
+}
+
 TouchstoneImpact impact_of(const fast::CertifiedResult& result) {
   TouchstoneImpact impact{TOUCHSTONE_NO, none, none, none, none};
   if (result.verdict == fast::Verdict::error) impact.verdict = TOUCHSTONE_ERROR;
@@ -101,7 +105,7 @@ void solve(std::int32_t kind, std::size_t count, const double* coordinates,
   fast::solve(kind_of(kind), queries, results,
               {.toi_tolerance = options.toi_tolerance,
                .t_max = options.t_max,
-               .separation = {.distance = options.min_separation, .norm = norm_of(options.norm)},
+               .separation = separation_of(options),
                .max_threads = options.max_threads});
   for (std::size_t i = 0; i < count; ++i)
     (&required(impacts, "impacts"))[i] = impact_of(results[i]);
@@ -126,12 +130,11 @@ std::unique_ptr<TouchstoneStep> step_of(const TouchstoneMesh& mesh,
   result->step.emplace(
       coordinates(before), coordinates(after),
       fast::MeshElements{.edges = result->edges, .faces = result->faces, .points = result->points},
-      fast::StepOptions{
-          .separation = {.distance = options.min_separation, .norm = norm_of(options.norm)},
-          .toi_tolerance = options.toi_tolerance,
-          .t_max = options.t_max,
-          .max_threads = options.max_threads,
-          .groups = groups});
+      fast::StepOptions{.separation = separation_of(options),
+                        .toi_tolerance = options.toi_tolerance,
+                        .t_max = options.t_max,
+                        .max_threads = options.max_threads,
+                        .groups = groups});
   return result;
 }
 
@@ -160,7 +163,11 @@ const char* touchstone_version() { return TOUCHSTONE_VERSION; }
 
 const char* touchstone_last_error() { return last_error().c_str(); }
 
-TouchstoneOptions touchstone_default_options() { return {0.0, 1.0, 1e-12, TOUCHSTONE_LINF, 0}; }
+TouchstoneOptions touchstone_default_options() {
+  const touchstone::fast::CertifiedOptions usual;
+  return {usual.separation.distance, usual.t_max, usual.toi_tolerance, TOUCHSTONE_LINF,
+          usual.max_threads};
+}
 
 std::int32_t touchstone_solve(std::int32_t kind, std::size_t count, const double* coordinates,
                               const TouchstoneOptions* options, TouchstoneImpact* impacts) {

@@ -114,9 +114,7 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
 
   bool decide(Kind kind, const Query& query, double min_distance, double tmax, double& toi) const {
     toi = 0.0;
-    if (!std::ranges::all_of(query.coordinates, [](double x) { return std::isfinite(x); })) {
-      return true;
-    }
+    if (!is_finite(query)) return true;
     const fast::Distance d = fast::distance(kind, query, 0.0, Norm::l2);
     if (d.upper <= min_distance) return true;
     const fast::CertifiedResult result = fast::certified(

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "verify/fuzz/draws.hpp"
+#include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/symmetry.hpp"
 
 namespace touchstone::verify::fuzz {
@@ -202,12 +203,6 @@ EverydayScene draw_scene(Random& random) {
 }
 
 }  // namespace
-
-std::int64_t power_of_ten(int exponent) {
-  std::int64_t power = 1;
-  for (int i = 0; i < exponent; ++i) power *= 10;
-  return power;
-}
 
 Query everyday_query(Kind kind, const EverydayScene& scene, Random& random) {
   const std::array<Places, 2> ends = draw_ends(kind, scene, random);

@@ -47,7 +47,4 @@ struct EverydayScene {
 /// The same, but the first primitive is a unit away on one axis.
 [[nodiscard]] Query everyday_near_miss(Kind kind, generate::Random& random);
 
-/// 10^exponent. \pre 0 ≤ exponent ≤ 18
-[[nodiscard]] std::int64_t power_of_ten(int exponent);
-
 }  // namespace touchstone::verify::fuzz

@@ -202,6 +202,12 @@ Decimal shortest_decimal(double x) {
   return result;
 }
 
+std::int64_t power_of_ten(int exponent) {
+  std::int64_t power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
+}
+
 double from_decimal(std::uint64_t digits, int exponent) {
   std::array<char, 40> text{};
   char* end = std::to_chars(text.begin(), text.end(), digits).ptr;

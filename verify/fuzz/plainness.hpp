@@ -87,6 +87,9 @@ struct Decimal {
 /// \pre x is finite and positive
 [[nodiscard]] Decimal shortest_decimal(double x);
 
+/// 10^exponent. \pre 0 ≤ exponent ≤ 18
+[[nodiscard]] std::int64_t power_of_ten(int exponent);
+
 /// The double nearest to digits · 10^exponent.
 [[nodiscard]] double from_decimal(std::uint64_t digits, int exponent);
 

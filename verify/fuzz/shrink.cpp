@@ -27,12 +27,6 @@ std::uint64_t hash_of(const Query& query) {
 
 // ---- Plainer numbers ----------------------------------------------------------------------------
 
-constexpr std::uint64_t power_of_ten(int exponent) {
-  std::uint64_t power = 1;
-  for (int i = 0; i < exponent; ++i) power *= 10;
-  return power;
-}
-
 double with_sign_of(double x, double magnitude) { return x < 0.0 ? 0.0 - magnitude : magnitude; }
 
 /// The decimals of so many digits below and above a positive number; itself if it has no more.
@@ -40,7 +34,7 @@ std::array<double, 2> with_digits(double x, int digits) {
   const Decimal decimal = shortest_decimal(x);
   const int dropped = decimal.count - digits;
   if (dropped <= 0) return {x, x};
-  const std::uint64_t down = decimal.digits / power_of_ten(dropped);
+  const std::uint64_t down = decimal.digits / static_cast<std::uint64_t>(power_of_ten(dropped));
   return {from_decimal(down, decimal.exponent + dropped),
           from_decimal(down + 1, decimal.exponent + dropped)};
 }

@@ -44,19 +44,6 @@ struct Series {
   Repetitions earliest = {};
 };
 
-/// Candidates by kinds, of several threads at once.
-class CandidateCounts {
- public:
-  void add(const fast::StepCandidates& some) { count(some.kind) += some.pairs.size(); }
-
-  [[nodiscard]] std::atomic<std::size_t>& count(fast::PairKind kind) {
-    return counts_.at(static_cast<std::size_t>(kind));
-  }
-
- private:
-  std::array<std::atomic<std::size_t>, 4> counts_{};
-};
-
 class StepRun {
  public:
   StepRun(const mesh::MovingMesh& mesh, const StepBenchOptions& options)
@@ -74,7 +61,7 @@ class StepRun {
     result.edges = mesh_.edges.size();
     result.faces = mesh_.faces.size();
     for (std::size_t i = 0; i < options_.repetitions && !stopped(); ++i) {
-      if (!stopped()) pass_over_memory();
+      pass_over_memory();
       for (Series& series : series_) {
         if (!stopped()) repeat(series);
       }
@@ -117,17 +104,20 @@ class StepRun {
     std::optional<fast::Step> step;
     const fast::MeshElements elements{.edges = mesh_.edges, .faces = mesh_.faces, .points = {}};
     series.trees.add([&] { step.emplace(mesh_.vertices, elements, options); });
-    CandidateCounts candidates;
-    series.candidates.add(
-        [&] { step->candidates([&](const fast::StepCandidates& some) { candidates.add(some); }); });
+    for (auto& count : candidates_) count = 0;
+    series.candidates.add([&] {
+      step->candidates([&](const fast::StepCandidates& some) {
+        candidates_.at(index_of(some.kind)) += some.pairs.size();
+      });
+    });
     series.collisions.add([&] { collisions_ = step->collisions(); });
     series.earliest.add([&] { earliest_ = step->earliest(); });
-    vertex_face_ = candidates.count(fast::PairKind::vertex_face);
-    edge_edge_ = candidates.count(fast::PairKind::edge_edge);
   }
 
+  static std::size_t index_of(fast::PairKind kind) { return static_cast<std::size_t>(kind); }
+
   [[nodiscard]] StepCounts counts(fast::PairKind kind) const {
-    return {.candidates = kind == fast::PairKind::vertex_face ? vertex_face_ : edge_edge_,
+    return {.candidates = candidates_.at(index_of(kind)),
             .collisions = static_cast<std::size_t>(
                 std::ranges::count(collisions_, kind, &fast::StepCollision::kind))};
   }
@@ -146,8 +136,7 @@ class StepRun {
   std::vector<Series> series_;
   Repetitions memory_pass_;
   volatile std::uint64_t checksum_ = 0;
-  std::size_t vertex_face_ = 0;
-  std::size_t edge_edge_ = 0;
+  std::array<std::atomic<std::size_t>, 4> candidates_{};  ///< by kinds, of several threads at once
   std::vector<fast::StepCollision> collisions_;
   std::optional<fast::StepImpact> earliest_;
 };
