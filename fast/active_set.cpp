@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <tuple>
 
+#include "fast/certified/exact/closest_point_parameters.hpp"
 #include "fast/platform/floating_point_state.hpp"
 
 namespace touchstone::fast {
@@ -24,32 +25,20 @@ struct Contact {
 };
 
 Contact contact_of(Kind kind, const Query& query, const StepCollision& collision) {
-  double greatest = 0.0;
-  for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
-  int exponent = 0;
-  std::frexp(greatest, &exponent);
-  const auto at = [&](std::size_t end, const std::array<std::size_t, 2>& points) -> Vector3d {
-    const auto scaled = [&](double x) { return std::ldexp(x, -exponent); };
-    return query.point(end, points[0]).unaryExpr(scaled) -
-           query.point(end, points[1]).unaryExpr(scaled);
-  };
-  const auto [r, p, q] = affine_vectors(kind);
+  using exact_stage::AffineVectors;
+  const auto [start, end] = exact_stage::scaled_vectors(kind, query);
   const double t = collision.toi_upper, u = collision.u, v = collision.v;
-  const auto now = [&](const std::array<std::size_t, 2>& points) -> Vector3d {
-    return (1.0 - t) * at(0, points) + t * at(1, points);
-  };
-  const auto moved = [&](const std::array<std::size_t, 2>& points) -> Vector3d {
-    return at(1, points) - at(0, points);
-  };
+  const AffineVectors now{(1.0 - t) * start.r + t * end.r, (1.0 - t) * start.p + t * end.p,
+                          (1.0 - t) * start.q + t * end.q};
+  const AffineVectors moved{end.r - start.r, end.p - start.p, end.q - start.q};
   Contact result;
-  result.p = now(p);
-  result.q = now(q);
-  result.f = now(r) - u * result.p - v * result.q;
-  result.rate = moved(r) - u * moved(p) - v * moved(q);
+  result.p = now.p;
+  result.q = now.q;
+  result.f = now.r - u * now.p - v * now.q;
+  result.rate = moved.r - u * moved.p - v * moved.q;
   constexpr double rounding = 0x1p-40;
-  const double size =
-      std::max({now(r).lpNorm<Eigen::Infinity>(), result.p.lpNorm<Eigen::Infinity>(),
-                result.q.lpNorm<Eigen::Infinity>()});
+  const double size = std::max({now.r.lpNorm<Eigen::Infinity>(), result.p.lpNorm<Eigen::Infinity>(),
+                                result.q.lpNorm<Eigen::Infinity>()});
   result.error = rounding * size + (t - collision.toi_lower) * result.rate.stableNorm();
   return result;
 }
@@ -94,16 +83,10 @@ ActiveContact active_contact(const Step& step, const StepCollision& collision) {
   const double u = collision.u, v = collision.v;
   const auto at = [&](std::size_t point) { return place(query, point, collision.toi_upper); };
   const bool is_face = kind == Kind::vertex_face;
-  return {.kind = collision.kind,
-          .pair = collision.pair,
-          .toi_lower = collision.toi_lower,
-          .toi_upper = collision.toi_upper,
-          .u = u,
-          .v = v,
-          .first = is_face ? at(0) : Vector3d((1.0 - u) * at(0) + u * at(1)),
-          .second = is_face ? Vector3d((1.0 - u - v) * at(1) + u * at(2) + v * at(3))
-                            : Vector3d((1.0 - v) * at(2) + v * at(3)),
-          .normal = normal_of(contact_of(kind, query, collision))};
+  return {collision, is_face ? at(0) : Vector3d((1.0 - u) * at(0) + u * at(1)),
+          is_face ? Vector3d((1.0 - u - v) * at(1) + u * at(2) + v * at(3))
+                  : Vector3d((1.0 - v) * at(2) + v * at(3)),
+          normal_of(contact_of(kind, query, collision))};
 }
 
 }  // namespace

@@ -32,15 +32,8 @@
 
 namespace touchstone::fast {
 
-struct ActiveContact {
-  PairKind kind = PairKind::vertex_face;
-  IndexPair pair{};
-  /// Around the time of impact, as StepCollision.
-  double toi_lower = 0.0;
-  double toi_upper = 0.0;
-  /// Where, as StepCollision.
-  double u = 0.0;
-  double v = 0.0;
+/// Two primitives that come within η, and where.
+struct ActiveContact : StepCollision {
   /// The contact points at toi_upper: on the first primitive and on the second.
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Vector3d second = Eigen::Vector3d::Zero();

@@ -142,12 +142,7 @@ class LeastDistanceSearch {
         for (const IndexPair& pair : some.pairs) consider(some.kind, pair);
         return;
       }
-      std::vector<Query> queries;
-      queries.reserve(some.pairs.size());
-      for (const IndexPair& pair : some.pairs) queries.push_back(near.query_of(some.kind, pair));
-      for (const std::uint32_t i :
-           perhaps_within(Step::kind_of(some.kind), queries, {.distance = known, .norm = norm_},
-                          step_.certified().kernel)) {
+      for (const std::uint32_t i : perhaps_within(near, some, {.distance = known, .norm = norm_})) {
         consider(some.kind, some.pairs[i]);
       }
     });

@@ -15,6 +15,7 @@
 #include "fast/certified.hpp"
 #include "fast/distance/nearness.hpp"
 #include "fast/platform/floating_point_state.hpp"
+#include "fast/step/scene.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -125,12 +126,8 @@ class SearchOfPairs {
 
  private:
   void consider(const StepCandidates& some) {
-    std::vector<Query> queries;
-    queries.reserve(some.pairs.size());
-    for (const IndexPair& pair : some.pairs) queries.push_back(step_.query_of(some.kind, pair));
     const Separation reach{.distance = reach_until(std::min(upper_.load(), 1.0)), .norm = norm_};
-    for (const std::uint32_t i :
-         perhaps_within(Step::kind_of(some.kind), queries, reach, step_.certified().kernel)) {
+    for (const std::uint32_t i : perhaps_within(step_, some, reach)) {
       consider(some.kind, some.pairs[i]);
     }
   }
@@ -160,10 +157,7 @@ class SearchOfPairs {
     options.separation = {.distance = *kept, .norm = norm_};
     const CertifiedResult result = certified(query_kind, query, options);
     if (result.verdict != Verdict::yes) return;
-    const bool has_u = kind != PairKind::vertex_vertex;
-    const bool has_v = has_u && kind != PairKind::vertex_edge;
-    add({kind, pair, result.toi_lower, result.toi_upper, has_u ? result.u : 0.0,
-         has_v ? result.v : 0.0});
+    add(collision_of(kind, pair, result));
   }
 
   void add(const StepCollision& collision) {

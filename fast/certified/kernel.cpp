@@ -9,16 +9,6 @@ extern const CertifiedKernel avx2_certified_kernel;
 extern const CertifiedKernel avx512_certified_kernel;
 #endif
 
-namespace {
-
-bool rounds_products(const CertifiedKernel& kernel) {
-  // (1+ε)(1−ε) − 1 for ε = 2^-30: 0 if the product rounds to 1.
-  constexpr double epsilon = 0x1p-30;
-  return kernel.product_then_sum(1.0 + epsilon, 1.0 - epsilon, -1.0) == 0.0;
-}
-
-}  // namespace
-
 std::span<const CertifiedKernel* const> certified_kernels() {
   static const auto kernels = runnable_kernels<CertifiedKernel>(
       {
@@ -28,7 +18,7 @@ std::span<const CertifiedKernel* const> certified_kernels() {
           &avx512_certified_kernel,
 #endif
       },
-      "certified kernel", rounds_products);
+      "certified kernel", rounds_its_products<CertifiedKernel>);
   return kernels;
 }
 

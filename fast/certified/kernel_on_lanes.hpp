@@ -105,14 +105,6 @@ void decide(const KernelInput& input, KernelOutput& output) {
   }
 }
 
-template <class Lanes>
-double product_then_sum(double a, double b, double c) {
-  using Value = typename Lanes::Value;
-  Numbers<Lanes> result;
-  (Value(a) * Value(b) + Value(c)).store(result.data());
-  return result[0];
-}
-
 }  // namespace touchstone::fast::kernel
 
 namespace touchstone::fast {
@@ -121,7 +113,7 @@ template <class Lanes>
 constexpr CertifiedKernel certified_kernel_on(InstructionSet instructions) {
   return {.instructions = instructions,
           .decide = kernel::decide<Lanes>,
-          .product_then_sum = kernel::product_then_sum<Lanes>};
+          .product_then_sum = product_then_sum<Lanes>};
 }
 
 }  // namespace touchstone::fast

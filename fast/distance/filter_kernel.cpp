@@ -24,12 +24,6 @@ constexpr DistanceKernel scalar_distance_kernel{
     .filter = filter_one_by_one,
     .product_then_sum = [](double a, double b, double c) { return a * b + c; }};
 
-bool rounds_its_products(const DistanceKernel& kernel) {
-  // (1+ε)(1−ε) − 1 for ε = 2^-30: 0 if the product rounds to 1.
-  constexpr double epsilon = 0x1p-30;
-  return kernel.product_then_sum(1.0 + epsilon, 1.0 - epsilon, -1.0) == 0.0;
-}
-
 }  // namespace
 
 std::span<const DistanceKernel* const> distance_kernels() {
@@ -41,7 +35,7 @@ std::span<const DistanceKernel* const> distance_kernels() {
           &avx512_distance_kernel,
 #endif
       },
-      "distance kernel", rounds_its_products);
+      "distance kernel", rounds_its_products<DistanceKernel>);
   return kernels;
 }
 

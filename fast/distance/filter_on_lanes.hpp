@@ -182,12 +182,8 @@ class Filter {
       const auto side = polygon::side(guess, i);
       consider((side.from < zero) & (side.to > zero), side.area / side.square, 1.0, i);
     }
-    constexpr double thin = 0x1p-60;  // the normal of what is thinner has no digit right
     const auto face = polygon::face(guess);
-    const auto first = polygon::difference(guess.corner[1], guess.corner[0]);
-    const auto last = polygon::difference(guess.corner[corner_count - 1], guess.corner[0]);
-    Mask is_inside =
-        face.square > Value(thin) * (filters::dot(first, first) * filters::dot(last, last));
+    Mask is_inside = face.square > polygon::square_of_thin_normal(guess);
     for (std::size_t i = 0; i < corner_count; ++i) is_inside = is_inside & (face.turns[i] >= zero);
     kind_of_feature_ = select(is_inside, Value(2.0), kind_of_feature_);
     first_ = select(is_inside, zero, first_);
@@ -288,14 +284,6 @@ void filter(Kind kind, const Query* queries, std::size_t count, double t, Distan
   }
 }
 
-template <class Lanes>
-double product_then_sum(double a, double b, double c) {
-  using Value = typename Lanes::Value;
-  std::array<double, Lanes::width> result;
-  (Value(a) * Value(b) + Value(c)).store(result.data());
-  return result[0];
-}
-
 }  // namespace touchstone::fast::distance_filter
 
 namespace touchstone::fast {
@@ -304,7 +292,7 @@ template <class Lanes>
 constexpr DistanceKernel distance_kernel_on(InstructionSet instructions) {
   return {.instructions = instructions,
           .filter = distance_filter::filter<Lanes>,
-          .product_then_sum = distance_filter::product_then_sum<Lanes>};
+          .product_then_sum = product_then_sum<Lanes>};
 }
 
 }  // namespace touchstone::fast

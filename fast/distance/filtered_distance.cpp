@@ -77,12 +77,8 @@ struct FeatureName {
 
 FeatureName nearest_feature(const Guess& p) {
   if (p.has_face()) {
-    constexpr double thin = 0x1p-60;  // the normal of what is thinner has no digit right
     const auto face = polygon::face(p);
-    const auto first = polygon::difference(p.corner[1], p.corner[0]);
-    const auto last = polygon::difference(p.corner[p.count - 1], p.corner[0]);
-    const bool has_normal =
-        face.square > thin * filters::dot(first, first) * filters::dot(last, last);
+    const bool has_normal = face.square > polygon::square_of_thin_normal(p);
     const bool is_inside = std::ranges::all_of(std::span(face.turns).first(p.count),
                                                [](double x) { return x >= 0.0; });
     if (has_normal && is_inside) return {FeatureKind::face, 0};

@@ -25,4 +25,15 @@ std::vector<std::uint32_t> perhaps_within(Kind kind, std::span<Query> queries,
   return result;
 }
 
+std::vector<std::uint32_t> perhaps_within(const Step& step, const StepCandidates& candidates,
+                                          const Separation& separation) {
+  std::vector<Query> queries;
+  queries.reserve(candidates.pairs.size());
+  for (const IndexPair& pair : candidates.pairs) {
+    queries.push_back(step.query_of(candidates.kind, pair));
+  }
+  return perhaps_within(Step::kind_of(candidates.kind), queries, separation,
+                        step.certified().kernel);
+}
+
 }  // namespace touchstone::fast

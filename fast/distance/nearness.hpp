@@ -12,6 +12,7 @@
 
 #include "exact/query.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/step.hpp"
 
 namespace touchstone::fast {
 
@@ -22,5 +23,10 @@ namespace touchstone::fast {
 [[nodiscard]] std::vector<std::uint32_t> perhaps_within(Kind kind, std::span<Query> queries,
                                                         const Separation& separation,
                                                         const CertifiedKernel* kernel = nullptr);
+
+/// The same of some of a step's candidates, by the step's kernel.
+[[nodiscard]] std::vector<std::uint32_t> perhaps_within(const Step& step,
+                                                        const StepCandidates& candidates,
+                                                        const Separation& separation);
 
 }  // namespace touchstone::fast

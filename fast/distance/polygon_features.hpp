@@ -138,6 +138,14 @@ template <class Number>
   return result;
 }
 
+/// In doubles, a normal whose |N|² is not above this has no digit right. \pre p.has_face()
+template <class Number>
+[[nodiscard]] Number square_of_thin_normal(const Polygon<Number>& p) {
+  const Vector<Number> first = difference(p.corner[1], p.corner[0]);
+  const Vector<Number> last = difference(p.corner[p.count - 1], p.corner[0]);
+  return Number(0x1p-60) * (filters::dot(first, first) * filters::dot(last, last));
+}
+
 // ---- L∞ -----------------------------------------------------------------------------------------
 
 /// An axis a: the a·w_k that differ, and |a|₁.

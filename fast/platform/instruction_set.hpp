@@ -5,6 +5,7 @@
 /// implementations at run time.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
@@ -48,6 +49,23 @@ template <class Kernel, class Check>
     kernels.push_back(kernel);
   }
   return kernels;
+}
+
+/// a b + c on lanes of one instruction set. `Lanes` is a type of its file, with Value and width.
+template <class Lanes>
+double product_then_sum(double a, double b, double c) {
+  using Value = typename Lanes::Value;
+  alignas(64) std::array<double, Lanes::width> result;
+  (Value(a) * Value(b) + Value(c)).store(result.data());
+  return result[0];
+}
+
+/// For runnable_kernels, of a kernel with the member `product_then_sum`.
+template <class Kernel>
+[[nodiscard]] bool rounds_its_products(const Kernel& kernel) {
+  // (1+ε)(1−ε) − 1 for ε = 2^-30: 0 if the product rounds to 1.
+  constexpr double epsilon = 0x1p-30;
+  return kernel.product_then_sum(1.0 + epsilon, 1.0 - epsilon, -1.0) == 0.0;
 }
 
 /// The one of an instruction set; nullptr if there is none.

@@ -248,12 +248,11 @@ Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
   return result;
 }
 
-StepCollision Scene::collision(PairKind kind, const IndexPair& pair,
-                               const CertifiedResult& result) const {
+StepCollision collision_of(PairKind kind, const IndexPair& pair, const CertifiedResult& result) {
   const bool has_u = kind != PairKind::vertex_vertex;
   const bool has_v = has_u && kind != PairKind::vertex_edge;
   return {.kind = kind,
-          .pair = reported(kind, pair),
+          .pair = pair,
           .toi_lower = result.toi_lower,
           .toi_upper = result.toi_upper,
           .u = has_u ? result.u : 0.0,

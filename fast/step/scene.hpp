@@ -74,6 +74,10 @@ struct SceneMesh {
   std::optional<OfPrimitives<BodyTree>> bodies_of_groups;  ///< unless all meet
 };
 
+/// What the certified solver says of a pair that touches, with the numbers that users see.
+[[nodiscard]] StepCollision collision_of(PairKind kind, const IndexPair& pair,
+                                         const CertifiedResult& result);
+
 class Scene {
  public:
   /// Uses the threads of the task arena that it is called in. Refers to the elements.
@@ -133,7 +137,8 @@ class Scene {
         block, t_limit, certified_,
         [&](std::size_t i) { return fast::query_of(vertices_, candidates, candidates.pairs[i]); },
         [&](std::size_t i, const CertifiedResult& result) {
-          if (result.verdict == Verdict::yes) report(i, collision(kind, pairs[i], result));
+          if (result.verdict != Verdict::yes) return;
+          report(i, collision_of(kind, reported(kind, pairs[i]), result));
         });
   }
 
@@ -157,9 +162,6 @@ class Scene {
   /// The pairs for the certified solver. \param room for their numbers, if these are others
   [[nodiscard]] Candidates candidates_of(PairKind kind, std::span<const IndexPair> pairs,
                                          PairRoom& room) const;
-  [[nodiscard]] StepCollision collision(PairKind kind, const IndexPair& pair,
-                                        const CertifiedResult& result) const;
-
   /// The primitives of a pair.
   [[nodiscard]] std::array<Primitive, 2> primitives_of(PairKind kind, const IndexPair& pair) const;
   /// Are their swept boxes within the separation?

@@ -20,23 +20,11 @@ struct Polygon {
   [[nodiscard]] Eigen::Vector3d at(const Parameters& x) const { return r - x.u * p - x.v * q; }
 };
 
-/// At time t, scaled so that nothing overflows. The points are differences first: a common motion or
-/// position costs no accuracy.
+/// At time t, scaled.
 Polygon polygon_at(Kind kind, const Query& query, double t) {
-  double largest = 0.0;
-  for (const double x : query.coordinates) largest = std::max(largest, std::abs(x));
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  const auto scaled = [&](double x) { return std::ldexp(x, -exponent); };
-  const auto moving = [&](const std::array<std::size_t, 2>& points) {
-    const auto at = [&](std::size_t end) -> Eigen::Vector3d {
-      return query.point(end, points[0]).unaryExpr(scaled) -
-             query.point(end, points[1]).unaryExpr(scaled);
-    };
-    return Eigen::Vector3d((1.0 - t) * at(0) + t * at(1));
-  };
-  const auto [r, p, q] = affine_vectors(kind);
-  return {kind, moving(r), moving(p), moving(q)};
+  const auto [start, end] = scaled_vectors(kind, query);
+  return {kind, (1.0 - t) * start.r + t * end.r, (1.0 - t) * start.p + t * end.p,
+          (1.0 - t) * start.q + t * end.q};
 }
 
 /// The best of the points of the domain that it is shown.
@@ -143,6 +131,23 @@ void search_greatest_component(const Polygon& polygon, Search& search) {
 }
 
 }  // namespace
+
+std::array<AffineVectors, 2> scaled_vectors(Kind kind, const Query& query) {
+  double largest = 0.0;
+  for (const double x : query.coordinates) largest = std::max(largest, std::abs(x));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const auto scaled = [&](double x) { return std::ldexp(x, -exponent); };
+  const auto vectors = affine_vectors(kind);
+  const auto at = [&](std::size_t end) -> AffineVectors {
+    const auto vector = [&](const std::array<std::size_t, 2>& points) -> Eigen::Vector3d {
+      return query.point(end, points[0]).unaryExpr(scaled) -
+             query.point(end, points[1]).unaryExpr(scaled);
+    };
+    return {vector(vectors[0]), vector(vectors[1]), vector(vectors[2])};
+  };
+  return {at(0), at(1)};
+}
 
 Parameters nearest_parameters(Kind kind, const Query& query, double t, Norm norm) {
   const Polygon polygon = polygon_at(kind, query, t);
