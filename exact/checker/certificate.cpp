@@ -9,40 +9,19 @@
 namespace touchstone::checker {
 namespace {
 
-/// The beginning of a word, for a message.
-std::string quoted(std::string_view word) {
-  return "'" + printable(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
-}
-
-// ---- Numbers: what is taken is taken from the beginning of a text ---------------------------------
+// ---- Numbers --------------------------------------------------------------------------------------
 
 [[noreturn]] void reject_as_too_large() {
   reject("a number with more than " + std::to_string(max_number_bits) + " bits");
 }
 
-bool take(std::string_view& text, std::string_view beginning) {
-  if (!text.starts_with(beginning)) return false;
-  text.remove_prefix(beginning.size());
-  return true;
-}
-
-/// Takes at least one digit.
-std::string_view take_digits(std::string_view& text, int base) {
-  std::size_t count = 0;
-  const auto is_digit = [&](char c) {
-    return (c >= '0' && c <= '9') || (base == 16 && c >= 'a' && c <= 'f');
-  };
-  while (count < text.size() && is_digit(text[count])) ++count;
-  if (count == 0) reject("not a number");
-  const std::string_view digits = text.substr(0, count);
-  text.remove_prefix(count);
-  return digits;
-}
-
-mpz_class from_digits(std::string_view digits, int base) {
+mpz_class parse_digits(std::string_view digits, int base) {
+  const auto known = std::string_view("0123456789abcdef").substr(0, std::size_t(base));
+  if (digits.empty() || digits.find_first_not_of(known) != std::string_view::npos)
+    reject("not a number");
   if (digits.size() <= 16) {
     unsigned long small = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), small, base);
+    std::from_chars(digits.begin(), digits.end(), small, base);
     return small;
   }
   // 2^16384 has 4933 decimal digits; a longer text is not worth its conversion.
@@ -52,53 +31,52 @@ mpz_class from_digits(std::string_view digits, int base) {
   return number;
 }
 
+/// The parts of a text before and behind a separator, which may be missing.
+std::array<std::string_view, 2> parted(std::string_view text, char separator,
+                                       std::string_view behind) {
+  const std::size_t place = text.find(separator);
+  if (place == std::string_view::npos) return {text, behind};
+  return {text.substr(0, place), text.substr(place + 1)};
+}
+
 /// The text after 0x: H[.H]p[±]D, H hexadecimal and D decimal digits.
-void take_hexadecimal(std::string_view& text, mpq_class& number) {
-  std::string digits(take_digits(text, 16));
-  const std::size_t whole_digits = digits.size();
-  if (take(text, ".")) digits += take_digits(text, 16);
-  if (!take(text, "p")) reject("not a number");
-  const long sign = take(text, "-") ? -1 : 1;
-  if (sign > 0) take(text, "+");
-  const std::string_view power = take_digits(text, 10);
+mpq_class parse_hexadecimal(std::string_view text) {
+  const auto [digits, signed_power] = parted(text, 'p', "");
+  const auto [whole, fraction] = parted(digits, '.', "");
+  std::string_view power = signed_power;
+  const bool is_signed = power.starts_with('-') || power.starts_with('+');
+  power.remove_prefix(is_signed ? 1 : 0);
+  if (whole.empty() || digits.ends_with('.')) reject("not a number");
   if (power.size() > 6) reject_as_too_large();
-  long exponent = 0;
-  std::from_chars(power.begin(), power.end(), exponent);
-  exponent = sign * exponent - 4 * static_cast<long>(digits.size() - whole_digits);
-  number.get_num() = from_digits(digits, 16);
+  long exponent = long(parse_digits(power, 10).get_si());
+  if (signed_power.starts_with('-')) exponent = -exponent;
+  exponent -= 4 * std::ssize(fraction);
+  mpq_class number(parse_digits(std::string(whole).append(fraction), 16));
   // The integers of the fraction: number · 2^exponent / 1 or number / 2^−exponent.
   constexpr long limit = max_number_bits;
   const long room = limit - static_cast<long>(mpz_sizeinbase(number.get_num_mpz_t(), 2));
   if (exponent > room || 1 - exponent > limit) reject_as_too_large();
-  if (exponent > 0) number <<= static_cast<mp_bitcnt_t>(exponent);
-  if (exponent < 0) number >>= static_cast<mp_bitcnt_t>(-exponent);
+  exponent > 0 ? number <<= mp_bitcnt_t(exponent) : number >>= mp_bitcnt_t(-exponent);
+  return number;
 }
 
-/// N or N/D.
-void take_fraction(std::string_view& text, mpq_class& number) {
-  number.get_num() = from_digits(take_digits(text, 10), 10);
-  if (!take(text, "/")) return;
-  number.get_den() = from_digits(take_digits(text, 10), 10);
-  if (number.get_den() == 0) reject("a denominator that is 0");
-  number.canonicalize();
-}
-
-mpq_class parse(std::string_view word, bool is_integer = false) {
-  try {
-    std::string_view text = word;
-    const bool is_negative = take(text, "-");
-    mpq_class number;
-    if (is_integer) {
-      number.get_num() = from_digits(take_digits(text, 10), 10);
-    } else {
-      take(text, "0x") ? take_hexadecimal(text, number) : take_fraction(text, number);
-    }
-    if (!text.empty()) reject(is_integer ? "not an integer" : "not a number");
-    if (is_negative) number = -number;
-    return number;
-  } catch (const Rejected& rejected) {
-    reject(rejected.reason + ": " + quoted(word));
+mpq_class parse(std::string_view word, bool is_integer = false) try {
+  const std::string_view text = word.substr(word.starts_with('-') ? 1 : 0);
+  mpq_class number;
+  if (is_integer) {
+    number = parse_digits(text, 10);
+  } else if (text.starts_with("0x")) {
+    number = parse_hexadecimal(text.substr(2));
+  } else {
+    const auto [above, below] = parted(text, '/', "1");
+    number.get_num() = parse_digits(above, 10);
+    number.get_den() = parse_digits(below, 10);
+    if (number.get_den() == 0) reject("a denominator that is 0");
+    number.canonicalize();
   }
+  return word.starts_with('-') ? mpq_class(-number) : number;
+} catch (const Rejected& rejected) {
+  reject(rejected.reason + ": " + quoted(word));
 }
 
 // ---- The parts of a certificate -----------------------------------------------------------------
@@ -117,15 +95,10 @@ void read_query(Reader& reader, Certificate& certificate) {
   }
   for (std::size_t n = 0; n < certificate.coordinates.size(); ++n) {
     if (n % 3 == 0) reader.begin("point");
-    certificate.coordinates[n] = parse(reader.word());
+    certificate.coordinates[n] = read_number(reader);
     if (n % 3 == 2) reader.end();
   }
-  if (!reader.is_line() || reader.first_word() != "separation") return;
-  reader.begin("separation");
-  certificate.distance = parse(reader.word());
-  if (certificate.distance < 0) reject("a distance below 0");
-  certificate.is_l2 = reader.one_of({"linf", "l2"}) == 1;
-  reader.end();
+  if (reader.is_line() && reader.first_word() == "separation") read_separation(reader, certificate);
 }
 
 void read_claim(Reader& reader, Certificate& certificate) {
@@ -133,8 +106,8 @@ void read_claim(Reader& reader, Certificate& certificate) {
   reader.begin("claim");
   certificate.claim = Claim(reader.one_of({"no_collision", "collision", "time_of_impact"}));
   if (certificate.claim == Claim::time_of_impact) {
-    certificate.lower = parse(reader.word());
-    certificate.upper = parse(reader.word());
+    certificate.lower = read_number(reader);
+    certificate.upper = read_number(reader);
   }
   reader.end();
 }
@@ -152,8 +125,8 @@ void read_piece(Reader& reader, Certificate& certificate) {
   Piece& piece = certificate.pieces.emplace_back();
   piece.line = reader.number();
   reader.begin("separate");
-  piece.from = parse(reader.word());
-  piece.to = parse(reader.word());
+  piece.from = read_number(reader);
+  piece.to = read_number(reader);
   piece.feature = Feature(reader.one_of({"vertex", "edge", "face", "axis", "cross"}));
   if (piece.feature >= Feature::axis) piece.axis = reader.one_of({"x", "y", "z"});
   if (piece.feature == Feature::face || piece.feature == Feature::axis) {
@@ -162,33 +135,6 @@ void read_piece(Reader& reader, Certificate& certificate) {
     piece.i = read_corner(reader, certificate);
     if (piece.feature != Feature::vertex) piece.j = read_corner(reader, certificate);
   }
-  reader.end();
-}
-
-void read_contact(Reader& reader, Certificate& certificate) {
-  Contact& contact = certificate.contact;
-  contact.line = reader.number();
-  reader.begin("contact");
-  contact.is_root = reader.one_of({"time", "root"}) == 1;
-  contact.from = parse(reader.word());
-  contact.to = contact.is_root ? parse(reader.word()) : contact.from;
-  while (contact.is_root && reader.has_word()) {
-    if (contact.g.size() > max_root_degree) {
-      reject("a polynomial of a degree above " + std::to_string(max_root_degree));
-    }
-    contact.g.push_back(parse(reader.word(), true).get_num());
-  }
-  if (contact.is_root && contact.g.size() < 2) reject("a polynomial of a degree below 1");
-  if (contact.is_root && contact.g.back() == 0)
-    reject("a polynomial whose leading coefficient is 0");
-  reader.end();
-  reader.begin("at");
-  contact.place = Place(reader.one_of({"vertex", "segment", "triangle", "edge", "face", "axes"}));
-  static constexpr std::array<std::size_t, 6> counts{1, 2, 3, 2, 0, 0};
-  for (std::size_t n = 0; n < counts.at(std::size_t(contact.place)); ++n) {
-    contact.corners.at(n) = read_corner(reader, certificate);
-  }
-  if (contact.place == Place::triangle) contact.axis = reader.one_of({"x", "y", "z"});
   reader.end();
 }
 
@@ -205,9 +151,13 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string quoted(std::string_view word) {
+  return "'" + printable(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
+}
+
 void Reader::advance() {
   do {
-    stream_->getline(buffer_.data(), std::ssize(buffer_));
+    stream_->getline(buffer_.data() + 1, std::ssize(buffer_) - 1);
     auto length = static_cast<std::size_t>(stream_->gcount());
     at_end_ = stream_->eof() && length == 0;
     fault_ = nullptr;
@@ -224,16 +174,16 @@ void Reader::advance() {
     }
     if (stream_->bad()) throw std::runtime_error("the stream cannot be read");
     if (!at_end_) ++number_;
-    text_ = {buffer_.data(), length};
+    text_ = {buffer_.data() + 1, length};
   } while (number_ > 1 && fault_ == nullptr && (text_.empty() || text_.front() == '#'));
 }
 
 void Reader::begin(std::string_view keyword) {
   if (fault_ != nullptr) reject(fault_);
-  if (first_word() != keyword) {
+  rest_ = {buffer_.data(), text_.size() + 1};
+  if (!keyword.empty() && word() != keyword) {
     reject("expected '" + std::string(keyword) + "', found " + quoted(first_word()));
   }
-  rest_ = text_.substr(keyword.size());
 }
 
 std::string_view Reader::word() {
@@ -256,12 +206,52 @@ void Reader::end() {
   advance();
 }
 
+mpq_class read_number(Reader& reader) { return parse(reader.word()); }
+
+void read_separation(Reader& reader, Certificate& certificate) {
+  reader.begin("separation");
+  certificate.distance = read_number(reader);
+  if (certificate.distance < 0) reject("a distance below 0");
+  certificate.is_l2 = reader.one_of({"linf", "l2"}) == 1;
+  reader.end();
+}
+
+void read_pieces(Reader& reader, Certificate& certificate) {
+  certificate.pieces.clear();
+  while (reader.first_word() == "separate") read_piece(reader, certificate);
+}
+
+void read_contact(Reader& reader, Certificate& certificate) {
+  Contact& contact = certificate.contact;
+  contact.line = reader.number();
+  reader.begin("contact");
+  contact.is_root = reader.one_of({"time", "root"}) == 1;
+  contact.from = read_number(reader);
+  contact.to = contact.is_root ? read_number(reader) : contact.from;
+  while (contact.is_root && reader.has_word()) {
+    if (contact.g.size() > max_root_degree) {
+      reject("a polynomial of a degree above " + std::to_string(max_root_degree));
+    }
+    contact.g.push_back(parse(reader.word(), true).get_num());
+  }
+  if (contact.is_root && contact.g.size() < 2) reject("a polynomial of a degree below 1");
+  if (contact.is_root && contact.g.back() == 0)
+    reject("a polynomial whose leading coefficient is 0");
+  reader.end();
+  reader.begin("at");
+  contact.place = Place(reader.one_of({"vertex", "segment", "triangle", "edge", "face", "axes"}));
+  static constexpr std::array<std::size_t, 6> counts{1, 2, 3, 2, 0, 0};
+  for (std::size_t n = 0; n < counts.at(std::size_t(contact.place)); ++n) {
+    contact.corners.at(n) = read_corner(reader, certificate);
+  }
+  if (contact.place == Place::triangle) contact.axis = reader.one_of({"x", "y", "z"});
+  reader.end();
+}
+
 void read_certificate(Reader& reader, Certificate& certificate) {
   read_query(reader, certificate);
   read_claim(reader, certificate);
-  if (certificate.claim != Claim::collision) {
-    while (reader.first_word() == "separate") read_piece(reader, certificate);
-  }
+  if (certificate.claim != Claim::collision) read_pieces(reader, certificate);
   if (certificate.claim != Claim::no_collision) read_contact(reader, certificate);
   reader.begin("end");
   reader.end();

@@ -32,6 +32,8 @@ struct Rejected {
 
 /// The text with every byte that is not printable ASCII as \xHH.
 [[nodiscard]] std::string printable(std::string_view text);
+/// The beginning of a word, for a message.
+[[nodiscard]] std::string quoted(std::string_view word);
 
 enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 
@@ -91,7 +93,7 @@ struct Certificate {
 class Reader {
  public:
   /// Reads nothing yet.
-  explicit Reader(std::istream& stream) : stream_(&stream), buffer_(max_line_bytes + 1) {}
+  explicit Reader(std::istream& stream) : stream_(&stream), buffer_(max_line_bytes + 2, ' ') {}
 
   /// Goes to the first line, or to the next that is neither empty nor a comment.
   /// \throws std::runtime_error if the stream cannot be read.
@@ -105,8 +107,9 @@ class Reader {
   [[nodiscard]] bool is_line() const { return fault_ == nullptr; }
   [[nodiscard]] std::string_view first_word() const { return text_.substr(0, text_.find(' ')); }
 
-  /// Takes the line's first word. \throws Rejected if there is no line or the word is another.
-  void begin(std::string_view keyword);
+  /// Begins with the line, and takes its first word if it is named.
+  /// \throws Rejected if there is no line or the word is another.
+  void begin(std::string_view keyword = {});
   [[nodiscard]] bool has_word() const { return !rest_.empty(); }
   /// Takes the next word; words are separated by single spaces. \throws Rejected if there is none.
   std::string_view word();
@@ -117,6 +120,7 @@ class Reader {
 
  private:
   std::istream* stream_;
+  /// A space and the line.
   std::vector<char> buffer_;
   std::size_t number_ = 0;
   bool at_end_ = false;
@@ -125,6 +129,12 @@ class Reader {
   /// The rest of the line: nothing, or a space and the words after it.
   std::string_view rest_;
 };
+
+/// The parts of a certificate. They throw as read_certificate.
+[[nodiscard]] mpq_class read_number(Reader& reader);
+void read_separation(Reader& reader, Certificate& certificate);
+void read_pieces(Reader& reader, Certificate& certificate);
+void read_contact(Reader& reader, Certificate& certificate);
 
 /// Reads the certificate that begins at the present line and goes behind its `end`. Where it throws,
 /// the reader stands at the line at fault, and the certificate has its label if that came before.

@@ -1,21 +1,34 @@
 #include "exact/checker/checker.hpp"
 
+#include <optional>
 #include <stdexcept>
 
 #include "exact/checker/certificate.hpp"
 #include "exact/checker/proof.hpp"
+#include "exact/checker/step.hpp"
 
 namespace touchstone::checker {
 namespace {
 
 constexpr std::string_view header = "touchstone-certificates 2";
+constexpr std::string_view steps_header = "touchstone-steps 1";
 constexpr std::string_view closing_word = "certificates";
 constexpr std::size_t max_shown_bytes = 40;
 
-void count_rejection(Report& report, const Options& options, Rejection rejection) {
-  ++report.rejected;
-  if (report.rejections.size() < options.max_rejections) {
-    report.rejections.push_back(std::move(rejection));
+/// Does what may be rejected, and counts a rejection: at the line, or else that of the reader.
+/// \returns whether there was none.
+template <class Work>
+bool attempt(Report& report, const Options& options, const Reader& reader, const std::size_t& line,
+             const std::string& label, const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const Rejected& rejected) {
+    const std::size_t place = line != 0 ? line : reader.number();
+    if (report.rejected++ < options.max_rejections) {
+      report.rejections.push_back({place, printable(label), rejected.reason});
+    }
+    return false;
   }
 }
 
@@ -30,36 +43,44 @@ void check_one(Reader& reader, Report& report, const Options& options) {
   const std::size_t first = reader.number();
   Certificate certificate;
   std::size_t line_of_proof = 0;
-  try {
+  const bool is_accepted = attempt(report, options, reader, line_of_proof, certificate.label, [&] {
     read_certificate(reader, certificate);
     verify(certificate, line_of_proof);
     ++accepted(report, certificate.claim);
-  } catch (const Rejected& rejected) {
-    const bool is_read = line_of_proof != 0;
-    count_rejection(report, options,
-                    {.line = is_read ? line_of_proof : reader.number(),
-                     .label = printable(certificate.label),
-                     .reason = rejected.reason});
-    if (is_read) return;
-    const auto may_begin = [&] {
-      return reader.first_word() == "query" || reader.first_word() == closing_word;
-    };
-    while (!reader.at_end() && (reader.number() == first || !may_begin())) reader.advance();
-  }
+  });
+  if (is_accepted || line_of_proof != 0) return;
+  const auto may_begin = [&] {
+    return reader.first_word() == "query" || reader.first_word() == closing_word;
+  };
+  while (!reader.at_end() && (reader.number() == first || !may_begin())) reader.advance();
 }
 
-/// Checks the end of a stream with so many `query` lines: the closing line, and nothing behind it.
+/// Checks the end of a stream of so many certificates: the closing line, and nothing behind it.
 /// \throws Rejected if it is another, or missing.
-void check_end(Reader& reader, std::uint64_t queries) {
-  const std::string expected = std::string(closing_word) + ' ' + std::to_string(queries);
+void check_end(Reader& reader, std::string_view word, std::uint64_t certificates) {
+  const std::string expected = std::string(word) + ' ' + std::to_string(certificates);
   if (reader.at_end()) reject("the stream is cut: it has no closing line '" + expected + "'");
-  reader.begin(closing_word);
+  reader.begin(word);
   if (reader.text() != expected) {
     reject("expected the closing line '" + expected + "', found '" +
            printable(reader.text().substr(0, max_shown_bytes)) + "'");
   }
   reader.advance();
   if (!reader.at_end()) reject("a line after the closing line");
+}
+
+/// Checks the certificates of steps to the first that is rejected.
+void check_steps(Reader& reader, Report& report, const Options& options) {
+  std::size_t line_of_proof = 0;
+  attempt(report, options, reader, line_of_proof, "", [&] {
+    std::optional<Reader> scenes;
+    if (options.scenes != nullptr) scenes.emplace(*options.scenes).advance();
+    for (reader.advance(); reader.first_word() == "step";) {
+      report.steps.push_back(check_step(reader, scenes ? &*scenes : nullptr, line_of_proof));
+    }
+    check_end(reader, "steps", report.steps.size());
+    if (scenes && !scenes->at_end()) reject("not all scenes are proved");
+  });
 }
 
 }  // namespace
@@ -69,9 +90,13 @@ Report check(std::istream& certificates, const Options& options) {
   Report report;
   Reader reader(certificates);
   reader.advance();
+  if (reader.is_line() && reader.text() == steps_header) {
+    check_steps(reader, report, options);
+    return report;
+  }
   if (!reader.is_line() || reader.text() != header) {
-    count_rejection(report, options,
-                    {1, "", "the first line is not '" + std::string(header) + "'"});
+    attempt(report, options, reader, 1, "",
+            [] { reject("the first line is not '" + std::string(header) + "'"); });
     return report;
   }
   std::uint64_t queries = 0;
@@ -79,11 +104,7 @@ Report check(std::istream& certificates, const Options& options) {
     if (reader.first_word() == "query") ++queries;
     check_one(reader, report, options);
   }
-  try {
-    check_end(reader, queries);
-  } catch (const Rejected& rejected) {
-    count_rejection(report, options, {reader.number(), "", rejected.reason});
-  }
+  attempt(report, options, reader, 0, "", [&] { check_end(reader, closing_word, queries); });
   return report;
 }
 

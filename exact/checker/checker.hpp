@@ -4,8 +4,9 @@
 /// The checker: believes a certificate only if it proves its claim.
 ///
 /// It shares nothing with the rest of the project: the standard library and GMP are all it needs.
-/// Three files, to be read in this order: certificate.hpp/.cpp turn text into what it says
-/// (exact/CERTIFICATES.md is the format), proof.hpp/.cpp are the mathematics, checker.cpp counts.
+/// To be read in this order: certificate.hpp/.cpp turn text into what it says (exact/CERTIFICATES.md is
+/// the format), proof.hpp/.cpp are the mathematics, checker.cpp counts. For certificates of whole steps
+/// also places.hpp, which pairs need an argument, and step.hpp/.cpp, what is said of them.
 ///
 /// Four points move on straight lines. The *corners* are
 ///
@@ -51,6 +52,8 @@ namespace touchstone::checker {
 struct Options {
   /// Number of rejections that are kept with their reason; all are counted.
   std::size_t max_rejections = 100;
+  /// The scenes that certificates of steps have to be about, in order, without labels; null: any.
+  std::istream* scenes = nullptr;
 };
 
 /// Why a certificate was not accepted. The texts are printable ASCII whatever the bytes read: any
@@ -69,13 +72,17 @@ struct Report {
   std::uint64_t no_collision = 0;
   std::uint64_t collision = 0;
   std::uint64_t time_of_impact = 0;
+  /// What accepted certificates of steps prove, in some lines each.
+  std::vector<std::string> steps;
   /// Certificates that prove nothing, be it by their form or by their content; and one for a stream
   /// that does not begin with its header, or one for a stream that does not end with the closing line.
   std::uint64_t rejected = 0;
   /// The first of them, in the order of the stream.
   std::vector<Rejection> rejections;
 
-  [[nodiscard]] std::uint64_t accepted() const { return no_collision + collision + time_of_impact; }
+  [[nodiscard]] std::uint64_t accepted() const {
+    return no_collision + collision + time_of_impact + steps.size();
+  }
   [[nodiscard]] bool all_accepted() const { return rejected == 0; }
 };
 

@@ -13,10 +13,11 @@
 namespace {
 
 constexpr std::string_view usage =
-    "usage: touchstone-check FILE|-\n"
+    "usage: touchstone-check FILE|- [SCENES]\n"
     "\n"
     "Checks the certificates in a file, or on standard input for '-': each is accepted only if it\n"
     "proves its claim. The format and what is proved: exact/CERTIFICATES.md.\n"
+    "SCENES: the certificates are of steps, and of these scenes.\n"
     "Exit status: 0 all accepted and the stream complete, 1 at least one rejected or the stream "
     "cut,\n"
     "2 unreadable input, unwritable output or wrong usage.\n"
@@ -28,6 +29,7 @@ void print(const touchstone::checker::Report& report) {
             << report.no_collision << "\n  collision      " << report.collision
             << "\n  time_of_impact " << report.time_of_impact << "\nrejected         "
             << report.rejected << '\n';
+  for (const std::string& step : report.steps) std::cout << step;
   for (const auto& [line, label, reason] : report.rejections) {
     const std::string name = label.empty() ? "" : " (" + label + ")";
     std::cout << "  line " << line << name << ": " << reason << '\n';
@@ -36,9 +38,16 @@ void print(const touchstone::checker::Report& report) {
   if (hidden > 0) std::cout << "  and " << hidden << " more\n";
 }
 
-/// \throws std::runtime_error if standard output did not take all that was printed.
-void flush_output() {
-  if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
+/// Checks the file of this name, and says what comes of it. \returns whether all was accepted.
+bool check(const std::string& path, const char* scenes_path) {
+  std::ifstream file, scenes;
+  if (path != "-") file.open(path, std::ios::binary);
+  if (scenes_path != nullptr) scenes.open(scenes_path, std::ios::binary);
+  if (!file || !scenes) throw std::runtime_error("the file cannot be opened");
+  const auto report = touchstone::checker::check(
+      path == "-" ? std::cin : file, {.scenes = scenes_path != nullptr ? &scenes : nullptr});
+  print(report);
+  return report.all_accepted();
 }
 
 }  // namespace
@@ -46,25 +55,17 @@ void flush_output() {
 int main(int argc, char** argv) {
   // Without this std::cin takes an error for the end.
   std::ios::sync_with_stdio(false);
-  const std::string path = argc == 2 ? argv[1] : "";
+  const std::string path = argc == 2 || argc == 3 ? argv[1] : "";
+  const bool is_help = path == "--help";
+  if (path.empty() || (path.front() == '-' && path != "-" && !is_help)) {
+    std::cerr << usage;
+    return 2;
+  }
   try {
-    if (path == "--help") {
-      std::cout << usage;
-      flush_output();
-      return 0;
-    }
-    if (path.empty() || (path.front() == '-' && path != "-")) {
-      std::cerr << usage;
-      return 2;
-    }
-    std::ifstream file;
-    if (path != "-") file.open(path, std::ios::binary);
-    if (!file) throw std::runtime_error("the file cannot be opened");
-    std::istream& stream = path == "-" ? std::cin : file;
-    const auto report = touchstone::checker::check(stream);
-    print(report);
-    flush_output();
-    return report.all_accepted() ? 0 : 1;
+    if (is_help) std::cout << usage;
+    const bool is_good = is_help || check(path, argv[2]);
+    if (!std::cout.flush()) throw std::runtime_error("standard output cannot be written");
+    return is_good ? 0 : 1;
   } catch (const std::exception& error) {
     std::cerr << "touchstone-check: " << path << ": " << error.what() << '\n';
     return 2;

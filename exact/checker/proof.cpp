@@ -151,17 +151,19 @@ class Proof {
   Proof(const Certificate& certificate, std::size_t& line)
       : certificate_(certificate), line_(line), corners_(corners_of(certificate, distance_)) {}
 
-  void verify() {
+  std::uint64_t verify() {
     const mpq_class &lower = certificate_.lower, &upper = certificate_.upper;
     const Claim claim = certificate_.claim;
-    const bool is_at_zero = lower == 0 && upper == 0;
-    if (!is_at_zero && (lower < 0 || lower >= upper || upper > 1)) {
+    const bool is_toi = claim == Claim::time_of_impact;
+    const bool is_at_zero = is_toi && lower == 0 && upper == 0;
+    if (is_toi && !is_at_zero && (lower < 0 || lower >= upper || upper > 1)) {
       reject("a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1");
     }
     if (is_at_zero && !certificate_.pieces.empty()) reject("a time of impact 0 has no pieces");
     if (claim == Claim::no_collision) prove_no_contact(upper);
-    if (claim == Claim::time_of_impact && !is_at_zero) prove_no_contact(lower);
+    if (is_toi && !is_at_zero) prove_no_contact(lower);
     if (claim != Claim::no_collision) prove_contact(certificate_.contact);
+    return work_bits_;
   }
 
  private:
@@ -387,9 +389,9 @@ class Proof {
 
 }  // namespace
 
-void verify(const Certificate& certificate, std::size_t& line) {
+std::uint64_t verify(const Certificate& certificate, std::size_t& line) {
   line = certificate.line;
-  Proof(certificate, line).verify();
+  return Proof(certificate, line).verify();
 }
 
 }  // namespace touchstone::checker

@@ -110,6 +110,20 @@ class Mutator {
                                          "edge_edge",
                                          "nan",
                                          "certificates",
+                                         "vertices",
+                                         "faces",
+                                         "edges",
+                                         "points",
+                                         "groups",
+                                         "apart",
+                                         "sweep",
+                                         "no_contact",
+                                         "earliest",
+                                         "pair",
+                                         "vertex_edge",
+                                         "vertex_vertex",
+                                         "step",
+                                         "steps",
                                          ""});
     Words words = cut(line, ' ');
     const Words from = cut(other, ' ');
@@ -162,7 +176,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(report.collision <= count_lines(lines, "claim collision\n"));
   require(report.time_of_impact <= count_lines(lines, "claim time_of_impact "));
   require(!report.all_accepted() ||
-          count_lines(lines, "certificates " + std::to_string(report.accepted()) + "\n") > 0);
+          count_lines(lines, "certificates " + std::to_string(report.accepted()) + "\n") +
+                  count_lines(lines, "steps " + std::to_string(report.accepted()) + "\n") >
+              0);
+  require(report.steps.size() <= count_lines(lines, "step "));
   require(report.rejections.size() == std::min<std::uint64_t>(report.rejected, 3));
   for (const auto& rejection : report.rejections) {
     require(rejection.line >= 1 && rejection.line <= lines.size() + 1 && !rejection.reason.empty());

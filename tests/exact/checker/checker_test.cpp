@@ -325,7 +325,8 @@ TEST(Corpus, HasTheOutcomeThatItShould) {
       {"contacts.cert", {7, 0}}, {"features.cert", {6, 0}},  {"numbers.cert", {2, 0}},
       {"false.cert", {0, 7}},    {"broken.cert", {1, 7}},    {"wrong_header.cert", {0, 1}},
       {"cut.cert", {2, 1}},      {"empty.cert", {0, 0}},     {"miscounted.cert", {2, 1}},
-      {"deep.cert", {1, 1}},     {"distances.cert", {8, 0}}, {"false_distances.cert", {0, 6}}};
+      {"deep.cert", {1, 1}},     {"distances.cert", {8, 0}}, {"false_distances.cert", {0, 6}},
+      {"steps.cert", {3, 0}}};
   std::size_t found = 0;
   for (const auto& entry :
        std::filesystem::directory_iterator(root / "tests/exact/checker/corpus")) {
@@ -355,6 +356,10 @@ TEST(Manual, HasExamplesThatAreAccepted) {
   EXPECT_EQ(sum.no_collision, 2U);
   EXPECT_EQ(sum.collision, 1U);
   EXPECT_EQ(sum.time_of_impact, 2U);
+  const std::size_t steps = manual.find(fence + "touchstone-steps 1\n") + fence.size();
+  const Report report = check_text(manual.substr(steps, manual.find("\n```", steps) + 1 - steps));
+  EXPECT_EQ(rejections(report), Texts{});
+  EXPECT_EQ(report.steps.size(), 1U);
 }
 
 }  // namespace

@@ -121,9 +121,9 @@ TEST(Command, TellsAnEmptyOrCutStreamFromACompleteOne) {
 TEST(Command, KnowsItsUsage) {
   const auto [status, help] = run("--help");
   EXPECT_EQ(status, 0);
-  EXPECT_TRUE(help.starts_with("usage: touchstone-check FILE|-\n"));
+  EXPECT_TRUE(help.starts_with("usage: touchstone-check FILE|- [SCENES]\n"));
   EXPECT_NE(help.find("Example: "), std::string::npos);
-  for (const std::string arguments : {"", "--version", "-x", "a b", "- -", "''"}) {
+  for (const std::string arguments : {"", "--version", "-x", "a b c", "- -", "''"}) {
     EXPECT_EQ(run(arguments).status, 2) << arguments;
   }
 }

@@ -1,0 +1,144 @@
+#include "exact/checker/places.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "tests/support/random.hpp"
+
+// What the checker does in integers is held against the same in rational numbers: it never sees a
+// direction where there is none, nor leaves out a pair, and is at most a rounding too careful.
+
+namespace touchstone::checker::places_test {
+namespace {
+
+using tests::Random;
+using Pairs = std::set<std::pair<std::int32_t, std::int32_t>>;
+
+mpq_class place(const Motion& x, std::size_t axis, const mpq_class& t) {
+  return x[axis] + t * (mpq_class(x[axis + 3]) - x[axis]);
+}
+
+/// By how much d keeps a above b, less the distance.
+mpq_class gap(const std::vector<Motion>& vertices, double distance, const mpq_class& end,
+              const Primitive& a, const Primitive& b, const Direction& d) {
+  mpq_class least = 1;
+  bool is_first = true;
+  for (const mpq_class& t : {mpq_class(0), end}) {
+    for (const std::int32_t v : a) {
+      for (const std::int32_t w : b) {
+        mpq_class value = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const mpq_class difference =
+              place(vertices[std::size_t(v)], axis, t) - place(vertices[std::size_t(w)], axis, t);
+          value += mpq_class(long(d[axis])) * difference -
+                   mpq_class(distance) * mpq_class(long(std::abs(d[axis])));
+        }
+        if (is_first || value < least) least = value;
+        is_first = false;
+      }
+    }
+  }
+  return least;
+}
+
+std::vector<Motion> random_vertices(Random& random, std::size_t count, double size) {
+  std::vector<Motion> vertices(count);
+  for (Motion& x : vertices) {
+    for (double& c : x)
+      c = random.coin() ? size * random.between(-4, 4) : random.uniform(-size, size);
+  }
+  return vertices;
+}
+
+Elements random_elements(Random& random, int count, int vertices) {
+  Elements elements;
+  const auto vertex = [&] { return random.between(0, vertices - 1); };
+  for (int i = 0; i < count; ++i) elements[3 * i] = {vertex(), vertex(), vertex()};
+  return elements;
+}
+
+TEST(Places, SeesADirectionOnlyWhereItSeparates) {
+  Random random(1);
+  int seen = 0, close = 0;
+  for (int trial = 0; trial < 4'000; ++trial) {
+    const double size = std::ldexp(1.0, random.between(-1060, 1020));
+    const std::vector<Motion> vertices = random_vertices(random, 6, size);
+    const double distance = random.coin() ? 0.0 : 0.125 * size;
+    const mpq_class end = random.coin() ? mpq_class(1) : mpq_class(random.uniform(0, 1));
+    const Places places(vertices, distance, end);
+    const Primitive a{0, 1, 2}, b{3, 4, 5};
+    Direction d{};
+    for (auto& x : d) x = random.between(-1023, 1023);
+    const mpq_class exact = gap(vertices, distance, end, a, b, d);
+    const bool is_above = places.is_above(a, b, d);
+    EXPECT_TRUE(!is_above || exact > 0);
+    // Each of nine products is off by at most 1023 units of 2^-50 of the greatest coordinate.
+    mpq_class rounding(size);
+    rounding *= 4 * 9 * 1024;
+    rounding >>= 48;
+    EXPECT_TRUE(is_above || exact <= rounding);
+    seen += is_above ? 1 : 0;
+    close += exact > 0 && !is_above ? 1 : 0;
+  }
+  EXPECT_GT(seen, 20);
+  EXPECT_LT(close, 40);
+}
+
+TEST(Places, IsExactForSmallIntegers) {
+  Random random(2);
+  for (int trial = 0; trial < 4'000; ++trial) {
+    std::vector<Motion> vertices(6);
+    for (Motion& x : vertices) {
+      for (double& c : x) c = random.between(-3, 3);
+    }
+    const double distance = random.between(0, 1);
+    const Places places(vertices, distance, 1);
+    Direction d{};
+    for (auto& x : d) x = random.between(-2, 2);
+    const Primitive a{0, 1, 0}, b{2, 3, 4};
+    EXPECT_EQ(places.is_above(a, b, d), gap(vertices, distance, 1, a, b, d) > 0);
+  }
+}
+
+TEST(Places, FindsEveryPairThatNoAxisKeepsApart) {
+  Random random(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::vector<Motion> vertices = random_vertices(random, 12, 1.0);
+    const double distance = 0.25 * random.between(0, 1);
+    const mpq_class end = random.coin() ? mpq_class(1) : mpq_class(1, 3);
+    Places places(vertices, distance, end);
+    const Elements some = random_elements(random, 7, 12), others = random_elements(random, 9, 12);
+    const bool is_same = random.coin();
+    Pairs expected;
+    for (const auto& [i, a] : some) {
+      for (const auto& [j, b] : is_same ? some : others) {
+        if (is_same && j <= i) continue;
+        bool is_apart = false;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          Direction d{};
+          d.at(axis) = 1;
+          is_apart = is_apart || places.is_above(a, b, d) || places.is_above(b, a, d);
+        }
+        if (!is_apart) expected.emplace(i, j);
+      }
+    }
+    for (const std::size_t axis : {0U, 1U, 2U}) {
+      Pairs found;
+      places.find_near(some, is_same ? some : others, axis,
+                       [&](const Element& a, const Element& b) {
+                         EXPECT_TRUE(found.emplace(a.first, b.first).second);
+                       });
+      EXPECT_EQ(found, expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchstone::checker::places_test

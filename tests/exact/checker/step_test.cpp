@@ -1,0 +1,223 @@
+#include "exact/checker/step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "exact/checker/checker.hpp"
+#include "tests/support/built_files.hpp"
+
+// Certificates of steps: what is accepted, and that every falsehood in one is refused.
+
+namespace touchstone::checker::step_test {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// A triangle that falls towards another, tilted one, and stays above it.
+const std::string scene =
+    "vertices 6\n0 0 0 0 0 0\n4 0 4 4 0 4\n0 4 0 0 4 0\n1 1 2 1 1 0x1.8p+0\n2 1 3 2 1 "
+    "0x1.4p+1\n1 2 2 1 2 0x1.8p+0\nfaces 2\n0 1 2\n3 4 5\nedges 0\npoints 0\ngroups 0\napart 0\n";
+const std::string arguments =
+    "sweep x\nvertex_face\n3 0 -1 0 1\n4 0\nseparate 0 1 face +\n5 0 -1 0 1\nedge_edge\n2 3 1 0 "
+    "-1\n2 4 1 0 -1\n2 5 1 0 -1\nvertex_edge\nvertex_vertex\nend\n";
+
+std::string stream(const std::string& steps, std::size_t count = 1) {
+  return "touchstone-steps 1\n" + steps + "steps " + std::to_string(count) + "\n";
+}
+
+std::string step(const std::string& of = scene, const std::string& rest = arguments) {
+  return "step a label\n" + of + "separation 0 linf\nclaim no_contact 1\n" + rest;
+}
+
+/// Why the stream is refused; empty if it is not.
+std::string refusal(const std::string& text, const std::string* scenes = nullptr) {
+  std::istringstream in(text), given(scenes != nullptr ? *scenes : "");
+  const Report report = check(in, {.scenes = scenes != nullptr ? &given : nullptr});
+  EXPECT_EQ(report.rejections.size(), report.rejected);
+  return report.all_accepted() ? "" : report.rejections.at(0).reason;
+}
+
+std::string replaced(std::string text, std::string_view what, std::string_view by) {
+  const std::size_t place = text.find(what);
+  EXPECT_NE(place, std::string::npos) << what;
+  return text.replace(place, what.size(), by);
+}
+
+TEST(Step, SaysWhatItProves) {
+  std::istringstream in(stream(step()));
+  const Report report = check(in);
+  ASSERT_EQ(report.steps.size(), 1U);
+  EXPECT_EQ(report.steps[0],
+            "step a label\n6 vertices, 6 edges, 2 faces\nseparation 0 linf\nclaim no_contact 1\n");
+  EXPECT_EQ(report.accepted(), 1U);
+}
+
+TEST(Step, NeedsAnArgumentForEveryPair) {
+  for (const auto& [argument, name] : {std::pair("3 0 -1 0 1\n", "vertex_face 3 0"),
+                                       std::pair("4 0\nseparate 0 1 face +\n", "vertex_face 4 0"),
+                                       std::pair("2 4 1 0 -1\n", "edge_edge 2 4")}) {
+    EXPECT_EQ(refusal(stream(replaced(step(), argument, ""))),
+              "no argument for " + std::string(name));
+  }
+  EXPECT_EQ(refusal(stream(replaced(step(), "2 4 1 0 -1\n", "2 4 1 0 -1\n0 3 0 -1 0\n"))), "")
+      << "an argument more than needed";
+}
+
+TEST(Step, RefusesEveryFalsehood) {
+  const std::vector<std::pair<std::string, std::string>> falsehoods{
+      // A direction that separates not, or only at one end.
+      {"3 0 -1 0 1", "3 0 1 0 -1"},
+      {"3 0 -1 0 1", "3 0 0 0 1"},
+      {"3 0 -1 0 1", "3 0 0 0 0"},
+      {"separate 0 1 face +", "separate 0 1 face -"},
+      {"separate 0 1 face +", "separate 0 1/2 face +"},
+      // A vertex that moves elsewhere, so that it is where no box of the honest one was.
+      {"1 1 2 1 1 0x1.8p+0", "1 1 2 1 1 0"},
+      {"1 1 2 1 1 0x1.8p+0", "1 1 0 1 1 0x1.8p+0"},
+      // Two vertices of different triangles exchanged.
+      {"0 0 0 0 0 0\n4 0 4 4 0 4\n0 4 0 0 4 0\n1 1 2 1 1 0x1.8p+0\n",
+       "1 1 2 1 1 0x1.8p+0\n4 0 4 4 0 4\n0 4 0 0 4 0\n0 0 0 0 0 0\n"},
+      // Another mesh.
+      {"faces 2\n0 1 2\n3 4 5", "faces 1\n0 1 2"},
+      {"faces 2\n0 1 2\n3 4 5", "faces 2\n0 1 5\n3 4 2"},
+      {"edges 0", "edges 1\n1 4"},
+      {"points 0", "points 1\n6"},
+      {"groups 0", "groups 1\n0"},
+      // A separation that is not kept; a claim that is none.
+      {"separation 0 linf", "separation 1 linf"},
+      {"separation 0 linf", "separation 1 l2"},
+      {"separation 0 linf", "separation -1 linf"},
+      {"separation 0 linf", "separation 1/3 linf"},
+      {"claim no_contact 1", "claim no_contact 2"},
+      {"claim no_contact 1", "claim no_contact -1"},
+      {"claim no_contact 1", "claim no_contact"},
+      {"claim no_contact 1", "claim earliest 1/2 1"},
+      {"claim no_contact 1", "claim earliest 1 1"},
+      // Numbers out of range.
+      {"3 4 5", "3 4 6"},
+      {"3 4 5", "3 4 -1"},
+      {"2 3 1 0 -1", "2 6 1 0 -1"},
+      {"2 3 1 0 -1", "2 3 1024 0 -1"},
+      {"2 3 1 0 -1", "2 3 1 0"},
+      {"2 3 1 0 -1", "2 3 1 0 -1 0"},
+      {"vertices 6", "vertices 7"},
+      {"vertices 6", "vertices 99999999999"},
+      {"0x1.4p+1", "1/3"},
+      {"0x1.4p+1", "0x1p+2000"},
+      // The order of the parts.
+      {"sweep x\n", ""},
+      {"vertex_edge\n", ""},
+      {"end\n", ""},
+      {"steps 1", "steps 2"}};
+  ASSERT_EQ(refusal(stream(step())), "");
+  for (const auto& [truth, falsehood] : falsehoods) {
+    EXPECT_NE(refusal(replaced(stream(step()), truth, falsehood)), "")
+        << truth << " -> " << falsehood;
+  }
+}
+
+TEST(Step, HoldsGroupsApart) {
+  const std::string none = "sweep x\nvertex_face\nedge_edge\nvertex_edge\nvertex_vertex\nend\n";
+  const std::string groups = "groups 6\n4\n4\n4\n7\n7\n7\napart 1\n7 4\n";
+  const std::string apart = replaced(scene, "groups 0\napart 0\n", groups);
+  EXPECT_EQ(refusal(stream(step(scene, none))), "no argument for vertex_face 3 0");
+  EXPECT_EQ(refusal(stream(step(apart, none))), "");
+  EXPECT_NE(refusal(stream(step(replaced(apart, "7 4\n", "7 7\n"), none))), "");
+}
+
+// Whoever has the scene can tell that the certificate is about another.
+TEST(Step, IsHeldAgainstAScene) {
+  const std::string text = stream(step() + step(), 2), twice = scene + scene;
+  EXPECT_EQ(refusal(text, &twice), "");
+  const std::string in_decimal = replaced(twice, "0x1.8p+0", "3/2");
+  EXPECT_EQ(refusal(text, &in_decimal), "") << "the same numbers in other words";
+  const std::string once = scene, more = twice + scene;
+  EXPECT_NE(refusal(text, &once), "");
+  EXPECT_EQ(refusal(text, &more), "not all scenes are proved");
+  for (const auto& [truth, other] :
+       {std::pair("0x1.8p+0", "0x1.8000000000001p+0"), std::pair("3 4 5", "3 5 4"),
+        std::pair("faces 2\n0 1 2\n3 4 5", "faces 3\n0 1 2\n3 4 5\n0 1 5"),
+        std::pair("points 0", "points 1\n0"), std::pair("groups 0", "groups 6\n0\n0\n0\n0\n0\n0"),
+        std::pair("apart 0", "apart 1\n0 0")}) {
+    const std::string another = replaced(twice, truth, other);
+    EXPECT_EQ(refusal(text, &another), "the scene is not the one given") << other;
+  }
+  // A certificate that is true of fewer faces, and accepted without the scene.
+  const std::string fewer = replaced(scene, "faces 2\n0 1 2\n3 4 5", "faces 1\n0 1 2");
+  const std::string proof =
+      step(fewer, "sweep x\nvertex_face\nedge_edge\nvertex_edge\nvertex_vertex\nend\n");
+  EXPECT_EQ(refusal(stream(proof)), "");
+  EXPECT_EQ(refusal(stream(proof), &scene), "the scene is not the one given");
+}
+
+/// The second step of the corpus: the earliest contact, at 1/2.
+std::string earliest() {
+  std::ifstream file(tests::source_folder() + "/tests/exact/checker/corpus/steps.cert");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t first = text.find("step and"), last = text.find("step at once");
+  return stream(text.substr(first, last - first));
+}
+
+TEST(Step, ProvesTheEarliestContact) {
+  const std::string text = earliest();
+  ASSERT_EQ(refusal(text), "");
+  const std::string lower = "0x1.fffffffffffffp-2", below = "0x1.ffffffffffffep-2",
+                    above = "0x1.0000000000001p-1";
+  const auto with_interval = [&](const std::string& low, const std::string& high) {
+    return replaced(text, "claim earliest " + lower + " 1/2", "claim earliest " + low + ' ' + high);
+  };
+  EXPECT_NE(refusal(with_interval("1/2", above)), "") << "a little later";
+  EXPECT_NE(refusal(with_interval(below, lower)), "") << "a little earlier";
+  EXPECT_NE(refusal(with_interval(lower, lower)), "");
+  EXPECT_NE(refusal(with_interval("0", "0")), "");
+  for (const auto& [truth, falsehood] :
+       {// These two have a vertex in common, those are held apart: no contacts of the step.
+        std::pair("pair vertex_face 3 0", "pair vertex_face 3 1"),
+        std::pair("pair vertex_face 3 0\ncontact time 1/2\nat triangle 0 1 2 z",
+                  "pair vertex_edge 8 6\ncontact time 1/2\nat vertex 0"),
+        std::pair("pair vertex_face 3 0", "pair vertex_face 0 0"),
+        std::pair("contact time 1/2", "contact time 1"),
+        std::pair("at triangle 0 1 2 z", "at segment 0 1"),
+        // Where the groups meet, a point and an edge touch all the time.
+        std::pair("apart 1\n0 2", "apart 0")}) {
+    EXPECT_NE(refusal(replaced(text, truth, falsehood)), "") << falsehood;
+  }
+}
+
+// Any line left out, doubled or exchanged with the next: what is accepted still says the same.
+TEST(Step, OfWhichALineIsAlteredIsRefused) {
+  const std::string text = earliest();
+  Lines lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  const auto joined = [](const Lines& some) {
+    std::string result;
+    for (const std::string& line : some) result += line + '\n';
+    return result;
+  };
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    Lines without = lines, doubled = lines;
+    without.erase(without.begin() + std::ptrdiff_t(i));
+    doubled.insert(doubled.begin() + std::ptrdiff_t(i), lines[i]);
+    EXPECT_NE(refusal(joined(without)), "") << lines[i];
+    EXPECT_NE(refusal(joined(doubled)), "") << lines[i];
+  }
+}
+
+TEST(Step, TakesALongButBoundedSearch) {
+  EXPECT_NE(refusal(stream(replaced(step(), "faces 2", "faces 67108865"))), "");
+  EXPECT_NE(refusal("touchstone-steps 1\n"), "");
+  EXPECT_EQ(refusal(stream("", 0)), "");
+}
+
+}  // namespace
+}  // namespace touchstone::checker::step_test
