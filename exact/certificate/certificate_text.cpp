@@ -142,16 +142,6 @@ void write_feature(std::string& text, const Feature& feature) {
   text += is_positive ? " +" : " -";
 }
 
-void write_pieces(std::string& text, const std::vector<Piece>& pieces) {
-  for (const auto& [from, to, feature] : pieces) {
-    text += "separate ";
-    write_interval(text, {from, to});
-    text += ' ';
-    write_feature(text, feature);
-    text += '\n';
-  }
-}
-
 /// Writes a place by its type.
 struct PlaceWriter {
   std::string& text;
@@ -171,21 +161,6 @@ struct PlaceWriter {
   void operator()(const AxesContact&) const { text += "axes"; }
 };
 
-void write_contact(std::string& text, const ContactProof& contact) {
-  if (const auto* time = std::get_if<Rational>(&contact.time)) {
-    text += "contact time ";
-    write_number(text, *time);
-  } else {
-    const auto& root = std::get<RootTime>(contact.time);
-    text += "contact root ";
-    write_interval(text, root.interval);
-    for (const Integer& x : root.polynomial.coefficients()) text.append(" ").append(x.get_str());
-  }
-  text += "\nat ";
-  std::visit(PlaceWriter{text}, contact.place);
-  text += '\n';
-}
-
 }  // namespace
 
 std::string_view certificates_header() { return "touchstone-certificates 2\n"; }
@@ -203,6 +178,31 @@ void write(std::string& text, const Certificate& certificate, std::string_view l
   write_pieces(text, certificate.pieces);
   if (certificate.contact) write_contact(text, *certificate.contact);
   text += "end\n";
+}
+
+void write_pieces(std::string& text, const std::vector<Piece>& pieces) {
+  for (const auto& [from, to, feature] : pieces) {
+    text += "separate ";
+    write_interval(text, {from, to});
+    text += ' ';
+    write_feature(text, feature);
+    text += '\n';
+  }
+}
+
+void write_contact(std::string& text, const ContactProof& contact) {
+  if (const auto* time = std::get_if<Rational>(&contact.time)) {
+    text += "contact time ";
+    write_number(text, *time);
+  } else {
+    const auto& root = std::get<RootTime>(contact.time);
+    text += "contact root ";
+    write_interval(text, root.interval);
+    for (const Integer& x : root.polynomial.coefficients()) text.append(" ").append(x.get_str());
+  }
+  text += "\nat ";
+  std::visit(PlaceWriter{text}, contact.place);
+  text += '\n';
 }
 
 std::string certificate_stream(const Certificate& certificate, std::string_view label) {

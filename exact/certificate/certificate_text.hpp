@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "exact/certificate.hpp"
 
@@ -29,6 +30,10 @@ void write(std::string& text, const Certificate& certificate, std::string_view l
 /// A stream of one certificate, from the first line to the closing line. \param label as for write()
 [[nodiscard]] std::string certificate_stream(const Certificate& certificate,
                                              std::string_view label = {});
+
+/// Appends the lines of pieces, or of a contact, as they stand in a certificate.
+void write_pieces(std::string& text, const std::vector<Piece>& pieces);
+void write_contact(std::string& text, const ContactProof& contact);
 
 /// Appends a finite double as C's %a writes it, in any locale and floating-point environment.
 void write_hexadecimal(std::string& text, double value);

@@ -1,12 +1,11 @@
 #include "verify/cli/certificates_file.hpp"
 
-#include "exact/certificate/certificate_text.hpp"
-
 namespace touchstone::verify::cli {
 
-CertificatesFile::CertificatesFile(const std::string& name) : output_(name) {
+CertificatesFile::CertificatesFile(const std::string& name, std::string_view header)
+    : output_(name) {
   if (name.ends_with(".zst")) compressor_.emplace();
-  write(exact::certificates_header());
+  write(header);
 }
 
 void CertificatesFile::write(std::string_view certificates) {
@@ -18,8 +17,8 @@ void CertificatesFile::write(std::string_view certificates) {
   }
 }
 
-void CertificatesFile::close(std::uint64_t certificates) {
-  write(exact::certificates_closing_line(certificates));
+void CertificatesFile::close(std::string_view closing_line) {
+  write(closing_line);
   if (output_ && !output_.failed() && compressor_) put(compressor_->finish());
   output_.close();
 }

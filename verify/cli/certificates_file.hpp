@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "exact/certificate/certificate_text.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/compressor.hpp"
 #include "verify/jobs/prove.hpp"
@@ -20,7 +21,9 @@ namespace touchstone::verify::cli {
 class CertificatesFile {
  public:
   /// \throws as OptionalOutput does.
-  explicit CertificatesFile(const std::string& name);
+  /// \param header the first line
+  explicit CertificatesFile(const std::string& name,
+                            std::string_view header = exact::certificates_header());
 
   /// Was a file named?
   [[nodiscard]] explicit operator bool() const { return static_cast<bool>(output_); }
@@ -35,7 +38,9 @@ class CertificatesFile {
   void write(std::string_view certificates);
 
   /// Completes the stream, of so many certificates, and the file.
-  void close(std::uint64_t certificates);
+  void close(std::uint64_t certificates) { close(exact::certificates_closing_line(certificates)); }
+  /// The same with another closing line; an empty one leaves the stream cut.
+  void close(std::string_view closing_line);
 
  private:
   void put(std::string_view bytes);

@@ -5,6 +5,7 @@
 #include <climits>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,10 +16,12 @@
 #include <vector>
 
 #include "fast/step/bodies.hpp"
+#include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/json.hpp"
+#include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/check_step.hpp"
 #include "verify/mesh/frames.hpp"
@@ -40,6 +43,7 @@ struct Arguments {
   std::vector<std::pair<std::string, std::string>> apart;
   std::string json_file;
   std::string csv_file;
+  std::string proof_file;
 };
 
 /// The groups that are needed: none where all meet. \throws std::runtime_error or DatasetError if they cannot be used.
@@ -62,6 +66,7 @@ class StepRun {
   explicit StepRun(const Arguments& arguments)
       : json_(arguments.json_file),
         csv_(arguments.csv_file),
+        proof_(arguments.proof_file, jobs::step_proofs_header()),
         options_(arguments.check),
         frames_(mesh::open_frames(arguments.frames)),
         groups_(groups_for(arguments, frames_->mesh())),
@@ -90,16 +95,20 @@ class StepRun {
     io::ProgressBar bar("step");
     const std::size_t count = frames_->count();
     mesh::Vertices before;
-    for (std::size_t i = 0; i < count && !io::interrupted(); ++i) {
+    for (std::size_t i = 0; i < count && !is_stopped(); ++i) {
       mesh::Vertices after = frames_->next();
       check_frame(i, after);
-      bar.update((static_cast<double>(i) + 0.5) / static_cast<double>(count));
+      const auto progress = [&](double fraction) {
+        bar.update((static_cast<double>(i) + 0.5 + 0.5 * fraction) / static_cast<double>(count));
+      };
+      progress(0.0);
       if (i > 0) {
+        if (proof_) ask_for_proof(i, progress);
         report_.steps.push_back(jobs::check_step(frames_->mesh(), before, after, options_));
         if (csv_) csv_.write(report::step_csv_rows(report_, i - 1));
       }
       before = std::move(after);
-      bar.update(static_cast<double>(i + 1) / static_cast<double>(count));
+      progress(1.0);
     }
     bar.clear();
     report_.interrupted = report_.steps.size() + 1 < count;
@@ -109,13 +118,16 @@ class StepRun {
  private:
   /// \throws std::runtime_error if an input would be overwritten, or an output by another.
   void require_separate_files(const Arguments& arguments) const {
-    if (json_.is(arguments.csv_file)) {
+    if (json_.is(arguments.csv_file) || proof_.is(arguments.csv_file)) {
       throw std::runtime_error(arguments.csv_file + ": named for two outputs");
+    }
+    if (json_.is(arguments.proof_file)) {
+      throw std::runtime_error(arguments.proof_file + ": named for two outputs");
     }
     std::vector<fs::path> inputs = arguments.frames;
     inputs.emplace_back(arguments.groups_file);
     for (const fs::path& input : inputs) {
-      if (json_.is(input) || csv_.is(input)) {
+      if (json_.is(input) || csv_.is(input) || proof_.is(input)) {
         throw std::runtime_error(input.string() + ": named for input and output");
       }
     }
@@ -139,18 +151,47 @@ class StepRun {
     report_.frames.push_back(std::move(frame));
   }
 
+  void ask_for_proof(std::size_t i, const std::function<void(double)>& progress) {
+    options_.proof = {
+        .label = io::printable(frames_->name(i - 1)) + ' ' + io::printable(frames_->name(i)),
+        .threads = static_cast<unsigned>(options_.step.max_threads),
+        .on_text =
+            [this](std::string_view text) {
+              proof_.write(text);
+              // An exception ends the proving at once; the failure itself is reported already.
+              if (proof_.failed()) throw std::runtime_error("the proof cannot be written");
+            },
+        .on_progress = progress,
+        .stop = &io::interrupted()};
+  }
+
+  /// The proof of a step that is none ends the run: those behind it would not be read.
+  [[nodiscard]] bool is_stopped() const { return io::interrupted() || lacks_proof(); }
+  [[nodiscard]] bool lacks_proof() const {
+    return !report_.steps.empty() && report_.steps.back().proof &&
+           !report_.steps.back().proof->is_complete();
+  }
+
   Status finish() {
+    if (proof_) {
+      // Without its closing line the checker takes a stream for cut, as it is.
+      const std::string closing = jobs::step_proofs_closing_line(report_.steps.size());
+      proof_.close(lacks_proof() ? std::string_view() : closing);
+    }
     if (json_) json_.write(io::json_document(report::to_json(report_)));
     json_.close();
     csv_.close();
-    const bool is_taken = json_.is_standard_output() || csv_.is_standard_output();
+    const bool is_taken =
+        json_.is_standard_output() || csv_.is_standard_output() || proof_.is_standard_output();
     io::print(is_taken ? stderr : stdout, report::to_text(report_));
-    if (report_.interrupted) return Status::interrupted;
+    if (io::interrupted()) return Status::interrupted;
+    if (lacks_proof() || proof_.failed()) return Status::bad_input;
     return report::has_collisions(report_) ? Status::wrong_answers : Status::all_well;
   }
 
   OptionalOutput json_;
   OptionalOutput csv_;
+  CertificatesFile proof_;
   jobs::StepCheckOptions options_;
   std::unique_ptr<mesh::Frames> frames_;
   mesh::Groups groups_;
@@ -211,6 +252,11 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Output");
   command.add_option("--csv", arguments.csv_file, "Write each pair that touches as a row")
       ->type_name("FILE");
+  command
+      .add_option("--prove", arguments.proof_file,
+                  "Write a proof of each step, for touchstone-check: that nothing touches (up to "
+                  "--t-max), or when the earliest contact is; compressed if the name ends in .zst")
+      ->type_name("FILE");
   add_json_option(command, arguments.json_file);
 }
 
@@ -224,7 +270,9 @@ void add_step_command(CLI::App& app, Status& status) {
   add_step_options(*command, *arguments);
   set_help(*command,
            "touchstone step frames/92.ply frames/93.ply --csv pairs.csv\n"
-           "touchstone step frames/ --earliest --json steps.json",
+           "touchstone step frames/ --earliest --json steps.json\n"
+           "touchstone step frames/ --free --prove steps.cert.zst; zstdcat steps.cert.zst | "
+           "touchstone-check -",
            "A step is the straight motion of every vertex from one frame to the next; write the "
            "substeps of a simulator that takes several. Each frame is searched for edges that "
            "pierce faces as well. Pairs that share a vertex are left out. Numbers begin at 0; "

@@ -83,6 +83,11 @@ StepCheck check_step(const mesh::Mesh& mesh, const mesh::Vertices& before,
   });
   check.narrow_phase =
       work_time_of([&] { answer(part ? *part : *whole, options.question, check); });
+  if (options.proof.on_text) {
+    check.proof = prove_step(
+        part ? *part : *whole,
+        {.faces = mesh.faces, .points = mesh.points, .groups = options.step.groups}, options.proof);
+  }
   if (options.alpha) check.free_alpha = whole->free_step_size();
   return check;
 }

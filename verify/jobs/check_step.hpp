@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "fast/step.hpp"
+#include "verify/jobs/prove_step.hpp"
 #include "verify/jobs/work_time.hpp"
 #include "verify/mesh/mesh.hpp"
 
@@ -31,6 +32,8 @@ struct StepCheckOptions {
   /// Instead of the whole step, the one that a simulator takes with this step size: to the rounded
   /// positions x0 + α (x1 − x0) (fast::Step::scaled).
   std::optional<double> alpha = std::nullopt;
+  /// If there is a place for its text: a certificate of the step is written.
+  StepProofOptions proof = {};
 };
 
 /// The kinds of pairs, in the order of fast::PairKind.
@@ -51,6 +54,8 @@ struct StepCheck {
   /// With alpha: a step size as large as can be that is free (fast::Step::free_step_size); nothing
   /// if something touches at the start.
   std::optional<double> free_alpha;
+  /// What was proved, if it was asked for.
+  std::optional<StepProof> proof;
   /// Boxes, their trees and all candidates, counted.
   WorkTime broad_phase;
   /// The answer, with the trees there.

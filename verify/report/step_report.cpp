@@ -167,6 +167,18 @@ void append_piercings(std::string& text, const StepReport& report, const FrameRe
   text += rest_text(frame.piercings.size(), "--json FILE");
 }
 
+void append_proof(std::string& text, const StepReport& report, std::size_t i) {
+  const auto& proof = report.steps[i].proof;
+  if (!proof) return;
+  text += fmt::format("\n{}: ", step_name(report, i));
+  if (!proof->is_complete()) {
+    text += fmt::format("no proof: {}\n", proof->interrupted ? "interrupted" : proof->failure);
+    return;
+  }
+  text += fmt::format("proved: {}; pairs by a direction: {}, by pieces: {}; {} bytes\n",
+                      proof->claim, proof->directions, proof->certificates, proof->bytes);
+}
+
 std::string heading(const StepReport& report) {
   std::string text = fmt::format("{} vertices, {} edges, {} faces", report.vertices,
                                  report.edges.size(), report.faces.size());
@@ -241,6 +253,13 @@ nlohmann::json json_of(const StepReport& report, std::size_t i) {
       {"seconds", seconds_of(step, &jobs::WorkTime::wall)},
       {"processor_seconds", seconds_of(step, &jobs::WorkTime::processor)}};
   if (report.alpha) json["free_alpha"] = io::number_to_json(step.free_alpha);
+  if (step.proof) {
+    json["proof"] = {{"claim", step.proof->claim},
+                     {"directions", step.proof->directions},
+                     {"certificates", step.proof->certificates},
+                     {"bytes", step.proof->bytes},
+                     {"complete", step.proof->is_complete()}};
+  }
   return json;
 }
 
@@ -256,6 +275,7 @@ std::string to_text(const StepReport& report) {
   std::string text = heading(report) + table_of(report).text();
   for (std::size_t i = 0; i < report.steps.size(); ++i) append_collisions(text, report, i);
   for (const FrameRecord& frame : report.frames) append_piercings(text, report, frame);
+  for (std::size_t i = 0; i < report.steps.size(); ++i) append_proof(text, report, i);
   return text +
          "\nA step is the straight motion of every vertex from one frame to the next. A simulator "
          "that moved in several\nsubsteps between two frames took another path: have it write its "

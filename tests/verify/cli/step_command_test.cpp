@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/built_files.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/tool_test.hpp"
 
@@ -184,6 +185,52 @@ TEST_F(StepCommand, SaysWhatAVerdictOnFramesMeans) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_TRUE(contains(outcome.out, "substeps")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "free")) << outcome.out;
+}
+
+TEST_F(StepCommand, ProvesItsStepsToTheChecker) {
+  const std::string first = above("0.obj", "2"), second = above("1.obj", "1"),
+                    third = above("2.obj", "-3");
+  const std::string proof = path("steps.cert");
+  const Json steps = result({first, second, third, "--prove", proof}, 1)["steps"];
+  EXPECT_EQ(steps[0]["proof"]["claim"], "no_contact 1");
+  EXPECT_EQ(steps[1]["proof"]["claim"], "earliest 0x1.fffffffffffffp-3 1/4");
+  EXPECT_EQ(steps[1]["proof"]["complete"], true);
+  const auto checked = [&](std::vector<std::string> arguments) {
+    return finish(start(std::move(arguments), to_file, tests::checker_program()));
+  };
+  const Outcome accepted = checked({proof});
+  EXPECT_EQ(accepted.status, 0) << accepted.out;
+  EXPECT_TRUE(contains(accepted.out,
+                       "0.obj 1.obj\n6 vertices, 6 edges, 2 faces\nseparation "
+                       "0x0p+0 linf\nclaim no_contact 1\n"))
+      << accepted.out;
+  // A proof is of its step: of no other.
+  const std::string text = read_file(proof);
+  const std::size_t vertices = text.find("vertices"), separation = text.find("separation");
+  const std::string scene = write("scene", text.substr(vertices, separation - vertices));
+  EXPECT_TRUE(contains(checked({proof, scene}).out, "line"));
+  EXPECT_EQ(result({first, second, "--free", "--prove", proof}, 0)["free"], Json());
+  EXPECT_EQ(checked({proof, scene}).status, 0);
+  ASSERT_EQ(step({first, third, "--t-max", "0.25", "--prove", proof}).status, 0);
+  EXPECT_TRUE(contains(checked({proof}).out, "claim no_contact 1/4\n"));
+  EXPECT_EQ(checked({proof, scene}).status, 1);
+}
+
+TEST_F(StepCommand, ProvesAtASeparationAndBetweenGroups) {
+  const std::string before = above("0.obj", "2"), after = above("1.obj", "-3");
+  const std::string proof = path("steps.cert.zst");
+  const Outcome apart = step({before, after, "--apart", "floor", "falling", "--prove", proof});
+  EXPECT_EQ(apart.status, 0) << apart.err;
+  EXPECT_TRUE(contains(apart.out, "proved: no_contact 1")) << apart.out;
+  const Outcome near =
+      step({before, after, "--min-separation", "0.5", "--norm", "l2", "--prove", proof});
+  EXPECT_EQ(near.status, 1) << near.err;
+  EXPECT_TRUE(contains(near.out, "proved: earliest 0x1.3333333333333p-2 0x1.3333333333334p-2"))
+      << near.out;
+  EXPECT_TRUE(read_file(proof).starts_with("\x28\xb5\x2f\xfd"));
+  EXPECT_EQ(step({before, after, "--prove", before}).status, 2);
+  EXPECT_EQ(step({before, after, "--prove", proof, "--json", proof}).status, 2);
+  EXPECT_EQ(step({before, after, "--prove", proof, "--csv", proof}).status, 2);
 }
 
 // The published labels settle the whole step: every pair that they do not call colliding does not collide.

@@ -1,0 +1,240 @@
+#include "verify/jobs/prove_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exact/checker/checker.hpp"
+#include "exact/oracle.hpp"
+#include "fast/broad_phase.hpp"
+#include "tests/support/certificates.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
+
+// Proofs of steps: the checker accepts each, its claim is what the oracle says of all pairs one by
+// one, and no proof with something left out or a later claim is accepted.
+
+namespace touchstone::verify::jobs::prove_step_test {
+namespace {
+
+using tests::Random;
+using tests::Scene;
+
+/// The scene with edges as a mesh has them: those of the faces too, in order, each once.
+Scene with_ordered_edges(Scene scene) {
+  std::vector<fast::Face> all = scene.faces;
+  for (const auto& [a, b] : scene.edges) all.push_back({a, b, b});
+  scene.edges = fast::edges_of(all);
+  return scene;
+}
+
+struct Proved {
+  StepProof proof;
+  std::string text;
+};
+
+Proved prove(const Scene& scene, const fast::StepOptions& step_options,
+             StepProofOptions options = {}) {
+  const fast::Step step = scene.step(step_options);
+  Proved result;
+  result.text = step_proofs_header();
+  options.on_text = [&](std::string_view text) { result.text += text; };
+  options.label = "a step";
+  result.proof = prove_step(step,
+                            {.faces = scene.faces,
+                             .points = scene.points,
+                             .groups = {.of_vertices = scene.groups, .apart = scene.apart}},
+                            options);
+  result.text += step_proofs_closing_line(1);
+  return result;
+}
+
+/// Why the checker refuses; empty if it does not.
+std::string refusal(const std::string& text) {
+  std::istringstream in(text);
+  const checker::Report report = checker::check(in);
+  return report.all_accepted() ? "" : report.rejections.at(0).reason;
+}
+
+/// The earliest contact of all pairs, by the oracle.
+std::optional<exact::AlgebraicNumber> earliest(const Scene& scene,
+                                               const fast::StepOptions& options) {
+  std::optional<exact::AlgebraicNumber> first;
+  const tests::AllPairs all(scene);
+  for (const tests::NumberedPair& pair : all.pairs()) {
+    const exact::Verdict verdict =
+        exact::decide(fast::Step::kind_of(pair.first), all.query(pair), options.separation);
+    if (verdict.toi && *verdict.toi <= exact::Rational(options.t_max) &&
+        (!first || *verdict.toi < *first)) {
+      first = verdict.toi;
+    }
+  }
+  return first;
+}
+
+/// The numbers of a claim.
+std::vector<double> numbers_of(const std::string& claim) {
+  std::istringstream words(claim.substr(claim.find(' ')));
+  std::vector<double> numbers;
+  for (std::string word; words >> word;) numbers.push_back(tests::read_double(word).value());
+  return numbers;
+}
+
+void expect_true(const Scene& scene, const fast::StepOptions& options, const StepProof& proof) {
+  const auto first = earliest(scene, options);
+  const std::vector<double> times = numbers_of(proof.claim);
+  if (!first) {
+    EXPECT_TRUE(proof.claim.starts_with("no_contact ")) << proof.claim;
+    EXPECT_EQ(times, std::vector{options.t_max});
+    return;
+  }
+  ASSERT_TRUE(proof.claim.starts_with("earliest ")) << proof.claim;
+  ASSERT_EQ(times.size(), 2U);
+  EXPECT_TRUE(*first <= exact::Rational(times[1]));
+  if (times[1] == 0.0) return;
+  EXPECT_TRUE(*first > exact::Rational(times[0]));
+  EXPECT_EQ(std::nextafter(times[0], 2.0), times[1]) << proof.claim;
+}
+
+TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
+  int proved = 0, free = 0, failed = 0;
+  for (const tests::Shape& shape : tests::shapes()) {
+    for (std::uint64_t seed = 0; seed < 25; ++seed) {
+      Random random(seed);
+      const Scene scene =
+          with_ordered_edges(tests::random_scene(random, shape, random.between(4, 14)));
+      fast::StepOptions options;
+      if (random.coin()) options.separation.distance = shape.separation;
+      options.separation.norm = random.coin() ? Norm::l2 : Norm::linf;
+      if (random.coin()) options.t_max = random.coin() ? 0.25 : 0.0;
+      const auto [proof, text] = prove(scene, options);
+      if (!proof.failure.empty()) {
+        ++failed;
+        EXPECT_EQ(shape.name, "all scales") << proof.failure;
+        continue;
+      }
+      ++proved;
+      EXPECT_EQ(refusal(text), "") << shape.name << ' ' << seed;
+      expect_true(scene, options, proof);
+      free += proof.claim.starts_with("no") ? 1 : 0;
+    }
+  }
+  EXPECT_GT(proved, 200);
+  EXPECT_GT(free, 20);
+  EXPECT_LT(failed, 20);
+}
+
+/// Lines, and those that begin an argument.
+struct Lines {
+  explicit Lines(const std::string& text) {
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    bool is_argument = false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      is_argument = is_argument || all[i] == "vertex_face";
+      if (is_argument && all[i].front() >= '0' && all[i].front() <= '9') arguments.push_back(i);
+    }
+  }
+
+  /// All but the argument that begins there.
+  [[nodiscard]] std::string without(std::size_t argument) const {
+    std::string text;
+    bool is_left_out = false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      is_left_out = i == argument || (is_left_out && all[i].starts_with("separate"));
+      if (!is_left_out) text += all[i] + '\n';
+    }
+    return text;
+  }
+
+  std::vector<std::string> all;
+  std::vector<std::size_t> arguments;
+};
+
+TEST(ProveStep, NeedsEachOfItsArguments) {
+  Random random(5);
+  std::uint64_t directions = 0, certificates = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const Scene scene = with_ordered_edges(tests::soup(random, 12, 0.2));
+    const auto [proof, text] = prove(scene, {.t_max = trial % 2 == 0 ? 1.0 : 1e-3});
+    ASSERT_EQ(refusal(text), "");
+    directions += proof.directions;
+    certificates += proof.certificates;
+    const Lines lines(text);
+    EXPECT_EQ(lines.arguments.size(), proof.directions + proof.certificates);
+    for (const std::size_t argument : lines.arguments) {
+      EXPECT_TRUE(refusal(lines.without(argument)).starts_with("no argument for "));
+    }
+  }
+  EXPECT_GT(directions, 50U);
+  EXPECT_GT(certificates, 0U);
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t place = text.find(what);
+  EXPECT_NE(place, std::string::npos) << what;
+  return text.replace(place, what.size(), by);
+}
+
+TEST(ProveStep, ClaimsNothingLater) {
+  Random random(6);
+  int tried = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const Scene scene = with_ordered_edges(tests::soup(random, 10, 0.3));
+    const auto [proof, text] = prove(scene, {});
+    if (!proof.claim.starts_with("earliest ") || proof.claim.starts_with("earliest 0 ")) continue;
+    ++tried;
+    std::ostringstream later;
+    const std::vector<double> times = numbers_of(proof.claim);
+    later << std::hexfloat << "earliest " << times[1] << ' ' << std::nextafter(times[1], 2.0);
+    EXPECT_NE(refusal(replaced(text, proof.claim, later.str())), "");
+    std::ostringstream free;
+    free << std::hexfloat << "no_contact " << times[1];
+    EXPECT_NE(refusal(replaced(text, proof.claim, free.str())), "");
+    EXPECT_NE(refusal(replaced(text, proof.claim, "no_contact 1")), "");
+  }
+  EXPECT_GT(tried, 10);
+}
+
+TEST(ProveStep, IsTheSameOnAnyNumberOfThreads) {
+  Random random(7);
+  const Scene scene = with_ordered_edges(tests::soup(random, 60, 0.3));
+  const Proved one = prove(scene, {.max_threads = 1}, {.threads = 1});
+  const Proved some = prove(scene, {.max_threads = 3}, {.threads = 3});
+  EXPECT_EQ(one.text, some.text);
+  EXPECT_GT(one.proof.directions + one.proof.certificates, 100U);
+}
+
+TEST(ProveStep, EndsWhenStopped) {
+  Random random(8);
+  const Scene scene = with_ordered_edges(tests::soup(random, 30, 0.3));
+  const std::atomic<bool> stop = true;
+  const auto [proof, text] = prove(scene, {.t_max = 1e-3}, {.stop = &stop});
+  EXPECT_TRUE(proof.interrupted);
+  EXPECT_FALSE(proof.is_complete());
+  EXPECT_NE(refusal(text), "");
+}
+
+TEST(ProveStep, HandsOnWhatItsReaderThrows) {
+  Random random(9);
+  const Scene scene = with_ordered_edges(tests::soup(random, 3, 0.3));
+  const fast::Step step = scene.step();
+  StepProofOptions options;
+  options.on_text = [](std::string_view) { throw std::runtime_error("full"); };
+  EXPECT_THROW(
+      static_cast<void>(prove_step(step, {.faces = scene.faces, .points = scene.points}, options)),
+      std::runtime_error);
+}
+
+}  // namespace
+}  // namespace touchstone::verify::jobs::prove_step_test

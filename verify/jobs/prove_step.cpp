@@ -1,0 +1,337 @@
+#include "verify/jobs/prove_step.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <mutex>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "exact/certificate.hpp"
+#include "exact/certificate/certificate_text.hpp"
+#include "exact/certificate/separation_intervals.hpp"
+#include "exact/contact/corner_motion.hpp"
+#include "exact/oracle.hpp"
+#include "fast/broad_phase.hpp"
+#include "verify/jobs/cores.hpp"
+#include "verify/jobs/deadline.hpp"
+#include "verify/jobs/step_places.hpp"
+
+namespace touchstone::verify::jobs {
+namespace {
+
+constexpr std::array kind_names{"vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"};
+
+/// A pair of the step.
+struct Pair {
+  fast::PairKind kind;
+  fast::IndexPair numbers;
+
+  [[nodiscard]] std::size_t kind_number() const { return static_cast<std::size_t>(kind); }
+};
+
+/// The vertices of a pair's primitives, each once.
+struct PairVertices {
+  PairVertices(const fast::Step& step, const Pair& pair)
+      : all(step.vertices_of(pair.kind, pair.numbers)) {
+    const std::span points(all);
+    switch (pair.kind) {
+      case fast::PairKind::edge_edge:
+        first = points.first(2);
+        second = points.last(2);
+        return;
+      case fast::PairKind::vertex_face:
+        first = points.first(1);
+        second = points.last(3);
+        return;
+      case fast::PairKind::vertex_edge:
+        first = points.first(1);
+        second = points.subspan(1, 2);
+        return;
+      case fast::PairKind::vertex_vertex:
+        first = points.first(1);
+        second = points.subspan(1, 1);
+    }
+  }
+  PairVertices(const PairVertices&) = delete;
+  PairVertices& operator=(const PairVertices&) = delete;
+  PairVertices(PairVertices&&) = delete;
+  PairVertices& operator=(PairVertices&&) = delete;
+  ~PairVertices() = default;
+
+  std::array<std::int32_t, moving_points> all;
+  StepPlaces::Vertices first;
+  StepPlaces::Vertices second;
+};
+
+/// The earliest contact: a pair and the certificate of its time of impact.
+struct FirstContact {
+  Pair pair;
+  exact::Certificate certificate;
+};
+
+std::optional<FirstContact> first_contact(const fast::Step& step) {
+  const std::optional<fast::StepImpact> impact = step.earliest();
+  if (!impact) return std::nullopt;
+  // Their enclosures do not tell which is the first: the oracle does.
+  std::optional<std::pair<Pair, exact::Verdict>> first;
+  for (const fast::StepCollision& collision : impact->pairs) {
+    const Pair pair{collision.kind, collision.pair};
+    exact::Verdict verdict =
+        exact::decide(fast::Step::kind_of(pair.kind), step.query_of(pair.kind, pair.numbers),
+                      step.certified().separation);
+    if (verdict.toi && (!first || *verdict.toi < *first->second.toi)) {
+      first.emplace(pair, std::move(verdict));
+    }
+  }
+  if (!first) throw std::logic_error("touchstone: the earliest impact is none");
+  const Pair& pair = first->first;
+  return FirstContact{pair, exact::prove(fast::Step::kind_of(pair.kind),
+                                         step.query_of(pair.kind, pair.numbers), first->second)};
+}
+
+/// The arguments of some pairs, as text.
+struct Arguments {
+  std::string text;
+  std::uint64_t directions = 0;
+  std::uint64_t certificates = 0;
+  std::string failure;
+};
+
+class StepProver {
+ public:
+  StepProver(const fast::Step& step, const SceneParts& parts, const StepProofOptions& options)
+      : step_(step), parts_(parts), options_(options) {}
+
+  StepProof run() {
+    try {
+      const std::optional<FirstContact> first = first_contact(step_);
+      write_scene();
+      write_claim(first);
+      const bool is_at_zero = first && sgn(first->certificate.toi.upper) == 0;
+      if (!is_at_zero) write_arguments();
+    } catch (const exact::CertificateLimitError& error) {
+      proof_.failure = error.what();
+    }
+    if (proof_.is_complete()) put("end\n");
+    return std::move(proof_);
+  }
+
+ private:
+  void put(std::string_view text) {
+    proof_.bytes += text.size();
+    if (options_.on_text) options_.on_text(text);
+  }
+
+  void progress(double fraction) const {
+    if (options_.on_progress) options_.on_progress(fraction);
+  }
+
+  // ---- What is claimed ----
+
+  template <class Items>
+  void write_list(std::string_view keyword, const Items& items) {
+    std::string text = fmt::format("{} {}\n", keyword, items.size());
+    for (const auto& item : items) text += fmt::format("{}\n", fmt::join(item, " "));
+    put(text);
+  }
+
+  void write_scene() {
+    const fast::MovingVertices& vertices = step_.vertices();
+    std::string text = fmt::format("step {}\nvertices {}\n", options_.label, vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      for (std::size_t k = 0; k < 6; ++k) {
+        const auto& place = k < 3 ? vertices[i].start : vertices[i].end;
+        exact::write_hexadecimal(text, place.at(k % 3));
+        text += k < 5 ? ' ' : '\n';
+      }
+    }
+    put(text);
+    write_list("faces", parts_.faces);
+    write_list("edges", bare_edges());
+    write_list("points", as_items(parts_.points));
+    const bool all_meet = parts_.groups.apart.empty();
+    write_list("groups",
+               as_items(all_meet ? std::span<const std::int32_t>() : parts_.groups.of_vertices));
+    write_list("apart", parts_.groups.apart);
+  }
+
+  static std::vector<std::array<std::int32_t, 1>> as_items(std::span<const std::int32_t> numbers) {
+    std::vector<std::array<std::int32_t, 1>> items;
+    for (const std::int32_t number : numbers) items.push_back({number});
+    return items;
+  }
+
+  /// The edges of no face.
+  [[nodiscard]] std::vector<fast::Edge> bare_edges() const {
+    const std::vector<fast::Edge> sides = fast::edges_of(parts_.faces);
+    std::vector<fast::Edge> result;
+    std::ranges::set_difference(step_.edges(), sides, std::back_inserter(result),
+                                [](const fast::Edge& a, const fast::Edge& b) {
+                                  return std::tie(a[1], a[0]) < std::tie(b[1], b[0]);
+                                });
+    return result;
+  }
+
+  void write_claim(const std::optional<FirstContact>& first) {
+    const Separation& separation = step_.certified().separation;
+    std::string text = "separation ";
+    exact::write_hexadecimal(text, separation.distance);
+    text += fmt::format(" {}\n", to_string(separation.norm));
+    end_ = first ? first->certificate.toi.lower : exact::Rational(step_.certified().t_max);
+    proof_.claim = first ? "earliest " : "no_contact ";
+    exact::write_number(proof_.claim, end_);
+    if (first) exact::write_number(proof_.claim += ' ', first->certificate.toi.upper);
+    text += "claim " + proof_.claim + '\n';
+    if (first) {
+      const auto& [kind, numbers] = first->pair;
+      text += fmt::format("pair {} {} {}\n", kind_names.at(first->pair.kind_number()), numbers[0],
+                          numbers[1]);
+      exact::write_contact(text, *first->certificate.contact);
+    }
+    put(text);
+  }
+
+  // ---- Arguments ----
+
+  void write_arguments() {
+    places_.emplace(step_.vertices(), step_.certified().separation.distance, end_);
+    put(fmt::format("sweep {}\n", "xyz"[longest_axis()]));
+    const std::vector<Pair> pairs = needed_pairs();
+    static constexpr std::size_t block = 32'768;
+    std::size_t done = 0;
+    for (std::size_t kind = 0; kind < kind_names.size(); ++kind) {
+      put(fmt::format("{}\n", kind_names.at(kind)));
+      const auto end = static_cast<std::size_t>(
+          std::ranges::find_if(pairs.begin() + static_cast<std::ptrdiff_t>(done), pairs.end(),
+                               [&](const Pair& pair) { return pair.kind_number() != kind; }) -
+          pairs.begin());
+      for (; done < end; done = std::min(done + block, end)) {
+        write_block(std::span(pairs).subspan(done, std::min(block, end - done)));
+        if (!proof_.is_complete()) return;
+        progress(static_cast<double>(std::min(done + block, end)) /
+                 static_cast<double>(pairs.size()));
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t longest_axis() const {
+    const fast::MovingVertices& vertices = step_.vertices();
+    std::array<double, 3> lower{}, upper{};
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double x = vertices[i].start.at(k);
+        lower.at(k) = i == 0 ? x : std::min(lower.at(k), x);
+        upper.at(k) = i == 0 ? x : std::max(upper.at(k), x);
+      }
+    }
+    std::size_t longest = 0;
+    for (const std::size_t k : {1U, 2U}) {
+      if (0.5 * upper.at(k) - 0.5 * lower.at(k) > 0.5 * upper.at(longest) - 0.5 * lower.at(longest))
+        longest = k;
+    }
+    return longest;
+  }
+
+  /// The pairs that the checker does not see kept apart by an axis, in order.
+  [[nodiscard]] std::vector<Pair> needed_pairs() const {
+    // The checker's integers may bring boxes a little nearer.
+    Separation wider = step_.certified().separation;
+    wider.distance += places_->uncertainty();
+    const fast::Step near = step_.with_separation(wider);
+    std::vector<Pair> pairs;
+    std::mutex mutex;
+    near.candidates([&](const fast::StepCandidates& some) {
+      std::vector<Pair> needed;
+      for (const fast::IndexPair& numbers : some.pairs) {
+        const Pair pair{some.kind, numbers};
+        const PairVertices vertices(step_, pair);
+        if (!places_->is_axis_between(vertices.first, vertices.second)) needed.push_back(pair);
+      }
+      const std::scoped_lock lock(mutex);
+      pairs.insert(pairs.end(), needed.begin(), needed.end());
+    });
+    std::ranges::sort(pairs, {},
+                      [](const Pair& pair) { return std::tuple(pair.kind, pair.numbers); });
+    return pairs;
+  }
+
+  void write_block(std::span<const Pair> pairs) {
+    static constexpr std::size_t part = 256;
+    std::vector<Arguments> parts((pairs.size() + part - 1) / part);
+    tbb::task_arena arena(cores_for(options_.threads));
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+        if (is_stopped(options_.stop)) return;
+        const std::size_t first = i * part;
+        for (const Pair& pair : pairs.subspan(first, std::min(part, pairs.size() - first))) {
+          argue(pair, parts[i]);
+        }
+      });
+    });
+    proof_.interrupted = is_stopped(options_.stop);
+    for (const Arguments& some : parts) {
+      if (proof_.failure.empty()) proof_.failure = some.failure;
+      if (!proof_.is_complete()) return;
+      put(some.text);
+      proof_.directions += some.directions;
+      proof_.certificates += some.certificates;
+    }
+  }
+
+  void argue(const Pair& pair, Arguments& arguments) const {
+    const PairVertices vertices(step_, pair);
+    std::string& text = arguments.text;
+    fmt::format_to(std::back_inserter(text), "{} {}", pair.numbers[0], pair.numbers[1]);
+    if (const auto d = places_->direction(vertices.first, vertices.second)) {
+      ++arguments.directions;
+      fmt::format_to(std::back_inserter(text), " {}\n", fmt::join(*d, " "));
+      return;
+    }
+    ++arguments.certificates;
+    text += '\n';
+    try {
+      exact::Motion motion = exact::scale_uniformly(fast::Step::kind_of(pair.kind),
+                                                    step_.query_of(pair.kind, pair.numbers),
+                                                    step_.certified().separation);
+      // At distance 0 both norms mean the same, and l2 has fewer features.
+      if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
+      const std::vector<exact::Piece> pieces = exact::separate(motion, end_);
+      if (pieces.size() > exact::piece_limit) {
+        throw exact::CertificateLimitError("a separation needs too many pieces");
+      }
+      exact::write_pieces(text, pieces);
+    } catch (const exact::CertificateLimitError& error) {
+      arguments.failure = fmt::format("{} {} {}: {}", kind_names.at(pair.kind_number()),
+                                      pair.numbers[0], pair.numbers[1], error.what());
+    }
+  }
+
+  const fast::Step& step_;
+  const SceneParts& parts_;
+  const StepProofOptions& options_;
+  StepProof proof_;
+  /// Until when there is no contact.
+  exact::Rational end_;
+  std::optional<StepPlaces> places_;
+};
+
+}  // namespace
+
+std::string_view step_proofs_header() { return "touchstone-steps 1\n"; }
+
+std::string step_proofs_closing_line(std::uint64_t steps) {
+  return fmt::format("steps {}\n", steps);
+}
+
+StepProof prove_step(const fast::Step& step, const SceneParts& parts,
+                     const StepProofOptions& options) {
+  return StepProver(step, parts, options).run();
+}
+
+}  // namespace touchstone::verify::jobs

@@ -1,0 +1,64 @@
+#pragma once
+
+/// \file
+/// Where the vertices of a step are in integers, as the checker of certificates has them, and
+/// directions of small integers that keep two primitives apart (exact/CERTIFICATES.md, "Steps").
+///
+/// A direction is looked for in doubles, among the corners w = a − b of two primitives a and b at the
+/// start and at the end: the vector from the origin to the hull's nearest point, by Gilbert's method,
+/// and the normals of the triangle or parallelogram of the corners. It is then rounded to as small
+/// integers as keep them apart; that is decided in integers. Where none is found there may be one.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "fast/mesh.hpp"
+
+namespace touchstone::verify::jobs {
+
+class StepPlaces {
+ public:
+  using Direction = std::array<std::int64_t, 3>;
+  using Vertices = std::span<const std::int32_t>;
+
+  /// A direction's components are at most this.
+  static constexpr std::int64_t greatest_component = 1023;
+
+  /// On the way from t=0 to t=end. Refers to the vertices.
+  StepPlaces(const fast::MovingVertices& vertices, double distance, const exact::Rational& end);
+
+  /// A length, in the step's coordinates, by which the integers may show primitives nearer than they
+  /// are, rounded up.
+  [[nodiscard]] double uncertainty() const { return uncertainty_; }
+
+  /// Does the checker see that the direction keeps the primitive of vertices a above that of b?
+  [[nodiscard]] bool is_above(Vertices a, Vertices b, const Direction& d) const;
+  /// Does it see that a coordinate axis keeps them apart?
+  [[nodiscard]] bool is_axis_between(Vertices a, Vertices b) const;
+  /// A direction that keeps a above b.
+  [[nodiscard]] std::optional<Direction> direction(Vertices a, Vertices b) const;
+
+ private:
+  using Integers = std::array<std::int64_t, 3>;
+
+  /// A vertex at the start and at the end.
+  struct Bounds {
+    std::array<Integers, 2> lower;
+    std::array<Integers, 2> upper;
+  };
+
+  [[nodiscard]] const Bounds& at(std::int32_t vertex) const {
+    return bounds_[static_cast<std::size_t>(vertex)];
+  }
+
+  std::vector<Bounds> bounds_;
+  std::int64_t distance_ = 0;
+  double uncertainty_ = 0.0;
+};
+
+}  // namespace touchstone::verify::jobs
