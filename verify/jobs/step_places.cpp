@@ -119,11 +119,8 @@ std::optional<StepPlaces::Direction> StepPlaces::direction(Vertices a, Vertices 
       return Eigen::Vector3d(static_cast<double>(x[0]), static_cast<double>(x[1]),
                              static_cast<double>(x[2]));
     };
-    // In cyclic order: a face, or a parallelogram.
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      for (std::size_t j = 0; j < b.size(); ++j) {
-        corners.points.at(corners.count++) = place(a[i]) - place(b[j]);
-      }
+    for (const std::int32_t v : a) {
+      for (const std::int32_t w : b) corners.points.at(corners.count++) = place(v) - place(w);
     }
   }
   const auto rounded = [&](const Eigen::Vector3d& d) -> std::optional<Direction> {
