@@ -271,8 +271,7 @@ void add_step_command(CLI::App& app, Status& status) {
   set_help(*command,
            "touchstone step frames/92.ply frames/93.ply --csv pairs.csv\n"
            "touchstone step frames/ --earliest --json steps.json\n"
-           "touchstone step frames/ --free --prove steps.cert.zst; zstdcat steps.cert.zst | "
-           "touchstone-check -",
+           "touchstone step frames/ --free --prove steps.cert && touchstone-check steps.cert",
            "A step is the straight motion of every vertex from one frame to the next; write the "
            "substeps of a simulator that takes several. Each frame is searched for edges that "
            "pierce faces as well. Pairs that share a vertex are left out. Numbers begin at 0; "
