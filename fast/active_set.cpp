@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <tuple>
 
 #include "fast/certified/exact/closest_point_parameters.hpp"
 #include "fast/platform/floating_point_state.hpp"
+#include "fast/step/scene.hpp"
 
 namespace touchstone::fast {
 namespace {
@@ -103,6 +105,18 @@ std::vector<ActiveContact> active_set(const Step& step, double eta, Norm norm) {
            std::tie(b.toi_lower, b.toi_upper, b.kind, b.pair);
   });
   return result;
+}
+
+ActiveContact contact_at(const Step& step, PairKind kind, const IndexPair& pair, double t,
+                         Norm norm) {
+  if (!(t >= 0.0 && t <= 1.0))
+    throw std::invalid_argument("contact_at: the time must be in [0, 1]");
+  const StrictFloatingPoint strict;
+  const auto [u, v] =
+      exact_stage::nearest_parameters(Step::kind_of(kind), step.query_of(kind, pair), t, norm);
+  const CertifiedResult nearest{
+      .verdict = Verdict::yes, .toi_lower = t, .toi_upper = t, .u = u, .v = v};
+  return active_contact(step, collision_of(kind, pair, nearest));
 }
 
 }  // namespace touchstone::fast

@@ -49,4 +49,10 @@ struct ActiveContact : StepCollision {
 [[nodiscard]] std::vector<ActiveContact> active_set(const Step& step, double eta,
                                                     Norm norm = Norm::l2);
 
+/// The contact of a pair at a time as above, whether or not it is near then: for pairs and times that another solver
+/// has found. Its toi_lower and toi_upper are t; u and v are where the primitives are nearest.
+/// \pre The pair's numbers are in range. \throws std::invalid_argument unless 0 ≤ t ≤ 1.
+[[nodiscard]] ActiveContact contact_at(const Step& step, PairKind kind, const IndexPair& pair,
+                                       double t, Norm norm = Norm::l2);
+
 }  // namespace touchstone::fast

@@ -182,6 +182,38 @@ TEST(ActiveSet, NormalsPointFromTheSecondPrimitiveToTheFirst) {
   EXPECT_GT(seen, tests::trials(100));
 }
 
+TEST(ActiveSet, ContactsAtTheirTimesAreThose) {
+  Random random(2202);
+  constexpr double eta = 0.05;
+  std::size_t seen = 0;
+  for (int round = 0; round < tests::trials(20); ++round) {
+    const Scene scene = tests::soup(random, 30, 0.2);
+    const Step step = scene.step();
+    for (const ActiveContact& one : active_set(step, eta)) {
+      const ActiveContact again = contact_at(step, one.kind, one.pair, one.toi_upper);
+      EXPECT_EQ(again.toi_lower, one.toi_upper);
+      EXPECT_EQ(again.toi_upper, one.toi_upper);
+      // Where they are nearest may be more than one place; how near they are there is not.
+      EXPECT_NEAR((again.first - again.second).norm(), (one.first - one.second).norm(), 1e-9);
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, tests::trials(100U));
+}
+
+TEST(ActiveSet, ContactOfAPairThatIsNotNear) {
+  const Scene scene = falling_point();
+  const Step step = scene.step();
+  const ActiveContact at_start = contact_at(step, PairKind::vertex_face, {3, 0}, 0.0);
+  EXPECT_TRUE(at_start.first.isApprox(Vector3d(1, 1, 1)));
+  EXPECT_TRUE(at_start.second.isApprox(Vector3d(1, 1, 0)));
+  EXPECT_EQ(at_start.normal, Vector3d(0, 0, 1));
+  EXPECT_EQ(contact_at(step, PairKind::vertex_face, {3, 0}, 1.0).normal, Vector3d(0, 0, -1));
+  for (const double t : {-0.5, 1.5, std::nan("")}) {
+    EXPECT_THROW((void)contact_at(step, PairKind::vertex_face, {3, 0}, t), std::invalid_argument);
+  }
+}
+
 TEST(ActiveSet, PlantedFaultIsFound) {
   if (&active_set_without_side == nullptr) GTEST_SKIP() << "not planted in this build";
   const Scene scene = falling_point();
