@@ -1,0 +1,171 @@
+#include "examples/simulation/collision_detector.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "fast/distance.hpp"
+#include "verify/solvers/registry.hpp"
+
+namespace touchstone::simulation {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Adds the time until its end.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  Stopwatch(Stopwatch&&) = delete;
+  Stopwatch& operator=(Stopwatch&&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// A number that depends on the coordinates alone, like one drawn at random.
+std::uint64_t hash(const Query& query) {
+  std::uint64_t result = 0x9e3779b97f4a7c15;
+  for (const double x : query.coordinates) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    result = (result ^ bits) * 0xff51afd7ed558ccd;
+    result ^= result >> 32;
+  }
+  return result;
+}
+
+/// In which a method measures a separation; nothing if it knows of contact alone.
+std::optional<Norm> norm_of(const fast::MethodInfo& info) {
+  for (const Norm norm : {Norm::l2, Norm::linf}) {
+    if (info.measures_in(norm)) return norm;
+  }
+  return std::nullopt;
+}
+
+struct Candidates {
+  fast::PairKind kind;
+  std::vector<fast::IndexPair> pairs;
+};
+
+/// The candidates of a step by kind, in order.
+std::array<Candidates, 2> candidates_of(const fast::Step& step) {
+  std::array<Candidates, 2> result{
+      {{fast::PairKind::vertex_face, {}}, {fast::PairKind::edge_edge, {}}}};
+  std::mutex mutex;
+  step.candidates([&](const fast::StepCandidates& found) {
+    const std::scoped_lock lock(mutex);
+    auto& pairs = result[found.kind == fast::PairKind::edge_edge ? 1 : 0].pairs;
+    pairs.insert(pairs.end(), found.pairs.begin(), found.pairs.end());
+  });
+  for (Candidates& one : result) std::ranges::sort(one.pairs);
+  return result;
+}
+
+}  // namespace
+
+CollisionDetector::CollisionDetector(DetectorOptions options)
+    : options_(std::move(options)),
+      solver_(verify::solvers::solver_in_process(
+          verify::solvers::find_method(options_.method),
+          {.tolerance = options_.tolerance, .max_checks = options_.max_checks})) {}
+
+bool CollisionDetector::is_whole() const {
+  return options_.method == "certified" && options_.missed_one_in == 0;
+}
+
+void CollisionDetector::record(const fast::Step& step) {
+  if (options_.recorder == nullptr) return;
+  for (const Candidates& candidates : candidates_of(step)) {
+    for (const fast::IndexPair& pair : candidates.pairs) {
+      options_.recorder->add(fast::Step::kind_of(candidates.kind),
+                             step.query_of(candidates.kind, pair));
+    }
+  }
+}
+
+std::vector<CollisionDetector::Hit> CollisionDetector::hits(const fast::Step& step,
+                                                            const Separation& separation) {
+  std::vector<Hit> result;
+  std::vector<Query> queries;
+  std::vector<fast::Answer> answers;
+  for (const Candidates& candidates : candidates_of(step.with_separation(separation))) {
+    queries.clear();
+    for (const fast::IndexPair& pair : candidates.pairs)
+      queries.push_back(step.query_of(candidates.kind, pair));
+    answers.assign(queries.size(), {});
+    statistics_.candidates += queries.size();
+    const Kind kind = fast::Step::kind_of(candidates.kind);
+    (void)solver_->solve({.kind = kind, .queries = queries, .separation = separation}, answers);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      if (answers[i].verdict == fast::Verdict::no) continue;
+      if (options_.missed_one_in != 0 && hash(queries[i]) % options_.missed_one_in == 0) {
+        ++statistics_.missed;
+        continue;
+      }
+      // What is not decided may touch at once.
+      const bool is_known = answers[i].verdict == fast::Verdict::yes && answers[i].toi_lower >= 0.0;
+      result.push_back(
+          {candidates.kind, candidates.pairs[i], is_known ? answers[i].toi_lower : 0.0});
+    }
+  }
+  return result;
+}
+
+double CollisionDetector::limit_by_method(const fast::Step& step) {
+  const std::optional<Norm> norm = norm_of(solver_->info());
+  Separation separation{};
+  if (norm) {
+    const auto least = fast::least_distance(step, 0.0, *norm);
+    if (!least) return 1.0;
+    separation = {.distance = options_.p * least->distance.lower, .norm = *norm};
+  }
+  double earliest = std::numeric_limits<double>::infinity();
+  for (const Hit& hit : hits(step, separation)) earliest = std::min(earliest, hit.toi);
+  if (earliest > 1.0) return 1.0;
+  return norm ? earliest : (1.0 - options_.p) * earliest;
+}
+
+double CollisionDetector::step_size(const fast::Step& step) {
+  record(step);
+  ++statistics_.calls;
+  const Stopwatch stopwatch(statistics_.seconds);
+  const double result =
+      is_whole() ? fast::line_search_limit(step, options_.p,
+                                           {.start_distance = fast::StartDistance::of_pair})
+                       .step_size
+                 : limit_by_method(step);
+  if (result == 0.0) ++statistics_.steps_of_zero;
+  return result;
+}
+
+std::vector<fast::ActiveContact> CollisionDetector::active_set(const fast::Step& step, double eta) {
+  record(step);
+  ++statistics_.calls;
+  const Stopwatch stopwatch(statistics_.seconds);
+  if (is_whole()) return fast::active_set(step, eta);
+  const std::optional<Norm> norm = norm_of(solver_->info());
+  std::vector<fast::ActiveContact> result;
+  for (const Hit& hit :
+       hits(step, {.distance = norm ? eta : 0.0, .norm = norm.value_or(Norm::l2)})) {
+    result.push_back(fast::contact_at(step, hit.kind, hit.pair, std::min(hit.toi, 1.0)));
+  }
+  std::ranges::sort(result, [](const fast::ActiveContact& a, const fast::ActiveContact& b) {
+    return std::tie(a.toi_lower, a.kind, a.pair) < std::tie(b.toi_lower, b.kind, b.pair);
+  });
+  return result;
+}
+
+}  // namespace touchstone::simulation

@@ -1,0 +1,51 @@
+#pragma once
+
+/// \file
+/// Queries in files, with the truth that the oracle finds: as CSV with a label in each row, the format of the 2021
+/// benchmark, or as an array of NumPy with the labels in a file beside it.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "exact/query.hpp"
+
+namespace touchstone::simulation {
+
+struct RecorderOptions {
+  std::filesystem::path folder;
+  std::string name;  ///< of the files: FOLDER/vertex-face/NAME.csv or .npy, and edge-edge likewise
+  bool as_npy = false;  ///< an eighth of the size
+  /// No more queries of each kind are taken than that.
+  std::uint64_t limit = UINT64_MAX;
+};
+
+class Recorder {
+ public:
+  /// \throws verify::data::DatasetError if no file can be made there.
+  explicit Recorder(RecorderOptions options);
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+  Recorder(Recorder&&) = delete;
+  Recorder& operator=(Recorder&&) = delete;
+
+  void add(Kind kind, const Query& query);
+
+  /// Writes what is left, and gives the files their names. \throws verify::data::DatasetError if it cannot be written.
+  void close();
+
+  [[nodiscard]] std::uint64_t queries(Kind kind) const;
+  [[nodiscard]] std::uint64_t collisions(Kind kind) const;
+
+ private:
+  class File;
+
+  RecorderOptions options_;
+  std::array<std::unique_ptr<File>, 2> files_;
+};
+
+}  // namespace touchstone::simulation
