@@ -22,6 +22,17 @@ DATA = ["handcrafted", "simulation", ""]  # "": the built-in queries
 STEPS = {"cloth-ball": ["", *(f" --min-separation {d} --norm {norm}" for d in ("1e-8", "1e-2") for norm in ("linf", "l2"))],
          "armadillo-rollers": [""], "cloth-funnel": [""]}
 
+SCENES = ["two-heads", "chain-of-rings", "twisting-mat", "dimpled-ball", "torus-on-cone", "body-on-plane", "draped-cloth",
+          "spike", "wedge", "cliff-edge", "internal-edges", "crack", "hole"]
+# Collision detection that a scene is simulated with, and what else is changed.
+# (The program of the simulator with constraints is a dense one: two scenes have too many contacts for it.)
+SIMULATIONS = [*SCENES, *(f"{scene} --simulator constraint" for scene in SCENES
+                          if scene not in ("twisting-mat", "draped-cloth")),
+               *(f"torus-on-cone --method tight_inclusion --tolerance 1e-{digits}" for digits in (1, 2, 3, 4, 6)),
+               *(f"torus-on-cone --method {method}" for method in ("tccd", "fprf", "msrf", "rp", "accd")),
+               *(f"torus-on-cone --distance {distance}" for distance in ("1e-2", "3e-3", "3e-4", "1e-4", "1e-5")),
+               *(f"torus-on-cone --miss {one_in}" for one_in in ("1000000", "10000", "1000", "100", "10", "1"))]
+
 # The commands of each file of data. They run in the folder of the public data.
 COMMANDS = {
     "results": ["report handcrafted simulation --count 1000000 --seconds 12 --experiment field "
@@ -35,6 +46,7 @@ COMMANDS = {
               f"--repetitions 7{separation}" for step, separations in STEPS.items() for separation in separations],
     "bounds": ["derive"],
     "certificates": [f"prove {data} --threads 1".replace("  ", " ") for data in DATA],
+    "simulations": [f"simulate {simulation}" for simulation in SIMULATIONS],
 }
 
 # What no document shows.
@@ -76,8 +88,23 @@ def check_certificates(checker, proofs):
             "checking_s": resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before}
 
 
+def simulate(command, options, folder):
+    """Runs a simulation, and judges its frames."""
+    print(f"./run {command}", flush=True)
+    frames, out, judged = folder / "frames", folder / "run.json", folder / "steps.json"
+    words = command.split()[1:] + (["--steps", "3"] if options.quick else [])
+    run([options.tool.with_name("touchstone-simulate"), *words, "--out", frames, "--json", out])
+    # Its exit status is 1 if something touches.
+    subprocess.run([options.tool, "step", frames, "--json", judged], capture_output=True, check=False)
+    steps_ = json.loads(judged.read_text())["steps"]
+    touching = sum(not step["free"] for step in steps_)
+    return {"command": f"./run {command}", "result": json.loads(out.read_text()) | {"touching": touching, "motions": len(steps_)}}
+
+
 def measure_one(name, command, options, folder):
     """Runs a command of the tool; the command with its result."""
+    if name == "simulations":
+        return simulate(command, options, folder)
     if options.quick:
         command = re.sub(r"--repetitions \d+", "--repetitions 1", re.sub(r"--seconds \d+", "--seconds 0.1", command))
     print(f"touchstone {command}", flush=True)
@@ -257,10 +284,60 @@ def certificates(data):
          "bytes each (compressed)", "deciding", "proving", "checking"], rows)
 
 
+def simulations(data, of):
+    """The runs whose command `of` holds for, each with its result."""
+    return [(one["command"].removeprefix("./run simulate "), one["result"]) for one in data["runs"] if of(one["command"])]
+
+
+def share(run_):
+    return f"{100 * run_['seconds']['detection'] / run_['seconds']['total']:.1f} %"
+
+
+def scenes(data):
+    chosen = dict(simulations(data, lambda command: not re.search("--(method|distance|miss)", command)))
+    rows = []
+    for scene in SCENES:
+        barrier, constraint = chosen[scene], chosen.get(f"{scene} --simulator constraint")
+        rows.append([scene, f"{barrier['vertices']:,} / {barrier['faces']:,}", barrier["time_steps"],
+                     *(cell for one in (barrier, constraint) for cell in
+                       ((f"{one['motions']:,}", one["touching"], one["steps_of_zero"], share(one)) if one else 4 * ["–"]))])
+    return made_by(data, "./run simulate SCENE --out FOLDER && ./run step FOLDER") + table(
+        ["scene", "vertices / faces", "time steps", "barrier: motions", "that touch", "steps of 0", "share of CCD",
+         "constraints: motions", "that touch", "steps of 0", "share of CCD"], rows)
+
+
+def detections(data):
+    rows = [[f"`{run_['method']}`", f"{run_['tolerance']:.0e}" if run_["method"] == "tight_inclusion" else "",
+             f"{run_['motions']:,}", run_["touching"], run_["steps_of_zero"], run_["unfinished"] + run_["stalled"],
+             rounded(run_["seconds"]["detection"]), rounded(run_["seconds"]["total"]), share(run_)]
+            for command, run_ in simulations(data, lambda command: re.search("torus-on-cone( --method.*)?$", command))]
+    return made_by(data, "./run simulate torus-on-cone --method NAME --tolerance δ") + table(
+        ["method", "δ", "motions", "that touch", "steps of 0", "time steps without an end", "CCD, s", "in all, s",
+         "share of CCD"], rows)
+
+
+def distances(data):
+    runs = simulations(data, lambda command: re.search("torus-on-cone( --distance.*)?$", command))
+    rows = [[command.partition("--distance ")[2] or "1e-3", f"{run_['motions']:,}", run_["touching"],
+             f"{1e3 * run_['seconds']['detection'] / run_['calls']:.2f}", share(run_)] for command, run_ in runs]
+    return made_by(data, "./run simulate torus-on-cone --distance d") + table(
+        ["d, m", "motions", "that touch", "CCD, ms a call", "share of CCD"],
+        sorted(rows, key=lambda row: -float(row[0])))
+
+
+def misses(data):
+    rows = [[f"{run_['missed_one_in']:,}", f"{run_['candidates']:,}", run_["missed"], f"{run_['motions']:,}",
+             run_["touching"]] for _, run_ in simulations(data, lambda command: "--miss" in command)]
+    return made_by(data, "./run simulate torus-on-cone --miss N --out FOLDER && ./run step FOLDER") + table(
+        ["one query missed in", "queries", "missed contacts", "motions", "that touch"], rows)
+
+
 # The marked parts of the documents, in their order, each with its file of data.
 PARTS = {"README.md": [(printed, "certify"), (results, "results")],
          "docs/benchmarks.md": [(judged, "certify"), (files, "files"), (patches, "patches"), (steps, "steps"),
-                                (whole_steps, "steps"), (bounds, "bounds"), (certificates, "certificates")]}
+                                (whole_steps, "steps"), (bounds, "bounds"), (certificates, "certificates")],
+         "docs/simulation.md": [(scenes, "simulations"), (detections, "simulations"), (distances, "simulations"),
+                                (misses, "simulations")]}
 
 
 # ---- Documents -------------------------------------------------------------------------------------------------------
