@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstring>
 #include <limits>
@@ -12,28 +11,12 @@
 #include <tuple>
 #include <utility>
 
+#include "examples/simulation/stopwatch.hpp"
 #include "fast/distance.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::simulation {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Adds the time until its end.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-  Stopwatch(Stopwatch&&) = delete;
-  Stopwatch& operator=(Stopwatch&&) = delete;
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  double& seconds_;
-  Clock::time_point start_ = Clock::now();
-};
 
 /// A number that depends on the coordinates alone, like one drawn at random.
 std::uint64_t hash(const Query& query) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "examples/simulation/stopwatch.hpp"
 #include "fast/active_set.hpp"
 
 namespace touchstone::simulation {
@@ -24,11 +24,6 @@ using Eigen::Matrix3d;
 using Eigen::SparseMatrix;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The difference of a contact's points as a sum over its vertices: first − second = Σ weights[i] x_vertices[i].
 struct ContactWeights {
@@ -49,12 +44,15 @@ ContactWeights weights_of(const fast::Step& step, const fast::ActiveContact& con
 
 using Factorisation = Eigen::SimplicialLDLT<SparseMatrix<double>>;
 
-void factorise(Factorisation& solver, const Derivatives& derivatives) {
+/// Factorises the Hessian, and solves for the step to the minimum of the quadratic model. Adds the time that takes.
+VectorXd newton_step(Factorisation& solver, const Derivatives& derivatives, double& seconds) {
+  const Stopwatch stopwatch(seconds);
   const Index n = derivatives.gradient.size();
   SparseMatrix<double> hessian(n, n);
   hessian.setFromTriplets(derivatives.hessian.begin(), derivatives.hessian.end());
   solver.compute(hessian);
   if (solver.info() != Eigen::Success) throw std::runtime_error("the Hessian cannot be factorised");
+  return solver.solve(-derivatives.gradient);
 }
 
 }  // namespace
@@ -71,16 +69,16 @@ double Simulator::energy(const VectorXd& x, Derivatives* derivatives) const {
   const double h = options_.time_step;
   const VectorXd& masses = world_.masses();
   const VectorXd away = x - free_;
-  if (derivatives == nullptr)
-    return away.dot(masses.cwiseProduct(away)) / 2.0 + h * h * world_.energy(x, time_);
-  const double elastic = world_.energy(x, time_, derivatives);
+  const double result =
+      away.dot(masses.cwiseProduct(away)) / 2.0 + h * h * world_.energy(x, time_, derivatives);
+  if (derivatives == nullptr) return result;
   derivatives->gradient = h * h * derivatives->gradient + masses.cwiseProduct(away);
   for (auto& entry : derivatives->hessian)
     entry = {entry.row(), entry.col(), h * h * entry.value()};
   for (Index i = 0; i < x.size(); ++i) {
     derivatives->hessian.emplace_back(static_cast<int>(i), static_cast<int>(i), masses[i]);
   }
-  return away.dot(masses.cwiseProduct(away)) / 2.0 + h * h * elastic;
+  return result;
 }
 
 void Simulator::hold(Derivatives& derivatives) const {
@@ -95,7 +93,7 @@ void Simulator::hold(Derivatives& derivatives) const {
 }
 
 void Simulator::take_time_step(const Frame& frame) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch(statistics_.total_seconds);
   const double h = options_.time_step;
   time_ += h;
   free_ = x_ + h * v_;
@@ -110,7 +108,6 @@ void Simulator::take_time_step(const Frame& frame) {
   x_ = next(frame);
   v_ = (x_ - before) / h;
   ++statistics_.time_steps;
-  statistics_.total_seconds += seconds_since(start);
 }
 
 // ---- Barrier ----
@@ -169,11 +166,8 @@ VectorXd BarrierSimulator::next(const Frame& frame) {
     ++statistics_.iterations;
     Derivatives derivatives(x.size());
     const double now = total(x, &derivatives);
-    const Clock::time_point start = Clock::now();
     Factorisation solver;
-    factorise(solver, derivatives);
-    const VectorXd direction = solver.solve(-derivatives.gradient);
-    statistics_.linear_seconds += seconds_since(start);
+    const VectorXd direction = newton_step(solver, derivatives, statistics_.linear_seconds);
     double step_size = detector_.step_size(world_.step(x, x + direction));
     VectorXd there = x + step_size * direction;
     constexpr double least_step_size = 1e-12;
@@ -247,11 +241,8 @@ VectorXd ConstraintSimulator::next(const Frame& frame) {
   Derivatives derivatives(x_.size());
   energy(x_, &derivatives);
   hold(derivatives);
-  const Clock::time_point start = Clock::now();
   Factorisation solver;
-  factorise(solver, derivatives);
-  const VectorXd unconstrained = x_ + solver.solve(-derivatives.gradient);
-  statistics_.linear_seconds += seconds_since(start);
+  const VectorXd unconstrained = x_ + newton_step(solver, derivatives, statistics_.linear_seconds);
 
   const double eta = options_.activation_distance;
   VectorXd there = unconstrained;
@@ -268,7 +259,7 @@ VectorXd ConstraintSimulator::next(const Frame& frame) {
     }
     if (constraints.size() == before) break;
     if (iteration + 1 == options_.max_iterations) ++statistics_.unfinished;
-    const Clock::time_point solving = Clock::now();
+    const Stopwatch stopwatch(statistics_.linear_seconds);
     constraints.responses.conservativeResize(x_.size(), constraints.size());
     constraints.multipliers.conservativeResize(constraints.size());
     for (Index i = before; i < constraints.size(); ++i) {
@@ -283,7 +274,6 @@ VectorXd ConstraintSimulator::next(const Frame& frame) {
       constraints.multipliers[i] = 0.0;
     }
     there = solve(constraints, unconstrained, eta);
-    statistics_.linear_seconds += seconds_since(solving);
     statistics_.contacts += static_cast<std::uint64_t>(constraints.size() - before);
   }
   const fast::Step step = world_.step(x_, there);
