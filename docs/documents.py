@@ -31,7 +31,8 @@ SIMULATIONS = [*SCENES, *(f"{scene} --simulator constraint" for scene in SCENES
                *(f"torus-on-cone --method tight_inclusion --tolerance 1e-{digits}" for digits in (1, 2, 3, 4, 6)),
                *(f"torus-on-cone --method {method}" for method in ("tccd", "fprf", "msrf", "rp", "accd")),
                *(f"torus-on-cone --distance {distance}" for distance in ("1e-2", "3e-3", "3e-4", "1e-4", "1e-5")),
-               *(f"torus-on-cone --miss {one_in}" for one_in in ("1000000", "10000", "1000", "100", "10", "1"))]
+               *(f"torus-on-cone --miss {one_in}" for one_in in ("1000000", "10000", "1000", "100", "10", "1")),
+               *(f"torus-on-cone --miss-limit {n}" for n in range(1, 11))]
 
 # The simulations whose queries are the group `simulated` of the results: the four scenes of the paper, at least five million
 # queries of each kind.
@@ -41,8 +42,9 @@ RECORDINGS = [f"simulate {scene} --record {RECORDED} --record-limit 2500 --npy"
 
 # The commands of each file of data. They run in the folder of the public data.
 COMMANDS = {
-    "results": [f"report handcrafted simulation {RECORDED} --count 12000000 --seconds 12 --experiment field "
-                "--experiment separation --experiment filter --stability 0"],
+    "results": ["report handcrafted simulation --count 1000000 --seconds 12 --experiment field "
+                "--experiment separation --experiment filter --stability 0",
+                f"report {RECORDED} --count 12000000 --seconds 12 --experiment field --stability 0"],
     "certify": [f"certify {data} --method certified --method tight_inclusion --method tight_inclusion_published "
                 "--method tight_inclusion_released" if data else "certify" for data in DATA],
     "files": ["bench handcrafted/*/*/*.csv simulation/*/queries/*.csv --method certified --method tccd "
@@ -111,7 +113,7 @@ def record(options):
     """Simulates the scenes whose queries are reported on, but those that an earlier run has recorded by the same command."""
     for command in RECORDINGS:
         words = command.split()[1:] + (["--steps", "3"] if options.quick else [])
-        done = options.recorded / "json" / f"{words[0]}.json"
+        done = options.recorded.with_name(f"{options.recorded.name}-runs") / f"{words[0]}.json"
         if done.exists() and json.loads(done.read_text())["command"] == words:
             continue
         print(f"./run {command}", flush=True)
@@ -150,9 +152,11 @@ def measure(name, options, folder):
     rows = [measure_one(name, command, options, folder) for command in COMMANDS[name]]
     key, data = "runs", {"date": datetime.datetime.now(datetime.timezone.utc).date().isoformat()}
     if name == "results":  # as `touchstone report --from` reads it
-        key, data = "measurements", rows[0]["result"] | {"command": rows[0]["command"]}
+        key, data = "measurements", rows[0]["result"] | {"command": "\n".join(row["command"] for row in rows),
+                                                   "groups": sum(row["result"]["groups"] for row in rows)}
         rows = [row if row["experiment"] == "field" else row | {"hit_times": [], "miss_times": []}  # drawn of the field
-                for row in data.pop(key)]
+                for of in rows for row in of["result"][key]]
+        del data[key]
     lines = ",\n".join(compact(row) for row in rows)
     text = f'{compact(data)[:-1]},"{key}":[\n{lines}\n]}}\n'
     (options.root / f"docs/data/{name}.json").write_text(text)
@@ -330,30 +334,47 @@ def scenes(data):
          "constraints: motions", "that touch", "steps of 0", "share of CCD"], rows)
 
 
+def chart(title, names, unit, values):
+    """Bars, as Markdown shows them."""
+    return ["", "```mermaid", "xychart-beta", f'    title "{title}"', f'    x-axis [{", ".join(names)}]',
+            f'    y-axis "{unit}"', f'    bar [{", ".join(values)}]', "```"]
+
+
 def detections(data):
     rows = [[f"`{run_['method']}`", f"{run_['tolerance']:.0e}" if run_["method"] == "tight_inclusion" else "",
              f"{run_['motions']:,}", run_["touching"], run_["steps_of_zero"], run_["unfinished"] + run_["stalled"],
              rounded(run_["seconds"]["detection"]), rounded(run_["seconds"]["total"]), share(run_)]
             for command, run_ in simulations(data, lambda command: re.search("torus-on-cone( --method.*)?$", command))]
+    by_tolerance = [row for row in rows if row[1]]
     return made_by(data, "./run simulate torus-on-cone --method NAME --tolerance δ") + table(
         ["method", "δ", "motions", "that touch", "steps of 0", "time steps without an end", "CCD, s", "in all, s",
-         "share of CCD"], rows)
+         "share of CCD"], rows) + chart(
+             "Tight-Inclusion over its δ: motions until the end, or until all steps are 0", [row[1] for row in by_tolerance],
+             "motions", [row[2] for row in by_tolerance])
 
 
 def distances(data):
     runs = simulations(data, lambda command: re.search("torus-on-cone( --distance.*)?$", command))
     rows = [[command.partition("--distance ")[2] or "1e-3", f"{run_['motions']:,}", run_["touching"],
              f"{1e3 * run_['seconds']['detection'] / run_['calls']:.2f}", share(run_)] for command, run_ in runs]
+    rows.sort(key=lambda row: -float(row[0]))
     return made_by(data, "./run simulate torus-on-cone --distance d") + table(
-        ["d, m", "motions", "that touch", "CCD, ms a call", "share of CCD"],
-        sorted(rows, key=lambda row: -float(row[0])))
+        ["d, m", "motions", "that touch", "CCD, ms a call", "share of CCD"], rows) + chart(
+            "Collision detection over the distance of barriers", [row[0] for row in rows], "ms a call", [row[3] for row in rows])
 
 
 def misses(data):
     rows = [[f"{run_['missed_one_in']:,}", f"{run_['candidates']:,}", run_["missed"], f"{run_['motions']:,}",
-             run_["touching"]] for _, run_ in simulations(data, lambda command: "--miss" in command)]
+             run_["touching"]] for _, run_ in simulations(data, lambda command: "--miss " in command)]
     return made_by(data, "./run simulate torus-on-cone --miss N --out FOLDER && ./run step FOLDER") + table(
         ["one query missed in", "queries", "missed contacts", "motions", "that touch"], rows)
+
+
+def one_miss(data):
+    rows = [[run_["missed_limit"], f"{run_['candidates']:,}", f"{run_['motions']:,}", run_["touching"]]
+            for _, run_ in simulations(data, lambda command: "--miss-limit" in command)]
+    return made_by(data, "./run simulate torus-on-cone --miss-limit N --out FOLDER && ./run step FOLDER") + table(
+        ["N", "queries", "motions", "that touch"], rows)
 
 
 # The marked parts of the documents, in their order, each with its file of data.
@@ -361,7 +382,7 @@ PARTS = {"README.md": [(printed, "certify"), (results, "results")],
          "docs/benchmarks.md": [(judged, "certify"), (files, "files"), (patches, "patches"), (steps, "steps"),
                                 (whole_steps, "steps"), (bounds, "bounds"), (certificates, "certificates")],
          "docs/simulation.md": [(scenes, "simulations"), (detections, "simulations"), (distances, "simulations"),
-                                (misses, "simulations")]}
+                                (misses, "simulations"), (one_miss, "simulations")]}
 
 
 # ---- Documents -------------------------------------------------------------------------------------------------------

@@ -66,7 +66,8 @@ CollisionDetector::CollisionDetector(DetectorOptions options)
           {.tolerance = options_.tolerance, .max_checks = options_.max_checks})) {}
 
 bool CollisionDetector::is_whole() const {
-  return options_.method == "certified" && options_.missed_one_in == 0;
+  return options_.method == "certified" && options_.missed_one_in == 0 &&
+         options_.missed_limit == 0;
 }
 
 void CollisionDetector::record(const fast::Step& step) {
@@ -117,9 +118,13 @@ double CollisionDetector::limit_by_method(const fast::Step& step) {
     if (!least) return 1.0;
     separation = {.distance = options_.p * least->distance.lower, .norm = *norm};
   }
-  double earliest = std::numeric_limits<double>::infinity();
-  for (const Hit& hit : hits(step, separation)) earliest = std::min(earliest, hit.toi);
-  if (earliest > 1.0) return 1.0;
+  std::vector<Hit> limits = hits(step, separation);
+  if (!limits.empty() && ++statistics_.limited == options_.missed_limit) {
+    limits.erase(std::ranges::min_element(limits, {}, &Hit::toi));
+    ++statistics_.missed;
+  }
+  if (limits.empty()) return 1.0;
+  const double earliest = std::ranges::min(limits, {}, &Hit::toi).toi;
   return norm ? earliest : (1.0 - options_.p) * earliest;
 }
 

@@ -31,6 +31,9 @@ struct DetectorOptions {
   /// One query in so many is answered "no" whatever the truth, chosen by its coordinates; 0: none. (The certified solver is
   /// then asked as the others are.)
   std::uint64_t missed_one_in = 0;
+  /// One answer in all is "no" whatever the truth: to the query that limits the step of the so many-th line search that
+  /// any limits; 0: none. (The certified solver is then asked as the others are.)
+  std::uint64_t missed_limit = 0;
   /// Of the queries that methods are asked, or would be. Null: they are not recorded.
   Recorder* recorder = nullptr;
   /// Of each motion no more queries of each kind than that are recorded, evenly spread; positive.
@@ -40,8 +43,10 @@ struct DetectorOptions {
 /// What the detector did so far.
 struct DetectorStatistics {
   std::uint64_t calls = 0;
-  std::uint64_t candidates = 0;     ///< pairs that methods were asked about, or would have been
-  std::uint64_t missed = 0;         ///< by missed_one_in, where the answer was not "no"
+  std::uint64_t candidates = 0;  ///< pairs that methods were asked about, or would have been
+  std::uint64_t missed = 0;      ///< on purpose, where the answer was not "no"
+  std::uint64_t limited =
+      0;  ///< line searches that a contact limits, of methods asked query by query
   std::uint64_t steps_of_zero = 0;  ///< line searches that may not go anywhere
   double seconds = 0.0;             ///< broad phase included, recording not
 };

@@ -83,6 +83,7 @@ nlohmann::json json_of(const Arguments& arguments, const Simulator& simulator,
       {"tolerance", arguments.detector.tolerance},
       {"max_checks", arguments.detector.max_checks},
       {"missed_one_in", arguments.detector.missed_one_in},
+      {"missed_limit", arguments.detector.missed_limit},
       {"vertices", world.coordinates() / 3},
       {"faces", world.faces().size()},
       {"frames", frames},
@@ -95,6 +96,7 @@ nlohmann::json json_of(const Arguments& arguments, const Simulator& simulator,
       {"calls", detection.calls},
       {"candidates", detection.candidates},
       {"missed", detection.missed},
+      {"limited", detection.limited},
       {"steps_of_zero", detection.steps_of_zero},
       {"seconds",
        {{"total", run.total_seconds},
@@ -125,7 +127,7 @@ std::string text_of(const nlohmann::json& result) {
       number("time_steps"), number("iterations"), number("frames"), total, share("detection"),
       share("linear"), number("calls"), number("steps_of_zero"), number("unfinished"),
       number("stalled"), number("shortened"));
-  if (number("missed_one_in") != 0) {
+  if (number("missed_one_in") != 0 || number("missed_limit") != 0) {
     text += fmt::format("  missed           {} answers of {} turned into \"no\"\n",
                         number("missed"), number("candidates"));
   }
@@ -218,6 +220,10 @@ int run(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--miss", arguments.detector.missed_one_in,
                  "Answer \"no\" to one query in N, on purpose")
+      ->type_name("N");
+  app.add_option("--miss-limit", arguments.detector.missed_limit,
+                 "Answer \"no\" once, on purpose: to the query that limits the N-th step that one "
+                 "limits")
       ->type_name("N");
   app.add_option("--out", arguments.out,
                  "Folder of the frames, a PLY file each, for touchstone step")
