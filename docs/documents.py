@@ -44,7 +44,7 @@ RECORDINGS = [f"simulate {scene} --record {RECORDED} --record-limit 2500 --npy"
 COMMANDS = {
     "results": ["report handcrafted simulation --count 1000000 --seconds 12 --experiment field "
                 "--experiment separation --experiment filter --stability 0",
-                f"report {RECORDED} --count 12000000 --seconds 12 --experiment field --stability 0"],
+                f"report {RECORDED} --count 5000000 --seconds 12 --experiment field --stability 0"],
     "certify": [f"certify {data} --method certified --method tight_inclusion --method tight_inclusion_published "
                 "--method tight_inclusion_released" if data else "certify" for data in DATA],
     "files": ["bench handcrafted/*/*/*.csv simulation/*/queries/*.csv --method certified --method tccd "

@@ -39,6 +39,7 @@ class Run {
   Run(const data::QueryGroup& group, std::span<const solvers::Solver* const> solvers,
       const BenchOptions& options)
       : group_(group),
+        samples_(group),
         options_(options),
         truths_(group, options.threads),
         steps_((options.repetitions + 3) * solvers.size() + options.repetitions,
@@ -48,7 +49,7 @@ class Run {
     result_.separation = options.separation;
     result_.queries = group.queries().size();
     for (const solvers::Solver* solver : solvers)
-      timed_.emplace_back(*solver, group, options.separation);
+      timed_.emplace_back(*solver, samples_, options.separation);
   }
 
   [[nodiscard]] BenchResult result() {
@@ -168,6 +169,7 @@ class Run {
   }
 
   const data::QueryGroup& group_;
+  Samples samples_;
   const BenchOptions& options_;
   std::vector<TimedSolver> timed_;
   judge::GroundTruthCache truths_;

@@ -34,25 +34,35 @@ double Times::median() const { return jobs::median(repetitions); }
 
 double Times::min() const { return quantile(repetitions, 0.0); }
 
-TimedSolver::TimedSolver(const solvers::Solver& solver, const data::QueryGroup& group,
+std::shared_ptr<const Sample> Samples::of(std::size_t count) {
+  const std::vector<Query>& all = group_->queries();
+  count = std::min(count, all.size());
+  std::weak_ptr<const Sample>& known = samples_[count];
+  if (auto sample = known.lock()) return sample;
+  const auto sample = std::make_shared<Sample>();
+  sample->positions = spread_sample(all.size(), count);
+  sample->queries = all;
+  if (count < all.size()) {
+    sample->copies.reserve(count);
+    for (const std::size_t position : sample->positions) sample->copies.push_back(all[position]);
+    sample->queries = sample->copies;
+  }
+  known = sample;
+  return sample;
+}
+
+TimedSolver::TimedSolver(const solvers::Solver& solver, Samples& samples,
                          const Separation& separation)
-    : solver_(&solver), group_(&group), separation_(separation) {}
+    : solver_(&solver), samples_(&samples), separation_(separation) {}
 
 void TimedSolver::take(std::size_t count) {
-  const std::vector<Query>& all = group_->queries();
-  positions_ = spread_sample(all.size(), count);
-  copies_.clear();
-  queries_ = all;
-  if (count < all.size()) {
-    for (const std::size_t position : positions_) copies_.push_back(all[position]);
-    queries_ = copies_;
-  }
-  answers_.resize(queries_.size());
+  sample_ = samples_->of(count);
+  answers_.resize(queries().size());
   calls_ = 0;
 }
 
 void TimedSolver::choose_sample(const SampleLimits& limits) {
-  const std::size_t most = std::min(limits.most, group_->queries().size());
+  const std::size_t most = std::min(limits.most, samples_->group().queries().size());
   std::size_t count = solver_->only_as_a_whole() ? most : std::min(first_sample, most);
   // The pace varies from query to query, so a small sample says little.
   for (;;) {
@@ -79,7 +89,7 @@ double TimedSolver::possible_growth(const SampleLimits& limits) {
 
 double TimedSolver::time_calls(const solvers::Solver& solver, std::size_t calls) {
   const solvers::SolveRequest request{
-      .kind = group_->kind(), .queries = queries_, .separation = separation_};
+      .kind = samples_->group().kind(), .queries = queries(), .separation = separation_};
   double own = 0.0;
   const double here = time_of(calls, [&] {
     reply_ = solver.solve(request, answers_);
@@ -93,20 +103,20 @@ void TimedSolver::repeat() {
   if (calls_ == 0) calls_ = calls_for(time_calls(*solver_, 1));
   const double nanoseconds = time_calls(*solver_, calls_);
   seconds_spent_ += 1e-9 * nanoseconds * static_cast<double>(calls_);
-  times_.repetitions.push_back(nanoseconds / static_cast<double>(queries_.size()));
+  times_.repetitions.push_back(nanoseconds / static_cast<double>(queries().size()));
 }
 
 std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, double seconds,
                                                              const std::atomic<bool>* stop) const {
-  const std::vector<std::size_t> chosen = spread_sample(queries_.size(), count);
+  const std::vector<std::size_t> chosen = spread_sample(queries().size(), count);
   std::vector<double> times(chosen.size(), std::numeric_limits<double>::infinity());
   fast::Answer answer;
   const WallClock::time_point start = WallClock::now();
   for (int sweep = 0; sweep < sweeps && nanoseconds_since(start) <= 1e9 * seconds; ++sweep) {
     for (std::size_t i = 0; i < chosen.size(); ++i) {
       if (is_stopped(stop)) return std::nullopt;
-      const solvers::SolveRequest request{.kind = group_->kind(),
-                                          .queries = queries_.subspan(chosen[i], 1),
+      const solvers::SolveRequest request{.kind = samples_->group().kind(),
+                                          .queries = queries().subspan(chosen[i], 1),
                                           .separation = separation_};
       const WallClock::time_point before = WallClock::now();
       const solvers::SolveReply reply = solver_->solve(request, {&answer, 1});
@@ -122,12 +132,13 @@ std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, 
 
 judge::Judgement TimedSolver::judge(std::span<const judge::GroundTruth> truths) const {
   judge::Judgement judgement;
+  const std::vector<std::size_t>& places = positions();
   auto failure = reply_.failures.begin();
   std::size_t i = 0;
   for (const judge::GroundTruth& truth : truths) {
-    while (i < positions_.size() && positions_[i] < truth.index) ++i;
-    if (i == positions_.size()) break;
-    if (positions_[i] != truth.index) continue;
+    while (i < places.size() && places[i] < truth.index) ++i;
+    if (i == places.size()) break;
+    if (places[i] != truth.index) continue;
     while (failure != reply_.failures.end() && failure->position < i) ++failure;
     const bool has_failed = failure != reply_.failures.end() && failure->position == i;
     judgement.add(truth, answers_[i], has_failed ? &failure->failure : nullptr);

@@ -16,6 +16,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -50,12 +52,36 @@ struct SampleLimits {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// Evenly spread queries of a group.
+struct Sample {
+  /// In the group, ascending.
+  std::vector<std::size_t> positions;
+  /// Copies of the queries there, if these are not all.
+  std::vector<Query> copies;
+  std::span<const Query> queries;
+};
+
+/// The samples of a group. One that several solvers are timed on is in memory once.
+class Samples {
+ public:
+  /// The group must live as long as this and as its samples.
+  explicit Samples(const data::QueryGroup& group) : group_(&group) {}
+
+  /// Of so many queries, or of all there are.
+  [[nodiscard]] std::shared_ptr<const Sample> of(std::size_t count);
+  [[nodiscard]] const data::QueryGroup& group() const { return *group_; }
+
+ private:
+  const data::QueryGroup* group_;
+  /// Those in use, by their size.
+  std::map<std::size_t, std::weak_ptr<const Sample>> samples_;
+};
+
 /// A solver, the sample of a group that it is timed on, its answers and its times.
 class TimedSolver {
  public:
-  /// Solver and group must live as long as this object. The sample is empty.
-  TimedSolver(const solvers::Solver& solver, const data::QueryGroup& group,
-              const Separation& separation);
+  /// Solver and samples must live as long as this object. Its sample is empty.
+  TimedSolver(const solvers::Solver& solver, Samples& samples, const Separation& separation);
   TimedSolver(const TimedSolver&) = delete;
   TimedSolver& operator=(const TimedSolver&) = delete;
   TimedSolver(TimedSolver&&) = default;
@@ -80,9 +106,9 @@ class TimedSolver {
   [[nodiscard]] const solvers::Solver& solver() const { return *solver_; }
   [[nodiscard]] const Separation& separation() const { return separation_; }
   /// The sample.
-  [[nodiscard]] std::span<const Query> queries() const { return queries_; }
+  [[nodiscard]] std::span<const Query> queries() const { return sample_->queries; }
   /// The positions of the sample in the group, ascending.
-  [[nodiscard]] const std::vector<std::size_t>& positions() const { return positions_; }
+  [[nodiscard]] const std::vector<std::size_t>& positions() const { return sample_->positions; }
   /// Of the latest call, query by query.
   [[nodiscard]] std::span<const fast::Answer> answers() const { return answers_; }
   [[nodiscard]] const Times& times() const { return times_; }
@@ -96,12 +122,9 @@ class TimedSolver {
   double possible_growth(const SampleLimits& limits);
 
   const solvers::Solver* solver_;
-  const data::QueryGroup* group_;
+  Samples* samples_;
   Separation separation_;
-  std::vector<std::size_t> positions_;
-  /// Copies of the queries there, if these are not all.
-  std::vector<Query> copies_;
-  std::span<const Query> queries_;
+  std::shared_ptr<const Sample> sample_ = std::make_shared<Sample>();
   std::vector<fast::Answer> answers_;
   /// Of the latest call.
   solvers::SolveReply reply_;

@@ -57,6 +57,7 @@ class Run {
       std::span<const Setting> settings, const fast::Method& reference,
       const MeasureOptions& options)
       : group_(group),
+        samples_(group),
         truths_(truths),
         settings_(settings),
         reference_(solvers::solver_in_process(reference, {})),
@@ -66,7 +67,7 @@ class Run {
           setting.in_children
               ? solvers::solver_in_children(*setting.method, setting.options, options.process)
               : solvers::solver_in_process(*setting.method, setting.options));
-      timed_.emplace_back(*solvers_.back(), group, setting.options.separation);
+      timed_.emplace_back(*solvers_.back(), samples_, setting.options.separation);
     }
   }
 
@@ -116,29 +117,30 @@ class Run {
     for (jobs::TimedSolver& timed : timed_) timed.take(smallest.at(timed.solver().name()));
   }
 
+  /// A sample at a separation: which truths a solver is held against, and which reference.
+  using Key = std::tuple<std::size_t, double, Norm>;
+
+  static Key key_of(const jobs::TimedSolver& timed) {
+    return {timed.queries().size(), timed.separation().distance, timed.separation().norm};
+  }
+
   /// The times of single queries, and the truth.
   void ask_singly(const jobs::TimedSolver& timed) {
     single_times_.push_back(
         timed.time_singles(timed.queries().size(), options_.seconds, options_.stop)
             .value_or(std::vector<double>()));
-    known_.push_back(truths_.of(timed.separation(), timed.positions(), options_.stop));
+    const auto [known, is_new] = known_.try_emplace(key_of(timed));
+    if (is_new) known->second = truths_.of(timed.separation(), timed.positions(), options_.stop);
   }
 
   // ---- Timing -----------------------------------------------------------------------------------
-
-  /// Which reference a solver is compared with.
-  using ReferenceKey = std::tuple<std::size_t, double, Norm>;
-
-  static ReferenceKey key_of(const jobs::TimedSolver& timed) {
-    return {timed.queries().size(), timed.separation().distance, timed.separation().norm};
-  }
 
   /// The reference on each of the samples, at each of the separations.
   void add_references() {
     for (std::size_t i = 0; i < settings_.size(); ++i) {
       const auto [place, is_new] = reference_of_.try_emplace(key_of(timed_[i]), timed_.size());
       if (!is_new) continue;
-      jobs::TimedSolver reference(*reference_, group_, timed_[i].separation());
+      jobs::TimedSolver reference(*reference_, samples_, timed_[i].separation());
       reference.take(timed_[i].queries().size());
       timed_.push_back(std::move(reference));
     }
@@ -158,11 +160,16 @@ class Run {
     return timed_[reference_of_.at(key_of(timed))];
   }
 
+  [[nodiscard]] const std::vector<judge::GroundTruth>& known_of(
+      const jobs::TimedSolver& timed) const {
+    return known_.at(key_of(timed));
+  }
+
   [[nodiscard]] bool is_complete(std::size_t index) const {
     const jobs::TimedSolver& timed = timed_[index];
     return !timed.times().repetitions.empty() &&
            !reference_for(timed).times().repetitions.empty() &&
-           known_[index].size() == timed.queries().size();
+           known_of(timed).size() == timed.queries().size();
   }
 
   [[nodiscard]] Measurement report(std::size_t index) const {
@@ -176,7 +183,7 @@ class Run {
          solvers::count_stages(timed.solver().info(), timed.answers())) {
       said.stages.push_back({std::string(stage.stage), stage.queries});
     }
-    set_counts(timed.judge(known_[index]), said);
+    set_counts(timed.judge(known_of(timed)), said);
     describe_queries(index, said);
     return said;
   }
@@ -184,8 +191,9 @@ class Run {
   /// Counts and times that are about each query.
   void describe_queries(std::size_t index, Measurement& said) const {
     judge::ToiErrors tolerances;
-    for (std::size_t i = 0; i < known_[index].size(); ++i) {
-      const bool collides = known_[index][i].collides;
+    const std::vector<judge::GroundTruth>& known = known_of(timed_[index]);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      const bool collides = known[i].collides;
       const fast::Answer& answer = timed_[index].answers()[i];
       said.collisions += collides ? 1U : 0U;
       said.at_limit += is_at_limit(answer, said.max_checks) ? 1U : 0U;
@@ -197,6 +205,7 @@ class Run {
   }
 
   const data::QueryGroup& group_;
+  jobs::Samples samples_;
   judge::GroundTruthCache& truths_;
   std::span<const Setting> settings_;
   std::unique_ptr<solvers::Solver> reference_;
@@ -206,10 +215,10 @@ class Run {
   std::vector<jobs::TimedSolver> timed_;
   /// Of the settings, in the order of their samples; none if stopped.
   std::vector<std::vector<double>> single_times_;
-  /// The same; fewer than were asked if stopped.
-  std::vector<std::vector<judge::GroundTruth>> known_;
+  /// Of each sample at each separation; fewer than were asked if stopped.
+  std::map<Key, std::vector<judge::GroundTruth>> known_;
   /// Where in timed_.
-  std::map<ReferenceKey, std::size_t> reference_of_;
+  std::map<Key, std::size_t> reference_of_;
 };
 
 }  // namespace

@@ -70,9 +70,10 @@ TEST(Timing, ShortWorkIsDoneSeveralTimes) {
 
 TEST(TimedSolver, AnswersAnEvenlySpreadSample) {
   const data::QueryGroup group = falling(100);
+  Samples samples(group);
   const FunctionMethod method(tests::true_answer);
   const auto solver = solvers::solver_in_process(method, {});
-  TimedSolver timed(*solver, group, {});
+  TimedSolver timed(*solver, samples, {});
   EXPECT_TRUE(timed.queries().empty());
   for (const std::size_t count : {30U, 100U, 1000U}) {
     timed.take(count);
@@ -89,13 +90,24 @@ TEST(TimedSolver, AnswersAnEvenlySpreadSample) {
   EXPECT_GT(timed.seconds_spent(), 0.0);
 }
 
+TEST(Samples, OfOneSizeAreOneInMemory) {
+  const data::QueryGroup group = falling(100);
+  Samples samples(group);
+  const auto thirty = samples.of(30), again = samples.of(30), all = samples.of(100);
+  EXPECT_EQ(thirty.get(), again.get());
+  EXPECT_EQ(samples.of(1000).get(), all.get());
+  EXPECT_EQ(thirty->queries.data(), thirty->copies.data());
+  EXPECT_EQ(all->queries.data(), group.queries().data()) << "no copies of all there are";
+}
+
 TEST(TimedSolver, ItsSampleGrowsAsLongAsItAndItsCompanionAreFast) {
   const data::QueryGroup group = falling(1000);
+  Samples samples(group);
   const FunctionMethod fast_one(no), slow_one(slow_no);
   const auto quick = solvers::solver_in_process(fast_one, {}),
              slow = solvers::solver_in_process(slow_one, {});
   const auto size_with = [&](const solvers::Solver& solver, const SampleLimits& limits) {
-    TimedSolver timed(solver, group, {});
+    TimedSolver timed(solver, samples, {});
     timed.choose_sample(limits);
     return timed.queries().size();
   };
@@ -114,9 +126,10 @@ TEST(TimedSolver, ItsSampleGrowsAsLongAsItAndItsCompanionAreFast) {
 
 TEST(TimedSolver, TimesQueriesAlone) {
   const data::QueryGroup group = falling(40);
+  Samples samples(group);
   const FunctionMethod method(slow_no);
   const auto solver = solvers::solver_in_process(method, {});
-  TimedSolver timed(*solver, group, {});
+  TimedSolver timed(*solver, samples, {});
   timed.take(20);
   const auto times = timed.time_singles(10, 1e-3, nullptr);
   ASSERT_TRUE(times);
@@ -128,13 +141,14 @@ TEST(TimedSolver, TimesQueriesAlone) {
 
 TEST(TimedSolver, JudgesTheQueriesWhoseTruthIsKnown) {
   const data::QueryGroup group = falling(100);
+  Samples samples(group);
   const double height = group.queries()[10].at(0, 0, 2);
   const FunctionMethod method([height](Kind kind, const Query& query) {
     if (query.at(0, 0, 2) == height) throw std::runtime_error("thrown");
     return no(kind, query);
   });
   const auto solver = solvers::solver_in_process(method, {});
-  TimedSolver timed(*solver, group, {});
+  TimedSolver timed(*solver, samples, {});
   timed.take(100);
   timed.repeat();
   std::vector<judge::GroundTruth> truths;
