@@ -1,7 +1,6 @@
 #include "exact/checker/certificate.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
@@ -11,23 +10,18 @@ namespace {
 
 // ---- Numbers --------------------------------------------------------------------------------------
 
-[[noreturn]] void reject_as_too_large() {
-  reject("a number with more than " + std::to_string(max_number_bits) + " bits");
+void require_at_most(std::size_t limit, std::size_t count, std::string_view what) {
+  if (count > limit) reject("more than " + std::to_string(limit) + ' ' + std::string(what));
 }
 
 mpz_class parse_digits(std::string_view digits, int base) {
   const auto known = std::string_view("0123456789abcdef").substr(0, std::size_t(base));
   if (digits.empty() || digits.find_first_not_of(known) != std::string_view::npos)
     reject("not a number");
-  if (digits.size() <= 16) {
-    unsigned long small = 0;
-    std::from_chars(digits.begin(), digits.end(), small, base);
-    return small;
-  }
   // 2^16384 has 4933 decimal digits; a longer text is not worth its conversion.
-  if (digits.size() > (base == 10 ? 4'933 : max_number_bits / 4)) reject_as_too_large();
+  require_at_most(base == 10 ? 4'933 : max_number_bits / 4, digits.size(), "digits in a number");
   mpz_class number(std::string(digits), base);
-  if (mpz_sizeinbase(number.get_mpz_t(), 2) > max_number_bits) reject_as_too_large();
+  require_at_most(max_number_bits, mpz_sizeinbase(number.get_mpz_t(), 2), "bits in a number");
   return number;
 }
 
@@ -47,7 +41,7 @@ mpq_class parse_hexadecimal(std::string_view text) {
   const bool is_signed = power.starts_with('-') || power.starts_with('+');
   power.remove_prefix(is_signed ? 1 : 0);
   if (whole.empty() || digits.ends_with('.')) reject("not a number");
-  if (power.size() > 6) reject_as_too_large();
+  require_at_most(6, power.size(), "digits in a power of two");
   long exponent = long(parse_digits(power, 10).get_si());
   if (signed_power.starts_with('-')) exponent = -exponent;
   exponent -= 4 * std::ssize(fraction);
@@ -55,7 +49,7 @@ mpq_class parse_hexadecimal(std::string_view text) {
   // The integers of the fraction: number · 2^exponent / 1 or number / 2^−exponent.
   constexpr long limit = max_number_bits;
   const long room = limit - static_cast<long>(mpz_sizeinbase(number.get_num_mpz_t(), 2));
-  if (exponent > room || 1 - exponent > limit) reject_as_too_large();
+  if (exponent > room || 1 - exponent > limit) reject("too large or small a power of two");
   exponent > 0 ? number <<= mp_bitcnt_t(exponent) : number >>= mp_bitcnt_t(-exponent);
   return number;
 }
@@ -75,8 +69,8 @@ mpq_class parse(std::string_view word, bool is_integer = false) try {
     number.canonicalize();
   }
   return word.starts_with('-') ? mpq_class(-number) : number;
-} catch (const Rejected& rejected) {
-  reject(rejected.reason + ": " + quoted(word));
+} catch (const Rejection& rejection) {
+  reject(rejection.reason + ": " + quoted(word));
 }
 
 // ---- The parts of a certificate -----------------------------------------------------------------
@@ -85,12 +79,11 @@ void read_query(Reader& reader, Certificate& certificate) {
   reader.begin("query");
   certificate.is_edge_edge = reader.one_of({"vertex_face", "edge_edge"}) == 1;
   reader.end();
-  if (reader.is_line() && reader.first_word() == "label") {
+  if (reader.first_word() == "label") {
+    reader.begin();
     const std::string_view text = reader.text();
     certificate.label = text.substr(std::min<std::size_t>(6, text.size()));
-    if (certificate.label.size() > max_label_bytes) {
-      reject("a label of more than " + std::to_string(max_label_bytes) + " bytes");
-    }
+    require_at_most(max_label_bytes, certificate.label.size(), "bytes in a label");
     reader.advance();
   }
   for (std::size_t n = 0; n < certificate.coordinates.size(); ++n) {
@@ -98,44 +91,22 @@ void read_query(Reader& reader, Certificate& certificate) {
     certificate.coordinates[n] = read_number(reader);
     if (n % 3 == 2) reader.end();
   }
-  if (reader.is_line() && reader.first_word() == "separation") read_separation(reader, certificate);
+  if (reader.first_word() == "separation") read_separation(reader, certificate);
 }
 
 void read_claim(Reader& reader, Certificate& certificate) {
-  certificate.line = reader.number();
-  reader.begin("claim");
+  certificate.line = reader.begin("claim");
   certificate.claim = Claim(reader.one_of({"no_collision", "collision", "time_of_impact"}));
-  if (certificate.claim == Claim::time_of_impact) {
-    certificate.lower = read_number(reader);
-    certificate.upper = read_number(reader);
-  }
+  if (certificate.claim == Claim::no_collision) certificate.lower = 1;
+  if (certificate.claim == Claim::time_of_impact) read_time_of_impact(reader, certificate);
   reader.end();
 }
 
-std::size_t read_corner(Reader& reader, const Certificate& certificate) {
-  const std::size_t corner = reader.one_of({"0", "1", "2", "3"});
-  if (corner == 3 && !certificate.is_edge_edge) reject("a vertex_face has no corner 3");
-  return corner;
-}
-
-void read_piece(Reader& reader, Certificate& certificate) {
-  if (certificate.pieces.size() == max_pieces) {
-    reject("more than " + std::to_string(max_pieces) + " pieces");
+void read_corners(Reader& reader, const Certificate& certificate, std::size_t count, Part& part) {
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t corner = part.corners.at(n) = reader.one_of({"0", "1", "2", "3"});
+    if (corner == 3 && !certificate.is_edge_edge) reject("a vertex_face has no corner 3");
   }
-  Piece& piece = certificate.pieces.emplace_back();
-  piece.line = reader.number();
-  reader.begin("separate");
-  piece.from = read_number(reader);
-  piece.to = read_number(reader);
-  piece.feature = Feature(reader.one_of({"vertex", "edge", "face", "axis", "cross"}));
-  if (piece.feature >= Feature::axis) piece.axis = reader.one_of({"x", "y", "z"});
-  if (piece.feature == Feature::face || piece.feature == Feature::axis) {
-    piece.is_negative = reader.one_of({"+", "-"}) == 1;
-  } else {
-    piece.i = read_corner(reader, certificate);
-    if (piece.feature != Feature::vertex) piece.j = read_corner(reader, certificate);
-  }
-  reader.end();
 }
 
 }  // namespace
@@ -178,12 +149,13 @@ void Reader::advance() {
   } while (number_ > 1 && fault_ == nullptr && (text_.empty() || text_.front() == '#'));
 }
 
-void Reader::begin(std::string_view keyword) {
+std::size_t Reader::begin(std::string_view keyword) {
   if (fault_ != nullptr) reject(fault_);
   rest_ = {buffer_.data(), text_.size() + 1};
   if (!keyword.empty() && word() != keyword) {
     reject("expected '" + std::string(keyword) + "', found " + quoted(first_word()));
   }
+  return number_;
 }
 
 std::string_view Reader::word() {
@@ -216,23 +188,39 @@ void read_separation(Reader& reader, Certificate& certificate) {
   reader.end();
 }
 
+void read_time_of_impact(Reader& reader, Certificate& certificate) {
+  const mpq_class& lower = certificate.lower = read_number(reader);
+  const mpq_class& upper = certificate.upper = read_number(reader);
+  if ((lower != 0 || upper != 0) && (lower < 0 || lower >= upper || upper > 1)) {
+    reject("a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1");
+  }
+}
+
 void read_pieces(Reader& reader, Certificate& certificate) {
-  certificate.pieces.clear();
-  while (reader.first_word() == "separate") read_piece(reader, certificate);
+  for (certificate.pieces.clear(); reader.first_word() == "separate"; reader.end()) {
+    Piece& piece = certificate.pieces.emplace_back();
+    require_at_most(max_pieces, certificate.pieces.size(), "pieces");
+    piece.line = reader.begin("separate");
+    piece.from = read_number(reader);
+    piece.to = read_number(reader);
+    piece.feature = Feature(reader.one_of({"vertex", "edge", "face", "axis", "cross"}));
+    if (piece.feature >= Feature::axis) piece.axis = reader.one_of({"x", "y", "z"});
+    static constexpr std::array<std::size_t, 5> counts{1, 2, 0, 0, 2};
+    const std::size_t count = counts.at(std::size_t(piece.feature));
+    read_corners(reader, certificate, count, piece);
+    if (count == 0) piece.is_negative = reader.one_of({"+", "-"}) == 1;
+  }
 }
 
 void read_contact(Reader& reader, Certificate& certificate) {
   Contact& contact = certificate.contact;
-  contact.line = reader.number();
-  reader.begin("contact");
+  contact.line = reader.begin("contact");
   contact.is_root = reader.one_of({"time", "root"}) == 1;
   contact.from = read_number(reader);
   contact.to = contact.is_root ? read_number(reader) : contact.from;
   while (contact.is_root && reader.has_word()) {
-    if (contact.g.size() > max_root_degree) {
-      reject("a polynomial of a degree above " + std::to_string(max_root_degree));
-    }
     contact.g.push_back(parse(reader.word(), true).get_num());
+    require_at_most(max_root_degree + 1, contact.g.size(), "coefficients in a polynomial");
   }
   if (contact.is_root && contact.g.size() < 2) reject("a polynomial of a degree below 1");
   if (contact.is_root && contact.g.back() == 0)
@@ -241,9 +229,7 @@ void read_contact(Reader& reader, Certificate& certificate) {
   reader.begin("at");
   contact.place = Place(reader.one_of({"vertex", "segment", "triangle", "edge", "face", "axes"}));
   static constexpr std::array<std::size_t, 6> counts{1, 2, 3, 2, 0, 0};
-  for (std::size_t n = 0; n < counts.at(std::size_t(contact.place)); ++n) {
-    contact.corners.at(n) = read_corner(reader, certificate);
-  }
+  read_corners(reader, certificate, counts.at(std::size_t(contact.place)), contact);
   if (contact.place == Place::triangle) contact.axis = reader.one_of({"x", "y", "z"});
   reader.end();
 }
@@ -251,7 +237,7 @@ void read_contact(Reader& reader, Certificate& certificate) {
 void read_certificate(Reader& reader, Certificate& certificate) {
   read_query(reader, certificate);
   read_claim(reader, certificate);
-  if (certificate.claim != Claim::collision) read_pieces(reader, certificate);
+  if (certificate.has_pieces()) read_pieces(reader, certificate);
   if (certificate.claim != Claim::no_collision) read_contact(reader, certificate);
   reader.begin("end");
   reader.end();

@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "exact/checker/checker.hpp"
+
 namespace touchstone::checker {
 
 /// The limits of the format (exact/CERTIFICATES.md).
@@ -24,11 +26,11 @@ inline constexpr std::size_t max_number_bits = 16'384;
 inline constexpr std::size_t max_pieces = 4'096;
 inline constexpr std::size_t max_root_degree = 8;
 
-/// Thrown where a certificate proves nothing.
-struct Rejected {
-  std::string reason;
-};
-[[noreturn]] inline void reject(std::string reason) { throw Rejected{std::move(reason)}; }
+/// Where a certificate proves nothing: throws, without a label.
+/// \param line at fault; 0: that at which the reader stands
+[[noreturn]] inline void reject(std::string reason, std::size_t line = 0) {
+  throw Rejection{line, "", std::move(reason)};
+}
 
 /// The text with every byte that is not printable ASCII as \xHH.
 [[nodiscard]] std::string printable(std::string_view text);
@@ -41,6 +43,10 @@ enum class Claim : std::uint8_t { no_collision, collision, time_of_impact };
 struct Part {
   std::size_t line = 0;
   mpq_class from, to;
+  /// As many as its feature or place has.
+  std::array<std::size_t, 3> corners{};
+  /// Of an axis, a cross or a triangle.
+  std::size_t axis = 0;
 };
 
 /// The name of the direction that separates.
@@ -49,10 +55,6 @@ enum class Feature : std::uint8_t { vertex, edge, face, axis, cross };
 /// `separate`: no contact in the interval.
 struct Piece : Part {
   Feature feature = Feature::vertex;
-  /// The vertex, or the ends of the edge.
-  std::size_t i = 0, j = 0;
-  /// Of an axis or a cross.
-  std::size_t axis = 0;
   /// Of a face or an axis.
   bool is_negative = false;
 };
@@ -66,10 +68,6 @@ struct Contact : Part {
   /// The coefficients G0 … Gn of a root, n ≥ 1, Gn ≠ 0; none for a given time.
   std::vector<mpz_class> g;
   Place place = Place::vertex;
-  /// As many as the place has: a vertex 1, a segment or an edge 2, a triangle 3.
-  std::array<std::size_t, 3> corners{};
-  /// The triangle's axis.
-  std::size_t axis = 0;
 };
 
 struct Certificate {
@@ -83,10 +81,12 @@ struct Certificate {
   mpq_class distance = 0;
   bool is_l2 = false;
   Claim claim = Claim::no_collision;
-  /// The bounds of a time of impact; for the other claims all of time.
+  /// The pieces cover [0,lower], the contact is in [lower,upper]. If upper is 0 there are no pieces.
   mpq_class lower = 0, upper = 1;
   std::vector<Piece> pieces;
   Contact contact;
+
+  [[nodiscard]] bool has_pieces() const { return claim != Claim::collision && upper != 0; }
 };
 
 /// The lines of a stream without those that are empty or comments, and the words of the line at hand.
@@ -104,18 +104,17 @@ class Reader {
   [[nodiscard]] std::size_t number() const { return number_; }
   /// The line as far as it was read, until the next advance.
   [[nodiscard]] std::string_view text() const { return text_; }
-  [[nodiscard]] bool is_line() const { return fault_ == nullptr; }
   [[nodiscard]] std::string_view first_word() const { return text_.substr(0, text_.find(' ')); }
 
-  /// Begins with the line, and takes its first word if it is named.
-  /// \throws Rejected if there is no line or the word is another.
-  void begin(std::string_view keyword = {});
+  /// Begins with the line, and takes its first word if it is named. \returns its number.
+  /// \throws Rejection if there is no line or the word is another.
+  std::size_t begin(std::string_view keyword = {});
   [[nodiscard]] bool has_word() const { return !rest_.empty(); }
-  /// Takes the next word; words are separated by single spaces. \throws Rejected if there is none.
+  /// Takes the next word; words are separated by single spaces. \throws Rejection if there is none.
   std::string_view word();
-  /// Takes one of these words, and tells which. \throws Rejected if it is another.
+  /// Takes one of these words, and tells which. \throws Rejection if it is another.
   std::size_t one_of(std::initializer_list<std::string_view> words);
-  /// Leaves the line. \throws Rejected if it has more words.
+  /// Leaves the line. \throws Rejection if it has more words.
   void end();
 
  private:
@@ -133,12 +132,13 @@ class Reader {
 /// The parts of a certificate. They throw as read_certificate.
 [[nodiscard]] mpq_class read_number(Reader& reader);
 void read_separation(Reader& reader, Certificate& certificate);
+void read_time_of_impact(Reader& reader, Certificate& certificate);
 void read_pieces(Reader& reader, Certificate& certificate);
 void read_contact(Reader& reader, Certificate& certificate);
 
 /// Reads the certificate that begins at the present line and goes behind its `end`. Where it throws,
 /// the reader stands at the line at fault, and the certificate has its label if that came before.
-/// \throws Rejected where the text is no certificate, std::runtime_error as Reader::advance.
+/// \throws Rejection where the text is no certificate, std::runtime_error as Reader::advance.
 void read_certificate(Reader& reader, Certificate& certificate);
 
 }  // namespace touchstone::checker

@@ -54,6 +54,11 @@ struct Options {
   std::size_t max_rejections = 100;
   /// The scenes that certificates of steps have to be about, in order, without labels; null: any.
   std::istream* scenes = nullptr;
+  /// How often boxes are held against each other in the search for the pairs of a step, at most.
+  std::int64_t max_comparisons = std::int64_t{1} << 36U;
+  /// The sizes of all polynomials that the proof of one certificate looks at, halves included, in sum:
+  /// of a query, and of all pairs of a step.
+  std::int64_t max_work_bits = std::int64_t{1} << 28U, max_step_work_bits = std::int64_t{1} << 35U;
 };
 
 /// Why a certificate was not accepted. The texts are printable ASCII whatever the bytes read: any

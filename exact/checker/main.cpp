@@ -18,9 +18,8 @@ constexpr std::string_view usage =
     "Checks the certificates in a file, or on standard input for '-': each is accepted only if it\n"
     "proves its claim. The format and what is proved: exact/CERTIFICATES.md.\n"
     "SCENES: the certificates are of steps, and of these scenes.\n"
-    "Exit status: 0 all accepted and the stream complete, 1 at least one rejected or the stream "
-    "cut,\n"
-    "2 unreadable input, unwritable output or wrong usage.\n"
+    "Exit status: 0 all accepted and the stream complete, 1 one rejected or the stream cut, 2\n"
+    "unreadable input, unwritable output or wrong usage.\n"
     "\n"
     "Example: zstdcat proofs.cert.zst | touchstone-check -\n";
 

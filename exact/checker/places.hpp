@@ -32,8 +32,6 @@ namespace touchstone::checker {
 
 /// A direction's components are below this.
 inline constexpr std::int32_t max_direction = 1'024;
-/// How often boxes are held against each other in the search for the pairs of a step.
-inline constexpr std::uint64_t max_comparisons = std::uint64_t{1} << 36U;
 
 /// x y z at t=0, then at t=1.
 using Motion = std::array<double, 6>;
@@ -94,9 +92,11 @@ class Places {
 
   /// Calls take(a, b) for every a of `some` and b of `others` that no coordinate axis keeps apart; if
   /// both are the same list, for every two of it, the smaller number first.
-  /// \throws Rejected if that takes too many comparisons.
+  /// \param comparisons_left how often boxes may still be held against each other
+  /// \throws Rejection if that is not often enough.
   template <class Take>
-  void find_near(const Elements& some, const Elements& others, std::size_t axis, const Take& take) {
+  void find_near(const Elements& some, const Elements& others, std::size_t axis,
+                 std::int64_t& comparisons_left, const Take& take) const {
     const bool is_same = &some == &others;
     std::vector<Box> boxes;
     for (const Element& element : some) boxes.push_back(box_of(element, is_same));
@@ -108,7 +108,7 @@ class Places {
     for (auto i = boxes.begin(); i != boxes.end(); ++i) {
       const std::int64_t end = std::max(i->upper[axis], i->upper[axis + 3]) + distance_;
       for (auto j = i + 1; j != boxes.end() && begin(*j) <= end; ++j) {
-        if (++comparisons_ > max_comparisons) reject("the search for pairs takes too long");
+        if (--comparisons_left < 0) reject("the search for pairs takes too many comparisons");
         if (is_axis_between(*i, *j)) continue;
         const bool is_first = is_same ? i->element->first < j->element->first : j->is_other;
         const Box &a = is_first ? *i : *j, &b = is_first ? *j : *i;
@@ -151,7 +151,6 @@ class Places {
 
   std::vector<Bounds> bounds_;
   std::int64_t distance_ = 0;
-  std::uint64_t comparisons_ = 0;
 };
 
 }  // namespace touchstone::checker

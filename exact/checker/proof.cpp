@@ -10,8 +10,8 @@ std::size_t bits(const mpz_class& x) { return mpz_sizeinbase(x.get_mpz_t(), 2); 
 
 /// The product with a multiple of the number's denominator.
 mpz_class scaled(const mpq_class& x, const mpz_class& factor) {
-  mpz_class result = factor / x.get_den();
-  result *= x.get_num();
+  mpz_class result = factor / x.get_den() * x.get_num();
+  if (bits(result) > max_scaled_bits) reject("numbers too large over their common denominator");
   return result;
 }
 
@@ -35,19 +35,10 @@ Form add_product(Form sum, const Form& a, const Form& b, decltype(mpz_addmul) ad
 }
 
 Form operator*(const Form& a, const Form& b) { return add_product({}, a, b); }
-Form operator*(Form form, int factor) {
-  for (mpz_class& x : form) x *= factor;
-  return form;
-}
 
-/// The form with r and s exchanged.
-Form mirrored(Form form) {
-  std::ranges::reverse(form);
-  return form;
-}
-
-/// The form with x s + y r in the place of s.
+/// The form with r and s exchanged, and then x s + y r in the place of s.
 Form substitute(Form form, const mpz_class& x, const mpz_class& y) {
+  std::ranges::reverse(form);
   for (std::size_t step = 1; step < form.size(); ++step) {
     for (std::size_t k = form.size() - 1; k >= step; --k) {
       mpz_addmul(form[k - 1].get_mpz_t(), form[k].get_mpz_t(), y.get_mpz_t());
@@ -73,7 +64,7 @@ bool divides(const Form& g, Form p) {
   return std::ranges::all_of(p, [](const mpz_class& x) { return x == 0; });
 }
 
-// ---- Corners ------------------------------------------------------------------------------------
+// ---- Vectors ------------------------------------------------------------------------------------
 
 using Vector = std::array<Form, 3>;
 
@@ -84,8 +75,8 @@ Vector operator-(Vector a, const Vector& b) {
   return a;
 }
 
-Vector operator*(Vector a, int factor) {
-  for (Form& x : a) x = std::move(x) * factor;
+Vector operator*(Vector a, const Form& factor) {
+  for (Form& x : a) x = x * factor;
   return a;
 }
 
@@ -109,64 +100,44 @@ Vector unit(std::size_t axis) {
   return result;
 }
 
-/// The corners, polynomials of degree 1 in t, and the distance as integers: all of space is enlarged
-/// by one factor, which changes no sign below.
-std::vector<Vector> corners_of(const Certificate& certificate, mpz_class& distance) {
-  mpz_class factor = 1;
-  const auto include = [&](const mpq_class& x) {
-    factor = lcm(factor, x.get_den());
-    if (bits(factor) > max_scaled_bits) reject("a common denominator that is too large");
-  };
-  const auto enlarged = [&](const mpq_class& x) {
-    mpz_class result = scaled(x, factor);
-    if (bits(result) > max_scaled_bits) reject("numbers too far apart in size");
-    return result;
-  };
-  std::ranges::for_each(certificate.coordinates, include);
-  include(certificate.distance);
-  std::array<mpz_class, 24> x;
-  std::ranges::transform(certificate.coordinates, x.begin(), enlarged);
-  distance = enlarged(certificate.distance);
-  using Pairs = std::vector<std::array<std::size_t, 2>>;
-  static const Pairs vertex_face{{0, 1}, {0, 2}, {0, 3}};
-  static const Pairs edge_edge{{0, 2}, {1, 2}, {1, 3}, {0, 3}};
-  std::vector<Vector> corners;
-  for (const auto& [plus, minus] : certificate.is_edge_edge ? edge_edge : vertex_face) {
-    Vector& w = corners.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t a = 3 * plus + axis, b = 3 * minus + axis;
-      w[axis].resize(2);
-      w[axis][0] = x[a] - x[b];
-      w[axis][1] = x[12 + a] - x[12 + b] - w[axis][0];
-    }
-  }
-  return corners;
-}
-
 // ---- Proofs -------------------------------------------------------------------------------------
 
 /// The proof of one certificate.
 class Proof {
  public:
-  Proof(const Certificate& certificate, std::size_t& line)
-      : certificate_(certificate), line_(line), corners_(corners_of(certificate, distance_)) {}
+  Proof(const Certificate& certificate, std::int64_t& work_bits_left)
+      : certificate_(certificate), work_bits_left_(work_bits_left), line_(certificate.line) {}
 
-  std::uint64_t verify() {
-    const mpq_class &lower = certificate_.lower, &upper = certificate_.upper;
-    const Claim claim = certificate_.claim;
-    const bool is_toi = claim == Claim::time_of_impact;
-    const bool is_at_zero = is_toi && lower == 0 && upper == 0;
-    if (is_toi && !is_at_zero && (lower < 0 || lower >= upper || upper > 1)) {
-      reject("a time of impact is 0 0, or LO HI with 0 <= LO < HI <= 1");
-    }
-    if (is_at_zero && !certificate_.pieces.empty()) reject("a time of impact 0 has no pieces");
-    if (claim == Claim::no_collision) prove_no_contact(upper);
-    if (is_toi && !is_at_zero) prove_no_contact(lower);
-    if (claim != Claim::no_collision) prove_contact(certificate_.contact);
-    return work_bits_;
+  void verify() try {
+    find_corners();
+    if (certificate_.has_pieces()) prove_no_contact();
+    if (certificate_.claim != Claim::no_collision) prove_contact(certificate_.contact);
+  } catch (const Rejection& rejection) {
+    reject(rejection.reason, line_);
   }
 
  private:
+  /// Brings the coordinates and the distance to integers: all of space is enlarged by one factor, which
+  /// changes no sign below. The corners are polynomials of degree 1 in t.
+  void find_corners() {
+    mpz_class factor = certificate_.distance.get_den();
+    for (const mpq_class& x : certificate_.coordinates) factor = lcm(factor, x.get_den());
+    distance_ = scaled(certificate_.distance, factor);
+    std::array<mpz_class, 24> x;
+    for (std::size_t n = 0; n < 24; ++n) x[n] = scaled(certificate_.coordinates[n], factor);
+    using Pairs = std::vector<std::array<std::size_t, 2>>;
+    static const Pairs vertex_face{{0, 1}, {0, 2}, {0, 3}};
+    static const Pairs edge_edge{{0, 2}, {1, 2}, {1, 3}, {0, 3}};
+    for (const auto& [plus, minus] : certificate_.is_edge_edge ? edge_edge : vertex_face) {
+      Vector& w = corners_.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t a = 3 * plus + axis, b = 3 * minus + axis;
+        const mpz_class start = x[a] - x[b], end = x[12 + a] - x[12 + b];
+        w[axis] = {start, end - start};
+      }
+    }
+  }
+
   /// Goes to a part of the certificate.
   void enter(const Part& part) {
     line_ = part.line;
@@ -178,23 +149,23 @@ class Proof {
   /// A polynomial in t as a form in u and 1−u, for the part's interval: t = (from + length·u) /
   /// denominator, so r = denominator·(u + (1−u)) and s = from·(u + (1−u)) + length·u.
   [[nodiscard]] Form on_interval(Form p) const {
-    p = substitute(mirrored(std::move(p)), denominator_, 0);
-    p = substitute(mirrored(std::move(p)), length_, from_);
-    return substitute(mirrored(std::move(p)), 1, 1);
+    return substitute(substitute(substitute(std::move(p), denominator_, 0), length_, from_), 1, 1);
   }
 
   /// Is a form in 1−u and u seen to be positive for all u ∈ [0,1]? It is if the first and the last
   /// coefficient, its values at 0 and 1, are positive and no other is negative; or else if it is so
   /// on both halves: u = (1+v)/2, where twice 1−u and u are 1−v and (1−v) + 2v, and u = (1−v)/2.
-  bool is_positive(const Form& form, std::size_t bisections = 0) {
-    for (const mpz_class& x : form) work_bits_ += bits(x);
-    if (work_bits_ > max_work_bits) reject("the proof takes too much work");
+  bool is_positive(Form form, std::size_t bisections = 0) {
+    for (const mpz_class& x : form) work_bits_left_ -= std::int64_t(bits(x));
+    if (work_bits_left_ < 0) reject("the proof takes too much work");
     doubt_ = "a polynomial is not positive at a point";
     if (form.front() <= 0 || form.back() <= 0) return false;
     if (std::ranges::all_of(form, [](const mpz_class& x) { return x >= 0; })) return true;
     doubt_ = "a polynomial is not seen to be positive within 128 bisections";
-    return bisections < max_bisections && is_positive(substitute(form, 2, 1), bisections + 1) &&
-           is_positive(substitute(mirrored(form), 2, 1), bisections + 1);
+    if (++bisections > max_bisections || !is_positive(substitute(form, 2, 1), bisections))
+      return false;
+    std::ranges::reverse(form);
+    return is_positive(substitute(std::move(form), 2, 1), bisections);
   }
 
   /// Proves that a polynomial in t is positive in the part's interval.
@@ -202,8 +173,8 @@ class Proof {
     if (!is_positive(on_interval(std::move(p)))) reject(doubt_);
   }
 
-  /// Proves that there is no contact in [0, end]: the pieces follow one another without a gap.
-  void prove_no_contact(const mpq_class& end) {
+  /// Proves that there is no contact in [0,lower]: the pieces follow one another without a gap.
+  void prove_no_contact() {
     if (certificate_.pieces.empty()) reject("there is no piece");
     mpq_class reached = 0;
     for (const Piece& piece : certificate_.pieces) {
@@ -213,7 +184,7 @@ class Proof {
       prove_separation(piece);
       reached = piece.to;
     }
-    if (reached != end) reject("the last piece does not end where it should");
+    if (reached != certificate_.lower) reject("the last piece does not end where it should");
   }
 
   /// The normal N = a×b of the polygon. N·w is the same for all corners: N is orthogonal to a and b,
@@ -230,20 +201,19 @@ class Proof {
   [[nodiscard]] Vector direction(const Piece& piece) const {
     if (piece.feature == Feature::face) return normal();
     if (piece.feature == Feature::axis) return unit(piece.axis);
-    Vector d = corners_[piece.i];
+    const Vector& d = corners_[piece.corners[0]];
     if (piece.feature == Feature::vertex) return d;
-    const Vector e = corners_[piece.j] - d;
+    const Vector e = corners_[piece.corners[1]] - d;
     if (piece.feature == Feature::cross) return cross(unit(piece.axis), e);
-    const Form e_e = dot(e, e), d_e = dot(d, e);
-    for (std::size_t n = 0; n < 3; ++n) d[n] = add_product(e_e * d[n], d_e, e[n], mpz_submul);
-    return d;
+    return d * dot(e, e) - e * dot(d, e);
   }
 
-  /// D (σ·d) for every vector σ of signs.
+  /// D (σ·d) for every vector σ of signs. Those that are surely the same are left out.
   [[nodiscard]] std::vector<Form> reaches(const Vector& d) const {
     std::vector<Form> sums{Form{0}};
     for (const Form& x : d) {
-      if (std::ranges::all_of(x, [](const mpz_class& c) { return c == 0; })) continue;
+      const bool is_zero = std::ranges::all_of(x, [](const mpz_class& c) { return c == 0; });
+      if (is_zero || distance_ == 0) continue;
       for (std::size_t n = sums.size(); n-- > 0;) {
         sums.push_back(add_product(sums[n], x, {distance_}, mpz_submul));
         sums[n] = add_product(sums[n], x, {distance_});
@@ -260,15 +230,13 @@ class Proof {
   /// Proves d·w > D‖d‖ for all corners w, d the direction of the piece's feature, ‖d‖ its length or,
   /// for linf, the greatest of the σ·d.
   void prove_separation(const Piece& piece) {
-    const Vector d = direction(piece) * (piece.is_negative ? -1 : 1);
+    const Vector d = direction(piece) * Form{piece.is_negative ? -1 : 1};
     const std::size_t count = piece.feature == Feature::face ? 1 : corners_.size();
-    const bool is_plain = distance_ == 0, is_l2 = certificate_.is_l2;
-    const std::vector<Form> sums = is_plain || is_l2 ? std::vector<Form>{} : reaches(d);
+    const std::vector<Form> sums = certificate_.is_l2 ? std::vector<Form>{Form{0}} : reaches(d);
     for (std::size_t n = 0; n < count; ++n) {
       const Form value = dot(d, corners_[n]);
-      if (is_plain || is_l2) prove_positive(value);
-      if (!is_plain && is_l2) prove_positive(less_square(value * value, d));
       for (const Form& sum : sums) prove_positive(add_product(value, sum, {-1}));
+      if (certificate_.is_l2 && distance_ != 0) prove_positive(less_square(value * value, d));
     }
   }
 
@@ -278,15 +246,11 @@ class Proof {
     if (contact.from < certificate_.lower || contact.to > certificate_.upper) {
       reject("the contact is not in the interval of the claim");
     }
-    g_ = contact.g;
-    if (!contact.is_root) {
-      g_ = {-contact.from.get_num(), contact.from.get_den()};
-    } else {
-      if (contact.from >= contact.to) reject("the root's interval is empty");
-      const Form g = on_interval(g_);
-      if (sgn(g.front()) * sgn(g.back()) >= 0) {
-        reject("the polynomial does not change its sign in the interval");
-      }
+    g_ = contact.is_root ? contact.g : Form{-contact.from.get_num(), contact.from.get_den()};
+    if (contact.is_root && contact.from >= contact.to) reject("the root's interval is empty");
+    const Form g = on_interval(g_);
+    if (contact.is_root && sgn(g.front()) * sgn(g.back()) >= 0) {
+      reject("the polynomial does not change its sign in the interval");
     }
     if (contact.place == Place::triangle) return prove_triangle(contact);
     if (contact.place == Place::segment) return prove_segment(contact);
@@ -298,7 +262,7 @@ class Proof {
     if (divides(g_, p)) return 0;
     const Form form = on_interval(std::move(p));
     const int sign = sgn(form.front());
-    if (!is_positive(form * sign)) reject(doubt_);
+    if (!is_positive(form * Form{sign})) reject(doubt_);
     return sign;
   }
 
@@ -358,7 +322,7 @@ class Proof {
       axes.push_back(cross(unit(n % 3), next(n / 3) - corners_[n / 3]));
     }
     for (const Vector& axis : axes) {
-      if (!is_reached(axis) || !is_reached(axis * -1))
+      if (!is_reached(axis) || !is_reached(axis * Form{-1}))
         reject("an axis separates, or is not seen not to");
     }
   }
@@ -375,10 +339,11 @@ class Proof {
   }
 
   const Certificate& certificate_;
-  std::size_t& line_;
+  std::int64_t& work_bits_left_;
+  /// That of the part at hand.
+  std::size_t line_;
   mpz_class distance_;
   std::vector<Vector> corners_;
-  std::uint64_t work_bits_ = 0;
   /// Why is_positive saw it not.
   const char* doubt_ = "";
   /// The interval of the part at hand: numerators of its start and its length, and their denominator.
@@ -389,9 +354,8 @@ class Proof {
 
 }  // namespace
 
-std::uint64_t verify(const Certificate& certificate, std::size_t& line) {
-  line = certificate.line;
-  return Proof(certificate, line).verify();
+void verify(const Certificate& certificate, std::int64_t& work_bits_left) {
+  Proof(certificate, work_bits_left).verify();
 }
 
 }  // namespace touchstone::checker

@@ -14,12 +14,10 @@ namespace touchstone::checker {
 inline constexpr std::size_t max_bisections = 128;
 /// The size of coordinates and times once they are integers.
 inline constexpr std::size_t max_scaled_bits = 65'536;
-/// The sizes of all polynomials that the proof of one certificate looks at, halves included, summed.
-inline constexpr std::uint64_t max_work_bits = std::uint64_t{1} << 28U;
 
-/// Verifies the proof: of `no_collision` in [0,upper], of a `collision` in [lower,upper], or of a time of
-/// impact there. \returns the sizes that max_work_bits bounds. `line` is set to the line of the part that is looked at.
-/// \throws Rejected if it does not prove the claim, or not within the limits.
-std::uint64_t verify(const Certificate& certificate, std::size_t& line);
+/// Verifies the proof: of no contact in [0,lower], of one in [lower,upper], or of both, as is claimed.
+/// \param work_bits_left the sizes that max_work_bits (checker.hpp) bounds are taken from it
+/// \throws Rejection, with the line of the part at fault, if it does not prove the claim, or not within the limits.
+void verify(const Certificate& certificate, std::int64_t& work_bits_left);
 
 }  // namespace touchstone::checker

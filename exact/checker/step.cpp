@@ -4,8 +4,6 @@
 #include <charconv>
 #include <limits>
 #include <set>
-#include <string_view>
-#include <vector>
 
 #include "exact/checker/places.hpp"
 #include "exact/checker/proof.hpp"
@@ -21,27 +19,29 @@ std::int32_t take_integer(Reader& reader, std::int32_t least, std::size_t limit)
   std::int32_t x = 0;
   const auto [end, error] = std::from_chars(word.begin(), word.end(), x);
   const bool is_integer = error == std::errc() && end == word.end();
-  if (!is_integer || x < least || x >= std::int64_t(limit)) {
-    reject("not an integer, or out of range: " + quoted(word));
-  }
+  const bool is_in_range = x >= least && x < std::int64_t(limit);
+  if (!is_integer || !is_in_range) reject("not an integer, or out of range: " + quoted(word));
   return x;
 }
 
 double to_double(const mpq_class& number) {
-  const bool is_small = abs(number) <= std::numeric_limits<double>::max();
-  if (!is_small || number != number.get_d()) reject("a number that is not a double");
+  if (abs(number) > std::numeric_limits<double>::max() || number != number.get_d())
+    reject("a number that is not a double");
   return number.get_d();
 }
 
-/// A line of a keyword and a number, and so many lines: each an item that read(item) reads.
-template <class Item, class Read>
-std::vector<Item> read_list(Reader& reader, std::string_view keyword, const Read& read) {
+/// A line of a keyword and a number, and so many lines: each an item, of whose numbers take() takes the
+/// first `columns`. The others are as the first.
+template <class Item, class Take>
+std::vector<Item> read_list(Reader& reader, std::string_view keyword, std::size_t columns,
+                            const Take& take) {
   std::vector<Item> list;
   reader.begin(keyword);
   std::int32_t count = take_integer(reader, 0, max_items);
   for (reader.end(); count > 0; --count) {
     reader.begin();
-    read(list.emplace_back());
+    Item& item = list.emplace_back();
+    for (std::size_t k = 0; k < item.size(); ++k) item[k] = k < columns ? take() : item[0];
     reader.end();
   }
   return list;
@@ -50,7 +50,6 @@ std::vector<Item> read_list(Reader& reader, std::string_view keyword, const Read
 /// What is said of the scene, as it is written.
 struct Scene {
   std::vector<Motion> vertices;
-  /// The first numbers of each item count.
   std::vector<Primitive> faces, edges, points, groups, apart;
 
   friend bool operator==(const Scene&, const Scene&) = default;
@@ -58,14 +57,11 @@ struct Scene {
 
 Scene read_scene(Reader& reader) {
   Scene scene;
-  scene.vertices = read_list<Motion>(reader, "vertices", [&](Motion& motion) {
-    for (double& x : motion) x = to_double(read_number(reader));
-  });
+  const auto coordinate = [&] { return to_double(read_number(reader)); };
+  scene.vertices = read_list<Motion>(reader, "vertices", 6, coordinate);
   const auto integers = [&](std::string_view keyword, std::size_t columns, std::size_t limit) {
-    return read_list<Primitive>(reader, keyword, [&](Primitive& item) {
-      for (std::size_t k = 0; k < columns; ++k) item.at(k) = take_integer(reader, 0, limit);
-      for (std::size_t k = columns; k < 3; ++k) item.at(k) = item[0];
-    });
+    const auto integer = [&] { return take_integer(reader, 0, limit); };
+    return read_list<Primitive>(reader, keyword, columns, integer);
   };
   const std::size_t count = scene.vertices.size();
   scene.faces = integers("faces", 3, count);
@@ -86,21 +82,22 @@ struct PairKind {
 
 class StepCheck {
  public:
-  StepCheck(Reader& reader, std::size_t& line) : reader_(reader), line_(line) {}
+  StepCheck(Reader& reader, const Options& options) : reader_(reader), left_(options) {}
 
   std::string run(Reader* scenes) {
     read_text();
     reader_.begin("step");
     reader_.advance();
     scene_ = read_scene(reader_);
-    if (scenes != nullptr && read_scene(*scenes) != scene_)
-      reject("the scene is not the one given");
+    const bool is_another = scenes != nullptr && read_scene(*scenes) != scene_;
+    if (is_another) reject("the scene is not the one given");
     find_elements();
     read_text();
     read_separation(reader_, pair_);
     to_double(pair_.distance);
-    const bool is_at_zero = read_claim();
-    if (!is_at_zero) prove_no_contact();
+    read_claim();
+    pair_.claim = Claim::no_collision;
+    if (pair_.has_pieces()) prove_no_contact();
     reader_.begin("end");
     reader_.end();
     return text_;
@@ -115,46 +112,38 @@ class StepCheck {
     const auto side = [](std::int32_t a, std::int32_t b) -> Numbers {
       return {std::max(a, b), std::min(a, b)};
     };
-    std::set<Numbers> sides;
+    std::map<Numbers, bool> all;  // is it the side of a face?
     for (const auto& [a, b, c] : scene_.faces) {
       faces_[std::int32_t(faces_.size())] = {a, b, c};
-      sides.insert({side(a, b), side(b, c), side(c, a)});
+      all[side(a, b)] = all[side(b, c)] = all[side(c, a)] = true;
     }
-    std::set<Numbers> all = sides;
-    for (const Primitive& edge : scene_.edges) all.insert(side(edge[0], edge[1]));
-    std::set<std::int32_t> named, joined;
-    for (const auto& [a, b] : all) {
-      named.insert({a, b});
-      if (a == b) continue;
-      joined.insert({a, b});
+    for (const Primitive& edge : scene_.edges) all.emplace(side(edge[0], edge[1]), false);
+    for (const auto& [ends, is_side] : all) {
+      const auto& [a, b] = ends;
+      vertices_[a] = {a, a, a}, vertices_[b] = {b, b, b};
       const Element edge{std::int32_t(edges_.size()), {b, a, b}};
-      edges_.insert(edge);
-      if (!sides.contains({a, b})) bare_edges_.insert(edge);
+      if (a != b) edges_.insert(edge);
+      if (a != b && !is_side) bare_edges_.insert(edge);
     }
-    for (const Primitive& point : scene_.points) named.insert(point[0]);
-    for (const std::int32_t v : named) {
-      vertices_[v] = {v, v, v};
-      if (!joined.contains(v)) points_[v] = {v, v, v};
-    }
+    for (const Primitive& point : scene_.points) vertices_[point[0]] = point;
+    points_ = vertices_;
+    for (const auto& [number, edge] : edges_) points_.erase(edge[0]), points_.erase(edge[1]);
     for (const auto& [a, b, c] : scene_.apart) apart_.insert({{a, b}, {b, a}});
     text_ += std::to_string(vertices_.size()) + " vertices, " + std::to_string(edges_.size()) +
              " edges, " + std::to_string(faces_.size()) + " faces\n";
   }
 
-  /// \returns whether the claim is a contact at time 0.
-  bool read_claim() {
+  /// Takes the claim and verifies its contact.
+  void read_claim() {
     read_text();
     reader_.begin("claim");
-    const bool is_earliest = reader_.one_of({"no_contact", "earliest"}) == 1;
-    if (is_earliest) pair_.lower = read_number(reader_);
-    pair_.upper = read_number(reader_);
-    reader_.end();
-    end_ = is_earliest ? pair_.lower : pair_.upper;
-    const bool is_at_zero = is_earliest && end_ == 0 && pair_.upper == 0;
-    if (end_ < 0 || pair_.upper > 1 || (is_earliest && !is_at_zero && end_ >= pair_.upper)) {
-      reject("a claim is no_contact T, earliest 0 0 or earliest LO HI, 0 <= LO < HI <= 1");
+    if (reader_.one_of({"no_contact", "earliest"}) == 0) {
+      pair_.lower = read_number(reader_);
+      if (pair_.lower < 0 || pair_.lower > 1) reject("a time is from 0 to 1");
+      return reader_.end();
     }
-    if (!is_earliest) return false;
+    read_time_of_impact(reader_, pair_);
+    reader_.end();
     read_text();
     reader_.begin("pair");
     const PairKind& kind =
@@ -163,25 +152,23 @@ class StepCheck {
     reader_.end();
     read_contact(reader_, pair_);
     pair_.claim = Claim::collision;
-    verify(pair_, line_);
-    line_ = 0;
-    return is_at_zero;
+    verify(pair_, left_.max_step_work_bits);
   }
 
   /// Finds all pairs that no axis keeps apart, and requires that they have an argument.
   void prove_no_contact() {
-    Places places(scene_.vertices, pair_.distance.get_d(), end_);
+    const Places places(scene_.vertices, pair_.distance.get_d(), pair_.lower);
     reader_.begin("sweep");
     const std::size_t axis = reader_.one_of({"x", "y", "z"});
     reader_.end();
-    pair_.claim = Claim::no_collision, pair_.lower = 0, pair_.upper = end_;
     for (PairKind& kind : kinds_) read_arguments(kind, places);
     for (const PairKind& kind : kinds_) {
-      places.find_near(kind.some, kind.others, axis, [&](const Element& a, const Element& b) {
+      const auto require_argument = [&](const Element& a, const Element& b) {
         if (kind.proved.contains({a.first, b.first}) || !can_collide({&a, &b})) return;
         reject("no argument for " + std::string(kind.name) + ' ' + std::to_string(a.first) + ' ' +
                std::to_string(b.first));
-      });
+      };
+      places.find_near(kind.some, kind.others, axis, left_.max_comparisons, require_argument);
     }
   }
 
@@ -190,8 +177,7 @@ class StepCheck {
     reader_.begin(kind.name);
     reader_.end();
     while (reader_.first_word().find_first_not_of("0123456789") == std::string_view::npos) {
-      pair_.line = reader_.number();
-      reader_.begin();
+      pair_.line = reader_.begin();
       const auto [a, b] = take_pair(kind);
       kind.proved.insert({a->first, b->first});
       if (reader_.has_word()) {
@@ -202,9 +188,7 @@ class StepCheck {
       } else {
         reader_.end();
         read_pieces(reader_, pair_);
-        work_bits_ += verify(pair_, line_);
-        if (work_bits_ > max_step_work_bits) reject("the proofs of all pairs take too much work");
-        line_ = 0;
+        verify(pair_, left_.max_step_work_bits);
       }
     }
   }
@@ -242,7 +226,6 @@ class StepCheck {
   }
 
   Reader& reader_;
-  std::size_t& line_;
   std::string text_;
   Scene scene_;
   /// The vertices that take part, and so on.
@@ -253,17 +236,16 @@ class StepCheck {
                                   {"edge_edge", edges_, edges_},
                                   {"vertex_edge", points_, bare_edges_},
                                   {"vertex_vertex", points_, points_}}};
-  /// The pair at hand, with the step's separation.
+  /// The pair at hand, with the step's separation and times.
   Certificate pair_;
-  /// Until when there is no contact.
-  mpq_class end_;
-  std::uint64_t work_bits_ = 0;
+  /// What is left of the limits.
+  Options left_;
 };
 
 }  // namespace
 
-std::string check_step(Reader& reader, Reader* scenes, std::size_t& line) {
-  return StepCheck(reader, line).run(scenes);
+std::string check_step(Reader& reader, Reader* scenes, const Options& options) {
+  return StepCheck(reader, options).run(scenes);
 }
 
 }  // namespace touchstone::checker

@@ -28,14 +28,12 @@ namespace touchstone::checker {
 
 /// The greatest number of items of a list.
 inline constexpr std::int32_t max_items = 1 << 26;
-/// As max_work_bits (proof.hpp), summed over the pairs of a step.
-inline constexpr std::uint64_t max_step_work_bits = std::uint64_t{1} << 35U;
 
 /// Reads and verifies the certificate that begins at the present line, and goes behind its `end`.
 /// \param scenes if not null, the scene (its lines from `vertices` to `apart`) has to be the one read there
-/// \param line that of the proof at hand, if not 0
+/// \param options the limits
 /// \returns what is proved, for a reader: the label, the size of the scene, separation and claim, a line each
-/// \throws Rejected if it proves nothing, std::runtime_error as Reader::advance.
-[[nodiscard]] std::string check_step(Reader& reader, Reader* scenes, std::size_t& line);
+/// \throws Rejection if it proves nothing, std::runtime_error as Reader::advance.
+[[nodiscard]] std::string check_step(Reader& reader, Reader* scenes, const Options& options);
 
 }  // namespace touchstone::checker

@@ -142,3 +142,8 @@ endfunction()
 function(faulty_line_search name)
   faulty(fast/line_search.cpp line_search_limit fast/line_search.cpp ${name} ${ARGN})
 endfunction()
+
+# faulty_checker(FILE NAME …): tests::NAME, the checker (checker_of_steps.cpp) with a fault in one of its files.
+function(faulty_checker file name)
+  faulty(tests/faults/checker_of_steps.cpp "checker_of_steps;checker" ${file} ${name} ${ARGN})
+endfunction()

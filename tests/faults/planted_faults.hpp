@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "exact/query.hpp"
@@ -81,11 +82,16 @@ extern FindActive TOUCHSTONE_PLANTED active_set_without_side;
 using LimitStep = LineSearchLimit(const Step&, double, const LineSearchOptions&);
 extern LimitStep TOUCHSTONE_PLANTED line_search_too_far, line_search_too_near, line_search_of_few;
 
-#undef TOUCHSTONE_PLANTED
-
 }  // namespace touchstone::fast
 
 namespace touchstone::tests {
+
+// The checker of certificates of steps (checker_of_steps.cpp).
+using Accepts = bool(const std::string& stream);
+extern Accepts TOUCHSTONE_PLANTED checker_of_open_boxes, checker_of_one_end,
+    checker_of_directions_at_start, checker_of_pieces_with_gaps, checker_without_closing_line;
+
+#undef TOUCHSTONE_PLANTED
 
 /// How many faults of a kind a build has to plant at least: none under the sanitizers.
 [[nodiscard]] constexpr int least_planted([[maybe_unused]] int usual) {

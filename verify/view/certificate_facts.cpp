@@ -23,8 +23,8 @@ checker::Certificate parsed(std::string_view stream) {
     if (!stream.starts_with(exact::certificates_header())) checker::reject("it is no certificate");
     reader.advance();
     checker::read_certificate(reader, certificate);
-  } catch (const checker::Rejected& rejected) {
-    throw std::invalid_argument(rejected.reason);
+  } catch (const checker::Rejection& rejection) {
+    throw std::invalid_argument(rejection.reason);
   }
   return certificate;
 }
@@ -44,15 +44,16 @@ std::string feature_text(const checker::Piece& piece) {
   const char sign = piece.is_negative ? '-' : '+';
   switch (piece.feature) {
     case checker::Feature::vertex:
-      return fmt::format("vertex {}", piece.i);
+      return fmt::format("vertex {}", piece.corners[0]);
     case checker::Feature::edge:
-      return fmt::format("edge {} {}", piece.i, piece.j);
+      return fmt::format("edge {} {}", piece.corners[0], piece.corners[1]);
     case checker::Feature::face:
       return fmt::format("face {}", sign);
     case checker::Feature::axis:
       return fmt::format("axis {} {}", axis_name(piece.axis), sign);
     default:
-      return fmt::format("cross {} {} {}", axis_name(piece.axis), piece.i, piece.j);
+      return fmt::format("cross {} {} {}", axis_name(piece.axis), piece.corners[0],
+                         piece.corners[1]);
   }
 }
 

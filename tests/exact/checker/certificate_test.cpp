@@ -227,7 +227,8 @@ TEST(Limit, OfTheBitsOfANumber) {
   const std::string largest = mpz_class((mpz_class(1) << 16384U) - 1).get_str();
   const std::string fraction = largest + "/" + largest;
   const auto is_too_large = [](const std::string& number) {
-    return outcome(one_as(number)).starts_with("4: a number with more than 16384 bits: '");
+    const std::string told = outcome(one_as(number));
+    return told.starts_with("4: more than ") || told.starts_with("4: too large or small a power");
   };
   for (const std::string& number :
        {largest, "-" + largest, "1/" + largest, fraction, std::string(4932, '0') + "1",
@@ -246,7 +247,7 @@ TEST(Limit, OfTheBitsOfANumber) {
     EXPECT_TRUE(is_too_large(number)) << number.substr(0, 20);
   }
   EXPECT_TRUE(outcome(with(15, "contact root 1/4 3/4 -1 " + power_of_two(16384)))
-                  .starts_with("15: a number with more than 16384 bits: '"));
+                  .starts_with("15: more than 16384 bits in a number: '"));
 }
 
 TEST(Limit, OfNumbersTogether) {
@@ -263,7 +264,7 @@ TEST(Limit, OfNumbersTogether) {
     return outcome(joined(lines));
   };
   EXPECT_EQ(coordinates(16'382), "time_of_impact");
-  EXPECT_EQ(coordinates(16'383), "12: numbers too far apart in size");
+  EXPECT_EQ(coordinates(16'383), "12: numbers too large over their common denominator");
 }
 
 TEST(Limit, OfACommonDenominator) {
@@ -277,8 +278,8 @@ TEST(Limit, OfACommonDenominator) {
     }
     return outcome(joined(lines));
   };
-  EXPECT_NE(coordinates(4), "12: a common denominator that is too large");
-  EXPECT_EQ(coordinates(5), "12: a common denominator that is too large");
+  EXPECT_NE(coordinates(4), "12: numbers too large over their common denominator");
+  EXPECT_EQ(coordinates(5), "12: numbers too large over their common denominator");
 }
 
 TEST(Limit, OfALine) {
@@ -294,7 +295,7 @@ TEST(Limit, OfALine) {
 TEST(Limit, OfALabel) {
   EXPECT_EQ(outcome(with(3, "label " + std::string(1'024, ' '))), "time_of_impact");
   EXPECT_EQ(outcome(with(3, "label " + std::string(1'025, ' '))),
-            "3: a label of more than 1024 bytes");
+            "3: more than 1024 bytes in a label");
   EXPECT_EQ(outcome(with(3, "label")), "time_of_impact");
   EXPECT_EQ(outcome(with(3, "label ")), "time_of_impact");
 }
@@ -326,7 +327,7 @@ TEST(Limit, OfADegree) {
   };
   EXPECT_EQ(degree(1), "collision");
   EXPECT_EQ(degree(8), "collision");
-  EXPECT_EQ(degree(9), "13: a polynomial of a degree above 8");
+  EXPECT_EQ(degree(9), "13: more than 9 coefficients in a polynomial");
 }
 
 /// 96,000 bits a coefficient: some 200 such pieces are too much, though each is proved.
@@ -365,13 +366,11 @@ TEST(Reader, CountsLines) {
   EXPECT_FALSE(lines.at_end());
   lines.advance();
   EXPECT_EQ(lines.number(), 5U);
-  EXPECT_FALSE(lines.is_line());
-  EXPECT_THROW(lines.begin("e"), Rejected);
+  EXPECT_THROW(lines.begin("e"), Rejection);
   lines.advance();
   EXPECT_TRUE(lines.at_end());
   EXPECT_EQ(lines.number(), 5U);
-  EXPECT_FALSE(lines.is_line());
-  EXPECT_THROW(lines.begin("e"), Rejected);
+  EXPECT_THROW(lines.begin("e"), Rejection);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ TEST(Command, NamesLinesLabelsAndReasons) {
             "  line 14: not a number: 'nan'\n"
             "  line 37: expected 'end', found 'query'\n"
             "  line 59: unknown word: '*'\n"
-            "  line 62: a number with more than 16384 bits: "
+            "  line 62: more than 4933 digits in a number: "
             "'9999999999999999999999999999999999999999...'\n"
             "  line 75 (\\x1b[2J): the last line is not ended by a newline\n"
             "  line 75: the stream is cut: it has no closing line 'certificates 7'\n");

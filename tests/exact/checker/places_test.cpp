@@ -113,7 +113,7 @@ TEST(Places, FindsEveryPairThatNoAxisKeepsApart) {
     const std::vector<Motion> vertices = random_vertices(random, 12, 1.0);
     const double distance = 0.25 * random.between(0, 1);
     const mpq_class end = random.coin() ? mpq_class(1) : mpq_class(1, 3);
-    Places places(vertices, distance, end);
+    const Places places(vertices, distance, end);
     const Elements some = random_elements(random, 7, 12), others = random_elements(random, 9, 12);
     const bool is_same = random.coin();
     Pairs expected;
@@ -131,7 +131,8 @@ TEST(Places, FindsEveryPairThatNoAxisKeepsApart) {
     }
     for (const std::size_t axis : {0U, 1U, 2U}) {
       Pairs found;
-      places.find_near(some, is_same ? some : others, axis,
+      std::int64_t comparisons_left = 16 * 16;
+      places.find_near(some, is_same ? some : others, axis, comparisons_left,
                        [&](const Element& a, const Element& b) {
                          EXPECT_TRUE(found.emplace(a.first, b.first).second);
                        });

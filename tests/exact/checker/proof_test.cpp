@@ -479,7 +479,7 @@ TEST(TimeOfImpact, MayBeZero) {
   EXPECT_EQ(outcome(on + time_of_impact("0 0", "", "time 0", place)), "time_of_impact");
   EXPECT_EQ(outcome(on + time_of_impact("0/7 0x0p+0", "", "time -0", place)), "time_of_impact");
   EXPECT_EQ(outcome(on + time_of_impact("0 0", "separate 0 0 face +\n", "time 0", place)),
-            "11: a time of impact 0 has no pieces");
+            "12: expected 'contact', found 'separate'");
   EXPECT_EQ(outcome(on + time_of_impact("0 1/2", "", "time 0", place)), "11: there is no piece");
   EXPECT_EQ(outcome(on + time_of_impact("0 1/2", "separate 0 0 face +\n", "time 0", place)),
             "12: a polynomial is not positive at a point");
