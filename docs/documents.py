@@ -54,6 +54,7 @@ COMMANDS = {
               f"--repetitions 7{separation}" for step, separations in STEPS.items() for separation in separations],
     "bounds": ["derive"],
     "certificates": [f"prove {data} --threads 1".replace("  ", " ") for data in DATA],
+    "step_proofs": [f"step simulation/{step}/frames/*.ply --earliest --threads 1" for step in STEPS],
     "simulations": [f"simulate {simulation}" for simulation in SIMULATIONS],
 }
 
@@ -68,10 +69,10 @@ class Problem(Exception):
 # ---- Measuring -------------------------------------------------------------------------------------------------------
 
 
-def run(command, **options):
-    """What the command prints."""
+def run(command, statuses=(0,), **options):
+    """What the command prints, if it ends with one of these exit statuses."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
-    if done.returncode != 0:
+    if done.returncode not in statuses:
         raise Problem(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stderr}")
     return done.stdout
 
@@ -86,14 +87,33 @@ def compact(value):
     return json.dumps(value, sort_keys=True, separators=(",", ":"))
 
 
+def processor_time(work):
+    """What the work gives, and the processor time of its programs in seconds."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    return work(), resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
 def check_certificates(checker, proofs):
     """How many touchstone-check accepts, and its processor time."""
     text = proofs.with_suffix("")
     run(["zstd", "-q", "-d", "-f", proofs, "-o", text])
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    printed = run([checker, text])
-    return {"accepted": int(re.search(r"accepted +(\d+)", printed)[1]),
-            "checking_s": resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before}
+    printed, seconds = processor_time(lambda: run([checker, text]))
+    return {"accepted": int(re.search(r"accepted +(\d+)", printed)[1]), "checking_s": seconds, "text_bytes": text.stat().st_size}
+
+
+def prove_step(command, options, folder):
+    """Proves the first step between the frames, and checks the proof."""
+    out, proofs = folder / "step.json", folder / "step.cert.zst"
+    words = [path for word in command.split()
+             for path in (sorted(glob.glob(word, root_dir=options.data)) if "*" in word else [word])]
+    # Its exit status is 1 if something touches.
+    _, seconds = processor_time(lambda: run([options.tool, *words, "--json", out, "--prove", proofs], (0, 1), cwd=options.data))
+    result = json.loads(out.read_text())
+    step = result["steps"][0]
+    return {"command": f"touchstone {command}", "result": {
+        **{name: result[name] for name in ("vertices", "edges", "faces")}, **{name: step[name] for name in ("candidates", "proof")},
+        "proving_s": seconds, "file_bytes": proofs.stat().st_size,
+        **check_certificates(options.tool.with_name("touchstone-check"), proofs)}}
 
 
 def simulate(command, options, folder):
@@ -103,7 +123,7 @@ def simulate(command, options, folder):
     words = command.split()[1:] + (["--steps", "3"] if options.quick else [])
     run([options.tool.with_name("touchstone-simulate"), *words, "--out", frames, "--json", out])
     # Its exit status is 1 if something touches.
-    subprocess.run([options.tool, "step", frames, "--json", judged], capture_output=True, check=False)
+    run([options.tool, "step", frames, "--json", judged], (0, 1))
     steps_ = json.loads(judged.read_text())["steps"]
     touching = sum(not step["free"] for step in steps_)
     return {"command": f"./run {command}", "result": json.loads(out.read_text()) | {"touching": touching, "motions": len(steps_)}}
@@ -129,6 +149,8 @@ def measure_one(name, command, options, folder):
     """Runs a command of the tool; the command with its result."""
     if name == "simulations":
         return simulate(command, options, folder)
+    if name == "step_proofs":
+        return prove_step(command, options, folder)
     if RECORDED in command:
         record(options)
     if options.quick:
@@ -312,6 +334,19 @@ def certificates(data):
          "bytes each (compressed)", "deciding", "proving", "checking"], rows)
 
 
+def step_proofs(data):
+    rows = []
+    for one in data["runs"]:
+        of = one["result"]
+        rows.append([scene_of(one)[0], f"{of['faces']:,}", f"{sum(of['candidates'].values()):,}",
+                     f"{of['proof']['directions']:,} / {of['proof']['certificates']:,}",
+                     "yes" if of["accepted"] == 1 else "no", f"{1e-6 * of['text_bytes']:.1f} ({1e-6 * of['file_bytes']:.2f})",
+                     f"{rounded(of['proving_s'])} s", f"{rounded(of['checking_s'])} s"])
+    return made_by(data, "touchstone step FRAME0 FRAME1 --earliest --threads 1 --prove FILE && touchstone-check FILE") + table(
+        ["step", "faces", "pairs whose boxes meet", "pairs with a direction / with pieces", "accepted", "MB (compressed)",
+         "deciding and proving", "checking"], rows)
+
+
 def simulations(data, of):
     """The runs whose command `of` holds for, each with its result."""
     return [(one["command"].removeprefix("./run simulate "), one["result"]) for one in data["runs"] if of(one["command"])]
@@ -380,7 +415,8 @@ def one_miss(data):
 # The marked parts of the documents, in their order, each with its file of data.
 PARTS = {"README.md": [(printed, "certify"), (results, "results")],
          "docs/benchmarks.md": [(judged, "certify"), (files, "files"), (patches, "patches"), (steps, "steps"),
-                                (whole_steps, "steps"), (bounds, "bounds"), (certificates, "certificates")],
+                                (whole_steps, "steps"), (bounds, "bounds"), (certificates, "certificates"),
+                                (step_proofs, "step_proofs")],
          "docs/simulation.md": [(scenes, "simulations"), (detections, "simulations"), (distances, "simulations"),
                                 (misses, "simulations"), (one_miss, "simulations")]}
 
