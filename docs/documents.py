@@ -44,7 +44,7 @@ RECORDINGS = [f"simulate {scene} --record {RECORDED} --record-limit 2500 --npy"
 COMMANDS = {
     "results": ["report handcrafted simulation --count 1000000 --seconds 12 --experiment field "
                 "--experiment separation --experiment filter --stability 0",
-                f"report {RECORDED} --count 5000000 --seconds 12 --experiment field --stability 0"],
+                f"report {RECORDED} --count 12000000 --seconds 12 --experiment field --stability 0"],
     "certify": [f"certify {data} --method certified --method tight_inclusion --method tight_inclusion_published "
                 "--method tight_inclusion_released" if data else "certify" for data in DATA],
     "files": ["bench handcrafted/*/*/*.csv simulation/*/queries/*.csv --method certified --method tccd "
@@ -174,8 +174,9 @@ def measure(name, options, folder):
     rows = [measure_one(name, command, options, folder) for command in COMMANDS[name]]
     key, data = "runs", {"date": datetime.datetime.now(datetime.timezone.utc).date().isoformat()}
     if name == "results":  # as `touchstone report --from` reads it
-        key, data = "measurements", rows[0]["result"] | {"command": "\n".join(row["command"] for row in rows),
-                                                   "groups": sum(row["result"]["groups"] for row in rows)}
+        key, data = "measurements", rows[0]["result"] | {
+            "command": " && ".join(row["command"] for row in rows),
+            "groups": [group for row in rows for group in row["result"]["groups"]]}
         rows = [row if row["experiment"] == "field" else row | {"hit_times": [], "miss_times": []}  # drawn of the field
                 for of in rows for row in of["result"][key]]
         del data[key]
