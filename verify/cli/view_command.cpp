@@ -154,7 +154,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
       .add_option(
           "PATH", arguments.paths,
           "Datasets (.csv, .npy) or folders of them, findings (.json of fuzz), certificates "
-          "(.cert), or eight lines of vertices (.obj)")
+          "(.cert, .cert.zst), or eight lines of vertices (.obj)")
       ->type_name("");
   command
       .add_option("--step", arguments.step,

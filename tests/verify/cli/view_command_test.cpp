@@ -73,6 +73,39 @@ TEST_F(ViewCommand, RowsFindingsAndCertificatesByThoseWhoAreNamed) {
   EXPECT_EQ(page[1].at("answers")[1].at("faults"), nlohmann::json::array({"false positive"}));
 }
 
+TEST_F(ViewCommand, CompressedCertificates) {
+  const std::string data = write("vertex-face.csv", row("-2") + row("2"));
+  ASSERT_EQ(run({"prove", data, "--out", path("proofs.cert.zst")}).status, 0);
+  const tests::Outcome outcome = view({path("proofs.cert.zst")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const nlohmann::json page = queries("page.html");
+  ASSERT_EQ(page.size(), 2U);
+  for (const nlohmann::json& query : page) {
+    EXPECT_EQ(query.at("certificate").at("given"), true);
+    EXPECT_EQ(query.at("certificate").at("accepted"), true);
+  }
+  const std::string bytes = read("proofs.cert.zst");
+  write("cut.cert.zst", bytes.substr(0, bytes.size() / 2));
+  EXPECT_TRUE(
+      contains(view({path("cut.cert.zst")}).err, "cut.cert.zst: its compressed stream is cut"));
+  write("plain.cert.zst", "touchstone-certificates 1\n");
+  EXPECT_TRUE(
+      contains(view({path("plain.cert.zst")}).err, "plain.cert.zst: decompression failed: "));
+}
+
+TEST_F(ViewCommand, TheCertificateOfAStepIsRefusedWithTheWayOut) {
+  const std::string triangle = "v 0 0 0\nv 4 0 0\nv 0 4 0\n";
+  const std::string before = write("0.obj", triangle + "v 1 1 1\nf 1 2 3\np 4\n");
+  const std::string after = write("1.obj", triangle + "v 1 1 2\nf 1 2 3\np 4\n");
+  for (const std::string name : {"step.cert", "step.cert.zst"}) {
+    ASSERT_EQ(run({"step", before, after, "--prove", path(name)}).status, 0);
+    const tests::Outcome outcome = view({path(name)});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_TRUE(contains(outcome.err, "certificates of steps, which have no query; view --step"))
+        << outcome.err;
+  }
+}
+
 TEST_F(ViewCommand, AFindingOfTheFuzzerComesWithItsAnswer) {
   ASSERT_EQ(run({"fuzz", "--method", "msrf", "--only", "false_negative", "--most-findings", "1",
                  "--seconds", "60", "--json", path("found.json"), "--view", path("found.html")})
