@@ -38,8 +38,6 @@ struct ActiveContact : StepCollision {
   Eigen::Vector3d first = Eigen::Vector3d::Zero();
   Eigen::Vector3d second = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
-
-  friend bool operator==(const ActiveContact&, const ActiveContact&) = default;
 };
 
 /// Every pair of the step that comes within `eta` up to the step's t_max, exactly these, in the order

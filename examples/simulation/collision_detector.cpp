@@ -72,7 +72,9 @@ bool CollisionDetector::is_whole() const {
 void CollisionDetector::record(const fast::Step& step) {
   if (options_.recorder == nullptr) return;
   for (const Candidates& candidates : candidates_of(step)) {
-    for (const fast::IndexPair& pair : candidates.pairs) {
+    const std::size_t count = std::min(candidates.pairs.size(), options_.record_limit);
+    for (std::size_t i = 0; i < count; ++i) {
+      const fast::IndexPair& pair = candidates.pairs[i * candidates.pairs.size() / count];
       options_.recorder->add(fast::Step::kind_of(candidates.kind),
                              step.query_of(candidates.kind, pair));
     }

@@ -33,6 +33,8 @@ struct DetectorOptions {
   std::uint64_t missed_one_in = 0;
   /// Of the queries that methods are asked, or would be. Null: they are not recorded.
   Recorder* recorder = nullptr;
+  /// Of each motion no more queries of each kind than that are recorded, evenly spread; positive.
+  std::size_t record_limit = SIZE_MAX;
 };
 
 /// What the detector did so far.

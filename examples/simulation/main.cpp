@@ -225,8 +225,9 @@ int run(int argc, char** argv) {
   app.add_option("--record", arguments.recorder.folder,
                  "Write all queries with the oracle's truth to a folder")
       ->type_name("FOLDER");
-  app.add_option("--record-limit", arguments.recorder.limit,
-                 "No more queries of each kind than that");
+  app.add_option("--record-limit", arguments.detector.record_limit,
+                 "Of each motion no more queries of each kind than that, evenly spread")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--npy", arguments.recorder.as_npy, "Record as NumPy arrays instead of CSV");
   app.add_option("--json", arguments.json_file, "Write the result as JSON")->type_name("FILE");
   app.footer(scene_list() +

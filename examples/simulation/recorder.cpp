@@ -97,10 +97,7 @@ Recorder::Recorder(RecorderOptions options) : options_(std::move(options)) {
 
 Recorder::~Recorder() = default;
 
-void Recorder::add(Kind kind, const Query& query) {
-  File& file = *files_.at(index_of(kind));
-  if (file.queries() < options_.limit) file.add(query);
-}
+void Recorder::add(Kind kind, const Query& query) { files_.at(index_of(kind))->add(query); }
 
 void Recorder::close() {
   for (const auto& file : files_) file->close();

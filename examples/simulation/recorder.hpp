@@ -19,8 +19,6 @@ struct RecorderOptions {
   std::filesystem::path folder;
   std::string name;  ///< of the files: FOLDER/vertex-face/NAME.csv or .npy, and edge-edge likewise
   bool as_npy = false;  ///< an eighth of the size
-  /// No more queries of each kind are taken than that.
-  std::uint64_t limit = UINT64_MAX;
 };
 
 class Recorder {

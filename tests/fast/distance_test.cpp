@@ -302,6 +302,8 @@ TEST(Distance, RefusesWhatMakesNoSense) {
   std::vector<Distance> two(2);
   EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, two),
                std::invalid_argument);
+  EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, {two.data(), 1}, -1),
+               std::invalid_argument);
   query.coordinates[5] = infinity;
   EXPECT_THROW((void)distance(Kind::vertex_face, query, 0.5), std::domain_error);
   EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, std::span(two).first(1)),

@@ -505,8 +505,8 @@ TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
   EXPECT_GT(none, 0);
 }
 
-/// A vertex above a resting triangle that falls from a height to minus one.
-Scene falling_vertex(double height) {
+/// A vertex that falls from a height to one below a resting triangle, which is at the height `floor`.
+Scene falling_vertex(double height, double floor = 0.0) {
   Scene scene{.start = Places(4, 3),
               .end = {},
               .edges = {},
@@ -514,9 +514,9 @@ Scene falling_vertex(double height) {
               .points = {3},
               .groups = {},
               .apart = {}};
-  scene.start << -4, -4, 0, 4, -4, 0, 0, 4, 0, 0, 0, height;
+  scene.start << -4, -4, floor, 4, -4, floor, 0, 4, floor, 0, 0, height;
   scene.end = scene.start;
-  scene.end(3, 2) = -1.0;
+  scene.end(3, 2) = floor - 1.0;
   return scene;
 }
 
@@ -545,6 +545,29 @@ TEST(FreeStepSize, IsThatOfTheRoundedStepAndNotOfTheExactOne) {
   };
   EXPECT_GT(place(*alpha), 0.0);
   EXPECT_LE(place(std::nextafter(*alpha, 1.0)), 0.0);
+}
+
+TEST(FreeStepSize, IsFoundBelowTheTimeOfImpactToo) {
+  // From 2^52 + 1 down to the floor at 2^52, where doubles are integers: the time of impact is 1/2, but the rounded place
+  // is the floor from 1/4 on, where it is half way (and 2^52 is even).
+  const Scene scene = falling_vertex(0x1p52 + 1.0, 0x1p52);
+  const Step step = scene.step();
+  EXPECT_GT(step.earliest()->toi_lower, 0.25);
+  EXPECT_EQ(step.free_step_size(), std::nextafter(0.25, 0.0));
+}
+
+TEST(Step, IsMovedWithItsScene) {
+  const Scene colliding = falling_vertex(3.0), free = falling_vertex(-0.5);
+  Step step = colliding.step();
+  step = free.step();
+  EXPECT_TRUE(step.is_free());
+}
+
+TEST(PairKind, HasAName) {
+  EXPECT_EQ(to_string(PairKind::vertex_face), "vertex-face");
+  EXPECT_EQ(to_string(PairKind::edge_edge), "edge-edge");
+  EXPECT_EQ(to_string(PairKind::vertex_edge), "vertex-edge");
+  EXPECT_EQ(to_string(PairKind::vertex_vertex), "vertex-vertex");
 }
 
 // ---- Faults -------------------------------------------------------------------------------------

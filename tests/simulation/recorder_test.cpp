@@ -19,6 +19,8 @@ class Recorded : public tests::FolderTest, public testing::WithParamInterface<bo
 INSTANTIATE_TEST_SUITE_P(Formats, Recorded, testing::Bool(),
                          [](const auto& of) { return of.param ? "Npy" : "Csv"; });
 
+class RecordedPart : public tests::FolderTest {};
+
 TEST_P(Recorded, QueriesComeBackWithTheTruth) {
   const World world(make_scene("wedge"));
   Eigen::VectorXd end = world.start();
@@ -46,13 +48,35 @@ TEST_P(Recorded, QueriesComeBackWithTheTruth) {
   }
 }
 
-TEST_P(Recorded, NoMoreThanTheLimit) {
-  Recorder recorder({.folder = path("recorded"), .name = "some", .as_npy = GetParam(), .limit = 3});
-  for (int i = 0; i < 5; ++i) recorder.add(Kind::vertex_face, {});
+/// The queries of two motions: all, or so many of each motion and kind.
+std::vector<Query> recorded(const std::string& folder, Kind kind, std::size_t limit) {
+  const World world(make_scene("wedge"));
+  Eigen::VectorXd end = world.start();
+  for (Eigen::Index i = 2; i < end.size(); i += 3) {
+    if (!world.is_held(i)) end[i] -= 0.05;
+  }
+  Recorder recorder({.folder = folder, .name = "wedge", .as_npy = true});
+  CollisionDetector detector({.recorder = &recorder, .record_limit = limit});
+  for (int i = 0; i < 2; ++i) (void)detector.step_size(world.step(world.start(), end));
   recorder.close();
-  EXPECT_EQ(recorder.queries(Kind::vertex_face), 3);
-  EXPECT_EQ(recorder.collisions(Kind::vertex_face), 3);
-  EXPECT_EQ(recorder.queries(Kind::edge_edge), 0);
+  const std::string file = folder + "/" + std::string(to_string(kind)) + "/wedge.npy";
+  std::vector<Query> queries;
+  const auto source = verify::data::open_dataset(file, {});
+  while (const auto query = source->next()) queries.push_back(query->query);
+  return queries;
+}
+
+TEST_F(RecordedPart, IsSoManyOfEachMotionEvenlySpread) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const std::vector<Query> all = recorded(path("all"), kind, SIZE_MAX);
+    const std::size_t of_motion = all.size() / 2;
+    ASSERT_GT(of_motion, 8);
+    const std::vector<Query> some = recorded(path("some"), kind, 4);
+    ASSERT_EQ(some.size(), 8);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      EXPECT_EQ(some[i], all[i / 4 * of_motion + i % 4 * of_motion / 4]) << i;
+    }
+  }
 }
 
 }  // namespace

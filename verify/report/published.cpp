@@ -129,6 +129,11 @@ constexpr auto separation = std::to_array<Row>({
     {simulation, ee, "tight_inclusion", {"0.68", "17", "0"}, 1e-100},
 });
 
+/// The published dataset that a group of queries stands beside.
+std::string_view published_name(std::string_view dataset) {
+  return dataset == "simulated" ? simulation : dataset;
+}
+
 std::optional<PublishedNumbers> find(std::span<const Row> table, const Row& wanted) {
   for (const Row& row : table) {
     if (row.dataset == wanted.dataset && row.kind == wanted.kind && row.method == wanted.method &&
@@ -142,6 +147,7 @@ std::optional<PublishedNumbers> find(std::span<const Row> table, const Row& want
 }  // namespace
 
 std::string_view published_size(std::string_view dataset, Kind kind) {
+  dataset = published_name(dataset);
   if (dataset == hand) return kind == vf ? "12K" : "15K";
   if (dataset == simulation) return kind == vf ? "18M" : "41M";
   return {};
@@ -149,12 +155,12 @@ std::string_view published_size(std::string_view dataset, Kind kind) {
 
 std::optional<PublishedNumbers> published_field(std::string_view dataset, Kind kind,
                                                 std::string_view method) {
-  return find(field, {dataset, kind, method, {}, 0.0});
+  return find(field, {published_name(dataset), kind, method, {}, 0.0});
 }
 
 std::optional<PublishedNumbers> published_separation(std::string_view dataset, Kind kind,
                                                      std::string_view method, double distance) {
-  return find(separation, {dataset, kind, method, {}, distance});
+  return find(separation, {published_name(dataset), kind, method, {}, distance});
 }
 
 }  // namespace touchstone::verify::report

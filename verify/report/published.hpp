@@ -23,7 +23,8 @@ struct PublishedNumbers {
 };
 
 /// So many queries a published dataset has, as printed; empty if it is none.
-/// \param dataset "handcrafted" or "simulation"
+/// \param dataset "handcrafted", "simulation", or "simulated": queries that `./run simulate --record` wrote, which stand
+///     beside the published ones of simulations
 [[nodiscard]] std::string_view published_size(std::string_view dataset, Kind kind);
 
 /// The entry of a method in table 1, by our name of it; nothing if it is not there.

@@ -37,6 +37,14 @@ TEST(Published, NumbersAreAsPrinted) {
   EXPECT_EQ(published_size("handcrafted", Kind::edge_edge), "15K");
 }
 
+TEST(Published, WhatIsSimulatedHereStandsBesideTheSimulations) {
+  EXPECT_EQ(published_size("simulated", Kind::edge_edge), "41M");
+  EXPECT_EQ(published_field("simulated", Kind::edge_edge, "tccd")->false_positives, "82277");
+  EXPECT_EQ(published_separation("simulated", Kind::vertex_face, "msrf", 1e-2)->false_negatives,
+            published_separation("simulation", Kind::vertex_face, "msrf", 1e-2)->false_negatives);
+  EXPECT_EQ(published_size("another", Kind::vertex_face), "");
+}
+
 TEST(Published, TablesOverTheSeparationHaveFiveDistances) {
   for (const std::string_view dataset : datasets) {
     for (const Kind kind : kinds) {
