@@ -179,6 +179,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/tight_inclusion/box_kernel_on_lanes.hpp", "a part of the kernels, tested through them"},
     {"verify/cli/certificates_file.hpp", "tested through the commands that use it"},
     {"verify/cli/options.hpp", "tested through the commands that use it"},
+    {"verify/cli/view_file.hpp", "tested through the commands that use it"},
     {"verify/fuzz/draws.hpp", "a part of the generators, tested through their queries"},
     {"verify/fuzz/finding.hpp", "what the fuzzer hands out, without code"},
     {"verify/generate/grid.hpp", "a part of the families, tested through their queries"},

@@ -20,6 +20,7 @@
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
+#include "verify/cli/view_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/certify.hpp"
@@ -38,6 +39,7 @@ struct Arguments {
   std::string json_file;
   std::string truth_file;
   std::string proof_file;
+  std::string view_file;
 };
 
 /// Which solvers to judge: where the user names none, the default methods, on the built-in set only.
@@ -57,10 +59,14 @@ class CertifyRun {
         solvers_(judged_by(arguments)),
         json_(arguments.json_file),
         truth_(arguments.truth_file),
-        proof_(arguments.proof_file) {
+        proof_(arguments.proof_file),
+        view_(arguments.view_file) {
     require_one_name(arguments.json_file, json_.is(arguments.truth_file));
     require_one_name(arguments.proof_file,
                      proof_.is(arguments.json_file) || proof_.is(arguments.truth_file));
+    require_one_name(arguments.view_file, json_.is(arguments.view_file) ||
+                                              truth_.is(arguments.view_file) ||
+                                              proof_.is(arguments.view_file));
     for (const fs::path& file : arguments.judged.files()) {
       if (is_output(file)) throw std::runtime_error(file.string() + ": named for input and output");
     }
@@ -83,6 +89,7 @@ class CertifyRun {
     proof_.close(sum_.proofs.certificates());
     if (json_) json_.write(io::json_document(report::to_json(results_)));
     json_.close();
+    view_.write(arguments_.judged.options);
     print_summary();
     return status();
   }
@@ -93,16 +100,17 @@ class CertifyRun {
   }
 
   [[nodiscard]] bool is_output(const fs::path& path) const {
-    return json_.is(path) || truth_.is(path) || proof_.is(path);
+    return json_.is(path) || truth_.is(path) || proof_.is(path) || view_.is(path);
   }
 
   void print_summary() const {
-    const bool is_standard_output =
-        json_.is_standard_output() || truth_.is_standard_output() || proof_.is_standard_output();
+    const bool is_standard_output = json_.is_standard_output() || truth_.is_standard_output() ||
+                                    proof_.is_standard_output() || view_.is_standard_output();
     std::FILE* const stream = is_standard_output ? stderr : stdout;
     io::print(stream, report::to_text(results_));
     if (proof_) io::print(stream, fmt::format("\n{}", jobs::to_text(sum_.proofs)));
     report_beyond_limits(sum_.proofs);
+    io::print(stream, view_.summary());
   }
 
   void certify_source(data::QuerySource& source, const Progress& progress) {
@@ -121,6 +129,11 @@ class CertifyRun {
     }
     if (proof_) {
       options.on_certificates = [this](std::string_view text) { proof_.write(text); };
+    }
+    if (view_) {
+      options.on_wrong = [this](judge::WrongQuery wrong) {
+        view_.add(view::viewed_query(std::move(wrong)));
+      };
     }
     add(jobs::certify(source, options));
     if (results_.back().error) report_error(*results_.back().error);
@@ -179,8 +192,9 @@ class CertifyRun {
         std::ranges::any_of(sum_.methods, is_wrong)) {
       return Status::wrong_answers;
     }
-    if (json_.failed() || truth_.failed() || proof_.failed() || sum_.errors + sum_.skipped != 0 ||
-        !sum_.proofs.beyond_limits.empty() || std::ranges::any_of(sum_.methods, is_incomplete)) {
+    if (json_.failed() || truth_.failed() || proof_.failed() || view_.failed() ||
+        sum_.errors + sum_.skipped != 0 || !sum_.proofs.beyond_limits.empty() ||
+        std::ranges::any_of(sum_.methods, is_incomplete)) {
       return Status::bad_input;
     }
     return io::interrupted() ? Status::interrupted : Status::all_well;
@@ -191,6 +205,7 @@ class CertifyRun {
   ReportedOutput json_;
   ReportedOutput truth_;
   CertificatesFile proof_;
+  ViewFile view_;
   std::vector<jobs::CertifyResult> results_;
   jobs::CertifyResult sum_;
 };
@@ -219,6 +234,8 @@ void add_certify_command(CLI::App& app, Status& status) {
       ->add_option("--prove", arguments->proof_file,
                    "Write a proof of every verdict, as touchstone prove does")
       ->type_name("FILE");
+  add_view_option(*command, arguments->view_file,
+                  "Write a page to look at the first 100 queries with a wrong answer or label");
   set_help(*command,
            "touchstone certify data/handcrafted --json result.json\n"
            "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion",

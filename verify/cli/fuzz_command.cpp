@@ -16,11 +16,11 @@
 #include <utility>
 #include <vector>
 
-#include "fast/certified.hpp"
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
+#include "verify/cli/view_file.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/data/separation_file.hpp"
@@ -35,8 +35,6 @@
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/solvers/solver.hpp"
-#include "verify/view/page.hpp"
-#include "verify/view/query_facts.hpp"
 #include "verify/view/query_files.hpp"
 
 namespace touchstone::verify::cli {
@@ -46,8 +44,6 @@ namespace fs = std::filesystem;
 
 constexpr double default_seconds = 60.0;
 constexpr double longest_run = 1e7;
-/// A page shows at most so many findings.
-constexpr std::size_t most_viewed = 100;
 /// Seconds for making a finding simpler, at most.
 constexpr double shrink_seconds = 5.0;
 
@@ -249,11 +245,11 @@ class FuzzRun {
     for (fs::path& page : write_pages(report)) written.push_back(std::move(page));
     if (json_) json_.write(io::json_document(fuzz::to_json(report)));
     json_.close();
-    if (view_) view_.write(page_of(report));
-    view_.close();
+    write_view(report);
     io::print(out(), fuzz::to_text(report));
     for (const fs::path& file : written)
       io::print(out(), fmt::format("written: {}\n", io::printable(file.string())));
+    io::print(out(), view_.summary());
     return status(report.result);
   }
 
@@ -266,19 +262,14 @@ class FuzzRun {
     return fuzz::write_pages(report, interface, arguments_.page_folder);
   }
 
-  /// The first findings, to be looked at.
-  [[nodiscard]] std::string page_of(const fuzz::FuzzReport& report) const {
-    const auto judge = solvers::solver_in_process(solvers::find_method(fast::certified_info().name),
-                                                  arguments_.solver.options);
-    const std::array<const solvers::Solver*, 1> asked{judge.get()};
-    std::vector<nlohmann::json> facts;
+  void write_view(const fuzz::FuzzReport& report) {
+    if (!view_) return;
+    std::size_t number = 0;
     for (const fuzz::Finding& finding : report.result.findings) {
-      if (facts.size() == most_viewed) break;
       const nlohmann::json json = fuzz::to_json(finding, report.solver);
-      const std::string label = fmt::format("finding {}", facts.size());
-      facts.push_back(view::query_facts(view::query_from_json(json, label), asked));
+      view_.add(view::query_from_json(json, fmt::format("finding {}", number++)));
     }
-    return view::view_page(facts, command_line());
+    view_.write(arguments_.solver.options);
   }
 
   void load_method() {
@@ -341,7 +332,7 @@ class FuzzRun {
 
   const Arguments& arguments_;
   ReportedOutput json_;
-  ReportedOutput view_;
+  ViewFile view_;
   FoundQueries found_;
   io::ProgressBar bar_;
   std::unique_ptr<fast::Method> plugin_;
@@ -406,9 +397,7 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       ->type_name("INTERFACE")
       ->check(CLI::IsMember({"plugin", "ticcd", "ipc-toolkit"}).description(""));
   add_json_option(command, arguments.json_file);
-  command
-      .add_option("--view", arguments.view_file, "Write a page to look at the first 100 findings")
-      ->type_name("FILE.html");
+  add_view_option(command, arguments.view_file, "Write a page to look at the first 100 findings");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -25,6 +26,7 @@
 #include "verify/cli/solver_options.hpp"
 #include "verify/cli/sources.hpp"
 #include "verify/cli/version.hpp"
+#include "verify/cli/view_file.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
@@ -32,6 +34,7 @@
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
+#include "verify/judge/separation_inference.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 #include "verify/report/experiments.hpp"
 #include "verify/report/measurement_json.hpp"
@@ -55,6 +58,35 @@ struct Arguments {
   std::string page_file;
   std::string json_file;
   std::string markdown_file;
+  std::string view_file;
+};
+
+/// What each method answered wrongly, at most as much as a page holds; of several settings the first.
+class WrongAnswers {
+ public:
+  void add(judge::WrongQuery wrong) {
+    std::vector<judge::WrongQuery>& of_method = by_method_[wrong.answers.front().solver];
+    const auto is_known = [&](const judge::WrongQuery& other) {
+      return other.query == wrong.query && other.kind == wrong.kind &&
+             judge::same_separation(other.separation, wrong.separation);
+    };
+    if (of_method.size() == ViewFile::most_queries || std::ranges::any_of(of_method, is_known)) {
+      return;
+    }
+    of_method.push_back(std::move(wrong));
+  }
+
+  /// Gives the page the first query of each method, then the second, and so on: none takes all the places.
+  void add_to(ViewFile& page) const {
+    for (std::size_t i = 0; i < ViewFile::most_queries; ++i) {
+      for (const auto& [method, wrong] : by_method_) {
+        if (i < wrong.size()) page.add(view::viewed_query(wrong[i]));
+      }
+    }
+  }
+
+ private:
+  std::map<std::string, std::vector<judge::WrongQuery>> by_method_;
 };
 
 /// The last part of a path that says something.
@@ -70,12 +102,14 @@ class ReportRun {
       : arguments_(arguments),
         page_(arguments.page_file),
         json_(arguments.json_file),
-        markdown_(arguments.markdown_file) {
-    if (!page_ && !json_ && !markdown_) {
-      throw std::invalid_argument("nothing to write: name --out, --json or --markdown");
+        markdown_(arguments.markdown_file),
+        view_(arguments.view_file) {
+    if (!page_ && !json_ && !markdown_ && !view_) {
+      throw std::invalid_argument("nothing to write: name --out, --json, --markdown or --view");
     }
     if (json_.is(arguments.page_file) || markdown_.is(arguments.page_file) ||
-        markdown_.is(arguments.json_file)) {
+        markdown_.is(arguments.json_file) || view_.is(arguments.page_file) ||
+        view_.is(arguments.json_file) || view_.is(arguments.markdown_file)) {
       throw std::runtime_error("a file is named for two outputs");
     }
     for (const std::string& input : {arguments.from_file, arguments.compare_file}) {
@@ -97,14 +131,14 @@ class ReportRun {
     write(measurements);
     report_broken_promises(measurements);
     if (report::has_wrong_answers(measurements)) return Status::wrong_answers;
-    const bool failed = page_.failed() || json_.failed() || markdown_.failed();
+    const bool failed = page_.failed() || json_.failed() || markdown_.failed() || view_.failed();
     if (failed || !errors_.empty() || skipped_ != 0) return Status::bad_input;
     return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
  private:
   [[nodiscard]] bool is_output(const fs::path& file) const {
-    return page_.is(file) || json_.is(file) || markdown_.is(file);
+    return page_.is(file) || json_.is(file) || markdown_.is(file) || view_.is(file);
   }
 
   static report::Measurements read(const std::string& file) {
@@ -118,7 +152,7 @@ class ReportRun {
     }
   }
 
-  [[nodiscard]] report::Measurements measured(const std::vector<data::QueryGroup>& groups) const {
+  [[nodiscard]] report::Measurements measured(const std::vector<data::QueryGroup>& groups) {
     io::ProgressBar bar("report");
     report::ExperimentOptions options = arguments_.experiments;
     const std::vector<std::unique_ptr<fast::Method>> plugins = loaded_plugins();
@@ -131,6 +165,9 @@ class ReportRun {
     options.seed = arguments_.sources.seed;
     options.threads = arguments_.sources.threads;
     options.on_progress = [&bar](double fraction) { bar.update(fraction); };
+    if (view_) {
+      options.on_wrong = [this](judge::WrongQuery wrong) { wrong_.add(std::move(wrong)); };
+    }
     options.stop = &io::interrupted();
     report::Measurements measurements = report::run_experiments(groups, options);
     measurements.command = command_line();
@@ -238,10 +275,15 @@ class ReportRun {
     page_.close();
     if (markdown_) markdown_.write(report::results_document(measurements));
     markdown_.close();
+    wrong_.add_to(view_);
+    view_.write();
+    std::FILE* const out =
+        page_.is_standard_output() || view_.is_standard_output() ? stderr : stdout;
     if (page_ && !page_.failed()) {
-      io::print(page_.is_standard_output() ? stderr : stdout,
+      io::print(out,
                 fmt::format("{}\n", io::printable(fs::absolute(arguments_.page_file).string())));
     }
+    io::print(out, view_.summary());
   }
 
   static void report_broken_promises(const report::Measurements& measurements) {
@@ -260,6 +302,8 @@ class ReportRun {
   ReportedOutput page_;
   ReportedOutput json_;
   ReportedOutput markdown_;
+  ViewFile view_;
+  WrongAnswers wrong_;
   std::optional<report::Measurements> before_;
   std::set<std::string> errors_;
   std::uint64_t skipped_ = 0;
@@ -337,6 +381,10 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       .add_option("--markdown", arguments.markdown_file,
                   "Write the tables as Markdown, beside the published numbers")
       ->type_name("FILE.md");
+  add_view_option(
+      command, arguments.view_file,
+      "Write a page to look at 100 queries with a wrong answer, of each method as many");
+  command.get_option("--view")->excludes(command.get_option("--from"));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // touchstone step: what touches in the steps of a simulation, and when.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <climits>
@@ -20,6 +22,7 @@
 #include "verify/cli/commands.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/view_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -44,6 +47,7 @@ struct Arguments {
   std::string json_file;
   std::string csv_file;
   std::string proof_file;
+  std::string view_file;
 };
 
 /// The groups that are needed: none where all meet. \throws std::runtime_error or DatasetError if they cannot be used.
@@ -67,6 +71,7 @@ class StepRun {
       : json_(arguments.json_file),
         csv_(arguments.csv_file),
         proof_(arguments.proof_file, jobs::step_proofs_header()),
+        view_(arguments.view_file),
         options_(arguments.check),
         frames_(mesh::open_frames(arguments.frames)),
         groups_(groups_for(arguments, frames_->mesh())),
@@ -106,6 +111,7 @@ class StepRun {
         if (proof_) ask_for_proof(i, progress);
         report_.steps.push_back(jobs::check_step(frames_->mesh(), before, after, options_));
         if (csv_) csv_.write(report::step_csv_rows(report_, i - 1));
+        view_step(i, before, after);
       }
       before = std::move(after);
       progress(1.0);
@@ -124,10 +130,14 @@ class StepRun {
     if (json_.is(arguments.proof_file)) {
       throw std::runtime_error(arguments.proof_file + ": named for two outputs");
     }
+    if (json_.is(arguments.view_file) || csv_.is(arguments.view_file) ||
+        proof_.is(arguments.view_file)) {
+      throw std::runtime_error(arguments.view_file + ": named for two outputs");
+    }
     std::vector<fs::path> inputs = arguments.frames;
     inputs.emplace_back(arguments.groups_file);
     for (const fs::path& input : inputs) {
-      if (json_.is(input) || csv_.is(input) || proof_.is(input)) {
+      if (json_.is(input) || csv_.is(input) || proof_.is(input) || view_.is(input)) {
         throw std::runtime_error(input.string() + ": named for input and output");
       }
     }
@@ -149,6 +159,15 @@ class StepRun {
           });
     });
     report_.frames.push_back(std::move(frame));
+  }
+
+  /// The page shows the first step in which something touches, or else the first of all.
+  void view_step(std::size_t i, const mesh::Vertices& before, const mesh::Vertices& after) {
+    const bool is_free = report_.steps.back().is_free;
+    if (!view_ || shows_contact_ || (is_free && i > 1)) return;
+    shows_contact_ = !is_free;
+    view_.add(view::find_collisions(fmt::format("{} to {}", frames_->name(i - 1), frames_->name(i)),
+                                    frames_->mesh(), before, after, options_.step, options_.alpha));
   }
 
   void ask_for_proof(std::size_t i, const std::function<void(double)>& progress) {
@@ -181,17 +200,20 @@ class StepRun {
     if (json_) json_.write(io::json_document(report::to_json(report_)));
     json_.close();
     csv_.close();
-    const bool is_taken =
-        json_.is_standard_output() || csv_.is_standard_output() || proof_.is_standard_output();
-    io::print(is_taken ? stderr : stdout, report::to_text(report_));
+    view_.write();
+    const bool is_taken = json_.is_standard_output() || csv_.is_standard_output() ||
+                          proof_.is_standard_output() || view_.is_standard_output();
+    io::print(is_taken ? stderr : stdout, report::to_text(report_) + view_.summary());
     if (io::interrupted()) return Status::interrupted;
-    if (lacks_proof() || proof_.failed()) return Status::bad_input;
+    if (lacks_proof() || proof_.failed() || view_.failed()) return Status::bad_input;
     return report::has_collisions(report_) ? Status::wrong_answers : Status::all_well;
   }
 
   OptionalOutput json_;
   OptionalOutput csv_;
   CertificatesFile proof_;
+  ViewFile view_;
+  bool shows_contact_ = false;
   jobs::StepCheckOptions options_;
   std::unique_ptr<mesh::Frames> frames_;
   mesh::Groups groups_;
@@ -258,6 +280,9 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
                   "--t-max), or when the earliest contact is; compressed if the name ends in .zst")
       ->type_name("FILE");
   add_json_option(command, arguments.json_file);
+  add_view_option(
+      command, arguments.view_file,
+      "Write a page to look at the first step in which something touches, with its pairs");
 }
 
 }  // namespace

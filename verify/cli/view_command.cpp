@@ -60,7 +60,7 @@ std::optional<view::ViewedStep> read_step(const Arguments& arguments) {
   mesh::Vertices before = frames->next(), after = frames->next();
   return view::find_collisions(fmt::format("{} to {}", frames->name(0), frames->name(1)),
                                frames->mesh(), std::move(before), std::move(after),
-                               arguments.separation.given());
+                               {.separation = arguments.separation.given()});
 }
 
 /// The files themselves, and of folders the datasets below them.
@@ -154,7 +154,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
       .add_option(
           "PATH", arguments.paths,
           "Datasets (.csv, .npy) or folders of them, findings (.json of fuzz), certificates "
-          "(.cert), or eight lines of vertices (.obj)")
+          "(.cert, .cert.zst), or eight lines of vertices (.obj)")
       ->type_name("");
   command
       .add_option("--step", arguments.step,

@@ -14,6 +14,8 @@ void require(std::size_t result) {
   throw std::runtime_error(std::string("compression failed: ") + ZSTD_getErrorName(result));
 }
 
+ZSTD_DCtx* as_decompression(void* pointer) { return static_cast<ZSTD_DCtx*>(pointer); }
+
 }  // namespace
 
 void Compressor::Free::operator()(void* context) const { ZSTD_freeCCtx(as_context(context)); }
@@ -41,6 +43,26 @@ std::string Compressor::run(std::string_view bytes, bool last) {
     result.resize(out.pos);
   }
   return result;
+}
+
+void Decompressor::Free::operator()(void* context) const {
+  ZSTD_freeDCtx(as_decompression(context));
+}
+
+Decompressor::Decompressor() : context_(ZSTD_createDCtx()) {
+  if (!context_) throw std::runtime_error("decompression failed: no memory");
+}
+
+std::size_t Decompressor::decompress(std::string_view& bytes, std::span<char> room) {
+  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+  ZSTD_outBuffer out{room.data(), room.size(), 0};
+  const std::size_t left = ZSTD_decompressStream(as_decompression(context_.get()), &out, &in);
+  if (ZSTD_isError(left) != 0) {
+    throw std::runtime_error(std::string("decompression failed: ") + ZSTD_getErrorName(left));
+  }
+  is_complete_ = left == 0;
+  bytes.remove_prefix(in.pos);
+  return out.pos;
 }
 
 }  // namespace touchstone::verify::io

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -64,7 +65,9 @@ double InputFile::progress() const {
 LineReader::LineReader(std::filesystem::path path)
     : file_(std::move(path)),
       // NOLINTNEXTLINE(modernize-avoid-c-arrays): std::vector would fill it
-      buffer_(std::make_unique_for_overwrite<char[]>(buffer_size)) {}
+      buffer_(std::make_unique_for_overwrite<char[]>(buffer_size)) {
+  if (this->path().extension() == ".zst") decompressor_.emplace();
+}
 
 bool LineReader::at_end() {
   if (ahead_) return false;
@@ -137,9 +140,34 @@ bool LineReader::fill() {
   end_ -= begin_;
   begin_ = 0;
   const std::size_t room = std::min(chunk, buffer_size - end_);
-  const std::size_t count = file_.read({buffer_.get() + end_, room});
+  const std::size_t count = read({buffer_.get() + end_, room});
   end_ += count;
   return count > 0;
+}
+
+/// At least one byte, or none at the end.
+std::size_t LineReader::read(std::span<char> room) {
+  if (!decompressor_) return file_.read(room);
+  for (;;) {
+    if (compressed_left_.empty()) {
+      compressed_.resize(chunk);
+      compressed_.resize(file_.read(compressed_));
+      compressed_left_ = compressed_;
+    }
+    const bool is_at_end = compressed_left_.empty();
+    if (is_at_end && decompressor_->is_complete()) return 0;
+    const std::size_t count = decompress(room);
+    if (count > 0) return count;
+    if (is_at_end) throw data::DatasetError(path(), {}, "its compressed stream is cut");
+  }
+}
+
+std::size_t LineReader::decompress(std::span<char> room) {
+  try {
+    return decompressor_->decompress(compressed_left_, room);
+  } catch (const std::runtime_error& error) {
+    throw data::DatasetError(path(), {}, error.what());
+  }
 }
 
 std::string read_file(const std::filesystem::path& path, std::size_t limit) {

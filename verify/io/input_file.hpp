@@ -16,6 +16,8 @@
 #include <string>
 #include <string_view>
 
+#include "verify/io/compressor.hpp"
+
 namespace touchstone::verify::io {
 
 /// A file open for reading. Owns its descriptor.
@@ -62,7 +64,7 @@ struct Line {
   bool too_long;
 };
 
-/// The lines of a text file. Blank lines (nothing, or spaces and tabs) at the end of the file are
+/// The lines of a text file, compressed if its name ends in ".zst" (compressor.hpp). Blank lines (nothing, or spaces and tabs) at the end of the file are
 /// no lines; all others are.
 class LineReader {
  public:
@@ -93,9 +95,14 @@ class LineReader {
   Line take_line(std::size_t length, std::size_t terminator);
   void pass_over_line();
   bool fill();
+  std::size_t read(std::span<char> room);
+  std::size_t decompress(std::span<char> room);
 
   InputFile file_;
-  std::unique_ptr<char[]> buffer_;  // NOLINT(modernize-avoid-c-arrays): std::vector would fill it
+  std::optional<Decompressor> decompressor_;
+  std::string compressed_;            ///< as much as was read at once
+  std::string_view compressed_left_;  ///< of that
+  std::unique_ptr<char[]> buffer_;    // NOLINT(modernize-avoid-c-arrays): std::vector would fill it
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
   std::uint64_t line_number_ = 0;

@@ -1,6 +1,9 @@
 #include "verify/jobs/certify.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -38,6 +41,12 @@ Mismatch toi_mismatch(std::uint64_t index, const exact::Rational& recorded,
     mismatch.truth = decimal_text(toi, digits);
   }
   return mismatch;
+}
+
+std::string to_text(const Mismatch& mismatch) {
+  return fmt::format("recorded {}: {}, the truth is {}",
+                     mismatch.of == Mismatch::Of::label ? "label" : "time of impact",
+                     mismatch.recorded, mismatch.truth);
 }
 
 bool within(const exact::AlgebraicNumber& toi, const exact::Rational& recorded,
@@ -133,6 +142,7 @@ class BlockJudgement {
       if (options_.on_certificates) options_.on_certificates(decided_[part].certificates);
       result.proofs += decided_[part].proofs;
     }
+    if (options_.on_wrong) tell_wrong_queries();
     for (std::size_t i = 0; i < judgements_.size(); ++i) {
       result.methods[i].judgement += judgements_[i];
     }
@@ -239,6 +249,62 @@ class BlockJudgement {
     judgement.add_unplaced_crashes(part.reply.unplaced_crashes);
     judgement.nanoseconds += part.reply.time.value().processor_nanoseconds *
                              static_cast<double>(last - first) / static_cast<double>(part.count);
+  }
+
+  // ---- What is wrong ----
+
+  /// What is wrong with the queries, by their indices.
+  [[nodiscard]] std::map<std::uint64_t, std::vector<std::string>> faults() const {
+    std::map<std::uint64_t, std::vector<std::string>> result;
+    for (std::size_t part = 0; part * Passes::unit < complete_; ++part) {
+      for (const Mismatch& mismatch : decided_[part].mismatches) {
+        result[mismatch.index].push_back(to_text(mismatch));
+      }
+    }
+    for (std::size_t i = 0; i < judgements_.size(); ++i) {
+      const solvers::Solver& solver = *options_.solvers[i];
+      for (const judge::WrongAnswer& wrong : judgements_[i].wrong_answers) {
+        if (!judge::breaks(wrong.fault, solver.promise())) continue;
+        result[wrong.index].push_back(judge::to_text(solver.name(), wrong));
+      }
+    }
+    return result;
+  }
+
+  void tell_wrong_queries() const {
+    for (auto& [index, texts] : faults()) {
+      const auto place = std::ranges::lower_bound(block_.indices, index) - block_.indices.begin();
+      const auto i = static_cast<std::size_t>(place);
+      options_.on_wrong({.source = *block_.source,
+                         .index = index,
+                         .kind = block_.kind,
+                         .query = block_.queries[i],
+                         .separation = options_.separation,
+                         .faults = texts,
+                         .answers = answers_to(i)});
+    }
+  }
+
+  /// What the solvers said to a query, but for those that have no answer to it.
+  [[nodiscard]] std::vector<judge::GivenAnswer> answers_to(std::size_t i) const {
+    std::vector<judge::GivenAnswer> given;
+    for (std::size_t solver = 0; solver < answers_.size(); ++solver) {
+      const Answers& said = answers_[solver];
+      std::size_t first = 0;
+      while (first + said.parts[first / Passes::unit].count <= i) {
+        first += said.parts[first / Passes::unit].count;
+      }
+      const solvers::SolveReply& reply = said.parts[first / Passes::unit].reply;
+      if (std::ranges::count(reply.missing, i - first) != 0) continue;
+      const auto failure =
+          std::ranges::find(reply.failures, i - first, &solvers::QueryFailure::position);
+      given.push_back({.solver = options_.solvers[solver]->name(),
+                       .answer = said.answers[i],
+                       .failure = failure == reply.failures.end() ? std::nullopt
+                                                                  : std::optional(failure->failure),
+                       .promise = options_.solvers[solver]->promise()});
+    }
+    return given;
   }
 
   /// A yes to what never comes as near as that claims. What collides is near enough for any claim.

@@ -48,6 +48,10 @@ struct CertifyOptions {
   /// Called with the certificates of queries (exact/certificate.hpp), whole ones and in order, never
   /// from two threads at once. Without it none are made.
   std::function<void(std::string_view)> on_certificates = nullptr;
+  /// Called with each query that a solver answered wrongly (an answer that breaks its promise), or that has
+  /// a mismatch; with the answers of all solvers; in order, never from two threads at once. Of a great many
+  /// wrong answers in a row some are left out.
+  std::function<void(judge::WrongQuery)> on_wrong = nullptr;
   /// Called now and then with the fraction of the source that is read; never from two threads at
   /// once.
   std::function<void(double)> on_progress = nullptr;

@@ -53,6 +53,11 @@ std::string_view to_string(Fault fault) {
   }
 }
 
+std::string to_text(const std::string& solver, const WrongAnswer& wrong) {
+  return fmt::format("{}: {}: {}, the truth is {}", solver, to_string(wrong.fault), wrong.answer,
+                     wrong.truth);
+}
+
 void ToiErrors::add(double error) {
   ++buckets_[bucket_of(error)];
   ++count_;
@@ -91,11 +96,12 @@ void Judgement::add(const GroundTruth& truth, const fast::Answer& answer,
   ++queries;
   checks += answer.checks;
   Verdict verdict = answer.verdict;
-  if (const auto why = failure != nullptr ? std::optional(*failure) : solvers::failure_of(answer)) {
+  const auto why = failure != nullptr ? std::optional(*failure) : solvers::failure_of(answer);
+  if (why) {
     ++failures[static_cast<std::size_t>(why->kind)];
     verdict = solvers::verdict_of(why->kind);
     if (verdict == Verdict::error) {
-      add_fault(Fault::error, truth, answer, *why);
+      add_fault(Fault::error, truth, answer, why);
       return;
     }
   }
@@ -104,7 +110,7 @@ void Judgement::add(const GroundTruth& truth, const fast::Answer& answer,
     if (verdict == Verdict::no) add_fault(Fault::false_negative, truth, answer);
     if (verdict == Verdict::yes) add_toi(truth, answer);
   } else if (verdict != Verdict::no) {
-    add_fault(Fault::false_positive, truth, answer);
+    add_fault(Fault::false_positive, truth, answer, why);
   }
 }
 
@@ -119,13 +125,13 @@ void Judgement::add_toi(const GroundTruth& truth, const fast::Answer& answer) {
 }
 
 void Judgement::add_fault(Fault fault, const GroundTruth& truth, const fast::Answer& answer,
-                          const solvers::Failure& failure) {
+                          const std::optional<solvers::Failure>& failure) {
   auto& count = faults[static_cast<std::size_t>(fault)];
   if (++count > most_kept) return;
   wrong_answers.push_back(
       {fault, truth.index,
-       fault == Fault::error ? solvers::to_text(failure) : answer_text(fault, answer),
-       to_text(truth)});
+       fault == Fault::error && failure ? solvers::to_text(*failure) : answer_text(fault, answer),
+       to_text(truth), answer, failure});
 }
 
 void Judgement::add_beyond_tolerance(const GroundTruth& truth, const fast::Answer& answer) {

@@ -75,6 +75,32 @@ struct WrongAnswer {
   std::uint64_t index;
   std::string answer;
   std::string truth;
+  fast::Answer given = {};  ///< the answer itself
+  /// Why it is none, where that is known.
+  std::optional<solvers::Failure> failure = std::nullopt;
+};
+
+/// "SOLVER: false negative: no, the truth is collision at 0.5".
+[[nodiscard]] std::string to_text(const std::string& solver, const WrongAnswer& wrong);
+
+/// What a solver said to a query.
+struct GivenAnswer {
+  std::string solver;
+  fast::Answer answer = {};
+  std::optional<solvers::Failure> failure = std::nullopt;
+  /// What it is held to; nothing: what is known of a solver of that name.
+  std::optional<fast::Promise> promise = std::nullopt;
+};
+
+/// A query with an answer, or a recorded claim, that is not the truth.
+struct WrongQuery {
+  std::string source;
+  std::uint64_t index = 0;
+  Kind kind = Kind::vertex_face;
+  Query query{};
+  Separation separation = {};
+  std::vector<std::string> faults = {};  ///< what is wrong, a text each
+  std::vector<GivenAnswer> answers = {};
 };
 
 /// The judgement on a method's answers to some queries of one source.
@@ -126,7 +152,7 @@ struct Judgement {
 
  private:
   void add_fault(Fault fault, const GroundTruth& truth, const fast::Answer& answer,
-                 const solvers::Failure& failure = {});
+                 const std::optional<solvers::Failure>& failure = std::nullopt);
   void add_toi(const GroundTruth& truth, const fast::Answer& answer);
 };
 

@@ -206,6 +206,7 @@ class Run {
                  .process = options_.process,
                  .same_sample = trial.experiment != Experiment::field,
                  .on_progress = on_progress,
+                 .on_wrong = options_.on_wrong,
                  .stop = options_.stop});
     std::ranges::move(measured, std::back_inserter(result_.all));
     if (trial.experiment == Experiment::field) judge_recordings(group, truths);
@@ -213,7 +214,7 @@ class Run {
 
   void judge_recordings(const data::QueryGroup& group, judge::GroundTruthCache& truths) {
     for (const solvers::Solver* const recorded : options_.recorded) {
-      auto judged = judge_recorded(group, truths, *recorded, options_.stop);
+      auto judged = judge_recorded(group, truths, *recorded, options_.stop, options_.on_wrong);
       if (judged) result_.all.push_back(std::move(*judged));
     }
   }
@@ -263,7 +264,8 @@ class Run {
     std::vector<Measurement> side_by_side;
     for (const fast::Method* const method : chosen) {
       if (stopped()) return;
-      auto judged = judge_all(group, truths, *method, asked, Experiment::filter, options_.stop);
+      auto judged = judge_all(group, truths, *method, asked, Experiment::filter, options_.stop,
+                              options_.on_wrong);
       if (!judged) return;
       judged->scale = scale;
       side_by_side.push_back(std::move(*judged));

@@ -72,6 +72,8 @@ struct ExperimentOptions {
   /// Cores that the oracle may use; 0: all. Methods are timed in one thread.
   unsigned threads = 0;
   std::function<void(double)> on_progress = nullptr;
+  /// MeasureOptions::on_wrong, in the experiments on groups and on filters.
+  OnWrong on_wrong = nullptr;
   /// May be null. Once true the result is what was measured so far.
   const std::atomic<bool>* stop = nullptr;
 };

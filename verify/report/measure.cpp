@@ -51,6 +51,26 @@ void set_counts(const judge::Judgement& judgement, Measurement& said) {
   said.toi_error = spread_of(judgement.toi_errors);
 }
 
+/// Hands out the wrong answers.
+void tell_wrong(const data::QueryGroup& group, const Measurement& said,
+                const judge::Judgement& judgement, const OnWrong& on_wrong) {
+  if (!on_wrong) return;
+  for (const judge::WrongAnswer& wrong : judgement.wrong_answers) {
+    if (!judge::breaks(wrong.fault, said.promise)) continue;
+    data::QueryPlace place = group.place_of(wrong.index);
+    on_wrong({.source = std::move(place.source),
+              .index = place.index,
+              .kind = group.kind(),
+              .query = group.queries()[wrong.index],
+              .separation = said.separation,
+              .faults = {judge::to_text(said.method, wrong)},
+              .answers = {{.solver = said.method,
+                           .answer = wrong.given,
+                           .failure = wrong.failure,
+                           .promise = said.promise}}});
+  }
+}
+
 class Run {
  public:
   Run(const data::QueryGroup& group, judge::GroundTruthCache& truths,
@@ -183,7 +203,9 @@ class Run {
          solvers::count_stages(timed.solver().info(), timed.answers())) {
       said.stages.push_back({std::string(stage.stage), stage.queries});
     }
-    set_counts(timed.judge(known_of(timed)), said);
+    const judge::Judgement judgement = timed.judge(known_of(timed));
+    set_counts(judgement, said);
+    tell_wrong(group_, said, judgement, options_.on_wrong);
     describe_queries(index, said);
     return said;
   }
@@ -235,7 +257,8 @@ std::vector<Measurement> measure(const data::QueryGroup& group, judge::GroundTru
 
 std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::GroundTruthCache& truths,
                                      const fast::Method& method, const fast::MethodOptions& options,
-                                     Experiment experiment, const std::atomic<bool>* stop) {
+                                     Experiment experiment, const std::atomic<bool>* stop,
+                                     const OnWrong& on_wrong) {
   const std::vector<Query>& queries = group.queries();
   std::vector<std::size_t> positions(queries.size());
   std::iota(positions.begin(), positions.end(), std::size_t{0});
@@ -252,13 +275,14 @@ std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Groun
     said.at_limit += is_at_limit(answers[truth.index], said.max_checks) ? 1U : 0U;
   }
   set_counts(judgement, said);
+  tell_wrong(group, said, judgement, on_wrong);
   return said;
 }
 
 std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
                                           judge::GroundTruthCache& truths,
                                           const solvers::Solver& recorded,
-                                          const std::atomic<bool>* stop) {
+                                          const std::atomic<bool>* stop, const OnWrong& on_wrong) {
   std::vector<std::size_t> positions;
   std::vector<fast::Answer> answers;
   std::vector<solvers::QueryFailure> failures;
@@ -296,6 +320,7 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
     said.collisions += known[i].collides ? 1U : 0U;
   }
   set_counts(judgement, said);
+  tell_wrong(group, said, judgement, on_wrong);
   return said;
 }
 

@@ -24,6 +24,7 @@
 #include "fast/method.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
+#include "verify/judge/judge.hpp"
 #include "verify/report/measurement.hpp"
 #include "verify/solvers/solver.hpp"
 
@@ -36,6 +37,10 @@ struct Setting {
   /// In child processes, under MeasureOptions::process; else in this process.
   bool in_children = false;
 };
+
+/// Called with each query that a method answered wrongly, and that answer: one that breaks the method's promise.
+/// Of a great many some are left out.
+using OnWrong = std::function<void(judge::WrongQuery)>;
 
 struct MeasureOptions {
   Experiment experiment = Experiment::field;
@@ -51,6 +56,7 @@ struct MeasureOptions {
   bool same_sample = false;
   /// Called now and then with the fraction that is done.
   std::function<void(double)> on_progress = nullptr;
+  OnWrong on_wrong = nullptr;
   /// May be null. Once true no further work is begun.
   const std::atomic<bool>* stop = nullptr;
 };
@@ -67,18 +73,17 @@ struct MeasureOptions {
 
 /// Judges the answers of a method to all queries of the group of `truths`; nothing is timed. No result
 /// once *stop is true (it may be null).
-[[nodiscard]] std::optional<Measurement> judge_all(const data::QueryGroup& group,
-                                                   judge::GroundTruthCache& truths,
-                                                   const fast::Method& method,
-                                                   const fast::MethodOptions& options,
-                                                   Experiment experiment,
-                                                   const std::atomic<bool>* stop = nullptr);
+[[nodiscard]] std::optional<Measurement> judge_all(
+    const data::QueryGroup& group, judge::GroundTruthCache& truths, const fast::Method& method,
+    const fast::MethodOptions& options, Experiment experiment,
+    const std::atomic<bool>* stop = nullptr, const OnWrong& on_wrong = nullptr);
 
 /// Judges recorded answers to those queries of the group of `truths` that they have an answer to, by the names of their
 /// sources; nothing is timed. No result if there are none, or once *stop is true (it may be null).
 [[nodiscard]] std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
                                                         judge::GroundTruthCache& truths,
                                                         const solvers::Solver& recorded,
-                                                        const std::atomic<bool>* stop = nullptr);
+                                                        const std::atomic<bool>* stop = nullptr,
+                                                        const OnWrong& on_wrong = nullptr);
 
 }  // namespace touchstone::verify::report

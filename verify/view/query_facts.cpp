@@ -12,6 +12,7 @@
 #include "exact/certificate/certificate_text.hpp"
 #include "exact/oracle.hpp"
 #include "verify/io/printable.hpp"
+#include "verify/jobs/prove.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/judge.hpp"
 #include "verify/solvers/answers.hpp"
@@ -103,8 +104,8 @@ nlohmann::json certificate_of(const ViewedQuery& viewed, const exact::Verdict& v
 // ---- Solvers ------------------------------------------------------------------------------------
 
 /// An answer held against the truth.
-nlohmann::json answer_facts(const RecordedAnswer& given, fast::Promise promise, bool is_recorded,
-                            const judge::GroundTruth& truth) {
+nlohmann::json answer_facts(const judge::GivenAnswer& given, fast::Promise promise,
+                            bool is_recorded, const judge::GroundTruth& truth) {
   judge::Judgement judgement;
   judgement.add(truth, given.answer, given.failure ? &*given.failure : nullptr);
   nlohmann::json faults = nlohmann::json::array();
@@ -128,8 +129,8 @@ nlohmann::json answer_facts(const RecordedAnswer& given, fast::Promise promise, 
           {"breaks_promise", is_broken}};
 }
 
-RecordedAnswer ask(const solvers::Solver& solver, const ViewedQuery& viewed) {
-  RecordedAnswer result{.solver = solver.name()};
+judge::GivenAnswer ask(const solvers::Solver& solver, const ViewedQuery& viewed) {
+  judge::GivenAnswer result{.solver = solver.name()};
   const std::array<std::uint64_t, 1> index{0};
   const solvers::SolveReply reply = solver.solve({.kind = viewed.kind,
                                                   .queries = {&viewed.query, 1},
@@ -144,10 +145,10 @@ RecordedAnswer ask(const solvers::Solver& solver, const ViewedQuery& viewed) {
 nlohmann::json answers_of(const ViewedQuery& viewed, const judge::GroundTruth& truth,
                           std::span<const solvers::Solver* const> solvers) {
   nlohmann::json answers = nlohmann::json::array();
-  for (const RecordedAnswer& recorded : viewed.answers) {
+  for (const judge::GivenAnswer& recorded : viewed.answers) {
     const fast::MethodInfo* info = solvers::find_info(recorded.solver);
-    const fast::Promise promise = info == nullptr ? fast::Promise::none : info->promise;
-    answers.push_back(answer_facts(recorded, promise, true, truth));
+    const fast::Promise known = info == nullptr ? fast::Promise::none : info->promise;
+    answers.push_back(answer_facts(recorded, recorded.promise.value_or(known), true, truth));
   }
   for (const solvers::Solver* solver : solvers) {
     answers.push_back(answer_facts(ask(*solver, viewed), solver->promise(), false, truth));
@@ -156,6 +157,15 @@ nlohmann::json answers_of(const ViewedQuery& viewed, const judge::GroundTruth& t
 }
 
 }  // namespace
+
+ViewedQuery viewed_query(judge::WrongQuery wrong) {
+  return {.label = jobs::certificate_label(wrong.source, wrong.index),
+          .kind = wrong.kind,
+          .query = wrong.query,
+          .separation = wrong.separation,
+          .notes = std::move(wrong.faults),
+          .answers = std::move(wrong.answers)};
+}
 
 nlohmann::json query_facts(const ViewedQuery& viewed,
                            std::span<const solvers::Solver* const> solvers) {

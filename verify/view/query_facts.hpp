@@ -14,17 +14,10 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/solvers/failure.hpp"
+#include "verify/judge/judge.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::view {
-
-/// An answer that was recorded with a query.
-struct RecordedAnswer {
-  std::string solver;
-  fast::Answer answer = {};
-  std::optional<solvers::Failure> failure = std::nullopt;
-};
 
 /// A query to be looked at. Texts may hold any bytes.
 struct ViewedQuery {
@@ -33,10 +26,13 @@ struct ViewedQuery {
   Query query{};  ///< finite
   Separation separation = {};
   std::vector<std::string> notes = {};  ///< what is recorded of it, a sentence each
-  std::vector<RecordedAnswer> answers = {};
+  std::vector<judge::GivenAnswer> answers = {};
   /// A stream of one certificate; where it is empty, the oracle's own is shown.
   std::string certificate = {};
 };
+
+/// A query that the judge found a fault in: its faults are the notes.
+[[nodiscard]] ViewedQuery viewed_query(judge::WrongQuery wrong);
 
 /// As the script of a page reads it, see verify/view/page/facts.js. Doubles are texts, in hexadecimal,
 /// and rationals "P/Q".

@@ -20,6 +20,7 @@
 #include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/jobs/prove.hpp"
+#include "verify/jobs/prove_step.hpp"
 #include "verify/view/certificate_facts.hpp"
 
 namespace touchstone::verify::view {
@@ -183,6 +184,18 @@ ViewedQuery query_from(std::string stream, std::string label) {
           .certificate = std::move(stream)};
 }
 
+/// \throws DatasetError if it is not the first line of certificates of queries
+void check_header(const fs::path& path, std::string_view first_line) {
+  if (!first_line.empty() && jobs::step_proofs_header().starts_with(first_line)) {
+    throw data::DatasetError(path, {.line = 1},
+                             "these are certificates of steps, which have no query; "
+                             "view --step draws the step between two frames");
+  }
+  if (first_line.empty() || !exact::certificates_header().starts_with(first_line)) {
+    throw data::DatasetError(path, {.line = 1}, "this is no stream of certificates");
+  }
+}
+
 /// Each certificate is made a stream of its own: the lines from `query` to `end`, between header and closing line.
 std::vector<ViewedQuery> read_certificates(const fs::path& path, const QueryFileOptions& options) {
   io::LineReader lines(path);
@@ -192,9 +205,7 @@ std::vector<ViewedQuery> read_certificates(const fs::path& path, const QueryFile
   for (auto line = lines.next(); line && !selection.is_complete(); line = lines.next()) {
     if (line->text.starts_with("query ")) text = exact::certificates_header();
     if (text.empty()) {
-      if (line->number == 1 && !exact::certificates_header().starts_with(line->text)) {
-        throw data::DatasetError(path, {.line = 1}, "this is no stream of certificates");
-      }
+      if (line->number == 1) check_header(path, line->text);
       continue;
     }
     text.append(line->text).append("\n");
@@ -295,7 +306,8 @@ Query parse_points(std::string_view text) {
 std::vector<ViewedQuery> read_queries(const fs::path& path, const QueryFileOptions& options) {
   const std::string extension = path.extension().string();
   if (extension == ".json") return read_json(path, options);
-  if (extension == ".cert") return read_certificates(path, options);
+  const bool is_compressed = extension == ".zst" && path.stem().extension() == ".cert";
+  if (extension == ".cert" || is_compressed) return read_certificates(path, options);
   if (extension == ".obj") return read_obj(path, options);
   return read_dataset(path, options);
 }

@@ -7,7 +7,7 @@
 ///   - .json: the report of `fuzz --json`, whose findings are read, or one of them, or the JSON that a view copies: an
 ///     object of `coordinates`, 24 numbers or texts of numbers, `kind`, and perhaps `separation`; or a list of such
 ///     objects;
-///   - .cert: a stream of certificates (exact/CERTIFICATES.md);
+///   - .cert, .cert.zst: a stream of certificates of queries (exact/CERTIFICATES.md);
 ///   - .obj: eight lines `v x y z`, as ipc-toolkit writes a query, which do not say the kind.
 
 #include <cstddef>

@@ -32,6 +32,18 @@ std::vector<fast::Edge> edges_of_no_face(const mesh::Mesh& mesh) {
   return result;
 }
 
+/// Where the vertices are at t = 1.
+mesh::Vertices ends_of(const fast::MovingVertices& vertices) {
+  mesh::Vertices ends(static_cast<Eigen::Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ends(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(axis)) =
+          vertices[i].end.at(axis);
+    }
+  }
+  return ends;
+}
+
 std::string pair_text(const fast::StepCollision& collision) {
   static constexpr std::array<std::array<std::string_view, 2>, 4> names{
       {{"vertex", "face"}, {"edge", "edge"}, {"vertex", "edge"}, {"vertex", "vertex"}}};
@@ -57,16 +69,20 @@ std::string array_text(const std::vector<std::array<std::int32_t, count>>& eleme
 }  // namespace
 
 ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh, mesh::Vertices before,
-                           mesh::Vertices after, const Separation& separation) {
-  const fast::Step step(before, after,
-                        {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
-                        {.separation = separation});
+                           mesh::Vertices after, const fast::StepOptions& options,
+                           std::optional<double> alpha) {
+  fast::Step step(before, after, {.edges = mesh.edges, .faces = mesh.faces, .points = mesh.points},
+                  options);
+  if (alpha) {
+    step = step.scaled(*alpha);
+    after = ends_of(step.vertices());
+  }
   ViewedStep result{.label = std::move(label),
                     .before = std::move(before),
                     .after = std::move(after),
                     .faces = mesh.faces,
                     .codimensional_edges = edges_of_no_face(mesh),
-                    .separation = separation,
+                    .separation = options.separation,
                     .collisions = step.collisions(),
                     .queries = {},
                     .points = {}};

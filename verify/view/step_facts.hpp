@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,10 +34,12 @@ struct ViewedStep {
 
 /// Finds what touches.
 /// \param mesh the elements of both frames
+/// \param alpha instead of the whole step, the one that a simulator takes with this step size (fast::Step::scaled)
 /// \throws what fast::Step throws
 [[nodiscard]] ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh,
                                          mesh::Vertices before, mesh::Vertices after,
-                                         const Separation& separation);
+                                         const fast::StepOptions& options,
+                                         std::optional<double> alpha = std::nullopt);
 
 /// The first pairs that touch, at most so many, as queries to be looked at.
 [[nodiscard]] std::vector<ViewedQuery> first_queries(const ViewedStep& step, std::size_t most);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <zstd.h>
 
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "tests/support/random.hpp"
 
@@ -37,6 +39,42 @@ TEST(Compressor, GivesBackWhatItTook) {
     EXPECT_EQ(decompress(bytes, size), text);
     EXPECT_LT(bytes.size(), size / 3 + 1000);
   }
+}
+
+/// All that a stream stands for, in small rooms and pieces of so many bytes.
+std::string read_back(std::string_view bytes, std::size_t piece, bool& is_complete) {
+  Decompressor decompressor;
+  std::string text, room(977, '\0');
+  while (!bytes.empty() || !decompressor.is_complete()) {
+    std::string_view some = bytes.substr(0, piece);
+    const std::size_t before = some.size();
+    const std::size_t count = decompressor.decompress(some, room);
+    text += room.substr(0, count);
+    bytes.remove_prefix(before - some.size());
+    if (bytes.empty() && count == 0) break;
+  }
+  is_complete = decompressor.is_complete();
+  return text;
+}
+
+TEST(Decompressor, GivesBackWhatWasCompressed) {
+  tests::Random random(2);
+  std::string text;
+  while (text.size() < 300'000) text += "point " + std::to_string(random.bits() % 1000U) + "\n";
+  Compressor compressor;
+  std::string bytes = compressor.compress(text);
+  bytes += compressor.finish();
+  bool is_complete = false;
+  for (const std::size_t piece : {1U, 1000U, 1000000U}) {
+    EXPECT_EQ(read_back(bytes, piece, is_complete), text);
+    EXPECT_TRUE(is_complete);
+  }
+  EXPECT_EQ(read_back(bytes + bytes, 1000, is_complete), text + text) << "two frames";
+  static_cast<void>(read_back(bytes.substr(0, bytes.size() - 1), 1000, is_complete));
+  EXPECT_FALSE(is_complete);
+  EXPECT_THROW(static_cast<void>(read_back("point 1\n", 1000, is_complete)), std::runtime_error);
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  EXPECT_THROW(static_cast<void>(read_back(bytes, 1000, is_complete)), std::runtime_error);
 }
 
 TEST(Compressor, ItsFrameHasAChecksum) {

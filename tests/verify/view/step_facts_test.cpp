@@ -83,10 +83,29 @@ TEST(StepFacts, EveryKindOfPairByItsPoints) {
   }
 }
 
+TEST(StepFacts, OfTheStepThatIsTaken) {
+  const mesh::Mesh mesh = scene();
+  const ViewedStep taken = find_collisions("a step", mesh, mesh.vertices, after(mesh), {}, 0.25);
+  ASSERT_EQ(taken.collisions.size(), 1U) << "the other point falls through at t = 1/2";
+  EXPECT_EQ(taken.after(4, 2), 0.0);
+  EXPECT_EQ(taken.after(3, 2), 1.0);
+  EXPECT_EQ(first_queries(taken, 1)[0].query.at(1, 0, 2), 0.0);
+}
+
+TEST(StepFacts, BetweenGroupsThatMeet) {
+  const mesh::Mesh mesh = scene();
+  const std::vector<std::int32_t> groups{0, 0, 0, 0, 1, 1, 1};
+  const std::vector<std::array<std::int32_t, 2>> apart{{1, 0}};
+  const ViewedStep found = find_collisions("a step", mesh, mesh.vertices, after(mesh),
+                                           {.groups = {.of_vertices = groups, .apart = apart}});
+  ASSERT_EQ(found.collisions.size(), 1U);
+  EXPECT_EQ(found.points[0], (std::array<std::int32_t, 4>{3, 0, 1, 2}));
+}
+
 TEST(StepFacts, AtASeparation) {
   const mesh::Mesh mesh = scene();
   const ViewedStep near = find_collisions("a step", mesh, mesh.vertices, mesh.vertices,
-                                          {.distance = 1.0, .norm = Norm::l2});
+                                          {.separation = {.distance = 1.0, .norm = Norm::l2}});
   ASSERT_EQ(near.collisions.size(), 1U) << "one point is 1 above the triangle, the other 2";
   EXPECT_EQ(near.points[0], (std::array<std::int32_t, 4>{4, 0, 1, 2}));
   EXPECT_EQ(first_queries(near, 1)[0].separation.distance, 1.0);

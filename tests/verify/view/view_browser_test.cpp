@@ -331,6 +331,15 @@ TEST_F(ViewBrowser, KeysMoveTimeZoomAndList) {
   EXPECT_EQ(result.at("turned"), true);
 }
 
+TEST_F(ViewBrowser, SaysThatThereIsNothing) {
+  const nlohmann::json result = result_of({}, R"(
+    const before = [find("nothing").hidden, find("query").hidden];
+    paste("1 1 1 0 0 0 4 0 0 0 4 0  1 1 -2 0 0 0 4 0 0 0 4 0");
+    say([...before, find("nothing").hidden, find("query").hidden]);
+  )");
+  EXPECT_EQ(result, nlohmann::json::array({false, true, true, false}));
+}
+
 TEST_F(ViewBrowser, FitsATelephone) {
   const nlohmann::json result = result_of({falling(), of_any_size(Kind::edge_edge)}, R"(
     press("n");

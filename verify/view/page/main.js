@@ -63,6 +63,7 @@ function controls() {
 function page() {
   find("view").append(
     make("header", {}, make("h1", {}, "Touchstone view"), make("nav", { id: "list", "aria-label": "Queries" })),
+    make("p", { id: "nothing", hidden: step !== null || queries.length > 0 }, "Nothing was found: this page has no query."),
     make("section", { id: "step", hidden: step === null }),
     make("section", { id: "query", hidden: true },
       make("h2", { id: "label" }), make("p", { id: "verdict" }), make("ul", { id: "notes", class: "findings" }),
@@ -109,6 +110,7 @@ function show(index) {
   look.index = index;
   const { facts } = look;
   for (const part of ["query", "numbers"]) find(part).hidden = false;
+  find("nothing").hidden = true;
   find("label").textContent = facts.label;
   find("notes").replaceChildren(...facts.notes.map((note) => make("li", {}, note)));
   find("star").textContent = facts.truth && facts.truth.toi ? "To contact" : "To the nearest";

@@ -1,0 +1,86 @@
+#include "verify/cli/view_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "fast/certified.hpp"
+#include "verify/io/printable.hpp"
+#include "verify/judge/separation_inference.hpp"
+#include "verify/solvers/registry.hpp"
+#include "verify/solvers/solver.hpp"
+#include "verify/view/page.hpp"
+
+namespace touchstone::verify::cli {
+namespace {
+
+bool is_same(const view::ViewedQuery& a, const view::ViewedQuery& b) {
+  return a.kind == b.kind && a.query == b.query &&
+         judge::same_separation(a.separation, b.separation);
+}
+
+template <class Thing>
+void append(std::vector<Thing>& all, std::vector<Thing>&& further) {
+  std::ranges::move(further, std::back_inserter(all));
+}
+
+}  // namespace
+
+void ViewFile::add(view::ViewedQuery query) {
+  if (!output_) return;
+  const auto known = std::ranges::find_if(
+      queries_, [&](const view::ViewedQuery& other) { return is_same(other, query); });
+  if (known != queries_.end()) {
+    append(known->notes, std::move(query.notes));
+    append(known->answers, std::move(query.answers));
+  } else if (is_full()) {
+    is_cut_ = true;
+  } else {
+    queries_.push_back(std::move(query));
+  }
+}
+
+void ViewFile::add(const view::ViewedStep& step) {
+  if (!output_) return;
+  step_ = view::step_facts(step);
+  for (view::ViewedQuery& query : view::first_queries(step, most_queries)) add(std::move(query));
+}
+
+void ViewFile::write(const fast::MethodOptions& options) {
+  if (!output_) return;
+  const auto judge =
+      solvers::solver_in_process(solvers::find_method(fast::certified_info().name), options);
+  const solvers::Solver* const certified = judge.get();
+  std::vector<nlohmann::json> facts;
+  for (const view::ViewedQuery& query : queries_) {
+    const bool has_answered = std::ranges::find(query.answers, certified->name(),
+                                                &judge::GivenAnswer::solver) != query.answers.end();
+    facts.push_back(view::query_facts(query, {&certified, has_answered ? 0U : 1U}));
+  }
+  output_.write(view::view_page(facts, command_line(), step_));
+  output_.close();
+}
+
+std::string ViewFile::summary() const {
+  if (!output_ || output_.failed()) return {};
+  const std::string name = io::printable(name_);
+  if (!step_.is_null()) {
+    const auto total = step_.at("total").get<std::size_t>();
+    return fmt::format("{}: {}, {}\n", name, step_.at("label").get<std::string>(),
+                       total == 0   ? "in which nothing touches"
+                       : total == 1 ? "1 pair touches"
+                                    : fmt::format("{} pairs touch", total));
+  }
+  if (queries_.empty()) return fmt::format("{}: nothing was found to look at\n", name);
+  return fmt::format("{}: {}{} to look at\n", name, is_cut_ ? "the first " : "",
+                     queries_.size() == 1 ? "1 query" : fmt::format("{} queries", queries_.size()));
+}
+
+void add_view_option(CLI::App& command, std::string& file, const std::string& description) {
+  command.add_option("--view", file, description)->type_name("FILE.html");
+}
+
+}  // namespace touchstone::verify::cli
