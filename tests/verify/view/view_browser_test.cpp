@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -348,6 +349,61 @@ TEST_F(ViewBrowser, FitsATelephone) {
                                           500);
   EXPECT_LE(result.at(0), result.at(1));
   EXPECT_GT(result.at(2), 50);
+}
+
+// On paper: the rules of style for print hold, those for screens do not, and a sheet is 18 cm wide.
+TEST_F(ViewBrowser, FitsASheetOfPaper) {
+  const nlohmann::json result = result_of({falling(), falling()}, R"(
+    const isSeen = (selector) => all(selector).every((element) => element.getClientRects().length > 0);
+    const empty = document.createElement("canvas");
+    const images = () => all("#query .canvas img").map((image) => {
+      [empty.width, empty.height] = [image.previousElementSibling.width, image.previousElementSibling.height];
+      return image.src !== empty.toDataURL();
+    });
+    window.dispatchEvent(new Event("beforeprint"));
+    for (const rule of Array.from(document.styleSheets).flatMap((sheet) => Array.from(sheet.cssRules))) {
+      if (rule instanceof CSSMediaRule && rule.media.mediaText.includes("screen")) rule.media.mediaText = "not all";
+      if (rule instanceof CSSMediaRule && rule.media.mediaText === "print") rule.media.mediaText = "all";
+    }
+    const onPaper = {
+      shown: ["#verdict", "#motion img", "#corners img", ".track", ".said", "#points", "#readout"].filter(isSeen),
+      hidden: [".controls", "#exchange", "#list", ".slider"].filter((selector) => all(selector).length > 0 && !isSeen(selector)),
+      width: [document.documentElement.scrollWidth, window.innerWidth], images: images() };
+    window.dispatchEvent(new Event("afterprint"));
+    say({ ...onPaper, afterwards: [images(), pixels("motion") > 50] });
+  )",
+                                          680);
+  EXPECT_EQ(result.at("shown").size(), 7) << result;
+  EXPECT_EQ(result.at("hidden").size(), 4) << result;
+  EXPECT_LE(result.at("width").at(0), result.at("width").at(1));
+  EXPECT_EQ(result.at("images"), nlohmann::json::array({true, true}))
+      << "browsers do not print a canvas of WebGL";
+  EXPECT_EQ(result.at("afterwards"), nlohmann::json::array({nlohmann::json::array(), true}));
+}
+
+// What is told by colour is told in another way too: by words, by signs, and by the shapes of marks.
+TEST_F(ViewBrowser, IsReadWithoutColour) {
+  const auto certified = solvers::solver_in_process(solvers::find_method("certified"), {});
+  const solvers::Solver* const asked = certified.get();
+  const PosedQuery posed = falling();
+  const ViewedQuery wrong{.label = "wrong",
+                          .kind = posed.kind,
+                          .query = posed.query,
+                          .answers = {{.solver = "rp", .answer = {.verdict = fast::Verdict::no}}}};
+  const nlohmann::json result =
+      result_on(view_page({query_facts(wrong, {&asked, 1})}, "touchstone view"), R"(
+    const shape = (mark) => ["transform", "borderRadius", "borderLeftStyle", "width"].map((of) => getComputedStyle(mark, "::after")[of]);
+    say({ marks: all("#query .mark").map((mark) => [mark.className, shape(mark).join()]),
+          faults: text(".fault"), names: text(".names *").filter(Boolean) });
+  )");
+  std::map<std::string, std::string> kind_of;
+  for (const auto& [kind, shape] :
+       result.at("marks").get<std::vector<std::array<std::string, 2>>>()) {
+    EXPECT_EQ(kind_of.try_emplace(shape, kind).first->second, kind) << "two kinds of one shape";
+  }
+  EXPECT_GE(kind_of.size(), 3U) << result;
+  EXPECT_EQ(result.at("faults"), nlohmann::json::array({"✗ false negative"}));
+  EXPECT_GE(result.at("names").size(), 7U) << "points and corners have names";
 }
 
 TEST_F(ViewBrowser, WithoutWebGlTheNumbersAreThere) {

@@ -137,11 +137,14 @@ export function rationalText(value) {
   return d === 1n ? String(n) : `${n}/${d}`;
 }
 
+/// A double as text; a small one with an exponent.
+export const doubleText = (x) => (x !== 0 && Math.abs(x) < 1e-4 ? x.toExponential() : String(x));
+
 /// A rational to some digits, of any size.
 export function shortText(value, digits = 6) {
   if (value.n === 0n) return "0";
   const near = nearest(value);
-  if (Math.abs(near) > 1e-300 && Math.abs(near) < 1e300) return String(Number(near.toPrecision(digits)));
+  if (Math.abs(near) > 1e-300 && Math.abs(near) < 1e300) return doubleText(Number(near.toPrecision(digits)));
   const size = absolute(value.n);
   const power = Math.floor((bitLength(size) - bitLength(value.d)) * Math.log10(2));
   const ten = 10n ** BigInt(Math.abs(power));

@@ -2,7 +2,7 @@
 
 import { hexadecimalText, nearest, rational, rationalText, shortText } from "./exact.js";
 import { find, make } from "./elements.js";
-import { momentText, readFacts, verdictText, withoutAnswer } from "./facts.js";
+import { momentText, placeText, readFacts, verdictText, withoutAnswer } from "./facts.js";
 import { readQuery, writers } from "./formats.js";
 import { Look, steps } from "./look.js";
 import { axes, directionOf } from "./motion.js";
@@ -123,7 +123,7 @@ function show(index) {
 function writeVerdict(facts) {
   const { truth } = facts;
   const separation = facts.min_separation > 0 ? `, minimum separation ${facts.min_separation} (${facts.norm})` : "";
-  const place = truth && truth.u ? `, (u, v) = (${momentText(truth.u)}, ${momentText(truth.v)})` : "";
+  const place = truth && truth.u ? `, ${placeText(truth)}` : "";
   const impact = truth && truth.toi ? ` Time of impact: ${momentText(truth.toi)}${place}.` : "";
   find("verdict").replaceChildren(make("strong", {}, `${facts.kind}${separation}: ${verdictText(facts)}.`), impact);
 }

@@ -81,6 +81,7 @@ export class Scene {
     viewpoint.listeners.push(() => this.render());
     new ResizeObserver(() => this.render()).observe(this.canvas);
     this.listen();
+    this.listenToPrinter();
   }
 
   // ---- Contents ---------------------------------------------------------------------------------
@@ -209,6 +210,24 @@ export class Scene {
       taken.push({ x, y, wide });
       span.style.transform = `translate(${x}px, ${y}px)`;
     }
+  }
+
+  /// Browsers print a canvas of WebGL as an empty one: on paper an image of it stands before it, of a size that it has
+  /// on the screen and on paper.
+  listenToPrinter() {
+    const place = this.canvas.parentElement, image = document.createElement("img");
+    image.alt = "";
+    window.addEventListener("beforeprint", () => {
+      place.classList.add("printed");
+      this.render();
+      image.src = this.canvas.toDataURL();
+      this.canvas.after(image);
+    });
+    window.addEventListener("afterprint", () => {
+      image.remove();
+      place.classList.remove("printed");
+      this.render();
+    });
   }
 
   // ---- Hands ------------------------------------------------------------------------------------

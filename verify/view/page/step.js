@@ -6,6 +6,7 @@
 
 import * as THREE from "three";
 import { make, find } from "./elements.js";
+import { doubleText } from "./exact.js";
 import { Scene, styleColor } from "./scene.js";
 
 const listed = 500;
@@ -238,7 +239,7 @@ export class StepPart {
   parts() {
     const { step } = this;
     const count = step.total === 1 ? "1 pair touches" : `${step.total} pairs touch`;
-    const first = step.pairs.length > 0 ? `, the first at t = ${step.pairs[0].toi[0]}` : "";
+    const first = step.pairs.length > 0 ? `, the first at t = ${doubleText(step.pairs[0].toi[0])}` : "";
     const separation = step.min_separation > 0 ? ` within ${step.min_separation} (${step.norm})` : "";
     const elements = `${step.before.length / 3} vertices, ${step.faces.length / 3} faces`;
     return [
@@ -253,7 +254,7 @@ export class StepPart {
         make("div", {},
           make("ol", { id: "pairs", tabindex: "0", "aria-label": "Pairs that touch, by time" },
             ...step.pairs.slice(0, listed).map((pair, i) => make("li", {}, make("button", { type: "button", onclick: () => this.choose(i) },
-              make("span", {}, pair.name), ` t ≈ ${Number(pair.toi[0].toPrecision(9))}`)))),
+              make("span", {}, pair.name), ` t ≈ ${doubleText(Number(pair.toi[0].toPrecision(6)))}`)))),
           step.total > listed ? make("p", {}, `and ${step.total - listed} more`) : null)),
       make("div", { class: "controls" },
         make("button", { type: "button", id: "step_play", onclick: () => this.togglePlay() }, "Play"),
@@ -291,7 +292,7 @@ export class StepPart {
     find("step_time").value = Math.round(this.t * steps);
     const { pairs, total } = this.step;
     const all = total > pairs.length ? `the first ${pairs.length}` : String(total);
-    find("step_now").textContent = `t = ${this.t}, ${touched} of ${all} have touched`;
+    find("step_now").textContent = `t = ${doubleText(this.t)}, ${touched} of ${all} have touched`;
     for (const [i, item] of [...find("pairs").children].entries()) {
       item.classList.toggle("past", i < touched);
       item.classList.toggle("chosen", i === this.chosen);
