@@ -350,6 +350,64 @@ TEST_F(ViewBrowser, FitsATelephone) {
   EXPECT_GT(result.at(2), 50);
 }
 
+/// Styles the page as it is printed: the rules for paper hold, those for screens do not. Says what is seen, what a
+/// reader of a grey copy needs, and what is cut off.
+constexpr std::string_view on_paper = R"(
+  for (const sheet of document.styleSheets) {
+    for (const { media } of sheet.cssRules) {
+      if (media) media.mediaText = media.mediaText === "print" ? "all" : media.mediaText.includes("screen") ? "not all" : media.mediaText;
+    }
+  }
+  const isSeen = (element) => element.getClientRects().length > 0 && getComputedStyle(element).visibility === "visible";
+  const unseen = (selectors) => selectors.filter((selector) => all(selector).length === 0 || !all(selector).every(isSeen));
+  const controls = () => all("button, input, textarea, select").filter((it) => isSeen(it) && !it.closest("#pairs")).length;
+  const cut = (selector) => all(selector).filter((it) => it.scrollHeight > it.clientHeight + 1 || it.scrollWidth > it.clientWidth + 1).length;
+  const light = (color) => {
+    const [red, green, blue] = color.match(/[\d.]+/g).slice(0, 3).map((part) => part / 255)
+      .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+  };
+  const contrast = (selector) => Math.min(...all(selector).filter(isSeen).map((it) =>
+    (light(getComputedStyle(document.body).backgroundColor) + 0.05) / (light(getComputedStyle(it).color) + 0.05)));
+)";
+
+TEST_F(ViewBrowser, PrintsWhatIsShownWithoutTheControls) {
+  const auto inclusion = solvers::solver_in_process(solvers::find_method("tight_inclusion"), {});
+  ask(*inclusion);
+  const nlohmann::json result = result_of(
+      {falling(), falling(0x1p-52), of_any_size(Kind::edge_edge)}, std::string(on_paper) + R"(
+    choose("format", "rational");
+    const mark = (kind) => {
+      const { transform, borderRadius } = getComputedStyle(document.querySelector(`#rows .mark.${kind}`), "::after");
+      return [transform !== "none", borderRadius];
+    };
+    const shown = ["h1", "#label", "#verdict", "#motion canvas", "#corners canvas", "#motion .names span", "#scale",
+      "#now", "#rows .name", "#rows .said", "#rows .track", "#readout", "#points td", "footer"];
+    const first = { unseen: unseen(shown), mark: mark("toi") };
+    press("n");
+    const second = { mark: mark("approach"), said: text("#rows .said.wrong"), paper: getComputedStyle(document.body).backgroundColor,
+      contrast: contrast("#verdict *, #rows .said *, #rows .name, #readout, figcaption, #scale, #points code"),
+      names: contrast(".names span") };
+    press("n");
+    say({ first, second, controls: controls(), cut: cut("#points code, .said, #verdict"),
+      wide: document.documentElement.scrollWidth <= window.innerWidth, drawn: [pixels("motion"), pixels("corners")] });
+  )",
+      718);
+  EXPECT_EQ(result.at("first").at("unseen"), nlohmann::json::array());
+  EXPECT_EQ(result.at("controls"), 0);
+  EXPECT_EQ(result.at("cut"), 0) << "numbers of a thousand digits are printed whole";
+  EXPECT_EQ(result.at("wide"), true);
+  for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 30);
+  // Told apart by shape and word: a diamond is turned, a circle is round.
+  EXPECT_EQ(result.at("first").at("mark"), nlohmann::json::array({true, "0px"}));
+  const nlohmann::json& second = result.at("second");
+  EXPECT_EQ(second.at("mark"), nlohmann::json::array({false, "50%"}));
+  ASSERT_EQ(second.at("said").size(), 1);
+  EXPECT_NE(second.at("said").at(0).get<std::string>().find("✗ false positive"), std::string::npos);
+  EXPECT_GT(second.at("contrast"), 4.5);
+  EXPECT_GT(second.at("names"), 3.0);
+}
+
 TEST_F(ViewBrowser, WithoutWebGlTheNumbersAreThere) {
   const nlohmann::json result =
       result_of({falling()}, R"(
@@ -445,6 +503,19 @@ TEST_F(ViewBrowser, PairsOfAStepLeadToTheirQueries) {
   EXPECT_EQ(last.at("chosen"), nlohmann::json::array({result.at("names").at(pairs - 1)}));
   EXPECT_EQ(last.at("past"), pairs);
   for (const nlohmann::json& count : result.at("drawn")) EXPECT_GT(count, 200);
+}
+
+TEST_F(ViewBrowser, PrintsAStepWithItsTime) {
+  const nlohmann::json result = result_on(page_of_a_step(true), std::string(on_paper) + R"(
+    say({ unseen: unseen(["#step_verdict", "#mesh canvas", "#mesh .names span", "#step_now", "#pairs span"]), controls: controls(),
+      named: text("#mesh .names span"), first: text("#pairs .chosen span"), drawn: pixels("mesh") });
+  )",
+                                          718);
+  EXPECT_EQ(result.at("unseen"), nlohmann::json::array());
+  EXPECT_EQ(result.at("controls"), 0);
+  EXPECT_EQ(result.at("named").size(), 1) << "the first pair is pointed out";
+  EXPECT_EQ(result.at("named"), result.at("first"));
+  EXPECT_GT(result.at("drawn"), 200);
 }
 
 }  // namespace

@@ -141,13 +141,19 @@ export function rationalText(value) {
 export function shortText(value, digits = 6) {
   if (value.n === 0n) return "0";
   const near = nearest(value);
-  if (Math.abs(near) > 1e-300 && Math.abs(near) < 1e300) return String(Number(near.toPrecision(digits)));
+  if (Math.abs(near) > 1e-300 && Math.abs(near) < 1e300) return doubleText(Number(near.toPrecision(digits)));
   const size = absolute(value.n);
   const power = Math.floor((bitLength(size) - bitLength(value.d)) * Math.log10(2));
   const ten = 10n ** BigInt(Math.abs(power));
   const front = nearest(power < 0 ? { n: size * ten, d: value.d } : { n: size, d: value.d * ten });
   const [mantissa, rest] = front.toExponential(digits - 1).split("e");
   return `${value.n < 0n ? "-" : ""}${Number(mantissa)}e${Number(rest) + power}`;
+}
+
+/// A double in the fewest digits that tell it from its neighbours; small and large ones with a power of ten.
+export function doubleText(x) {
+  const size = Math.abs(x);
+  return size === 0 || (size >= 1e-3 && size < 1e15) ? String(x) : x.toExponential().replace("e+", "e");
 }
 
 /// The rational that a text stands for: "1/3", "-0x1.8p-3", "2.5e-4"; null if it is none.

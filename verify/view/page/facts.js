@@ -9,7 +9,7 @@
 // A toi and an approach are lower and upper (doubles), exact (a rational, or null) and time (a rational near
 // it). Here texts of doubles become doubles, and texts of rationals rationals.
 
-import { parseDouble, parseRational, shortText } from "./exact.js";
+import { doubleText, parseDouble, parseRational, shortText } from "./exact.js";
 
 const double = (text) => {
   if (text === null || text === undefined) return null;
@@ -42,10 +42,17 @@ export const withoutAnswer = (query, label) =>
 
 /// "0.5", "1/3 ≈ 0.3333333333333333", or "between 0.70710678118654746 and 0.70710678118654757".
 export function momentText({ lower, upper, exact }) {
-  if (exact === null || exact === undefined) return `between ${lower} and ${upper}`;
-  if (lower === upper) return String(lower);
+  if (exact === null || exact === undefined) return `between ${doubleText(lower)} and ${doubleText(upper)}`;
+  if (lower === upper) return doubleText(lower);
   const value = shortText(parseRational(exact), 17);
   return exact.length < 40 ? `${exact} ≈ ${value}` : `about ${value}`;
+}
+
+/// "(u, v) = (0.25, 0.5)"; in nine digits where they are no doubles.
+export function placeText({ u, v }) {
+  const isExact = [u, v].every(({ lower, upper }) => lower === upper);
+  const [first, second] = [u, v].map(({ lower }) => doubleText(isExact ? lower : Number(lower.toPrecision(9))));
+  return `(u, v) ${isExact ? "=" : "≈"} (${first}, ${second})`;
 }
 
 /// Do they touch, in few words.
@@ -56,4 +63,4 @@ export function verdictText({ truth, min_separation }) {
 }
 
 export const distanceText = ({ above, at_most }) =>
-  (above === 0 ? `at most ${at_most}` : `between ${above} and ${at_most}`);
+  (above === 0 ? `at most ${doubleText(at_most)}` : `between ${doubleText(above)} and ${doubleText(at_most)}`);

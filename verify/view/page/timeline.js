@@ -1,7 +1,7 @@
 // The line of time: the oracle's verdict, the pieces of a certificate, and the answer of each solver, all
 // over the window of time that the slider covers.
 
-import { compare, divide, nearest, rational, subtract } from "./exact.js";
+import { compare, divide, doubleText, nearest, rational, subtract } from "./exact.js";
 import { make } from "./elements.js";
 import { distanceText, momentText, verdictText } from "./facts.js";
 
@@ -47,7 +47,7 @@ function oracleRow(window, facts) {
     text.push(` at t = ${momentText(truth.toi)}`);
   } else if (approach) {
     track.push(mark(window, approach.time, "approach", "nearest"));
-    text.push(` – nearest at t ≈ ${approach.lower}, distance ${distanceText(approach)}`);
+    text.push(` – nearest at t ≈ ${doubleText(approach.lower)}, distance ${distanceText(approach)}`);
   }
   return row("oracle", "the exact verdict", track, text);
 }
@@ -67,10 +67,10 @@ function certificateRow(window, certificate, t) {
 
 function answerText(answer) {
   const { verdict, toi_lower: lower, toi_upper: upper, failure, faults } = answer;
-  const times = [lower === null ? "" : `from ${lower}`, upper === null ? "" : `to ${upper}`].filter(Boolean).join(" ");
+  const times = [lower === null ? "" : `from ${doubleText(lower)}`, upper === null ? "" : `to ${doubleText(upper)}`].filter(Boolean).join(" ");
   const said = failure && failure !== verdict ? failure : verdict;
   const wrong = faults.length === 0 ? [] : [" ", make("b", { class: "fault" }, `✗ ${faults.join(", ")}`),
-    answer.breaks_promise || answer.promise === "none" ? "" : " (which it may)"];
+    answer.breaks_promise || answer.promise === "none" ? "" : " (its promise allows it)"];
   return [make("b", {}, said), ` ${times}`, ...wrong];
 }
 
