@@ -202,11 +202,13 @@ export class Scene {
       const seen = point.clone().project(this.camera);
       return { x: (seen.x + 1) / 2 * width, y: (1 - seen.y) / 2 * height };
     });
-    const middle = places.reduce((sum, { x }) => sum + x / places.length, 0);
+    const across = places.map(({ x }) => x);
+    const middle = across.reduce((sum, x) => sum + x / across.length, 0);
+    const left = middle - (Math.max(...across) - Math.min(...across)) / 10;
     const taken = [];
     for (const [i, { span }] of this.labels.entries()) {
       const wide = span.offsetWidth + 4;
-      const isLeft = places[i].x < middle - 1;
+      const isLeft = places[i].x < left;
       const x = Math.max(2, Math.min(places[i].x + (isLeft ? -9 - span.offsetWidth : 9), width - wide));
       let y = Math.max(2, Math.min(places[i].y - 20, height - 20));
       const overlaps = (other) => Math.abs(other.y - y) < 16 && x < other.x + other.wide && other.x < x + wide;

@@ -157,6 +157,7 @@ export class StepPicture {
     this.past = mark(size + 1, -1, "toi");
     this.chosen = mark(22, 0.72, "bad");
     this.chosen.geometry.setDrawRange(0, 0);
+    this.chosen.renderOrder = 100;
   }
 
   look(size, hollow) {
@@ -198,10 +199,19 @@ export class StepPicture {
     const ends = points.map((i) => seen([0, 1, 2].map((k) =>
       this.unit(step.before[3 * i + k], k) * (1 - t) + this.unit(step.after[3 * i + k], k) * t)));
     const split = kind === "vertex-face" ? 1 : 2;
-    [ends.slice(0, split), ends.slice(split)].forEach((corners, k) => {
+    const primitives = [ends.slice(0, split), ends.slice(split)];
+    for (const corners of primitives) {
+      for (const [a, b] of sides(outline(corners))) scene.rod(a, b, "paper", 0.012);
+    }
+    primitives.forEach((corners, k) => {
       const { color, shape } = looks[k];
       for (const [a, b] of sides(outline(corners))) scene.rod(a, b, color, 0.006);
       for (const corner of corners) scene.dot(corner, color, shape, 0.01);
+    });
+    // Seen through whatever lies before it, in this order.
+    scene.moving.children.forEach((object, i) => {
+      object.material.depthTest = false;
+      object.renderOrder = i + 1;
     });
     const place = seen(this.contactPlace(n));
     if (Math.hypot(...place) < 1.2) scene.name(place, name, "ink");
