@@ -343,11 +343,14 @@ TEST_F(ViewBrowser, SaysThatThereIsNothing) {
 TEST_F(ViewBrowser, FitsATelephone) {
   const nlohmann::json result = result_of({falling(), of_any_size(Kind::edge_edge)}, R"(
     press("n");
-    say([document.documentElement.scrollWidth, window.innerWidth, pixels("motion")]);
+    for (const button of all("#list button")) button.append(" of a long name".repeat(40));
+    say([document.documentElement.scrollWidth, window.innerWidth, pixels("motion"),
+      all("#list button").filter((button) => button.scrollHeight > button.clientHeight + 1).length]);
   )",
                                           500);
   EXPECT_LE(result.at(0), result.at(1));
   EXPECT_GT(result.at(2), 50);
+  EXPECT_EQ(result.at(3), 0) << "rows of the list cover each other";
 }
 
 /// Styles the page as it is printed: the rules for paper hold, those for screens do not. Says what is seen, what a
