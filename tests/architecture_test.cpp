@@ -178,6 +178,7 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"fast/certified/stages/refinement.hpp", "a part of the kernels, tested through them"},
     {"fast/tight_inclusion/box_kernel_on_lanes.hpp", "a part of the kernels, tested through them"},
     {"verify/cli/certificates_file.hpp", "tested through the commands that use it"},
+    {"verify/cli/group_options.hpp", "tested through the commands that use it"},
     {"verify/cli/options.hpp", "tested through the commands that use it"},
     {"verify/cli/view_file.hpp", "tested through the commands that use it"},
     {"verify/fuzz/draws.hpp", "a part of the generators, tested through their queries"},

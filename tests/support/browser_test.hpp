@@ -25,12 +25,13 @@ class BrowserTest : public FolderTest {
     GTEST_SKIP() << "chromium is not installed";
   }
 
-  /// The document after the script has run; what the browser says goes to "err".
+  /// The document after the script has run; what the browser says goes to "err". Its limit of time is only there to end a
+  /// browser that hangs: the browser's own clock stands still while a script runs.
   [[nodiscard]] std::string load(const std::string& page, int width = 1200) const {
     std::ofstream(path("page.html"), std::ios::binary) << page;
     // The proxy leads nowhere: whatever the page asks of a network shows as an error.
     EXPECT_TRUE(
-        runs("timeout 120 chromium --headless --no-sandbox --disable-gpu "
+        runs("timeout 500 chromium --headless --no-sandbox --disable-gpu "
              "--use-angle=swiftshader --enable-unsafe-swiftshader --disable-dev-shm-usage "
              "--proxy-server=127.0.0.1:9 --enable-logging=stderr "
              "--window-size=" +

@@ -20,6 +20,7 @@
 #include "fast/step/bodies.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/view_file.hpp"
@@ -28,7 +29,6 @@
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/check_step.hpp"
 #include "verify/mesh/frames.hpp"
-#include "verify/mesh/groups.hpp"
 #include "verify/mesh/self_intersection.hpp"
 #include "verify/report/step_report.hpp"
 
@@ -41,28 +41,12 @@ struct Arguments {
   std::vector<fs::path> frames;
   SeparationArguments separation;
   jobs::StepCheckOptions check;
-  std::string groups_file;
-  /// Names of groups that do not meet.
-  std::vector<std::pair<std::string, std::string>> apart;
+  GroupArguments groups;
   std::string json_file;
   std::string csv_file;
   std::string proof_file;
   std::string view_file;
 };
-
-/// The groups that are needed: none where all meet. \throws std::runtime_error or DatasetError if they cannot be used.
-mesh::Groups groups_for(const Arguments& arguments, const mesh::Mesh& mesh) {
-  if (!arguments.groups_file.empty()) {
-    return mesh::read_groups(arguments.groups_file, static_cast<std::size_t>(mesh.vertices.rows()));
-  }
-  if (arguments.apart.empty()) return {};
-  if (!mesh.groups.error.empty()) throw std::runtime_error(mesh.groups.error);
-  if (mesh.groups.names.empty()) {
-    throw std::runtime_error(
-        "--apart needs groups: from names (o, g) in an OBJ file, or by --groups FILE");
-  }
-  return mesh.groups;
-}
 
 /// The steps of a run, one after the other.
 class StepRun {
@@ -74,9 +58,8 @@ class StepRun {
         view_(arguments.view_file),
         options_(arguments.check),
         frames_(mesh::open_frames(arguments.frames)),
-        groups_(groups_for(arguments, frames_->mesh())),
-        apart_(mesh::numbers_of(groups_, arguments.apart)),
-        bodies_(static_cast<std::size_t>(frames_->mesh().vertices.rows()), collision_groups()) {
+        groups_(arguments.groups, frames_->mesh()),
+        bodies_(static_cast<std::size_t>(frames_->mesh().vertices.rows()), groups_.get()) {
     require_separate_files(arguments);
     if (frames_->count() < 2) {
       throw std::runtime_error(arguments.frames.front().string() +
@@ -84,7 +67,7 @@ class StepRun {
     }
     const mesh::Mesh& mesh = frames_->mesh();
     options_.step.separation = arguments.separation.given();
-    options_.step.groups = collision_groups();
+    options_.step.groups = groups_.get();
     report_ = {.separation = options_.step.separation,
                .question = options_.question,
                .alpha = options_.alpha,
@@ -135,17 +118,12 @@ class StepRun {
       throw std::runtime_error(arguments.view_file + ": named for two outputs");
     }
     std::vector<fs::path> inputs = arguments.frames;
-    inputs.emplace_back(arguments.groups_file);
+    inputs.emplace_back(arguments.groups.file);
     for (const fs::path& input : inputs) {
       if (json_.is(input) || csv_.is(input) || proof_.is(input) || view_.is(input)) {
         throw std::runtime_error(input.string() + ": named for input and output");
       }
     }
-  }
-
-  /// Refers to the members.
-  [[nodiscard]] fast::CollisionGroups collision_groups() const {
-    return {.of_vertices = groups_.of_vertex, .apart = apart_};
   }
 
   void check_frame(std::size_t i, const mesh::Vertices& vertices) {
@@ -216,8 +194,7 @@ class StepRun {
   bool shows_contact_ = false;
   jobs::StepCheckOptions options_;
   std::unique_ptr<mesh::Frames> frames_;
-  mesh::Groups groups_;
-  std::vector<std::array<std::int32_t, 2>> apart_;
+  CollidingGroups groups_;
   fast::Bodies bodies_;
   report::StepReport report_;
 };
@@ -231,15 +208,7 @@ void add_input_options(CLI::App& command, Arguments& arguments) {
       ->type_name("FRAME")
       ->required();
   add_separation_options(command, arguments.separation);
-  command
-      .add_option("--groups", arguments.groups_file,
-                  "The name of each vertex's group, a line each (default: o and g of an OBJ file)")
-      ->type_name("FILE");
-  command
-      .add_option("--apart", arguments.apart,
-                  "Two groups that do not meet; the same twice: an obstacle that does not meet "
-                  "itself. May be given several times")
-      ->type_name("GROUP GROUP");
+  add_group_options(command, arguments.groups);
 }
 
 void add_step_options(CLI::App& command, Arguments& arguments) {

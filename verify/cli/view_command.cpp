@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -37,6 +38,7 @@ constexpr std::size_t most_queries = 1000;
 struct Arguments {
   std::vector<fs::path> paths;
   std::vector<fs::path> step;
+  GroupArguments groups;
   std::string points;
   std::string kind;
   view::QueryFileOptions files;
@@ -54,13 +56,18 @@ SolverArguments asked_by(const Arguments& arguments) {
 
 /// The step between two frames that the user named, if any.
 std::optional<view::ViewedStep> read_step(const Arguments& arguments) {
-  if (arguments.step.empty()) return std::nullopt;
+  const bool has_groups = !arguments.groups.file.empty() || !arguments.groups.apart.empty();
+  if (arguments.step.empty()) {
+    if (has_groups) throw std::invalid_argument("--groups and --apart need --step");
+    return std::nullopt;
+  }
   const auto frames = mesh::open_frames(arguments.step);
   if (frames->count() != 2) throw std::invalid_argument("--step needs two frames");
+  const CollidingGroups groups(arguments.groups, frames->mesh());
   mesh::Vertices before = frames->next(), after = frames->next();
-  return view::find_collisions(fmt::format("{} to {}", frames->name(0), frames->name(1)),
-                               frames->mesh(), std::move(before), std::move(after),
-                               {.separation = arguments.separation.given()});
+  return view::find_collisions(
+      fmt::format("{} to {}", frames->name(0), frames->name(1)), frames->mesh(), std::move(before),
+      std::move(after), {.separation = arguments.separation.given(), .groups = groups.get()});
 }
 
 /// The files themselves, and of folders the datasets below them.
@@ -104,6 +111,7 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments) {
 void check_names(const Arguments& arguments, const OptionalOutput& out) {
   std::vector<fs::path> inputs = arguments.paths;
   inputs.insert(inputs.end(), arguments.step.begin(), arguments.step.end());
+  inputs.emplace_back(arguments.groups.file);
   for (const fs::path& file : arguments.solvers.files()) inputs.push_back(file);
   for (const fs::path& input : inputs) {
     if (out.is(input)) throw std::runtime_error(input.string() + ": named for input and output");
@@ -161,6 +169,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
                   "The step between two frames of a mesh (.ply, .obj), and the pairs that touch")
       ->type_name("FRAME FRAME")
       ->expected(2);
+  add_group_options(command, arguments.groups);
   command
       .add_option("--index", arguments.files.indices,
                   "Only the query at this position of a file, from 0; repeatable")
@@ -198,9 +207,8 @@ void add_view_command(CLI::App& app, Status& status) {
       "touchstone view found.json --method tight_inclusion --plugin ./libsolver.so --out "
       "found.html",
       "The page needs a browser with WebGL and nothing else. It shows motion and corners, the "
-      "exact "
-      "time of impact, a certificate, and what each solver answers; without --method and --plugin "
-      "those that promise something are asked.\n"
+      "exact time of impact, a certificate, and what each solver answers; without --method and "
+      "--plugin those that promise something are asked.\n"
       "Exit status: 0 the page is written, 2 bad input or usage, 130 interrupted.");
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, true, arguments->solvers);

@@ -270,6 +270,43 @@ TEST_F(ViewCommand, AStepWithItsFirstPairs) {
   EXPECT_TRUE(contains(read("page.html"), R"("name":"vertex 3, face 0")"));
 }
 
+TEST_F(ViewCommand, GroupsOfAStepThatAreApartDoNotTouch) {
+  const auto frame = [&](const std::string& name, const std::string& height) {
+    return write(
+        name, "o floor\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\no ball\nv 1 1 " + height + "\np 4\n");
+  };
+  const std::string before = frame("0.obj", "1"), after = frame("1.obj", "-2");
+  const std::string groups = write("groups.txt", "a\na\na\nb\n");
+  const auto names = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> result;
+    for (const std::string command : {"view --step", "step --view"}) {
+      std::vector<std::string> all{before, after};
+      if (command == "view --step") all.insert(all.begin(), "--step");
+      all.insert(all.end(), words.begin(), words.end());
+      if (command == "step --view") {
+        all.insert(all.begin(), "step");
+        all.insert(all.end(), {"--view", path("page.html")});
+      }
+      const tests::Outcome outcome = command == "step --view" ? run(all) : view(all);
+      EXPECT_EQ(outcome.err, "");
+      for (const nlohmann::json& query : queries("page.html")) result.push_back(query.at("label"));
+    }
+    return result;
+  };
+  const std::string pair = "0.obj to 1.obj: vertex 3, face 0";
+  const std::vector<std::string> both{pair, pair}, none;
+  EXPECT_EQ(names({}), both);
+  EXPECT_EQ(names({"--apart", "ball", "floor"}), none);
+  EXPECT_EQ(names({"--apart", "floor", "floor"}), both);
+  EXPECT_EQ(names({"--groups", groups}), both);
+  EXPECT_EQ(names({"--groups", groups, "--apart", "a", "b"}), none);
+  EXPECT_TRUE(contains(view({"--step", before, after, "--apart", "floor", "wall"}).err,
+                       R"(no group "wall"; there are: "floor", "ball")"));
+  EXPECT_TRUE(contains(view({"--kind", "vertex-face", "--points", falling, "--groups", groups}).err,
+                       "--groups and --apart need --step"));
+  EXPECT_EQ(run({"view", "--step", before, after, "--groups", groups, "--out", groups}).status, 2);
+}
+
 TEST_F(ViewCommand, AtASeparationOfTheUser) {
   const tests::Outcome outcome = view(
       {"--kind", "vertex-face", "--points", falling, "--min-separation", "0.5", "--norm", "l2"});

@@ -137,9 +137,6 @@ export function rationalText(value) {
   return d === 1n ? String(n) : `${n}/${d}`;
 }
 
-/// A double as text; a small one with an exponent.
-export const doubleText = (x) => (x !== 0 && Math.abs(x) < 1e-4 ? x.toExponential() : String(x));
-
 /// A rational to some digits, of any size.
 export function shortText(value, digits = 6) {
   if (value.n === 0n) return "0";
@@ -151,6 +148,12 @@ export function shortText(value, digits = 6) {
   const front = nearest(power < 0 ? { n: size * ten, d: value.d } : { n: size, d: value.d * ten });
   const [mantissa, rest] = front.toExponential(digits - 1).split("e");
   return `${value.n < 0n ? "-" : ""}${Number(mantissa)}e${Number(rest) + power}`;
+}
+
+/// A double in the fewest digits that tell it from its neighbours; small and large ones with a power of ten.
+export function doubleText(x) {
+  const size = Math.abs(x);
+  return size === 0 || (size >= 1e-3 && size < 1e15) ? String(x) : x.toExponential().replace("e+", "e");
 }
 
 /// The rational that a text stands for: "1/3", "-0x1.8p-3", "2.5e-4"; null if it is none.

@@ -48,11 +48,11 @@ export function momentText({ lower, upper, exact }) {
   return exact.length < 40 ? `${exact} ≈ ${value}` : `about ${value}`;
 }
 
-/// "(u, v) = (0.25, 1/3 ≈ 0.3333333333333333)", or what is about so where no rational is known.
+/// "(u, v) = (0.25, 0.5)"; in nine digits where they are no doubles.
 export function placeText({ u, v }) {
-  const isKnown = [u, v].every(({ lower, upper, exact }) => lower === upper || (exact !== null && exact !== undefined));
-  const texts = [u, v].map((x) => (isKnown ? momentText(x) : doubleText(Number(x.lower.toPrecision(12)))));
-  return `(u, v) ${isKnown ? "=" : "≈"} (${texts.join(", ")})`;
+  const isExact = [u, v].every(({ lower, upper }) => lower === upper);
+  const [first, second] = [u, v].map(({ lower }) => doubleText(isExact ? lower : Number(lower.toPrecision(9))));
+  return `(u, v) ${isExact ? "=" : "≈"} (${first}, ${second})`;
 }
 
 /// Do they touch, in few words.

@@ -1,6 +1,6 @@
 // The page: a list of queries, of which one is looked at.
 
-import { hexadecimalText, nearest, rational, rationalText, shortText } from "./exact.js";
+import { hexadecimalText, log2, nearest, rational, rationalText, shortText } from "./exact.js";
 import { find, make } from "./elements.js";
 import { momentText, placeText, readFacts, verdictText, withoutAnswer } from "./facts.js";
 import { readQuery, writers } from "./formats.js";
@@ -13,6 +13,8 @@ import { drawTimeline } from "./timeline.js";
 
 const zoomSteps = 1000;
 const secondsOfPlay = 4;
+/// log2 of the smallest gap that is seen, in units of the radius.
+const lgSmallest = -5;
 
 const queries = JSON.parse(find("queries").textContent).map(readFacts);
 const step = find("step_facts") ? readStep(JSON.parse(find("step_facts").textContent)) : null;
@@ -180,7 +182,8 @@ const scaleText = (lg) => {
 
 function writeReadout(near, piece) {
   const gap = look.motion.gap(look.motion.at(look.t));
-  const parts = [gap.n === 0n ? "Contact now" : `Distance now: ${shortText(gap, 9)}`,
+  const isTiny = gap.n > 0n && log2(gap) < look.frame.lgRadius + lgSmallest;
+  const parts = [gap.n === 0n ? "Contact now" : `Distance now: ${shortText(gap, 9)}${isTiny ? " (too small to be seen here: enlarge)" : ""}`,
     `nearest at (u, v) = (${shortText(near.u, 9)}, ${shortText(near.v, 9)})`];
   if (piece) parts.push(`separated by ${piece.feature}`);
   find("readout").textContent = `${parts.join("; ")}.`;

@@ -10,8 +10,9 @@ const ghosts = 13;
 /// Both primitives have a colour; one has round points, the other boxes.
 export const looks = [{ color: "s1", shape: "ball" }, { color: "s3", shape: "box" }];
 
-const outline = (points) => (points.length > 2 ? [...points, points[0]] : points);
-const sides = (points) => points.slice(1).map((point, i) => [points[i], point]);
+/// The corners of a polygon, and the first once more.
+export const outline = (points) => (points.length > 2 ? [...points, points[0]] : points);
+export const sides = (points) => points.slice(1).map((point, i) => [points[i], point]);
 
 /// The times of the traces: both ends of the window, and between them.
 const ghostTimes = ({ from, to }) => Array.from({ length: ghosts }, (_, i) => {

@@ -196,15 +196,22 @@ export class Scene {
     this.placeNames();
   }
 
-  /// Names stand right of their points, or below one another where they would overlap.
+  /// Names stand beside their points, away from the middle of all, or below one another where they would overlap.
   placeNames() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const taken = [];
-    for (const { span, point } of this.labels) {
+    const places = this.labels.map(({ point }) => {
       const seen = point.clone().project(this.camera);
-      const wide = 8 * span.textContent.length + 6;
-      const x = Math.max(2, Math.min((seen.x + 1) / 2 * width + 9, width - wide));
-      let y = Math.max(2, Math.min((1 - seen.y) / 2 * height - 20, height - 20));
+      return { x: (seen.x + 1) / 2 * width, y: (1 - seen.y) / 2 * height };
+    });
+    const across = places.map(({ x }) => x);
+    const middle = across.reduce((sum, x) => sum + x / across.length, 0);
+    const left = middle - (Math.max(...across) - Math.min(...across)) / 10;
+    const taken = [];
+    for (const [i, { span }] of this.labels.entries()) {
+      const wide = span.offsetWidth + 4;
+      const isLeft = places[i].x < left;
+      const x = Math.max(2, Math.min(places[i].x + (isLeft ? -9 - span.offsetWidth : 9), width - wide));
+      let y = Math.max(2, Math.min(places[i].y - 20, height - 20));
       const overlaps = (other) => Math.abs(other.y - y) < 16 && x < other.x + other.wide && other.x < x + wide;
       for (let i = 0; i < 16 && taken.some(overlaps); ++i) y += 8;
       taken.push({ x, y, wide });

@@ -7,6 +7,7 @@
 import * as THREE from "three";
 import { make, find } from "./elements.js";
 import { doubleText } from "./exact.js";
+import { looks, outline, sides } from "./pictures.js";
 import { Scene, styleColor } from "./scene.js";
 
 const listed = 500;
@@ -156,6 +157,7 @@ export class StepPicture {
     this.past = mark(size + 1, -1, "toi");
     this.chosen = mark(22, 0.72, "bad");
     this.chosen.geometry.setDrawRange(0, 0);
+    this.chosen.renderOrder = 100;
   }
 
   look(size, hollow) {
@@ -183,7 +185,36 @@ export class StepPicture {
     this.future.geometry.setDrawRange(touched, Infinity);
     this.chosen.geometry.setDrawRange(chosen === null ? 0 : chosen, chosen === null ? 0 : 1);
     for (const { shade, color } of this.colors) shade.value.copy(styleColor(color));
+    this.drawChosen(t, chosen);
     this.scene.render();
+  }
+
+  /// The pair that is looked at: its primitives, as in the picture of the query, and its name.
+  drawChosen(t, n) {
+    const { scene, step } = this;
+    scene.begin(scene.moving);
+    if (n === null) return;
+    const seen = (place) => place.map((x, k) => (x - this.focus[k]) * this.scale);
+    const { kind, name, points } = step.pairs[n];
+    const ends = points.map((i) => seen([0, 1, 2].map((k) =>
+      this.unit(step.before[3 * i + k], k) * (1 - t) + this.unit(step.after[3 * i + k], k) * t)));
+    const split = kind === "vertex-face" ? 1 : 2;
+    const primitives = [ends.slice(0, split), ends.slice(split)];
+    for (const corners of primitives) {
+      for (const [a, b] of sides(outline(corners))) scene.rod(a, b, "paper", 0.012);
+    }
+    primitives.forEach((corners, k) => {
+      const { color, shape } = looks[k];
+      for (const [a, b] of sides(outline(corners))) scene.rod(a, b, color, 0.006);
+      for (const corner of corners) scene.dot(corner, color, shape, 0.01);
+    });
+    // Seen through whatever lies before it, in this order.
+    scene.moving.children.forEach((object, i) => {
+      object.material.depthTest = false;
+      object.renderOrder = i + 1;
+    });
+    const place = seen(this.contactPlace(n));
+    if (Math.hypot(...place) < 1.2) scene.name(place, name, "ink");
   }
 
   // ---- What is seen -----------------------------------------------------------------------------
@@ -198,10 +229,14 @@ export class StepPicture {
     this.place();
   }
 
+  contactPlace(n) {
+    const places = this.future.geometry.attributes.position.array;
+    return [0, 1, 2].map((k) => places[3 * n + k]);
+  }
+
   /// The place where a pair touches, to the middle.
   goTo(n) {
-    const places = this.future.geometry.attributes.position.array;
-    this.focus = [0, 1, 2].map((k) => places[3 * n + k]);
+    this.focus = this.contactPlace(n);
     this.place();
   }
 
@@ -220,7 +255,8 @@ const steps = 4096;
 export class StepPart {
   constructor(step, viewpoint, canDraw, show) {
     this.step = step;
-    this.chosen = null;
+    // The pair that is looked at: at first the first.
+    this.chosen = step.pairs.length > 0 ? 0 : null;
     this.show = show;
     find("step").append(...this.parts());
     if (canDraw) {
@@ -240,7 +276,7 @@ export class StepPart {
     const { step } = this;
     const count = step.total === 1 ? "1 pair touches" : `${step.total} pairs touch`;
     const first = step.pairs.length > 0 ? `, the first at t = ${doubleText(step.pairs[0].toi[0])}` : "";
-    const separation = step.min_separation > 0 ? ` within ${step.min_separation} (${step.norm})` : "";
+    const separation = step.min_separation > 0 ? ` within ${doubleText(step.min_separation)} (${step.norm})` : "";
     const elements = `${step.before.length / 3} vertices, ${step.faces.length / 3} faces`;
     return [
       make("h2", {}, step.label),
@@ -307,12 +343,10 @@ export class StepPart {
   }
 
   goNear() {
-    const n = this.chosen === null ? 0 : this.chosen;
     if (this.picture) {
-      this.picture.goTo(n);
+      this.picture.goTo(this.chosen);
       this.picture.zoom(4);
     }
-    this.chosen = n;
     this.update();
   }
 

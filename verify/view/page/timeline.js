@@ -70,7 +70,7 @@ function answerText(answer) {
   const times = [lower === null ? "" : `from ${doubleText(lower)}`, upper === null ? "" : `to ${doubleText(upper)}`].filter(Boolean).join(" ");
   const said = failure && failure !== verdict ? failure : verdict;
   const wrong = faults.length === 0 ? [] : [" ", make("b", { class: "fault" }, `✗ ${faults.join(", ")}`),
-    answer.breaks_promise || answer.promise === "none" ? "" : " (which it may)"];
+    answer.breaks_promise || answer.promise === "none" ? "" : " (its promise allows it)"];
   return [make("b", {}, said), ` ${times}`, ...wrong];
 }
 
@@ -81,8 +81,8 @@ function answerRow(window, answer) {
   if (isFinite(lower) && isFinite(upper) && lower <= upper) {
     track.push(bar(window, rational(lower), rational(upper), "impact", "where it puts the time of impact", ""));
   }
-  if (isFinite(lower)) track.push(mark(window, rational(lower), "lower", `not before ${doubleText(lower)}`));
-  if (isFinite(upper)) track.push(mark(window, rational(upper), "upper", `not after ${doubleText(upper)}`));
+  if (isFinite(lower)) track.push(mark(window, rational(lower), "lower", `not before ${lower}`));
+  if (isFinite(upper)) track.push(mark(window, rational(upper), "upper", `not after ${upper}`));
   const tip = `promises ${answer.promise === "none" ? "nothing" : `to be ${answer.promise}`}` +
     (answer.recorded ? "; this answer was recorded" : "");
   return row(answer.solver + (answer.recorded ? " (recorded)" : ""), tip, track, answerText(answer),
