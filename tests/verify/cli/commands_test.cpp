@@ -859,7 +859,7 @@ TEST_F(Tool, SolveRefusesOutputsThatAreInputsOrEachOther) {
 TEST_F(Tool, AFullDeviceEndsSolveEarly) {
   const Outcome solve = run({"solve", "--count", "100000000", "--plugin",
                              tests::plugin_library("box_overlap"), "--out", "/dev/full"});
-  EXPECT_EQ(solve.status, 2);
+  EXPECT_EQ(solve.status, 2) << solve.err;
   EXPECT_TRUE(contains(solve.err, "/dev/full: cannot be written")) << solve.err;
 }
 
