@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <exception>
-#include <memory>
 #include <utility>
+#include <vector>
 
 #include "verify/io/terminal.hpp"
 #include "verify/jobs/cores.hpp"
@@ -28,17 +28,19 @@ struct Token {
 /// The serial ends of the pipeline: reading, and what is done in order.
 class Stream {
  public:
-  Stream(data::QuerySource& source, const StreamOptions& options)
-      : source_(source), options_(options) {}
+  Stream(data::QuerySource& source, const StreamOptions& options, std::size_t blocks_in_flight)
+      : source_(source), options_(options), in_flight_(blocks_in_flight) {}
 
-  /// The next block; null at the end. Errors of the source are kept, and end the stream.
-  std::shared_ptr<Token> read() {
-    auto token = std::make_shared<Token>();
-    token->block.source = &source_.name();
-    token->block.kind = source_.kind();
-    while (!ended_ && token->block.queries.size() < Block::size) read_query(token->block);
-    token->progress = source_.progress();
-    return token->block.queries.empty() ? nullptr : token;
+  /// The next block, in the place of one that is finished; null at the end. Errors of the source are kept, and end the
+  /// stream.
+  Token* read() {
+    Token& token = in_flight_[read_++ % in_flight_.size()];
+    token = {};
+    token.block.source = &source_.name();
+    token.block.kind = source_.kind();
+    while (!ended_ && token.block.queries.size() < Block::size) read_query(token.block);
+    token.progress = source_.progress();
+    return token.block.queries.empty() ? nullptr : &token;
   }
 
   void finish(const Token& token) {
@@ -80,6 +82,10 @@ class Stream {
 
   data::QuerySource& source_;
   const StreamOptions& options_;
+  /// The pipeline has pointers only: oneTBB may lose what it owns if work throws. Blocks begin and end in their order, so
+  /// of so many one after another the first is finished before the next is read.
+  std::vector<Token> in_flight_;
+  std::size_t read_ = 0;
   StreamResult result_;
   bool ended_ = false;
   bool cut_ = false;
@@ -114,26 +120,25 @@ std::size_t Passes::complete() const {
 
 StreamResult stream(data::QuerySource& source, const BlockWork& work,
                     const StreamOptions& options) {
-  using TokenPointer = std::shared_ptr<Token>;
   const int threads = cores_for(options.threads);
   const std::size_t blocks_in_flight = 2 * static_cast<std::size_t>(threads);
-  Stream ends(source, options);
+  Stream ends(source, options, blocks_in_flight);
   const auto read = [&](tbb::flow_control& flow) {
-    TokenPointer token = ends.read();
-    if (!token) flow.stop();
+    Token* const token = ends.read();
+    if (token == nullptr) flow.stop();
     return token;
   };
-  const auto work_on = [&](TokenPointer token) {
+  const auto work_on = [&](Token* token) {
     token->result = work(token->block);
     return token;
   };
-  const auto finish = [&](const TokenPointer& token) { ends.finish(*token); };
+  const auto finish = [&](const Token* token) { ends.finish(*token); };
   const auto run = [&] {
     tbb::parallel_pipeline(
         blocks_in_flight,
-        tbb::make_filter<void, TokenPointer>(tbb::filter_mode::serial_in_order, read) &
-            tbb::make_filter<TokenPointer, TokenPointer>(tbb::filter_mode::parallel, work_on) &
-            tbb::make_filter<TokenPointer, void>(tbb::filter_mode::serial_in_order, finish));
+        tbb::make_filter<void, Token*>(tbb::filter_mode::serial_in_order, read) &
+            tbb::make_filter<Token*, Token*>(tbb::filter_mode::parallel, work_on) &
+            tbb::make_filter<Token*, void>(tbb::filter_mode::serial_in_order, finish));
   };
   tbb::task_arena arena(threads);
   try {
