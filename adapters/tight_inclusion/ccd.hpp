@@ -38,7 +38,7 @@
 namespace ticcd {
 
 inline constexpr bool DEFAULT_NO_ZERO_TOI = false;
-inline constexpr Scalar DEFAULT_CCD_DISTANCE_TOL = static_cast<Scalar>(1e-6);
+constexpr Scalar DEFAULT_CCD_DISTANCE_TOL = static_cast<Scalar>(1e-6);
 
 enum class CCDRootFindingMethod { DEPTH_FIRST_SEARCH, BREADTH_FIRST_SEARCH };
 

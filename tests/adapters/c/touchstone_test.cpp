@@ -212,7 +212,8 @@ TEST(CInterface, WritesNothingWithAnError) {
   EXPECT_EQ(touchstone_step_is_free(nullptr, &is_free), 2);
   EXPECT_EQ(touchstone_step_is_free(step, nullptr), 2);
   EXPECT_EQ(is_free, 77);
-  TouchstoneImpact impact{.verdict = 77};
+  TouchstoneImpact impact{};
+  impact.verdict = 77;
   EXPECT_EQ(touchstone_step_earliest(nullptr, &impact), 2);
   EXPECT_EQ(touchstone_step_earliest(step, nullptr), 2);
   EXPECT_EQ(impact.verdict, 77);
