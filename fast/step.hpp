@@ -66,7 +66,8 @@ enum class PairKind : std::uint8_t {
 /// part of it.
 struct MeshElements {
   /// All edges: those of the faces and codimensional ones. If there are none, they are the edges of
-  /// the faces, numbered as edges_of (fast/broad_phase.hpp) does.
+  /// the faces, numbered as edges_of (fast/broad_phase.hpp) does. One from a vertex to itself touches
+  /// what the vertex does.
   std::span<const Edge> edges;
   std::span<const Face> faces;
   /// Vertices that are part of the scene, whether or not an edge or a face has them.

@@ -1,9 +1,11 @@
 #include "verify/cli/certificates_file.hpp"
 
+#include "verify/cli/options.hpp"
+
 namespace touchstone::verify::cli {
 
-CertificatesFile::CertificatesFile(const std::string& name, std::string_view header)
-    : output_(name) {
+CertificatesFile::CertificatesFile(Files& files, const std::string& name, std::string_view header)
+    : output_(files, name) {
   if (name.ends_with(".zst")) compressor_.emplace();
   write(header);
 }

@@ -129,6 +129,27 @@ TEST_F(StepCommand, JudgesTheStepThatIsTaken) {
   EXPECT_EQ(step({before, after, "--alpha", "1.5"}).status, 2);
 }
 
+// A face of one vertex is a point of the mesh, an edge from a vertex to itself is one too.
+TEST_F(StepCommand, FacesAndEdgesOfOneVertexArePoints) {
+  const std::string face = write("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 1\nl 1 2\n");
+  EXPECT_EQ(step({face, face}).status, 0);
+  for (const std::string point : {"l 4 4", "p 4", "f 4 4 4"}) {
+    const auto at = [&](const std::string& name, const std::string& z) {
+      return write(name,
+                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.25 0.25 " + z + "\nf 1 2 3\n" + point + "\n");
+    };
+    expect_toi(result({at("0.obj", "1"), at("1.obj", "-3")}, 1)["steps"][0], 0.25);
+  }
+}
+
+// The names are looked up, not searched for.
+TEST_F(StepCommand, ReadsManyGroups) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 100'000; ++i) text += "g n" + std::to_string(i) + "\n";
+  const std::string mesh = write("groups.obj", text + "f 1 2 3\n");
+  EXPECT_EQ(step({mesh, mesh, "--apart", "n99999", "n99999"}).status, 0);
+}
+
 TEST_F(StepCommand, LeavesOutGroupsThatAreApart) {
   const std::string before = above("0.obj", "1"), after = above("1.obj", "-3");
   EXPECT_EQ(step({before, after, "--apart", "floor", "falling"}).status, 0);
