@@ -40,7 +40,7 @@ enum class Stage : std::uint8_t {
   axis,         ///< a coordinate axis separates the primitives at all times
   direction,    ///< one fixed direction separates them at all times
   determinant,  ///< the determinant keeps its sign
-  bisection,    ///< steps in t, with floating-point bounds
+  bisection,    ///< signs on intervals of t (stages/: orientation and all later ones)
   exact,        ///< exact arithmetic
 };
 inline constexpr std::size_t stages = 5;
