@@ -149,7 +149,7 @@ std::uint64_t step_of(double tolerance) {
 
 /// An approximation of the nearest point of the domain, exactly inside it.
 void move_into_domain(Kind kind, double& u, double& v) {
-  constexpr double least = 0x1p-200;  // smaller values are treated as 0, so that no sum is subnormal
+  constexpr double least = 0x1p-200;  // smaller values count as 0: no sum is subnormal
   u = u >= least ? std::min(u, 1.0) : 0.0;
   v = v >= least ? std::min(v, 1.0) : 0.0;
   if (kind == Kind::edge_edge) return;
