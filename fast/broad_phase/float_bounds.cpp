@@ -48,46 +48,40 @@ using DoublePair = double __attribute__((vector_size(16)));
 using Place = std::array<DoublePair, 2>;
 using WholeRow = std::int32_t __attribute__((vector_size(16)));
 
-struct RowBounds {
-  FloatRow lower;
-  FloatRow upper;
+/// A place in float.
+struct RoundedPlace {
+  FloatRow floats;
+  bool is_exact;
 };
 
-/// Rounds coordinates to floats around their places.
+/// Rounds coordinates to floats.
 class Rounding {
  public:
   /// \param j of the window
-  /// \param is_wider Move bounds outwards by 1?
-  Rounding(int j, bool is_wider)
+  explicit Rounding(int j)
       : j_(j),
         begin_(std::max(high_bits(step_of_window * j), high_bits(digits))),
         end_(high_bits(step_of_window * j + binades_of_window)),
-        shift_((52 - 63 * j) * binade),
-        wider_(is_wider ? -1 : 0) {}
+        shift_((52 - 63 * j) * binade) {}
 
-  /// Without a branch, as long as all coordinates are 0, or normal and in the window: no processor
-  /// could foresee which way rounding goes.
-  [[nodiscard]] RowBounds around(const Place& place) const {
+  /// Without a branch, as long as all coordinates are 0, or normal and in the window.
+  [[nodiscard]] RoundedPlace operator()(const Place& place) const {
     const auto a = std::bit_cast<WholeRow>(place[0]), b = std::bit_cast<WholeRow>(place[1]);
     const WholeRow low = __builtin_shufflevector(a, b, 0, 2, 4, 6);
     const WholeRow high = __builtin_shufflevector(a, b, 1, 3, 5, 7);
-    const WholeRow magnitude = high & 0x7FFFFFFF, is_negative = high >> 31;
+    const WholeRow magnitude = high & 0x7FFFFFFF, sign = high ^ magnitude;
     const WholeRow is_zero = (magnitude | low) == 0;
     const WholeRow is_elsewhere = ~is_zero & ((magnitude < begin_) | (magnitude >= end_));
-    // The upper 23 digits of f, and whether others follow. Comparisons are −1 where true.
-    Magnitudes places{(((magnitude + shift_) << 3) | ((low >> 29) & 7)) & ~is_zero,
-                      -((low << 3) != 0)};
-    if ((is_elsewhere[0] | is_elsewhere[1] | is_elsewhere[2]) != 0) places = each(place, places);
-    const WholeRow outwards = (is_negative | 1) & wider_ & ~is_zero, sign = high ^ magnitude;
-    const WholeRow lower = places.below + (places.rest & is_negative) - outwards;
-    const WholeRow upper = places.below + (places.rest & ~is_negative) + outwards;
-    return {std::bit_cast<FloatRow>(lower | sign), std::bit_cast<FloatRow>(upper | sign)};
+    // The upper 23 digits of f; the rest is dropped.
+    Magnitudes places{(((magnitude + shift_) << 3) | ((low >> 29) & 7)) & ~is_zero, low << 3};
+    if (has_any(is_elsewhere)) places = each(place, places);
+    return {std::bit_cast<FloatRow>(places.below | sign), !has_any(places.rest)};
   }
 
  private:
   static constexpr std::int32_t binade = 1 << 20;  ///< in the upper half of a double
 
-  /// Places of magnitudes, rounded down, and 1 where that is not exact.
+  /// Places of magnitudes, rounded down, and something that is not 0 where that is not exact.
   struct Magnitudes {
     WholeRow below;
     WholeRow rest;
@@ -95,6 +89,8 @@ class Rounding {
 
   /// The upper half of a normal double with that y.
   static std::int32_t high_bits(int y) { return std::min(y - 51, 2047) * binade; }
+
+  static bool has_any(const WholeRow& row) { return (row[0] | row[1] | row[2]) != 0; }
 
   /// The places one by one.
   [[gnu::noinline]] [[nodiscard]] Magnitudes each(const Place& place, Magnitudes places) const {
@@ -117,7 +113,6 @@ class Rounding {
   int j_;
   std::int32_t begin_, end_;  ///< the upper halves of doubles around the window
   std::int32_t shift_;        ///< from the upper half of a double to that of its place
-  std::int32_t wider_;
 };
 
 /// j for vertices: the middle of the window is about the median of the exponents of some of them.
@@ -165,17 +160,19 @@ Range coordinate_at(double time, double from, double to) {
 class BoundsMaker {
  public:
   BoundsMaker(const MovingVertices& vertices, double end, double distance)
-      : rounding_(window_of(vertices), distance > 0.0),
-        end_(end),
-        is_wider_(distance > 0.0),
-        below_(distance / 2.0),
-        above_(distance - below_) {}
+      : round_(window_of(vertices)), end_(end), below_(distance / 2.0), above_(distance - below_) {}
 
   /// Sets the bounds of a vertex. Are they exact?
   bool set(VertexBounds& bounds, const MovingVertex& vertex) const {
-    const bool is_exact = store(bounds, 0, around(place_of(vertex.start)));
-    if (end_ == 1.0) return store(bounds, 1, around(place_of(vertex.end))) && is_exact;
-    return store(bounds, 1, around_end(vertex.start, vertex.end)) && is_exact;
+    const bool is_exact = set(bounds, 0, place_of(vertex.start));
+    if (end_ == 1.0) return set(bounds, 1, place_of(vertex.end)) && is_exact;
+    const auto at_end = [&](std::size_t axis) {
+      return coordinate_at(end_, vertex.start[axis], vertex.end[axis]);
+    };
+    const Range x = at_end(0), y = at_end(1), z = at_end(2);
+    set(bounds, 1, {DoublePair{x.lower, y.lower}, DoublePair{z.lower, 0.0}},
+        {DoublePair{x.upper, y.upper}, DoublePair{z.upper, 0.0}});
+    return false;
   }
 
  private:
@@ -183,31 +180,22 @@ class BoundsMaker {
     return {DoublePair{x[0], x[1]}, DoublePair{x[2], x[3]}};
   }
 
-  [[nodiscard]] RowBounds around(const Place& place) const {
-    return is_wider_ ? around(place, place) : rounding_.around(place);
+  bool set(VertexBounds& bounds, std::size_t end, const Place& place) const {
+    if (above_ > 0.0) {
+      set(bounds, end, place, place);
+      return false;
+    }
+    const RoundedPlace rounded = round_(place);
+    bounds.lower[end] = bounds.upper[end] = rounded.floats;
+    return rounded.is_exact;
   }
-  [[nodiscard]] RowBounds around(const Place& lower, const Place& upper) const {
-    return {rounding_.around({lower[0] - below_, lower[1] - below_}).lower,
-            rounding_.around({upper[0] + above_, upper[1] + above_}).upper};
-  }
-  [[nodiscard]] RowBounds around_end(const std::array<double, 4>& from,
-                                     const std::array<double, 4>& to) const {
-    const auto at_end = [&](std::size_t axis) { return coordinate_at(end_, from[axis], to[axis]); };
-    const Range x = at_end(0), y = at_end(1), z = at_end(2);
-    return around({DoublePair{x.lower, y.lower}, DoublePair{z.lower, 0.0}},
-                  {DoublePair{x.upper, y.upper}, DoublePair{z.upper, 0.0}});
-  }
-
-  static bool store(VertexBounds& bounds, std::size_t end, const RowBounds& row) {
-    const auto& [a, b] = row;
-    bounds.lower[end] = a;
-    bounds.upper[end] = b;
-    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+  void set(VertexBounds& bounds, std::size_t end, const Place& lower, const Place& upper) const {
+    bounds.lower[end] = round_({lower[0] - below_, lower[1] - below_}).floats;
+    bounds.upper[end] = round_({upper[0] + above_, upper[1] + above_}).floats;
   }
 
-  Rounding rounding_;
+  Rounding round_;
   double end_;
-  bool is_wider_;
   double below_, above_;  ///< the parts of the distance
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Where vertices are, in float, rounded outwards: the numbers that the boxes of the broad phase are made of.
+/// Where vertices are, in float: the numbers that the boxes of the broad phase are made of.
 ///
 /// Boxes are only compared. So instead of a coordinate any increasing function of it will do, and one
 /// is chosen that keeps coordinates of every size apart.
@@ -12,30 +12,22 @@
 ///            N + (y − 63 j) N             for 64 j ≤ y < 64 j + 192, the *window*,
 ///            190 N + y N/64               for y ≥ 64 j + 192,
 ///
-/// and that of 0 is 0. n is increasing and continuous. All places are below 224 N, and whole numbers up to
-/// there are the places of the floats among all floats, so coordinates are rounded to the floats at the
-/// next whole places. In the window the float at n is the coordinate itself times a power of two, and
-/// rounding keeps 24 digits; elsewhere it keeps 18. j is chosen such that most coordinates are in the
-/// window. It depends on the vertices alone.
+/// and that of 0 is 0. n is increasing. All places are below 224 N, and whole numbers up to there are the
+/// places of floats in the order of all floats. A coordinate is rounded towards 0 to the float at a whole
+/// place. In the window that is the coordinate itself times a power of two, with 24 digits; elsewhere it
+/// has 18. j is chosen such that most coordinates are in the window. It depends on the vertices alone.
 ///
-/// Where a rounded-down number is greater than a rounded-up one, the coordinates are in that order too:
-/// boxes that are apart in float are apart.
-///
-/// **With a distance** d, boxes that are d apart are to overlap. So d/2 is taken from lower bounds and added
-/// to upper ones before they are rounded. (Where d is an odd multiple of the least double, its halves
-/// are the two multiples around d/2.) Such a sum is rounded to a double, by 2^-53 of it at most, and
-/// not at all where it is subnormal. That moves its place by much less than 1, and bounds are moved
-/// outwards by 1 for it.
-///
-/// **Sure comparisons.** Let a lower bound x have the float at L, and an upper bound y that at U. Then x has
-/// a place below L + 1, or below L + 2 + 2^-20 with a distance, and that of y is above U − 1 or
-/// U − 2 − 2^-20. So L + 5 ≤ U implies x < y: `sure_floats` farther on, a comparison is sure. If d = 0 and
-/// no coordinate was rounded, all are.
+/// **Comparisons.** Let h and k be the halves of a distance d. (Where d is an odd multiple of the least
+/// double, these are the two multiples around d/2.) A lower bound is the float of fl(x − h), an upper one that of
+/// fl(y + k), where fl rounds to a double. All of these roundings are monotone. So a lower bound
+/// greater than an upper one implies x − h > y + k: boxes that are apart in float are more than d apart. A
+/// lower bound less than an upper one implies x − h < y + k: all other comparisons are sure as well, but
+/// those of equal floats. If d = 0 and no coordinate was rounded, these are sure too.
 ///
 /// **Part of a step.** The end of an interval [0, t] may be before 1. Where a point is then is
 /// computed with an error of at most e (filters::Position), so it is in [p − e, p + e]. The bound e
-/// is greater than what the rounding of p ∓ 2e adds. So these are on either side, and are rounded to
-/// float as coordinates are.
+/// is greater than what the rounding of p ∓ 2e adds. So these are on either side, and take the place of
+/// x and y.
 
 #include <array>
 #include <bit>
@@ -67,17 +59,6 @@ namespace touchstone::fast {
 /// The float before x, likewise.
 [[nodiscard]] inline float float_before(float x) { return -float_after(-x); }
 
-/// By as many floats the bounds of a lower and an upper coordinate have to differ for these to be in that
-/// order for sure.
-inline constexpr std::int32_t sure_floats = 5;
-
-/// The float that is as many after x, and not −0. \pre x is a bound.
-[[nodiscard]] inline float surely_after(float x) {
-  // Of −0, 0 remains.
-  return float_at(order_of(x + 0.0F) + sure_floats);
-}
-[[nodiscard]] inline float surely_before(float x) { return -surely_after(-x); }
-
 /// x, y, z and something else, side by side: compilers make one vector of it.
 using FloatRow = float __attribute__((vector_size(16)));
 
@@ -86,7 +67,7 @@ using FloatRow = float __attribute__((vector_size(16)));
   return a > b ? a : b;
 }
 
-/// A vertex at both ends of an interval of times, rounded down and up.
+/// A vertex at both ends of an interval of times: lower and upper bounds.
 struct alignas(64) VertexBounds {
   std::array<FloatRow, 2> lower;
   std::array<FloatRow, 2> upper;
@@ -102,7 +83,7 @@ class FloatBounds {
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const VertexBounds& operator[](std::size_t i) const { return bounds_[i]; }
-  /// Is every comparison of a lower with an upper bound that of the coordinates? Not asked before t=1.
+  /// Are comparisons of equal bounds sure too? Not asked before t=1.
   [[nodiscard]] bool are_exact() const { return exact_; }
 
  private:

@@ -21,7 +21,7 @@ namespace touchstone::fast {
 enum class Certainty : std::uint8_t {
   /// No pair is sure: each is confirmed.
   none,
-  /// A pair is sure if it is found with boxes `sure_floats` smaller as well (float_bounds.hpp).
+  /// A pair is sure if it is found with open boxes as well (float_bounds.hpp).
   unless_close,
   /// Every pair is.
   all,

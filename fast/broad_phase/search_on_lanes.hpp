@@ -72,13 +72,13 @@ class Search {
     if (rules_.certainty == Certainty::unless_close) set_inner();
   }
 
-  /// Boxes that are so much smaller than the exact ones that whatever overlaps them, overlaps these.
+  /// Boxes without their bounds: what overlaps these, overlaps the exact ones.
   void set_inner() {
     for (std::size_t instant = 0; instant < instants; ++instant) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t lane = 0; lane < group_size; ++lane) {
-          inner_.lower[instant][axis][lane] = surely_after(own_->lower[instant][axis][lane]);
-          inner_.upper[instant][axis][lane] = surely_before(own_->upper[instant][axis][lane]);
+          inner_.lower[instant][axis][lane] = float_after(own_->lower[instant][axis][lane]);
+          inner_.upper[instant][axis][lane] = float_before(own_->upper[instant][axis][lane]);
         }
       }
     }

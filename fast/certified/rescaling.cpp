@@ -57,9 +57,8 @@ std::optional<Scale> scale_for(const Query& query, double distance) {
     return result;
   }
   if (is_usual && most - least <= usual_difference) return std::nullopt;
-  std::ranges::transform(exponents, result.begin(), [](int exponent) {
-    return std::min(wanted - exponent, greatest_scale);
-  });
+  std::ranges::transform(exponents, result.begin(),
+                         [](int exponent) { return std::min(wanted - exponent, greatest_scale); });
   return result;
 }
 
