@@ -3,6 +3,7 @@
 /// \file
 /// The page that a command writes to look at what it found (--view), as `touchstone view` writes pages.
 
+#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
