@@ -13,6 +13,7 @@
 
 #include "adapters/tight_inclusion/types.hpp"
 #include "fast/filter.hpp"
+#include "fast/mesh.hpp"
 
 namespace ticcd {
 
@@ -24,7 +25,7 @@ inline Array3 get_numerical_error(const std::vector<Vector3>& vertices, const bo
   std::array<double, 3> greatest{};
   for (const Vector3& vertex : vertices) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto x = static_cast<double>(vertex[static_cast<Eigen::Index>(axis)]);
+      const double x = touchstone::fast::to_double(vertex[static_cast<Eigen::Index>(axis)]);
       greatest[axis] = std::max(greatest[axis], std::abs(x));
     }
   }

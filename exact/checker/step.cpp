@@ -99,7 +99,7 @@ class StepCheck {
     const std::string claim = read_claim();
     text_ += "claim " + claim + '\n';
     require_demanded(options_, claim, separation, line);
-    if (claim.starts_with("earliest")) read_earliest();
+    if (pair_.claim == Claim::time_of_impact) read_earliest();
     pair_.claim = Claim::no_collision;
     if (pair_.has_pieces()) prove_no_contact();
     reader_.begin("end");
@@ -145,6 +145,7 @@ class StepCheck {
   std::string read_claim() {
     reader_.begin("claim");
     const bool is_no_contact = reader_.one_of({"no_contact", "earliest"}) == 0;
+    pair_.claim = is_no_contact ? Claim::no_collision : Claim::time_of_impact;
     if (is_no_contact) {
       pair_.lower = read_number(reader_);
       if (pair_.lower < 0 || pair_.lower > 1) reject("a time is from 0 to 1");
@@ -158,7 +159,7 @@ class StepCheck {
 
   /// Takes the pair of the earliest contact and verifies the contact.
   void read_earliest() {
-    text_ += printable(reader_.text().substr(0, max_label_bytes)) + '\n';
+    text_ += printable(reader_.text()) + '\n';
     reader_.begin("pair");
     const PairKind& kind =
         kinds_.at(reader_.one_of({"vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"}));

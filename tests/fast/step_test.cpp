@@ -592,15 +592,10 @@ struct Work {
 };
 Work work_done;
 
-/// The best kernel, which also counts. Some of the undecided pairs come a second time, scaled: these are
-/// not of the search.
+/// The best kernel, which also counts.
 void decide_and_count(const KernelInput& input, KernelOutput& output) {
   best_certified_kernel().decide(input, output);
-  if (input.queries != nullptr) {
-    work_done.exact -= input.count;
-  } else {
-    work_done.pairs += input.count;
-  }
+  work_done.pairs += input.count;
   work_done.exact += output.undecided.count;
 }
 

@@ -1,6 +1,7 @@
 #include "verify/cli/certificates_file.hpp"
 
 #include "verify/cli/options.hpp"
+#include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::cli {
 
@@ -16,6 +17,14 @@ void CertificatesFile::write(std::string_view certificates) {
     put(compressor_->compress(certificates));
   } else {
     put(certificates);
+  }
+}
+
+void CertificatesFile::close(std::uint64_t certificates) {
+  if (io::interrupted()) {
+    close_incomplete();
+  } else {
+    close(exact::certificates_closing_line(certificates));
   }
 }
 

@@ -34,8 +34,9 @@ class CertificatesFile {
   /// Appends whole certificates.
   void write(std::string_view certificates);
 
-  /// Completes the stream, of so many certificates, and the file.
-  void close(std::uint64_t certificates) { close(exact::certificates_closing_line(certificates)); }
+  /// Completes the stream, of so many certificates, and the file; closes it as incomplete if the run was
+  /// interrupted.
+  void close(std::uint64_t certificates);
   /// The same with another closing line.
   void close(std::string_view closing_line);
   /// Closes a stream that lacks certificates: without its closing line, so that the checker takes it for cut,

@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "exact/query.hpp"
 #include "verify/data/dataset.hpp"
@@ -156,8 +157,9 @@ void for_each_source(const SourceArguments& arguments, Files& files,
 }
 
 std::unique_ptr<mesh::Frames> open_frames(Files& record, std::span<const fs::path> paths) {
-  record.add_inputs(mesh::frame_files(paths));
-  return mesh::open_frames(paths);
+  std::vector<fs::path> files = mesh::frame_files(paths);
+  record.add_inputs(files);
+  return mesh::open_frames(std::move(files));
 }
 
 }  // namespace touchstone::verify::cli

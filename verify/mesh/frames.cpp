@@ -289,8 +289,7 @@ std::vector<fs::path> frame_files(std::span<const fs::path> paths) {
   return {paths.begin(), paths.end()};
 }
 
-std::unique_ptr<Frames> open_frames(std::span<const fs::path> paths) {
-  std::vector<fs::path> files = frame_files(paths);
+std::unique_ptr<Frames> open_frames(std::vector<fs::path> files) {
   if (files.front().extension() == ".npz") return std::make_unique<ArchivedFrames>(files.front());
   return std::make_unique<FileFrames>(std::move(files));
 }

@@ -45,7 +45,8 @@ class Frames {
 [[nodiscard]] std::vector<std::filesystem::path> frame_files(
     std::span<const std::filesystem::path> paths);
 
-/// Opens mesh files, one folder of them, or one archive. \throws data::DatasetError naming what is in error.
-[[nodiscard]] std::unique_ptr<Frames> open_frames(std::span<const std::filesystem::path> paths);
+/// Opens mesh files, or one archive: the result of frame_files. \throws data::DatasetError naming what
+/// is in error.
+[[nodiscard]] std::unique_ptr<Frames> open_frames(std::vector<std::filesystem::path> files);
 
 }  // namespace touchstone::verify::mesh

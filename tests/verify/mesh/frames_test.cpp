@@ -49,7 +49,9 @@ fs::path archive(const fs::path& path, const std::map<std::string, std::string>&
   return path;
 }
 
-std::unique_ptr<Frames> open(const std::vector<fs::path>& paths) { return open_frames(paths); }
+std::unique_ptr<Frames> open(const std::vector<fs::path>& paths) {
+  return open_frames(frame_files(paths));
+}
 
 std::string error_of(const MeshFolder& folder, const std::function<void()>& action) {
   try {
