@@ -122,7 +122,7 @@ TOUCHSTONE_API int32_t touchstone_step_is_free(const TouchstoneStep* step, int32
 TOUCHSTONE_API int32_t touchstone_step_earliest(const TouchstoneStep* step,
                                                 TouchstoneImpact* impact);
 
-/// All pairs that touch. They stay valid until the next call with this step, or its end.
+/// All pairs that touch. They stay valid until the next call of this function that returns 0 with this step, or its end.
 TOUCHSTONE_API int32_t touchstone_step_collisions(TouchstoneStep* step,
                                                   const TouchstoneCollision** collisions,
                                                   size_t* count);

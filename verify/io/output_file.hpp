@@ -42,7 +42,10 @@ class OutputFile {
 
   /// Writes the rest and renames the file. Must be called once, as the last call.
   /// \throws DatasetError if either fails; the target is then unchanged.
-  void close();
+  void close() { close_as(path_); }
+
+  /// The same with another name in the target's folder; the target is unchanged.
+  void close_as(const std::filesystem::path& path);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
