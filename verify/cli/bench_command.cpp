@@ -49,7 +49,7 @@ constexpr std::string_view best_kernel = "best";
 struct Arguments {
   SourceArguments sources;
   SolverArguments solvers;
-  /// The two frames of a step, or nothing.
+  /// The two frames of a step; empty without --step.
   std::vector<fs::path> step;
   std::string kernel = std::string(best_kernel);
   jobs::BenchOptions bench;
@@ -70,7 +70,7 @@ const fast::CertifiedKernel* kernel_of(const std::string& name) {
   return kernel;
 }
 
-/// One run: its groups one after the other, then its reports.
+/// A run: the groups in order, then the reports.
 class BenchRun {
  public:
   explicit BenchRun(const Arguments& arguments)
@@ -154,13 +154,13 @@ class BenchRun {
                                 .stop = &io::interrupted()});
   }
 
-  /// Of the instruction set that the user chose.
+  /// The options with the kernel of the chosen instruction set.
   [[nodiscard]] const fast::SearchKernel* search_kernel() const {
     if (certified_.kernel == nullptr) return nullptr;
     return fast::find_search_kernel(certified_.kernel->instructions);
   }
 
-  /// The queries below a path, of one kind at a time: both may not fit into memory.
+  /// Measures the queries below a path, one kind at a time, because both may not fit into memory.
   void bench_path(const fs::path& path) {
     SourceArguments sources = arguments_.sources;
     sources.paths = {path};
@@ -184,7 +184,7 @@ class BenchRun {
     }
   }
 
-  /// \throws DatasetError if the source is about another separation than those before it.
+  /// \throws DatasetError if the separation of the source differs from that of the earlier ones.
   void require_one_separation(const data::QuerySource& source,
                               std::optional<Separation>& so_far) const {
     const Separation separation = separation_for(arguments_.sources, source);
@@ -201,7 +201,7 @@ class BenchRun {
     return {kind_from_string(arguments_.sources.kind)};
   }
 
-  /// Files are opened once for each kind, so an error may come twice.
+  /// Files are opened once for each kind, so an error may occur twice.
   void fail(const std::string& message) {
     if (errors_.insert(message).second) report_error(message);
   }
@@ -217,7 +217,7 @@ class BenchRun {
   }
 
   const Arguments& arguments_;
-  Separation separation_;  // of what is not read from files
+  Separation separation_;  // of queries that are not read from files
   Files files_;
   Solvers solvers_;
   Output json_;
@@ -261,7 +261,7 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
   add_json_option(command, arguments.json_file);
 }
 
-/// Where the user names no solver, the default methods are timed.
+/// The default methods, if the user names no solver.
 void settle(const CLI::App& command, Arguments& arguments) {
   if (arguments.solvers.empty()) arguments.solvers.methods = solvers::default_methods();
   arguments.solvers.kernel = kernel_of(arguments.kernel);

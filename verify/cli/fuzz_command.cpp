@@ -45,7 +45,7 @@ namespace fs = std::filesystem;
 
 constexpr double default_seconds = 60.0;
 constexpr double longest_run = 1e7;
-/// Seconds for making a finding simpler, at most.
+/// The maximum time, in seconds, for simplifying a finding.
 constexpr double shrink_seconds = 5.0;
 
 struct Arguments {
@@ -79,7 +79,7 @@ struct Arguments {
 
 // ---- The corpus ---------------------------------------------------------------------------------
 
-/// The kind of a file: what its path says, or else the only one that is asked for.
+/// The kind of a file: from its path, or else from --kind.
 Kind kind_of(const fs::path& file, const Arguments& arguments) {
   try {
     return data::kind_from_path(file);
@@ -105,7 +105,7 @@ std::vector<fuzz::CorpusQuery> read_corpus(const Arguments& arguments, Files& fi
 
 // ---- The dataset that is written ----------------------------------------------------------------
 
-/// FILE itself where its path says the kind, else with the kind in its name.
+/// FILE itself if its path determines the kind, else with the kind in its name.
 fs::path dataset_path(const fs::path& file, Kind kind) {
   try {
     if (data::kind_from_path(file) == kind) return file;
@@ -119,8 +119,8 @@ fs::path dataset_path(const fs::path& file, Kind kind) {
                                        file.string(), to_string(kind)));
 }
 
-/// The queries found, with their truth, as datasets. They appear when they are complete, and only
-/// if there are queries.
+/// The findings' queries, with their truth, as datasets. The files appear when they are complete,
+/// and only if there are queries.
 class FoundQueries {
  public:
   FoundQueries(Files& files, const Arguments& arguments, const Separation& separation)
@@ -166,7 +166,7 @@ class FoundQueries {
     std::uint64_t queries = 0;
   };
 
-  /// \throws std::runtime_error if a folder has queries about another separation.
+  /// \throws std::runtime_error if a folder has queries for another separation.
   void require_same_separation(const fs::path& file) const {
     const Separation recorded = data::recorded_separation(file);
     if (judge::same_separation(recorded, separation_)) return;
@@ -192,7 +192,7 @@ class FoundQueries {
 
 // ---- The run ------------------------------------------------------------------------------------
 
-/// One run: the search, its findings as they come, then its reports.
+/// A run: the search with its findings as they occur, then the reports.
 class FuzzRun {
  public:
   explicit FuzzRun(const Arguments& arguments)

@@ -39,7 +39,7 @@ struct Arguments {
   SeparationArguments separation;
   bool npy = false;
   bool list = false;
-  /// Of two patches of mesh instead of queries: cells along a side; 0: none.
+  /// Two patches of mesh instead of queries: cells along a side; 0: none.
   int patch_cells = 0;
   double grading = 1.0;
   std::string json_file;
@@ -49,7 +49,7 @@ struct Written {
   fs::path file;
   std::uint64_t queries = 0;
   std::uint64_t collisions = 0;
-  bool is_known = true;  ///< Is the truth known by construction?
+  bool is_known = true;  // whether the truth is known by construction
 };
 
 std::vector<generate::Family> chosen(const std::vector<std::string>& names,
@@ -66,7 +66,7 @@ void list_families(const std::vector<generate::Family>& chosen_families) {
     io::print(stdout, fmt::format("{}\n    {}\n", family.name, family.reason));
 }
 
-/// The query without what is known of it at another separation.
+/// The query without the truth for another separation.
 void keep_claims_about(const Separation& separation, const data::QuerySource& source,
                        std::optional<data::RecordedQuery>& query) {
   if (!query || judge::same_separation(source.recorded_separation(), separation)) return;
@@ -74,7 +74,7 @@ void keep_claims_about(const Separation& separation, const data::QuerySource& so
   query->toi.reset();
 }
 
-/// Every query of a source, with what is known of it at the separation; counted.
+/// Writes and counts every query of a source, with its truth for the separation.
 template <class Use>
 Written for_each_query(data::QuerySource& source, const Separation& separation,
                        const fs::path& file, const Use& use) {
@@ -126,7 +126,7 @@ Written write_npy(data::QuerySource& source, const Separation& separation, const
   return written;
 }
 
-/// \throws std::runtime_error if the folder has queries about another separation.
+/// \throws std::runtime_error if the folder has queries for another separation.
 void require_same_separation(const fs::path& folder, const Separation& separation) {
   const bool has_queries = fs::exists(folder / to_string(Kind::vertex_face)) ||
                            fs::exists(folder / to_string(Kind::edge_edge));

@@ -8,7 +8,7 @@
 namespace touchstone::verify::cli {
 namespace {
 
-/// The groups that are needed: none where all meet.
+/// The groups if they are needed: empty if all can collide.
 mesh::Groups groups_for(Files& files, const GroupArguments& arguments, const mesh::Mesh& mesh) {
   if (!arguments.file.empty()) {
     files.add_input(arguments.file);

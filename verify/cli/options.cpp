@@ -61,7 +61,7 @@ Separation SeparationArguments::settle(const Separation& recorded) const {
 
 CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& distance,
                                  const std::string& description) {
-  // Read by strtod: CLI11 would round twice.
+  // Uses strtod, because CLI11 would round twice.
   return command
       .add_option_function<std::string>(
           "--min-separation",

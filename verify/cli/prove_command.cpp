@@ -1,4 +1,4 @@
-// touchstone prove: certificates for a checker that trusts nothing of the oracle.
+// touchstone prove: certificates for a checker that does not trust the oracle.
 
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ exact::ProveOptions proof_options(const Arguments& arguments) {
   return options;
 }
 
-/// One run: its sources one after the other, then its summary.
+/// A run: the sources in order, then the summary.
 class ProveRun {
  public:
   explicit ProveRun(const Arguments& arguments)
@@ -94,7 +94,7 @@ class ProveRun {
     options.on_progress = progress;
     options.on_certificates = [this](std::string_view certificates) {
       out_.write(certificates);
-      // An exception ends the proving at once; the failure itself is reported already.
+      // An exception ends the proofs immediately; the failure was already reported.
       if (out_.failed()) throw std::runtime_error("certificates cannot be written");
     };
     const jobs::SourceProof proof = jobs::prove(source, options);

@@ -1,4 +1,4 @@
-// touchstone report: the field of methods, measured and drawn on one page.
+// touchstone report: measurements of all methods on one page.
 
 #include <fmt/format.h>
 
@@ -61,7 +61,8 @@ struct Arguments {
   std::string view_file;
 };
 
-/// What each method answered wrongly, at most as much as a page holds; of several settings the first.
+/// The wrong answers of each method, at most as many as fit on a page, for the first of several
+/// settings.
 class WrongAnswers {
  public:
   void add(judge::WrongQuery wrong) {
@@ -76,7 +77,8 @@ class WrongAnswers {
     of_method.push_back(std::move(wrong));
   }
 
-  /// Gives the page the first query of each method, then the second, and so on: none takes all the places.
+  /// Adds the first query of each method to the page, then the second, and so on, so that the
+  /// places are shared.
   void add_to(ViewFile& page) const {
     for (std::size_t i = 0; i < ViewFile::most_queries; ++i) {
       for (const auto& [method, wrong] : by_method_) {
@@ -89,7 +91,7 @@ class WrongAnswers {
   std::map<std::string, std::vector<judge::WrongQuery>> by_method_;
 };
 
-/// The last part of a path that says something.
+/// The last component of a path that is a name.
 std::string short_name(const fs::path& path) {
   const fs::path normal = fs::absolute(path).lexically_normal();
   return normal.has_filename() ? normal.filename().string()
@@ -197,7 +199,7 @@ class ReportRun {
     return {kind_from_string(arguments_.sources.kind)};
   }
 
-  /// The two moving patches, and the hard set with about as many queries as are asked.
+  /// The two moving patches, and the built-in set with about the requested number of queries.
   [[nodiscard]] std::vector<data::QueryGroup> built_in() const {
     const std::uint64_t seed = arguments_.sources.seed;
     const std::uint64_t a_family =
@@ -257,7 +259,7 @@ class ReportRun {
   // ---- Output -----------------------------------------------------------------------------------
 
   void write(const report::Measurements& measurements) {
-    // The measurements first: all else can be made from them.
+    // The measurements first, because all other outputs can be derived from them.
     if (json_) json_.write(io::json_document(report::to_json(measurements)));
     json_.close();
     if (page_) page_.write(report::report_page(measurements, before_ ? &*before_ : nullptr));

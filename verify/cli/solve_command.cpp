@@ -39,7 +39,7 @@ struct Arguments {
   std::string json_file;
 };
 
-/// The one solver that the user named.
+/// The only solver on the command line.
 SolverArguments the_solver(const Arguments& arguments) {
   if (arguments.solver.methods.size() + arguments.solver.plugins.size() != 1 ||
       (!arguments.solver.methods.empty() && arguments.solver.methods.front() == "none")) {
@@ -49,7 +49,7 @@ SolverArguments the_solver(const Arguments& arguments) {
   return arguments.solver;
 }
 
-/// One run: its sources one after the other, then its summary.
+/// A run: the sources in order, then the summary.
 class SolveRun {
  public:
   explicit SolveRun(const Arguments& arguments)
@@ -105,7 +105,7 @@ class SolveRun {
     options.on_answer = [&](std::uint64_t index, const fast::Answer& answer,
                             const solvers::Failure* failure) {
       out_.write(solvers::answer_row(source.name(), index, source.kind(), answer, failure));
-      // An exception ends the solving at once; the failure itself is reported already.
+      // An exception ends the run immediately; the failure was already reported.
       if (out_.failed()) throw std::runtime_error("answers cannot be written");
     };
     const jobs::SolveResult result = jobs::solve(source, solver_, options);
@@ -141,7 +141,7 @@ class SolveRun {
     return json;
   }
 
-  /// The one of all sources, if it is one and more than contact.
+  /// The common separation of all sources, if there is one and its distance is positive.
   [[nodiscard]] std::optional<Separation> the_separation() const {
     return judge::common_separation(separations_);
   }

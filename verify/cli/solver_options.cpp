@@ -26,7 +26,7 @@ constexpr std::int64_t built_in_max_checks = 100'000;
 constexpr double bytes_of_gibibyte = 0x1p30;
 constexpr double most_gibibytes = 1e6;
 
-/// \throws std::invalid_argument for "none" beside others.
+/// \throws std::invalid_argument for "none" with others.
 std::vector<std::string> named_methods(const SolverArguments& arguments) {
   const bool has_none = std::ranges::find(arguments.methods, no_method) != arguments.methods.end();
   if (!has_none) return arguments.methods;

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Progress over sources that count alike.
+/// Progress over sources of equal weight.
 class TotalProgress {
  public:
   TotalProgress(const std::string& title, std::size_t sources)
@@ -51,7 +51,7 @@ void for_each_family(const SourceArguments& arguments, const SourceHandlers& han
   }
 }
 
-/// Names what a search leaves out, not all of it where there is much.
+/// Reports the files that a search skips, up to a maximum number.
 class LeftOutReport {
  public:
   void add(const data::DatasetError& left_out) {
@@ -151,7 +151,7 @@ void for_each_source(const SourceArguments& arguments, Files& files,
       for_each_file(arguments, files, handlers);
     }
   } catch (const io::Interrupted&) {
-    // The command goes on with what it has, as after an interrupt between two queries.
+    // The command continues with the results so far, as after an interrupt between two queries.
   }
 }
 

@@ -37,7 +37,7 @@ struct Arguments {
   std::string picture_file;
 };
 
-/// Those that are named, in their own order; all if none is.
+/// The named kinds of difficulty, in their usual order; by default all.
 std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& names) {
   std::vector<const stability::Hardness*> result;
   for (const std::string& name : names) static_cast<void>(stability::hardness_from_name(name));
@@ -48,7 +48,7 @@ std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& n
   return result;
 }
 
-/// Where the user names no solver, all methods but the baselines.
+/// All methods except the baselines, if the user names no solver.
 SolverArguments judged_by(const Arguments& arguments) {
   SolverArguments judged = arguments.judged;
   if (!judged.empty()) return judged;
@@ -80,7 +80,7 @@ Status run(const Arguments& arguments) {
     report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
   }
   solvers.report_output(arguments.judged.show_output);
-  // Files first: a closed standard output must not cost them.
+  // Files first, so that they are complete even if standard output is closed.
   if (json) json.write(io::json_document(report::to_json(result)));
   json.close();
   if (picture) picture.write(report::stability_page(result, command_line()));

@@ -1,4 +1,4 @@
-// touchstone step: what touches in the steps of a simulation, and when.
+// touchstone step: the collisions in the steps of a simulation.
 
 #include <fmt/format.h>
 
@@ -50,7 +50,7 @@ struct Arguments {
   std::string view_file;
 };
 
-/// The steps of a run, one after the other.
+/// A run: the steps in order.
 class StepRun {
  public:
   explicit StepRun(const Arguments& arguments)
@@ -119,7 +119,7 @@ class StepRun {
     report_.frames.push_back(std::move(frame));
   }
 
-  /// The page shows the first step in which something touches, or else the first of all.
+  /// The page shows the first step with a collision, or else the first step.
   void view_step(std::size_t i, const mesh::Vertices& before, const mesh::Vertices& after) {
     const bool is_free = report_.steps.back().is_free;
     if (!view_ || shows_contact_ || (is_free && i > 1)) return;
@@ -135,14 +135,14 @@ class StepRun {
         .on_text =
             [this](std::string_view text) {
               proof_.write(text);
-              // An exception ends the proving at once; the failure itself is reported already.
+              // An exception ends the proof immediately; the failure was already reported.
               if (proof_.failed()) throw std::runtime_error("the proof cannot be written");
             },
         .on_progress = progress,
         .stop = &io::interrupted()};
   }
 
-  /// The proof of a step that is none ends the run: those behind it would not be read.
+  /// A failed proof of a step ends the run, because the later proofs would not be read.
   [[nodiscard]] bool is_stopped() const { return io::interrupted() || lacks_proof(); }
   [[nodiscard]] bool lacks_proof() const {
     return !report_.steps.empty() && report_.steps.back().proof &&

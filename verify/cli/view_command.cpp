@@ -1,4 +1,4 @@
-// touchstone view: a page to look at queries.
+// touchstone view: an HTML viewer of queries.
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A page holds at most so many queries.
+/// The maximum number of queries on a page.
 constexpr std::size_t most_queries = 1000;
 
 struct Arguments {
@@ -49,14 +49,14 @@ struct Arguments {
   std::string out_file;
 };
 
-/// Where the user names no solver, those that promise something.
+/// The methods with a promise, if the user names no solver.
 SolverArguments asked_by(const Arguments& arguments) {
   SolverArguments asked = arguments.solvers;
   if (asked.empty()) asked.methods = solvers::default_methods();
   return asked;
 }
 
-/// The step between two frames that the user named, if any.
+/// The step between the two frames of the command line, if any.
 std::optional<view::ViewedStep> read_step(const Arguments& arguments, Files& files) {
   const bool has_groups = !arguments.groups.file.empty() || !arguments.groups.apart.empty();
   if (arguments.step.empty()) {
@@ -96,7 +96,7 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments, Files& files) {
   return queries;
 }
 
-/// What the page shows: the first pairs of a step, and the queries of the other inputs.
+/// The contents of the page: the first pairs of a step, and the queries of the other inputs.
 std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
                                            const std::optional<view::ViewedStep>& step,
                                            Files& files) {
