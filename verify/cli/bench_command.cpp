@@ -190,8 +190,8 @@ class BenchRun {
     const Separation separation = separation_for(arguments_.sources, source);
     if (so_far && !judge::same_separation(*so_far, separation)) {
       throw data::DatasetError(source.name(), {},
-                               "is about a minimum separation of " + judge::to_text(separation) +
-                                   ", the files before it about " + judge::to_text(*so_far));
+                               "is for a minimum separation of " + judge::to_text(separation) +
+                                   ", the files before it for " + judge::to_text(*so_far));
     }
     so_far = separation;
   }
@@ -231,7 +231,7 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Measurement");
   command
       .add_option("--step", arguments.step,
-                  "Instead of queries: two meshes, before and after a step")
+                  "Measure a step instead of queries: meshes before and after it")
       ->type_name("FRAME0 FRAME1")
       ->expected(2)
       ->excludes(command.get_option("PATH"));
@@ -241,19 +241,21 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
       ->type_name("NAME")
       ->capture_default_str()
       ->check(CLI::IsMember({"scalar", "avx2", "avx512", "best"}).description(""));
-  command.add_option("--repetitions", arguments.bench.repetitions, "Times are medians of so many")
+  command
+      .add_option("--repetitions", arguments.bench.repetitions, "Repetitions; times are medians")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, 1'000'000));
   command
-      .add_option("--seconds", arguments.bench.seconds,
-                  "Seconds of a method and repetition; slower methods are timed on a sample")
+      .add_option(
+          "--seconds", arguments.bench.seconds,
+          "Time limit of a method and repetition in seconds; slower methods are timed on a sample")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(1e-6, 1e6));
   command
       .add_option("--judge", arguments.bench.judge,
-                  "Judge so many queries of a group, and all that a method calls collisions")
+                  "Queries to judge per group, plus every reported collision")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(0, INT64_MAX));
@@ -281,8 +283,8 @@ void add_bench_command(CLI::App& app, Status& status) {
            "touchstone bench data/handcrafted --method tight_inclusion --json result.json\n"
            "touchstone bench --step 92.ply 93.ply --method certified",
            "Without PATH: two patches of mesh that move through each other, and the built-in set. "
-           "Built-in solvers "
-           "run in this process, in one thread, plugins in child processes. With --step the "
+           "Built-in solvers run in this process, in one thread; plugins run in child processes. "
+           "With --step the "
            "queries are the "
            "candidates of the broad phase, and the whole step is timed, with one thread and with "
            "--threads.\n" +

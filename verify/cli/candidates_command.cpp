@@ -174,12 +174,12 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command.add_option("before", arguments.before, "Mesh before the step: .ply or .obj")
       ->type_name("FRAME0")
       ->required();
-  command.add_option("after", arguments.after, "The same mesh after it: the vertices have moved")
+  command.add_option("after", arguments.after, "The same mesh after the step, with moved vertices")
       ->type_name("FRAME1")
       ->required();
   add_distance_option(
       command, arguments.min_separation,
-      "Also pairs whose boxes are this near, enough for either norm: decimal or 0x1p-10");
+      "Also pairs whose boxes are within this distance (covers both norms): decimal or 0x1p-10");
   command.add_option("--threads", arguments.broad_phase.max_threads, "Cores to use (0: all)")
       ->type_name("N")
       ->capture_default_str()
@@ -193,9 +193,9 @@ void add_options(CLI::App& command, Arguments& arguments) {
       ->type_name("PREFIX")
       ->required();
   command
-      .add_option(
-          "--max-candidates", arguments.broad_phase.max_candidates,
-          "More of a kind are an error that gives their number (0: as many as fit into memory)")
+      .add_option("--max-candidates", arguments.broad_phase.max_candidates,
+                  "Maximum candidates of a kind; more are an error with their number (0: the "
+                  "memory's limit)")
       ->type_name("N")
       ->default_val(0)
       ->check(whole_number(0, UINT64_MAX));

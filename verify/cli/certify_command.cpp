@@ -232,13 +232,12 @@ void add_certify_command(CLI::App& app, Status& status) {
                    "Write a proof of every verdict, as touchstone prove does")
       ->type_name("FILE");
   add_view_option(*command, arguments->view_file,
-                  "Write a page to look at the first 100 queries with a wrong answer or label");
+                  "Write an HTML viewer of the first 100 queries with a wrong answer or label");
   set_help(*command,
            "touchstone certify data/handcrafted --json result.json\n"
            "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion",
-           "Without --method, --plugin and --results our solvers are judged on the built-in set, "
-           "and none on other "
-           "queries (--method none: none). What is judged: docs/testing.md.\n" +
+           "By default our solvers are judged, and only on the built-in set; --method none "
+           "disables this. Definitions of wrong answers: docs/testing.md.\n" +
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);

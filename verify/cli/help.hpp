@@ -16,13 +16,12 @@ inline constexpr std::size_t help_width = 100;
 
 /// The exit statuses of a command that judges answers.
 inline constexpr std::string_view judging_statuses =
-    "Exit status: 0 all is well, 1 wrong answers, 2 bad input or usage, 130 interrupted (what is "
-    "done is written).";
+    "Exit status: 0 success, 1 wrong answers, 2 bad input or usage, 130 interrupted (results so "
+    "far are written).";
 
 /// The exit statuses of a command that judges nothing.
 inline constexpr std::string_view writing_statuses =
-    "Exit status: 0 all is written, 2 bad input or usage, 130 interrupted (what is done is "
-    "written).";
+    "Exit status: 0 success, 2 bad input or usage, 130 interrupted (results so far are written).";
 
 /// Sets the command's examples, one on each line, and its notes, one paragraph on each line.
 void set_help(CLI::App& command, std::string_view examples, std::string_view notes);

@@ -176,22 +176,22 @@ void add_prove_command(CLI::App& app, Status& status) {
       ->required();
   command
       ->add_option("--claim", arguments->claim,
-                   "Claim about a collision: its time_of_impact, or only that it is a collision")
+                   "Claim for a collision: its time_of_impact, or only the collision")
       ->type_name("CLAIM")
       ->check(CLI::IsMember({"time_of_impact", "collision"}).description(""))
       ->capture_default_str();
   command
-      ->add_option("--width", arguments->width,
-                   "Width of the interval around a time of impact, a decimal number (default: two "
-                   "neighbouring "
-                   "doubles)")
+      ->add_option(
+          "--width", arguments->width,
+          "Width of the interval around a time of impact, a decimal number (default: neighbouring "
+          "doubles)")
       ->type_name("W");
   add_json_option(*command, arguments->json_file);
-  set_help(
-      *command,
-      "touchstone prove data/handcrafted --out handcrafted.cert.zst\n"
-      "zstdcat handcrafted.cert.zst | touchstone-check -",
-      "A proof beyond the limits of the format is bad input.\n" + std::string(writing_statuses));
+  set_help(*command,
+           "touchstone prove data/handcrafted --out handcrafted.cert.zst\n"
+           "zstdcat handcrafted.cert.zst | touchstone-check -",
+           "A query whose proof exceeds the limits of the format is bad input.\n" +
+               std::string(writing_statuses));
   command->callback([arguments, &status] { status = ProveRun(*arguments).run(); });
 }
 

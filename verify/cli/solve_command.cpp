@@ -43,7 +43,7 @@ struct Arguments {
 SolverArguments the_solver(const Arguments& arguments) {
   if (arguments.solver.methods.size() + arguments.solver.plugins.size() != 1 ||
       (!arguments.solver.methods.empty() && arguments.solver.methods.front() == "none")) {
-    throw std::invalid_argument("solve takes one solver: --method NAME or --plugin LIB.so");
+    throw std::invalid_argument("solve needs exactly one solver: --method NAME or --plugin LIB.so");
   }
   if (arguments.out_file.empty()) throw std::invalid_argument("--out has no file name");
   return arguments.solver;
@@ -187,8 +187,7 @@ void add_solve_command(CLI::App& app, Status& status) {
   add_json_option(*command, arguments->json_file);
   set_help(
       *command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
-      "A method that knows linf only finds all that is within the distance in l2, and more.\n" +
-          std::string(writing_statuses));
+      "A method that supports only linf is conservative for l2.\n" + std::string(writing_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
     status = SolveRun(*arguments).run();

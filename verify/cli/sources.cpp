@@ -114,14 +114,13 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
   command.option_defaults()->group("Input");
   command
       .add_option("PATH", arguments.paths,
-                  "Dataset files (.csv, .npy) or folders; without any, the built-in set")
+                  "Dataset files (.csv, .npy) or folders; default: the built-in set")
       ->type_name("");
-  add_kind_option(command, arguments.kind,
-                  "vertex-face or edge-edge, where the path does not say which");
+  add_kind_option(command, arguments.kind, "vertex-face or edge-edge, if the path does not tell");
   command.add_flag("--round", arguments.round,
                    "Round coordinates that are not doubles, and count them");
   command.add_flag("--keep-going", arguments.keep_going,
-                   "Skip and count queries and files in error (exit status 2)");
+                   "Skip and count invalid queries and files (exit status 2)");
   command.add_option("--threads", arguments.threads, "Cores to use (0: all)")
       ->type_name("N")
       ->capture_default_str();

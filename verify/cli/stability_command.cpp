@@ -113,8 +113,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_separation_options(command, arguments.separation);
   command.option_defaults()->group("Output");
   add_json_option(command, arguments.json_file);
-  command
-      .add_option("--picture", arguments.picture_file, "Draw the result as a page for a browser")
+  command.add_option("--picture", arguments.picture_file, "Write the result as an HTML page")
       ->type_name("FILE.html");
 }
 
@@ -132,9 +131,8 @@ void add_stability_command(CLI::App& app, Status& status) {
                         stability::level_text(hardness, hardness.levels.back()));
   }
   set_help(*command, "touchstone stability --method tight_inclusion --picture stability.html",
-           "Queries that are hard in one way, at eleven levels: " + list +
-               ". Half of them collide. Without --method and --plugin all built-in solvers but the "
-               "baselines are "
+           "Queries with one kind of difficulty, at eleven levels: " + list +
+               ". Half of them collide. By default all built-in solvers except the baselines are "
                "judged.\n" +
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {

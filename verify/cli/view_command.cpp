@@ -146,7 +146,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
       ->type_name("");
   command
       .add_option("--step", arguments.step,
-                  "The step between two frames of a mesh (.ply, .obj), and the pairs that touch")
+                  "The step between two frames of a mesh (.ply, .obj) with its collisions")
       ->type_name("FRAME FRAME")
       ->expected(2);
   add_group_options(command, arguments.groups);
@@ -156,7 +156,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
       ->type_name("N")
       ->allow_extra_args(false)
       ->check(whole_number(0, UINT64_MAX));
-  command.add_option("--most", arguments.files.most, "At most so many queries")
+  command.add_option("--most", arguments.files.most, "Maximum number of queries")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, most_queries));
@@ -164,7 +164,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
       .add_option("--points", arguments.points,
                   "The 24 coordinates of a query, in one word: decimal, hexadecimal or fractions")
       ->type_name("NUMBERS");
-  add_kind_option(command, arguments.kind, "vertex-face or edge-edge, where nothing else says it");
+  add_kind_option(command, arguments.kind, "vertex-face or edge-edge, if the input does not tell");
   command.add_flag("--round", arguments.files.round,
                    "Round coordinates of datasets that are not doubles");
   add_separation_options(command, arguments.separation);
@@ -178,7 +178,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
 
 void add_view_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("view", "Write a page to look at queries");
+  CLI::App* command = app.add_subcommand("view", "Write an HTML viewer of queries");
   add_options(*command, *arguments);
   set_help(
       *command,

@@ -275,21 +275,21 @@ export class StepPart {
 
   parts() {
     const { step } = this;
-    const count = step.total === 1 ? "1 pair touches" : `${step.total} pairs touch`;
+    const count = step.total === 1 ? "1 collision" : `${step.total} collisions`;
     const first = step.pairs.length > 0 ? `, the first at t = ${doubleText(step.pairs[0].toi[0])}` : "";
     const separation = step.min_separation > 0 ? ` within ${doubleText(step.min_separation)} (${step.norm})` : "";
     const elements = `${step.before.length / 3} vertices, ${step.faces.length / 3} faces`;
     return [
       make("h2", {}, step.label),
-      make("p", {}, make("strong", { id: "step_verdict" }, `${step.total === 0 ? "Nothing touches" : count + first}${separation}.`), ` ${elements}.`),
+      make("p", {}, make("strong", { id: "step_verdict" }, `${step.total === 0 ? "No collision" : count + first}${separation}.`), ` ${elements}.`),
       make("div", { class: "step" },
         make("figure", { id: "mesh" },
-          make("figcaption", {}, "The mesh; a diamond where a pair touches, full once it has"),
+          make("figcaption", {}, "The mesh; a diamond at the place of each collision, full after its time of impact"),
           make("div", { class: "canvas" },
             make("canvas", { tabindex: "0", role: "img", "aria-label": "The mesh. Arrow keys turn it, plus and minus zoom." }),
             make("div", { class: "names" }))),
         make("div", {},
-          make("ol", { id: "pairs", tabindex: "0", "aria-label": "Pairs that touch, by time" },
+          make("ol", { id: "pairs", tabindex: "0", "aria-label": "Collisions, by time" },
             ...step.pairs.slice(0, listed).map((pair, i) => make("li", {}, make("button", { type: "button", onclick: () => this.choose(i) },
               make("span", {}, pair.name), ` t ≈ ${doubleText(Number(pair.toi[0].toPrecision(6)))}`)))),
           step.total > listed ? make("p", {}, `and ${step.total - listed} more`) : null)),
@@ -329,7 +329,7 @@ export class StepPart {
     find("step_time").value = Math.round(this.t * steps);
     const { pairs, total } = this.step;
     const all = total > pairs.length ? `the first ${pairs.length}` : String(total);
-    find("step_now").textContent = `t = ${doubleText(this.t)}, ${touched} of ${all} have touched`;
+    find("step_now").textContent = `t = ${doubleText(this.t)}, ${touched} of ${all} have collided`;
     for (const [i, item] of [...find("pairs").children].entries()) {
       item.classList.toggle("past", i < touched);
       item.classList.toggle("chosen", i === this.chosen);
