@@ -14,18 +14,20 @@ namespace {
 
 constexpr std::size_t axes = 3;
 
-/// Exponents of the greatest coordinates of queries that the kernel decides as they are.
+/// Exponents of the greatest coordinates of queries that need no scaling.
 constexpr int least_usual = -64, greatest_usual = 96, usual_difference = 20;
-/// The exponent that greatest coordinates get. A high one, so that no small coordinate underflows.
+/// The exponent of the greatest coordinates after scaling. It is high, so that no small coordinate
+/// underflows.
 constexpr int wanted = 90;
-/// Queries with a distance get one up to this much less: those of one kernel call have one scale.
+/// With a distance, the exponent may be less by up to this step, because the queries of one kernel
+/// call have one scale.
 constexpr int step = 64;
 constexpr int greatest_scale = 1000;
 
-/// Powers of two for the axes.
+/// Exponents of powers of two, one for each axis.
 using Scale = std::array<int, axes>;
 
-/// The exponent of the greatest coordinate of an axis; of zeros, nothing.
+/// The exponent of the greatest coordinate of an axis; nullopt for zeros.
 std::optional<int> exponent_of(const Query& query, std::size_t axis) {
   double greatest = 0.0;
   for (std::size_t i = axis; i < query.coordinates.size(); i += axes) {
@@ -35,7 +37,7 @@ std::optional<int> exponent_of(const Query& query, std::size_t axis) {
   return std::ilogb(greatest);
 }
 
-/// A scale for a query of unusual size, if it has a size.
+/// A scale for a query of unusual size; nullopt for others, and if all numbers are 0.
 std::optional<Scale> scale_for(const Query& query, double distance) {
   int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::min();
   Scale exponents{};
@@ -62,7 +64,7 @@ std::optional<Scale> scale_for(const Query& query, double distance) {
   return result;
 }
 
-/// x times 2^exponent, if that is exact.
+/// Multiplies x by 2^exponent. Returns true if that is exact.
 bool scale(double& x, int exponent) {
   const double before = x;
   x *= std::ldexp(1.0, exponent);
@@ -77,14 +79,14 @@ bool scale(Query& query, const Scale& exponents) {
   return is_exact;
 }
 
-/// Queries of a block that the kernel is asked about together.
+/// Queries of a block for one kernel call.
 struct Rescaled {
   double distance;
   std::vector<Query> queries;
   std::vector<std::uint32_t> numbers;  ///< in the block
 };
 
-/// Collects queries with one distance.
+/// Batches of queries with the same distance.
 class Batches {
  public:
   void add(double distance, const Query& query, std::uint32_t number) {
@@ -104,7 +106,7 @@ void append(KernelOutput::List<T>& list, const T& item) {
   list.items[list.count++] = item;
 }
 
-/// Asks the kernel, and appends what it says.
+/// Calls the kernel, and appends its results.
 void decide(const Rescaled& some, KernelInput block, const CertifiedKernel& kernel,
             KernelOutput& output) {
   thread_local KernelOutput result;
@@ -137,7 +139,7 @@ void decide_rescaled(const KernelInput& block, const CertifiedKernel& kernel,
   Batches batches;
   output.undecided.count = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    // No longer needed: not more are written than have been read.
+    // Overwriting is safe: no more entries are written than have been read.
     const std::uint32_t number = output.undecided.items[i];
     Query query = queries[i];
     double distance = block.separation.distance;
