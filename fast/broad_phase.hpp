@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Broad phase: the pairs of primitives of a moving mesh that come close enough to need a
+/// \file
+/// Broad phase: the pairs of primitives of a moving mesh that come close enough to need a
 /// query.
 ///
 /// **No contact is missed.** A primitive's *swept box* is the smallest box around its vertices at

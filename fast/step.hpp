@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A whole step of a scene: freedom from collisions, the earliest impact, and all collisions.
+/// \file
+/// A whole step of a scene: freedom from collisions, the earliest impact, and all collisions.
 ///
 /// A scene is a mesh before and after the step, and rules for the pairs that can collide. Its
 /// *primitives* are faces, edges and vertices. All vertices move on straight lines from t=0 to t=1.

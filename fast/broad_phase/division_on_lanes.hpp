@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Division of seeds in two, by rank, along the axis of the greatest spread of their centres.
+/// \file
+/// Division of seeds in two, by rank, along the axis of the greatest spread of their centres.
 /// The template for sixteen lanes is included by one file per instruction set (search_*.cpp), like
 /// search_on_lanes.hpp.
 ///

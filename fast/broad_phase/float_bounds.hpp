@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Bounds of coordinates in float, for the boxes of the broad phase.
+/// \file
+/// Bounds of coordinates in float, for the boxes of the broad phase.
 ///
 /// Boxes are only compared. A coordinate may therefore be replaced by any increasing function of
 /// it; the chosen one keeps coordinates of every size apart.

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Groups of sixteen primitives that are close to each other, for the trees of the broad
+/// \file
+/// Groups of sixteen primitives that are close to each other, for the trees of the broad
 /// phase.
 ///
 /// Primitives are split at the median of their boxes' centres, along the axis of greatest spread,

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The search for pairs in two trees of boxes (box_tree.hpp), as a template for sixteen
+/// \file
+/// The search for pairs in two trees of boxes (box_tree.hpp), as a template for sixteen
 /// lanes, with a box in each lane. Only the kernels include this file, one per instruction set
 /// (search_*.cpp).
 ///

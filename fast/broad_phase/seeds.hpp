@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Primitives during the construction of groups (primitive_groups.hpp): arrays of centres and
+/// \file
+/// Primitives during the construction of groups (primitive_groups.hpp): arrays of centres and
 /// numbers, which are divided in two repeatedly.
 
 #include <array>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Swept boxes in double, for exact decisions where boxes in float are too coarse.
+/// \file
+/// Swept boxes in double, for exact decisions where boxes in float are too coarse.
 ///
 /// Their bounds are minima and maxima of coordinates, so bounds and comparisons are exact.
 

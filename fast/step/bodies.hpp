@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The collision groups of a scene (fast/step.hpp). The search calls a collision group a
+/// \file
+/// The collision groups of a scene (fast/step.hpp). The search calls a collision group a
 /// body, because "group" means sixteen primitives there. Two bodies *meet* if they can collide.
 
 #include <array>

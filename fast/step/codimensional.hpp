@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The codimensional parts of a mesh: points without edges, and edges without faces.
+/// \file
+/// The codimensional parts of a mesh: points without edges, and edges without faces.
 
 #include <cstddef>
 #include <cstdint>

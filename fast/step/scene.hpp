@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A step's scene in the form of the search: vertices, primitives in groups, and the bodies
+/// \file
+/// A step's scene in the form of the search: vertices, primitives in groups, and the bodies
 /// that meet.
 ///
 /// **Numbers of pairs.** Internally, a codimensional point or edge has the number of its place in a

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The output file of certificates, compressed if its name ends in ".zst".
+/// \file
+/// The output file of certificates, compressed if its name ends in ".zst".
 
 #include <cstdint>
 #include <optional>

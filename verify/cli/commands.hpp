@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The subcommands of `touchstone`. Each adds itself to the command line; its callback runs
+/// \file
+/// The subcommands of `touchstone`. Each adds itself to the command line; its callback runs
 /// the command and sets the exit status.
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The files of a command: each is either an input or one output.
+/// \file
+/// The files of a command: each is either an input or one output.
 ///
 /// An output replaces the file of its name. Therefore the record of a run knows every output when
 /// it is opened, and every input before it is read, including those found in folders: a file in two

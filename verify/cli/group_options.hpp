@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Collision groups on the command line: --groups and --apart.
+/// \file
+/// Collision groups on the command line: --groups and --apart.
 
 #include <CLI/CLI.hpp>
 #include <array>

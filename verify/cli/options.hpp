@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Common options of subcommands.
+/// \file
+/// Common options of subcommands.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The solvers of a command line: built-in methods, plugins, recorded answers.
+/// \file
+/// The solvers of a command line: built-in methods, plugins, recorded answers.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>

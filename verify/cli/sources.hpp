@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The inputs of a command: sources of queries from paths or the built-in set, and frames of
+/// \file
+/// The inputs of a command: sources of queries from paths or the built-in set, and frames of
 /// a mesh.
 
 #include <CLI/CLI.hpp>

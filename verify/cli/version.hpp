@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The version of the program.
+/// \file
+/// The version of the program.
 
 #include <string_view>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The viewer of a command's results (--view), as `touchstone view` writes pages.
+/// \file
+/// The viewer of a command's results (--view), as `touchstone view` writes pages.
 
 #include <cstddef>
 #include <cstdint>

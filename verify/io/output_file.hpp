@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Files that appear completely or not at all.
+/// \file
+/// Files that appear completely or not at all.
 ///
 /// The data goes to a temporary name in the target's folder and takes the target's name when it is
 /// complete; an existing file is unchanged until then. The temporary name,
