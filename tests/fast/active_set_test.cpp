@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tests/faults/planted_faults.hpp"
@@ -180,6 +182,40 @@ TEST(ActiveSet, NormalsPointFromTheSecondPrimitiveToTheFirst) {
     }
   }
   EXPECT_GT(seen, tests::trials(100));
+}
+
+/// Two vertices of a face part at t=0: just after that, the face has an area and a normal.
+TEST(ActiveSet, HasTheNormalOfAFaceAtTheLeastTime) {
+  Scene scene = falling_point();
+  scene.start.row(1) = scene.start.row(0);
+  scene.end.row(1) << 3, 0, 4;
+  for (const double t : {0x1p-1074, 0x1p-1000, 0x1p-20, 1.0}) {
+    const Vector3d normal = contact_at(scene.step(), PairKind::vertex_face, {3, 0}, t).normal;
+    EXPECT_TRUE(normal.cwiseAbs().isApprox(Vector3d(0.8, 0, 0.6))) << t;
+  }
+}
+
+TEST(ActiveSet, NormalsAreTheSameAtAllScales) {
+  Random random(2203);
+  for (int round = 0; round < tests::trials(8); ++round) {
+    const Scene scene = tests::soup(random, 30, 0.2);
+    std::map<std::pair<PairKind, IndexPair>, Vector3d> expected;
+    for (const ActiveContact& one : active_set(scene.step(), 0.05)) {
+      expected[{one.kind, one.pair}] = one.normal;
+    }
+    for (const int exponent : {-1000, -600, 300, 1000}) {
+      Scene scaled = scene;
+      for (Places* const places : {&scaled.start, &scaled.end}) {
+        *places = places->unaryExpr([&](double x) { return std::ldexp(x, exponent); });
+      }
+      const auto contacts = active_set(scaled.step(), std::ldexp(0.05, exponent));
+      EXPECT_EQ(contacts.size(), expected.size());
+      for (const ActiveContact& one : contacts) {
+        const Vector3d normal = expected.at({one.kind, one.pair});
+        EXPECT_TRUE(one.normal.isApprox(normal, 1e-9)) << exponent;
+      }
+    }
+  }
 }
 
 TEST(ActiveSet, ContactsAtTheirTimesAreThose) {

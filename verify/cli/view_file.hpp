@@ -3,6 +3,7 @@
 /// \file
 /// The viewer of a command's results (--view), as `touchstone view` writes pages.
 
+#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
