@@ -25,7 +25,7 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// So many groups are held against a tree by one task.
+/// Groups per task.
 constexpr std::size_t groups_of_chunk = 16;
 
 void require_valid(const BroadPhaseOptions& options) {
@@ -35,7 +35,7 @@ void require_valid(const BroadPhaseOptions& options) {
   if (options.max_threads < 0) throw std::invalid_argument("max_threads must not be negative");
 }
 
-/// Decides in double whether swept boxes are within a distance.
+/// Decision in double whether swept boxes are within a distance.
 template <class First, class Second>
 struct ExactTest {
   const MovingVertices& vertices;
@@ -50,12 +50,12 @@ struct ExactTest {
   }
 };
 
-/// Finds the pairs of a tree and another, or within one tree.
+/// Search for the pairs between two trees, or within one.
 class Search {
  public:
   explicit Search(const SearchInput<1>& input) : input_(input) {}
 
-  /// Counts the pairs first, then writes them where they stay.
+  /// Counts the pairs first, then writes them to their final places.
   /// \throws TooManyCandidates if there are more than `most`.
   [[nodiscard]] std::vector<IndexPair> run(std::uint64_t most) const {
     const std::size_t groups = input_.some->members().size();
@@ -105,7 +105,7 @@ class Search {
   const SearchInput<1>& input_;
 };
 
-/// The rules for all pairs of a kind within a distance. \param test Is referred to.
+/// The rules for all pairs of a kind within a distance, with a reference to `test`.
 template <class First, class Second>
 PairRules rules_of(const FloatBounds& bounds, const ExactTest<First, Second>& test,
                    bool are_edges) {

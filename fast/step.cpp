@@ -26,11 +26,12 @@ namespace tbb = oneapi::tbb;
 
 static_assert(PairBuffer::capacity <= kernel_block);
 
-/// So many groups are a task's.
+/// Groups per task.
 constexpr std::size_t groups_of_part = 32;
 
-/// Up to which time boxes are made, for contacts up to a time: the least power of two that is not
-/// below it, but not so small that the rounding of places in float would be greater than the motion.
+/// The end time of the boxes, for contacts up to a time: the least power of two that is not below
+/// it, with a minimum, because at smaller ones the rounding of places in float would exceed the
+/// motion.
 double horizon_of(double time) {
   constexpr double least_horizon = 0x1p-40;
   if (time <= least_horizon) return least_horizon;
@@ -39,7 +40,7 @@ double horizon_of(double time) {
   return std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
 }
 
-/// Calls take(pairs) for the pairs of a part as they are found. Under strict floating point.
+/// Calls take(pairs) for the pairs of a part as they are found, in the strict floating-point state.
 template <std::size_t instants, class Take>
 void for_each_block(const Scene& scene, const Trees<instants>& trees, const SearchPart& part,
                     Take take) {
@@ -101,9 +102,8 @@ bool has_collision(const Scene& scene) {
 
 // ---- The earliest -------------------------------------------------------------------------------
 
-/// Looks for the earliest impact: first with a few of the groups, which are all over the scene, then
-/// with the others. In between, the boxes are fitted anew to the time up to the earliest impact that
-/// is known.
+/// Search for the earliest impact: first with a few groups from all over the scene, then with the
+/// others. In between, the boxes are fitted again, to the time up to the earliest known impact.
 class EarliestSearch {
  public:
   explicit EarliestSearch(const Scene& scene)
@@ -120,19 +120,19 @@ class EarliestSearch {
   }
 
  private:
-  /// Of so many groups in a row, one is searched with first.
+  /// Each group with a multiple of this number is in the first search.
   static constexpr std::size_t stride = 256;
 
   using Found = std::vector<StepCollision>;
 
-  /// Contacts after this time are of no interest.
+  /// Contacts after this time do not matter.
   [[nodiscard]] double limit() const {
     const CertifiedOptions& options = scene_.certified();
     return std::min(options.t_max,
                     limit_after(std::min(upper_.load(), 1.0), options.toi_tolerance));
   }
 
-  /// Fits the boxes to the time that is left, if that is much less than before.
+  /// Fits the boxes to the remaining time, if it is much less than before.
   void look_nearer() {
     static constexpr double much = 0.25;
     const double horizon = horizon_of(limit());
@@ -141,7 +141,7 @@ class EarliestSearch {
     scene_.fit(trees_, horizon);
   }
 
-  /// Searches with the groups that are wanted.
+  /// Searches with the wanted groups.
   template <class IsWanted>
   void search_if(const IsWanted& is_wanted) {
     tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
@@ -170,7 +170,7 @@ class EarliestSearch {
     if (collision.toi_lower > upper_.load()) return;
     Found& found = found_.local();
     found.push_back(collision);
-    // What has become too late in the meantime is dropped where room would have to be made.
+    // Collisions that are too late by now are dropped before the list would grow.
     if (found.size() == found.capacity()) drop_late(found);
   }
 
@@ -228,13 +228,13 @@ MovingVertices scaled_vertices(const MovingVertices& vertices, double alpha) {
   return {start, end};
 }
 
-/// Searches the doubles of [0,1] for one that is free while the next one is not.
+/// Search for a double in [0,1] that is free while the next one is not.
 template <class IsFree>
 class StepSizeSearch {
  public:
   explicit StepSizeSearch(const IsFree& is_free) : is_free_(is_free) {}
 
-  /// \param guess in [0,1]; the search begins there.
+  /// \param guess Start of the search, in [0,1].
   [[nodiscard]] std::optional<double> run(double guess) {
     if (is_free_(1.0)) return 1.0;
     high_ = std::min(std::bit_cast<std::uint64_t>(guess), high_ - 1);
@@ -258,7 +258,7 @@ class StepSizeSearch {
     return is_free_(std::bit_cast<double>(bits));
   }
 
-  /// Moves both up, in growing strides, as far as what comes is free.
+  /// Moves both up, in growing strides, as long as the next value is free.
   void go_up() {
     for (std::uint64_t stride = 1; stride < high_ - low_; stride *= growth) {
       if (!is_free(low_ + stride)) {
@@ -269,7 +269,7 @@ class StepSizeSearch {
     }
   }
 
-  /// Moves both down until the lower one is free. Is there one?
+  /// Moves both down until the lower one is free. Returns false if there is none.
   bool go_down() {
     for (std::uint64_t stride = 1; high_ > 0; stride *= growth) {
       low_ = high_ - std::min(stride, high_);
@@ -280,8 +280,8 @@ class StepSizeSearch {
   }
 
   const IsFree& is_free_;
-  /// The bits of doubles, which are in the order of positive doubles. At the end, the step is free
-  /// with the one, and not with the other.
+  /// The bits of nonnegative doubles, which have the doubles' order. At the end, the step is free
+  /// with `low_` and not with `high_`.
   std::uint64_t low_ = 0;
   std::uint64_t high_ = std::bit_cast<std::uint64_t>(1.0);
 };

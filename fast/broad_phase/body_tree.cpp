@@ -5,7 +5,7 @@
 namespace touchstone::fast {
 namespace {
 
-/// The body of all, or mixed.
+/// The common body, or mixed.
 template <std::size_t count>
 std::int32_t common_body(const std::array<std::int32_t, count>& bodies) {
   const bool all_equal =
@@ -25,7 +25,7 @@ IndexLanes bodies_of(const GroupMembers& members, std::span<const std::int32_t> 
   return result;
 }
 
-/// The bodies of the groups below, sixteen at a time. The lanes behind the last repeat it.
+/// The bodies of the groups below, sixteen at a time. Lanes after the last repeat it.
 std::vector<IndexLanes> level_above(const std::vector<IndexLanes>& below) {
   std::vector<IndexLanes> result((below.size() + group_size - 1) / group_size);
   for (std::size_t i = 0; i < result.size() * group_size; ++i) {

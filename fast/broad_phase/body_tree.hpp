@@ -1,11 +1,12 @@
 #pragma once
 
 /// \file
-/// To which bodies the primitives of a tree belong. The vertices of one collision group
-/// (fast/step.hpp) are a body.
+/// The bodies of a tree's primitives. The vertices of one collision group (fast/step.hpp) are
+/// a body.
 ///
-/// A primitive is of the body that all of its vertices are of, or *mixed*; likewise a group of
-/// primitives, and a node. So a search leaves out whole nodes of a body that does not meet its own.
+/// A primitive belongs to the common body of its vertices, or is *mixed*; likewise a group of
+/// primitives, and a node. A search can therefore skip whole nodes of a body that does not meet its
+/// own.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +21,7 @@ class BodyTree {
  public:
   static constexpr std::int32_t mixed = -1;
 
-  /// Of these primitives; each vertex has a body, which is not negative.
+  /// The tree of these primitives. \param of_vertices The body of each vertex, not negative.
   BodyTree(const PrimitiveGroups& primitives, std::span<const std::int32_t> of_vertices);
 
   /// As BoxTree::levels: the bodies of each group's lanes.

@@ -14,7 +14,7 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// The boxes of so many nodes of level 1 are fitted by one task.
+/// Nodes of level 1 per task when boxes are fitted.
 constexpr std::size_t nodes_of_task = 4;
 
 /// A box at each instant, by rows.
@@ -23,7 +23,7 @@ struct RowBox {
   std::array<FloatRow, instants> lower;
   std::array<FloatRow, instants> upper;
 
-  /// The one that including others makes to theirs.
+  /// The neutral element of `include`.
   static RowBox empty() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     RowBox result;
@@ -62,7 +62,7 @@ RowBox<instants> box_of(const FloatBounds& bounds, const GroupMembers& members, 
   return result;
 }
 
-/// Four rows become four lanes of their first three columns, from a lane on.
+/// Transposes four rows: they become four lanes of each of the first three columns.
 void set_lanes(std::array<FloatLanes, 3>& to, std::size_t lane, const FloatRow& a,
                const FloatRow& b, const FloatRow& c, const FloatRow& d) {
   const FloatRow ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
@@ -88,8 +88,8 @@ RowBox<instants> box_of(const BoxGroup<instants>& group, std::size_t lane) {
   return result;
 }
 
-/// Sets the lanes of a group to what box(lane) gives for those of `count` boxes, and returns what is around
-/// all of them. The lanes behind repeat the last.
+/// Sets the first `count` lanes of a group to box(lane), and returns the box around them. Further
+/// lanes repeat the last.
 template <std::size_t instants, class BoxOf>
 RowBox<instants> fill(BoxGroup<instants>& group, std::size_t count, const BoxOf& box) {
   static constexpr std::size_t at_once = 4;
@@ -121,7 +121,7 @@ BoxTree<instants>::BoxTree(const PrimitiveGroups& primitives) : members_(primiti
     groups += levels_.back().size();
     if (levels_.size() > 1 && levels_.back().size() == 1) break;
   }
-  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
+  // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
   groups_ = std::make_unique_for_overwrite<BoxGroup<instants>[]>(groups);
   const BoxGroup<instants>* next = groups_.get();
   for (BoxLevel<instants>& level : levels_) {
@@ -141,8 +141,8 @@ void BoxTree<instants>::fit(const FloatBounds& bounds) {
   const auto boxes_in = [this](std::size_t level, std::size_t group) {
     return std::min(levels_[level].boxes - group * group_size, group_size);
   };
-  // A node of level 1 with the groups of primitives below it: these are near each other, and no two
-  // tasks write to one node.
+  // One node of level 1 with the groups of primitives below it: the groups are close in memory, and
+  // no two tasks write to one node.
   const auto fit_node = [&](std::size_t node) {
     return fill(groups_of(1)[node], boxes_in(1, node), [&](std::size_t child) {
       const std::size_t group = node * group_size + child;

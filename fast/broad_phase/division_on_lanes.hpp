@@ -1,12 +1,13 @@
 #pragma once
 
 /// \file
-/// The division of seeds in two, by rank, along the axis where their centres spread most: written once for
-/// sixteen lanes, and included by one file an instruction set (search_*.cpp), as search_on_lanes.hpp is.
+/// Division of seeds in two, by rank, along the axis of the greatest spread of their centres.
+/// The template for sixteen lanes is included by one file per instruction set (search_*.cpp), like
+/// search_on_lanes.hpp.
 ///
-/// What decides are comparisons of coordinates, and a few operations on single floats and doubles, which
-/// all instruction sets do alike. Seeds stay in their order on either side. So the result is the same
-/// everywhere.
+/// The result depends on comparisons of coordinates and on a few scalar operations, which are the
+/// same for all instruction sets. Seeds keep their order on either side. The result is therefore
+/// the same everywhere.
 
 #include <array>
 #include <cstddef>
@@ -17,11 +18,12 @@
 
 namespace touchstone::fast::division {
 
-/// `Lanes` as in search_on_lanes.hpp. It also has
+/// `Lanes` is as in search_on_lanes.hpp, and also has
 /// - load_unaligned, and least(a, b) and greatest(a, b) of Numbers;
 /// - equal(a, b): a Mask;
 /// - Words, load_words(from): sixteen numbers of 32 bits, and
-/// - write(to, words, bits): writes those that the bits name one after the other. It may write sixteen.
+/// - write(to, words, bits): writes the numbers selected by the bits, one after the other. It may
+///   write sixteen.
 template <class Lanes>
 class Division {
  public:
@@ -84,12 +86,13 @@ class Division {
     return static_cast<std::size_t>(count);
   }
 
-  /// Sets the cut: `rank` seeds are those below the pivot and the first ones at it. Pivots are tried:
-  /// the first few are interpolated (by the Illinois method), which is enough unless coordinates are of
-  /// very different size; the others halve what floats are left. \pre 0 < rank < count
+  /// Sets the cut: `rank` seeds are below the pivot or among the first ones at it. The first few
+  /// pivots are interpolated (by the Illinois method), which suffices unless the coordinates are of
+  /// very different size; the others bisect the remaining floats. \pre 0 < rank < count
   void cut(std::size_t rank) {
     static constexpr int interpolated = 8;
-    // Fewer than `rank` are below `from`, and more below `to`: by so many, or half of it.
+    // Fewer than `rank` are below `from` and more below `to`, by these numbers or by halves of
+    // them.
     float from = lower_, to = float_after(upper_);
     auto missing = static_cast<double>(rank);
     auto excess = static_cast<double>(part_.count - rank);
@@ -123,7 +126,7 @@ class Division {
     return static_cast<std::int32_t>((a + b) / 2);
   }
 
-  /// A float between others that are not neighbours, about so far on the way.
+  /// A float strictly between two that are not neighbours, at about that part of the way.
   static float between(float from, float to, double part) {
     const float pivot = from + (to - from) * static_cast<float>(part);
     if (!(pivot > from)) return float_after(from);
@@ -132,8 +135,8 @@ class Division {
 
   // ---- Moving ----
 
-  /// What is in front of the cut moves to the front, where nothing is that has not been read; the
-  /// others to the room.
+  /// Moves the seeds before the cut to the front, over seeds already read, and the others to the
+  /// second buffer.
   void move() {
     const auto pivot = Lanes::broadcast(pivot_);
     std::size_t in_front = 0, behind = 0;
@@ -159,7 +162,7 @@ class Division {
     }
   }
 
-  /// Of lanes at the pivot, the first ones, as far as they are wanted.
+  /// The first of the lanes at the pivot, as many as are still needed.
   unsigned first_at_pivot(unsigned equal) {
     unsigned result = 0;
     for (; equal != 0 && at_pivot_ > 0; equal &= equal - 1) {

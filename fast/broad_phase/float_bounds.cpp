@@ -22,19 +22,20 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// Vertices of a task.
+/// Vertices per task.
 constexpr std::size_t vertices_of_task = 4096;
 
 // ---- Places of coordinates among floats ---------------------------------------------------------
 
 constexpr int least_exponent = -1074, step_of_window = 64, binades_of_window = 192;
-/// Binary digits of a significand: of a double, of a float in the window, and elsewhere.
+/// Binary digits of the significands of a double, of a float in the window, and of a float
+/// elsewhere.
 constexpr int digits = 52, digits_of_window = 23, other_digits = digits_of_window - 6;
 
-/// y = i + f of a magnitude that is not 0, in units of 2^-52.
+/// y = i + f of a magnitude other than 0, in units of 2^-52.
 std::uint64_t logarithm(double magnitude) {
   constexpr auto unit = std::uint64_t{1} << digits;
-  // The bits of a normal double are its exponent + 1023 and f. Others are made normal.
+  // The bits of a normal double are its exponent + 1023 and f. Subnormal ones are made normal.
   constexpr int normal = -1023 - least_exponent, subnormal = normal - digits;
   static_assert(normal == 51 && subnormal == -1);
   if (magnitude >= std::numeric_limits<double>::min()) {
@@ -43,7 +44,7 @@ std::uint64_t logarithm(double magnitude) {
   return std::bit_cast<std::uint64_t>(magnitude * 0x1p52) - unit;
 }
 
-/// x and y, z and something else of a vertex at a time.
+/// x and y, z and an unused number of a vertex at a time.
 using DoublePair = double __attribute__((vector_size(16)));
 using Place = std::array<DoublePair, 2>;
 using WholeRow = std::int32_t __attribute__((vector_size(16)));
@@ -57,14 +58,14 @@ struct RoundedPlace {
 /// Rounds coordinates to floats.
 class Rounding {
  public:
-  /// \param j of the window
+  /// \param j The number of the window.
   explicit Rounding(int j)
       : j_(j),
         begin_(std::max(high_bits(step_of_window * j), high_bits(digits))),
         end_(high_bits(step_of_window * j + binades_of_window)),
         shift_((52 - 63 * j) * binade) {}
 
-  /// Without a branch, as long as all coordinates are 0, or normal and in the window.
+  /// Takes no branch while all coordinates are 0, or normal and in the window.
   [[nodiscard]] RoundedPlace operator()(const Place& place) const {
     const auto a = std::bit_cast<WholeRow>(place[0]), b = std::bit_cast<WholeRow>(place[1]);
     const WholeRow low = __builtin_shufflevector(a, b, 0, 2, 4, 6);
@@ -81,7 +82,7 @@ class Rounding {
  private:
   static constexpr std::int32_t binade = 1 << 20;  ///< in the upper half of a double
 
-  /// Places of magnitudes, rounded down, and something that is not 0 where that is not exact.
+  /// Places of magnitudes, rounded down, and a remainder, 0 iff that is exact.
   struct Magnitudes {
     WholeRow below;
     WholeRow rest;
@@ -115,7 +116,7 @@ class Rounding {
   std::int32_t shift_;        ///< from the upper half of a double to that of its place
 };
 
-/// j for vertices: the middle of the window is about the median of the exponents of some of them.
+/// j for vertices: the middle of the window is about the median of a sample of their exponents.
 int window_of(const MovingVertices& vertices) {
   constexpr std::size_t sample = 256;
   constexpr int usual = 15, last = 30;
@@ -137,13 +138,13 @@ int window_of(const MovingVertices& vertices) {
 
 // ---- Bounds -------------------------------------------------------------------------------------
 
-/// A coordinate is in between.
+/// Bounds of a coordinate.
 struct Range {
   double lower;
   double upper;
 };
 
-/// The coordinate at a time, from both ends.
+/// Bounds of the coordinate at a time, from its values at both ends.
 Range coordinate_at(double time, double from, double to) {
   if (from == to) return {from, from};
   const double size = std::max(std::abs(from), std::abs(to));
@@ -156,13 +157,13 @@ Range coordinate_at(double time, double from, double to) {
   return {(position - 2.0 * error) * unit, (position + 2.0 * error) * unit};
 }
 
-/// Makes the bounds of vertices.
+/// Computation of the bounds of vertices.
 class BoundsMaker {
  public:
   BoundsMaker(const MovingVertices& vertices, double end, double distance)
       : round_(window_of(vertices)), end_(end), below_(distance / 2.0), above_(distance - below_) {}
 
-  /// Sets the bounds of a vertex. Are they exact?
+  /// Sets the bounds of a vertex. Returns true if they are exact.
   bool set(VertexBounds& bounds, const MovingVertex& vertex) const {
     const bool is_exact = set(bounds, 0, place_of(vertex.start));
     if (end_ == 1.0) return set(bounds, 1, place_of(vertex.end)) && is_exact;
@@ -202,7 +203,7 @@ class BoundsMaker {
 }  // namespace
 
 FloatBounds::FloatBounds(const MovingVertices& vertices, double end, double distance)
-    // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
+    // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
     : size_(vertices.size()), bounds_(std::make_unique_for_overwrite<VertexBounds[]>(size_)) {
   const StrictFloatingPoint strict;
   const BoundsMaker maker(vertices, end, distance);

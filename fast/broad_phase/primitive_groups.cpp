@@ -19,12 +19,13 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// Subtrees of so many groups are split by one task.
+/// Groups of a subtree that one task splits.
 constexpr std::size_t groups_of_task = 64;
 
 // ---- Splitting ----------------------------------------------------------------------------------
 
-/// How many of more than one group are for the first part: half of a node's children, rounded up.
+/// The number of groups in the first part, of more than one group: half of a node's children,
+/// rounded up.
 std::size_t groups_of_first_part(std::size_t groups) {
   std::size_t child = 1;
   while (child * group_size < groups) child *= group_size;
@@ -32,14 +33,14 @@ std::size_t groups_of_first_part(std::size_t groups) {
   return (children + 1) / 2 * child;
 }
 
-/// Divides seeds into groups.
+/// Division of seeds into groups.
 template <class Take>
 class Splitting {
  public:
-  /// take(number, seeds) is called for each group, with the numbers of its seeds.
+  /// Calls take(number, seeds) for each group, with the numbers of its seeds.
   Splitting(const SearchKernel& kernel, const Take& take) : kernel_(kernel), take_(take) {}
 
-  /// \param number that of the first group
+  /// \param number The number of the first group.
   void run(const SeedPart& part, std::size_t number) const {
     const std::size_t groups = part.capacity / group_size;
     if (groups == 1) {
@@ -71,12 +72,12 @@ class Splitting {
   const Take& take_;
 };
 
-/// Arrays for seeds and for as many again.
+/// Arrays for seeds, and a second buffer of the same size.
 class SeedRoom {
  public:
   explicit SeedRoom(std::size_t groups)
       : groups_(groups),
-        // NOLINTBEGIN(modernize-avoid-c-arrays): arrays of their own that nothing fills with zeros
+        // NOLINTBEGIN(modernize-avoid-c-arrays): arrays without initialisation
         centres_(std::make_unique_for_overwrite<Sixteen<float>[]>(6 * groups)),
         numbers_(std::make_unique_for_overwrite<Sixteen<std::int32_t>[]>(2 * groups)) {}
   // NOLINTEND(modernize-avoid-c-arrays)
@@ -99,7 +100,7 @@ class SeedRoom {
   }
 
   std::size_t groups_;
-  // NOLINTBEGIN(modernize-avoid-c-arrays): arrays of their own that nothing fills with zeros
+  // NOLINTBEGIN(modernize-avoid-c-arrays): arrays without initialisation
   std::unique_ptr<Sixteen<float>[]> centres_;
   std::unique_ptr<Sixteen<std::int32_t>[]> numbers_;
   // NOLINTEND(modernize-avoid-c-arrays)
@@ -128,7 +129,7 @@ std::int32_t number_of(const Element& element, std::size_t place) {
   }
 }
 
-/// Calls work(i) for i < count, in parallel and strictly.
+/// Calls work(i) for i < count, in parallel, in the strict floating-point state.
 template <class Work>
 void for_each_strictly(std::size_t count, std::size_t of_task, const Work& work) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, of_task), [&](const auto& range) {
@@ -147,7 +148,7 @@ void sow(const Seeds& seeds, const FloatBounds& bounds, std::span<const Element>
   });
 }
 
-/// Sets members to what seeds stand for.
+/// Sets the members of a group to the primitives of its seeds.
 template <class Element>
 void set_members(GroupMembers& members, std::span<const Element> elements,
                  std::span<const std::int32_t> seeds) {
@@ -168,7 +169,7 @@ PrimitiveGroups::PrimitiveGroups(const FloatBounds& bounds, std::span<const Elem
                                  const SearchKernel* kernel)
     : size_(elements.size()),
       groups_((size_ + group_size - 1) / group_size),
-      // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
+      // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
       members_(std::make_unique_for_overwrite<GroupMembers[]>(groups_)) {
   if (size_ == 0) return;
   SeedRoom room(groups_);

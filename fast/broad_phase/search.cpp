@@ -2,7 +2,7 @@
 
 namespace touchstone::fast {
 
-// One definition a file, each compiled for its instruction set (search_*.cpp).
+// One definition per file, each compiled for its instruction set (search_*.cpp).
 extern const SearchKernel scalar_search_kernel;
 #ifdef TOUCHSTONE_X86_64
 extern const SearchKernel avx2_search_kernel;

@@ -17,38 +17,38 @@
 
 namespace touchstone::fast {
 
-/// What a search says of pairs that it finds.
+/// Certainty of the pairs that a search finds.
 enum class Certainty : std::uint8_t {
-  /// No pair is sure: each is confirmed.
+  /// No pair is certain: each is confirmed.
   none,
-  /// A pair is sure if it is found with open boxes as well (float_bounds.hpp).
+  /// A pair is certain if it is also found with open boxes (float_bounds.hpp).
   unless_close,
-  /// Every pair is.
+  /// Every pair is certain.
   all,
 };
 
-/// What holds of one kind of pairs.
+/// The rules for one kind of pairs.
 struct PairRules {
-  /// Are both primitives edges? Else the first is a vertex.
+  /// True if both primitives are edges; otherwise the first is a vertex.
   bool of_edges = false;
   Certainty certainty = Certainty::all;
-  /// Asked about each pair that is not sure, with the primitives' numbers.
+  /// Confirms a pair that is not certain, by the primitives' numbers.
   bool (*confirms)(const void* context, const IndexPair& pair) = nullptr;
-  /// The bodies of the primitives that search and of the others, if not all meet.
+  /// The bodies of the searching and of the other primitives, unless all bodies meet.
   const BodyTree* some_bodies = nullptr;
   const BodyTree* all_bodies = nullptr;
-  /// With bodies: do two of them meet; and two primitives, one of which is mixed?
+  /// With bodies: true if two bodies meet; true if two primitives meet, one of which is mixed.
   bool (*bodies_meet)(const void* context, std::int32_t a, std::int32_t b) = nullptr;
   bool (*primitives_meet)(const void* context, const IndexPair& pair) = nullptr;
   const void* context = nullptr;
 };
 
-/// Pairs on their way out.
+/// Buffer for the pairs found.
 struct PairBuffer {
   static constexpr std::size_t capacity = 1024;
 
   std::size_t count = 0;
-  /// Called with the pairs when the next ones may not fit.
+  /// Called with the pairs when the next ones might not fit.
   void (*take)(void* context, std::span<const IndexPair> pairs) = nullptr;
   void* context = nullptr;
   alignas(64) std::array<IndexPair, capacity> pairs;
@@ -59,11 +59,12 @@ struct PairBuffer {
   }
 };
 
-/// Which groups of a tree are held against another tree.
+/// The two trees of a search and its rules.
 template <std::size_t instants>
 struct SearchInput {
   const BoxTree<instants>* some;
-  /// The same tree for pairs within it: each is then found once, the smaller number first.
+  /// For pairs within one tree, the same tree; then each pair is found once, the smaller number
+  /// first.
   const BoxTree<instants>* all;
   PairRules rules;
 };
@@ -71,16 +72,16 @@ struct SearchInput {
 /// The functions of one instruction set. All sets find the same pairs in the same order.
 struct SearchKernel {
   InstructionSet instructions;
-  /// Appends the pairs of the groups `first` to `end` − 1 of `some` to the buffer; what is left in it at the
-  /// end is not flushed.
+  /// Appends the pairs of the groups `first` to `end` − 1 of `some` to the buffer; the last pairs
+  /// remain in it.
   void (*find_swept)(const SearchInput<1>& input, std::size_t first, std::size_t end,
                      PairBuffer& pairs);
   void (*find_at_ends)(const SearchInput<2>& input, std::size_t first, std::size_t end,
                        PairBuffer& pairs);
 
-  /// Divides seeds by their centres on the axis where these spread most: the `rank` least are the first
-  /// of them then, and the others are where `room` was; both in their order. Which of equal ones are
-  /// among the least depends on their order. \pre count > rank ≥ 16
+  /// Divides seeds by their centres on the axis of greatest spread: the `rank` least ones come
+  /// first in `seeds`, the others go to `room`; both keep their order. Among equal seeds the first
+  /// ones count as less. \pre count > rank ≥ 16
   void (*divide)(const SeedPart& part, std::size_t rank);
 
   void find(const SearchInput<1>& input, std::size_t first, std::size_t end,
@@ -93,7 +94,7 @@ struct SearchKernel {
   }
 };
 
-/// Those that this processor can run, slowest first; scalar is always among them.
+/// The kernels that this processor can run, slowest first; scalar is always among them.
 [[nodiscard]] std::span<const SearchKernel* const> search_kernels();
 
 /// The fastest of search_kernels().

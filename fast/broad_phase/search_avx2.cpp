@@ -1,5 +1,5 @@
-// The search in AVX2: sixteen boxes in two vectors; compiled for it, and called on processors that have it
-// only.
+// The search in AVX2: sixteen boxes in two vectors; compiled for AVX2, and called only on
+// processors with AVX2.
 
 #include <immintrin.h>
 
@@ -18,7 +18,7 @@ struct Mask {
   }
 };
 
-/// For each set of eight lanes, their numbers one after the other, a byte each.
+/// For each set of eight lanes, the lanes' numbers in sequence, one byte each.
 constexpr std::array<std::uint64_t, 256> make_places() {
   std::array<std::uint64_t, 256> result{};
   for (unsigned bits = 0; bits < 256; ++bits) {
@@ -113,7 +113,7 @@ struct Lanes {
     _mm256_storeu_si256(static_cast<__m256i*>(to), words);
   }
 
-  /// What brings the lanes that the bits name to the front.
+  /// The permutation that brings the lanes selected by the bits to the front.
   static __m256i order_of(unsigned bits) {
     return _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(places[bits])));
   }

@@ -1,5 +1,5 @@
-// The search in AVX-512 (its foundation, F): sixteen boxes a vector; compiled for it, and called on processors
-// that have it only.
+// The search in AVX-512 (its foundation, F): sixteen boxes per vector; compiled for AVX-512, and
+// called only on processors with it.
 
 #include <immintrin.h>
 

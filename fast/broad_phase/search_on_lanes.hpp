@@ -1,17 +1,18 @@
 #pragma once
 
 /// \file
-/// The search for pairs in two trees of boxes (box_tree.hpp), written once for sixteen lanes: each lane
-/// has a box. For the kernels alone: one file an instruction set includes this one (search_*.cpp).
+/// The search for pairs in two trees of boxes (box_tree.hpp), as a template for sixteen
+/// lanes, with a box in each lane. Only the kernels include this file, one per instruction set
+/// (search_*.cpp).
 ///
-/// A group of sixteen primitives walks down the other tree at once, with the box around all of them: at a
-/// node, that box is compared with the sixteen of the node's children. Where it comes to a
-/// group of primitives, those of its own that are not apart from the group's box are each
-/// compared with the sixteen there. So every comparison is of one box with sixteen; nothing but
-/// comparisons decides, and pairs come in the same order from all instruction sets.
+/// A group of sixteen primitives traverses the other tree as one, with the box around all of them:
+/// at a node, this box is compared with the boxes of the node's sixteen children. At a group of
+/// primitives, each of the own primitives that is not apart from that group's box is compared with
+/// the sixteen there. Every comparison is therefore of one box with sixteen. The result depends
+/// only on comparisons, and pairs come in the same order from all instruction sets.
 ///
-/// Within one tree a group meets itself and the groups behind it. Nodes in front of it are left out: a
-/// node's first group and its last one follow from its place.
+/// Within one tree a group is compared with itself and later groups. Nodes before it are skipped:
+/// the first and the last group of a node follow from its index.
 
 #include <array>
 #include <cstddef>
@@ -25,12 +26,12 @@ namespace touchstone::fast::search {
 /// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has
 /// - Numbers and Mask: a float and a truth value in each of sixteen lanes;
 /// - load and broadcast: sixteen floats, or one sixteen times;
-/// - greater(a, b), and greater_where(mask, a, b), false where the mask is;
+/// - greater(a, b), and greater_where(mask, a, b), false where the mask is false;
 /// - bits(mask);
 /// - equal_bits(values, value): which of sixteen whole numbers are that value;
-/// - append<is_ordered>(to, number, numbers, bits): writes the pairs of a number with those of sixteen that
-///   the bits name, if is_ordered the smaller one first, and returns the place behind them. It may write
-///   sixteen pairs.
+/// - append<is_ordered>(to, number, numbers, bits): writes the pairs of a number with those of the
+///   sixteen numbers that the bits select, if is_ordered the smaller one first, and returns the
+///   end. It may write sixteen pairs.
 template <class Lanes, std::size_t instants, bool of_edges>
 class Search {
  public:
@@ -72,7 +73,7 @@ class Search {
     if (rules_.certainty == Certainty::unless_close) set_inner();
   }
 
-  /// Boxes without their bounds: what overlaps these, overlaps the exact ones.
+  /// Sets the open boxes: if a box overlaps one of them, the exact boxes overlap.
   void set_inner() {
     for (std::size_t instant = 0; instant < instants; ++instant) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -102,8 +103,8 @@ class Search {
     return result;
   }
 
-  /// Which of sixteen boxes are not apart from one of a group: not on any axis at all instants, the same
-  /// way round.
+  /// The boxes, of sixteen, that are not apart from one box of a group: on no axis are they apart
+  /// at all instants, in the same order.
   static unsigned not_apart(const Loaded& boxes, const Boxes& group, std::size_t lane) {
     Mask apart = Lanes::none();
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -151,7 +152,7 @@ class Search {
         }
         continue;
       }
-      // The last child first: it waits longest.
+      // The last child goes to the stack first, and is visited last.
       while (near != 0) {
         const auto lane = static_cast<std::size_t>(31 - __builtin_clz(near));
         near ^= 1U << lane;
@@ -160,14 +161,14 @@ class Search {
     }
   }
 
-  /// The children of a node that have that group of level 0 or one behind it.
+  /// The children of a node that contain that group of level 0 or a later one.
   static unsigned from_group_on(std::size_t group, const Node& node) {
-    // Where the group is among the boxes of the node's level.
+    // The index of the group's ancestor among the boxes of the node's level.
     const std::size_t place = group >> (4 * (node.level - 1));
     return place / group_size == node.number ? ~0U << (place % group_size) : ~0U;
   }
 
-  /// Those of a node's children whose bodies meet that of the own group.
+  /// The children of a node whose bodies meet that of the own group.
   unsigned that_meet(const Node& node, unsigned children) const {
     if (own_body_ == BodyTree::mixed) return children;
     const IndexLanes& bodies = rules_.all_bodies->bodies(node.level, node.number);
@@ -180,7 +181,7 @@ class Search {
     return children;
   }
 
-  /// Holds the own primitives against those of another group, which has that box.
+  /// Compares the own primitives with those of another group, which has that box.
   void meet(std::size_t group, std::size_t other, const Place& box) {
     unsigned rows = not_apart(load(*own_), *box.group, box.lane) & own_lanes_;
     if (rows == 0) return;
@@ -201,7 +202,7 @@ class Search {
     }
   }
 
-  /// Which of sixteen primitives share a vertex with one.
+  /// The primitives, of sixteen, that share a vertex with a primitive.
   static unsigned sharing(const GroupMembers& own, std::size_t row, const GroupMembers& others) {
     unsigned result = 0;
     for (std::size_t i = 0; i < (of_edges ? 2U : 1U); ++i) {
@@ -218,7 +219,7 @@ class Search {
     std::size_t lane;
   };
 
-  /// Those of another group's primitives that meet an own one.
+  /// The primitives of another group that meet an own primitive.
   unsigned that_meet(const Row& row, std::size_t other, unsigned hits) const {
     const std::int32_t body = rules_.some_bodies->bodies(0, row.group)[row.lane];
     const IndexLanes& bodies = rules_.all_bodies->bodies(0, other);
@@ -235,7 +236,7 @@ class Search {
     return hits;
   }
 
-  /// Those of the hits that are sure, and those that are confirmed.
+  /// The hits that are certain or confirmed.
   unsigned confirmed(const GroupMembers& own, std::size_t row, const GroupMembers& others,
                      const Loaded& boxes, unsigned hits) const {
     const unsigned sure =

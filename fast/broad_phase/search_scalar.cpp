@@ -1,11 +1,11 @@
-// The search in plain C++: loops over sixteen boxes, which compilers make vectors of.
+// The search in plain C++: loops over sixteen boxes, which compilers can vectorise.
 
 #include "fast/broad_phase/search_on_lanes.hpp"
 
 namespace touchstone::fast {
 namespace {
 
-/// In each lane 0 or, where it is true, −1.
+/// −1 in each lane where the condition is true, 0 elsewhere.
 struct Mask {
   IndexLanes set;
 

@@ -6,11 +6,12 @@
 namespace touchstone::fast {
 namespace {
 
-/// The greatest double that is not above bound + distance. An infinite bound stays.
+/// The greatest double that is not above bound + distance. An infinite bound is unchanged.
 double sum_rounded_down(double bound, double distance) {
   const double sum = bound + distance;
   if (sum == SweptBox::infinity) return std::min(bound, std::numeric_limits<double>::max());
-  // To take the greater summand away again is exact [dekker1971], so this compares sum and exact sum.
+  // Subtracting the greater summand again is exact [dekker1971], so this compares sum and exact
+  // sum.
   const bool rounded_up =
       std::abs(bound) >= distance ? sum - bound > distance : sum - distance > bound;
   return rounded_up ? std::nextafter(sum, -SweptBox::infinity) : sum;

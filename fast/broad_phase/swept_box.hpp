@@ -1,9 +1,9 @@
 #pragma once
 
 /// \file
-/// Swept boxes in double, which decide exactly what the boxes in float leave open.
+/// Swept boxes in double, for exact decisions where boxes in float are too coarse.
 ///
-/// Their bounds are minima and maxima of coordinates: exact. So is every comparison here.
+/// Their bounds are minima and maxima of coordinates, so bounds and comparisons are exact.
 
 #include <array>
 #include <cstddef>
@@ -14,14 +14,14 @@
 
 namespace touchstone::fast {
 
-/// An axis-aligned box, closed. As it is made, the empty one, which overlaps no other.
+/// An axis-aligned closed box. By default it is empty and overlaps no other.
 struct SweptBox {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   std::array<double, 3> lower{infinity, infinity, infinity};
   std::array<double, 3> upper{-infinity, -infinity, -infinity};
 
-  /// Have they a point in common?
+  /// True if the boxes have a common point.
   [[nodiscard]] bool overlaps(const SweptBox& other) const;
 
   friend bool operator==(const SweptBox&, const SweptBox&) = default;
@@ -31,9 +31,9 @@ struct SweptBox {
 [[nodiscard]] SweptBox swept_box(const MovingVertices& vertices, const Primitive& primitive);
 
 /// The box with its bounds moved outwards by a distance ≥ 0, each rounded *inwards*, to the nearest
-/// double that is not beyond the exact sum. It overlaps a box of doubles iff the exact one does:
-/// a double is at most the sum iff it is at most the greatest double that is. The empty box stays
-/// empty.
+/// double that is not beyond the exact sum. It overlaps a box of doubles iff the exact one does: a
+/// double is at most the sum iff it is at most the greatest double up to the sum. The empty box
+/// stays empty.
 [[nodiscard]] SweptBox widened(const SweptBox& box, double distance);
 
 }  // namespace touchstone::fast

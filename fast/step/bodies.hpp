@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// Which collision groups of a scene meet (fast/step.hpp). The search calls a group of vertices a
-/// body, since it has groups of its own.
+/// The collision groups of a scene (fast/step.hpp). The search calls a collision group a
+/// body, because "group" means sixteen primitives there. Two bodies *meet* if they can collide.
 
 #include <array>
 #include <cstddef>
@@ -16,23 +16,23 @@ namespace touchstone::fast {
 
 class Bodies {
  public:
-  /// \throws std::invalid_argument unless there is a group for each vertex, or for none, and groups
-  /// are not negative, also those that are apart.
+  /// \throws std::invalid_argument unless each vertex has a group, or none has, or for a negative
+  /// group, also in `apart`.
   Bodies(std::size_t vertices, const CollisionGroups& groups);
 
-  /// Do all meet all?
+  /// True if all bodies meet all.
   [[nodiscard]] bool all_meet() const { return apart_.empty(); }
-  /// The body of each vertex; not if all meet all.
+  /// The body of each vertex; empty if all meet all.
   [[nodiscard]] std::span<const std::int32_t> of_vertices() const { return of_vertices_; }
 
   [[nodiscard]] bool meet(std::int32_t a, std::int32_t b) const;
-  /// Does the body of a vertex of one primitive meet that of one of the other?
+  /// True if the body of some vertex of one primitive meets that of some vertex of the other.
   [[nodiscard]] bool meet(std::span<const std::int32_t> vertices,
                           std::span<const std::int32_t> others) const;
 
  private:
   std::vector<std::int32_t> of_vertices_;
-  /// Pairs that do not meet, the smaller one first, in order.
+  /// Pairs that do not meet, in order, the smaller body first.
   std::vector<std::array<std::int32_t, 2>> apart_;
 };
 

@@ -5,7 +5,7 @@
 namespace touchstone::fast {
 namespace {
 
-/// Sets the flag of each vertex of the elements.
+/// Sets the flags of the vertices of the elements.
 template <class Element>
 void mark(std::vector<std::uint8_t>& flags, std::span<const Element> elements) {
   for (const Element& element : elements) {

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The codimensional parts of a mesh: what neither its faces nor its edges speak for.
+/// The codimensional parts of a mesh: points without edges, and edges without faces.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,14 +17,15 @@ namespace touchstone::fast {
                                                     const MeshElements& elements);
 
 struct Codimensional {
-  /// Those of the vertices that have no edge, in order.
+  /// The vertices without an edge, in order.
   std::vector<std::int32_t> points;
-  /// The numbers of the edges that no face has, in order; of no use, and so none, without points.
+  /// The numbers of the edges without a face, in order; empty without points, because it is unused
+  /// then.
   std::vector<std::int32_t> edges;
 };
 
-/// \param of_elements What vertices_of gives.
-/// \pre All indices are in range, and `elements.edges` has the edges of the faces.
+/// \param of_elements The result of vertices_of.
+/// \pre All indices are in range, and `elements.edges` contains the edges of the faces.
 [[nodiscard]] Codimensional codimensional(std::size_t vertices,
                                           std::span<const std::int32_t> of_elements,
                                           const MeshElements& elements);

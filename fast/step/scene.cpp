@@ -53,7 +53,7 @@ const auto& at(const Items& items, std::int32_t index) {
   return items[static_cast<std::size_t>(index)];
 }
 
-/// make(item) of each sort.
+/// Applies `make` to the item of each sort.
 template <class Item, class Make>
 auto each(const OfPrimitives<Item>& items, const Make& make) {
   return OfPrimitives<decltype(make(items.vertices))>{make(items.vertices), make(items.edges),
@@ -61,7 +61,7 @@ auto each(const OfPrimitives<Item>& items, const Make& make) {
                                                       make(items.bare_edges)};
 }
 
-/// What is held against what.
+/// The two sorts of primitives of a pair.
 template <class Item>
 std::pair<const Item&, const Item&> sides(const OfPrimitives<Item>& of, PairKind kind) {
   switch (kind) {
@@ -86,7 +86,7 @@ void fit_all(Trees<instants>& trees, const FloatBounds& bounds) {
   trees.bare_edges.fit(bounds);
 }
 
-/// Codimensional parts as the certified solver gets them.
+/// Codimensional parts as input of the certified solver.
 std::vector<Face> as_faces(std::span<const std::int32_t> points) {
   std::vector<Face> result;
   result.reserve(points.size());

@@ -1,11 +1,13 @@
 #pragma once
 
 /// \file
-/// A step's scene as its answers need it: vertices, primitives in groups, and which of them meet.
+/// A step's scene in the form of the search: vertices, primitives in groups, and the bodies
+/// that meet.
 ///
-/// **Numbers of pairs.** Inside, the codimensional points and edges go by their places in lists of
-/// their own; `reported` gives the numbers that users see. The certified solver gets an edge that is
-/// held against a vertex as the face (e0, e1, e0), and a vertex as the face (w, w, w).
+/// **Numbers of pairs.** Internally, a codimensional point or edge has the number of its place in a
+/// list of its own; `reported` converts to the numbers of the interface. The certified solver gets
+/// the edge of a pair vertex-edge as the face (e0, e1, e0), and the second vertex of a pair
+/// vertex-vertex as the face (w, w, w).
 
 #include <array>
 #include <cstddef>
@@ -29,7 +31,7 @@
 
 namespace touchstone::fast {
 
-/// Something for each sort of primitives that a search is about.
+/// An item for each sort of primitives in a search.
 template <class Item>
 struct OfPrimitives {
   Item vertices;  ///< all of the elements
@@ -43,17 +45,17 @@ struct OfPrimitives {
 template <std::size_t instants>
 using Trees = OfPrimitives<BoxTree<instants>>;
 
-/// A part of the search for pairs of one kind: groups of the tree that searches.
+/// A part of the search for pairs of one kind: groups of the searching tree.
 struct SearchPart {
   PairKind kind;
   std::size_t first;
   std::size_t end;
 };
 
-/// What does not depend on where the vertices are (but for the groups' quality): steps of one mesh
-/// share it.
+/// The data that do not depend on the places of vertices (except for the groups' quality): steps of
+/// one mesh share them.
 struct SceneMesh {
-  /// Refers to the elements. \throws as Step.
+  /// Keeps references to the elements. \throws as Step.
   SceneMesh(std::size_t vertex_count, const FloatBounds& bounds, const MeshElements& given,
             const CollisionGroups& collision_groups);
   SceneMesh(const SceneMesh&) = delete;
@@ -66,7 +68,7 @@ struct SceneMesh {
   MeshElements elements;
   std::vector<std::int32_t> vertices;  ///< of all elements
   Codimensional codimensional;
-  /// The codimensional points and edges as the certified solver gets them.
+  /// The codimensional points and edges as input of the certified solver.
   std::vector<Face> points_as_faces;
   std::vector<Face> edges_as_faces;
   Bodies bodies;
@@ -74,18 +76,18 @@ struct SceneMesh {
   std::optional<OfPrimitives<BodyTree>> bodies_of_groups;  ///< unless all meet
 };
 
-/// What the certified solver says of a pair that touches, with the numbers that users see.
+/// The certified solver's result for a pair that collides, with the numbers of the interface.
 [[nodiscard]] StepCollision collision_of(PairKind kind, const IndexPair& pair,
                                          const CertifiedResult& result);
 
 class Scene {
  public:
-  /// Uses the threads of the task arena that it is called in. Refers to the elements.
+  /// Uses the threads of the caller's task arena. Keeps references to the elements.
   /// \throws as Step.
   Scene(MovingVertices vertices, const MeshElements& elements, const StepOptions& options);
-  /// The same mesh at other places, with the same options but for t_max, which is 1.
+  /// The same mesh at other places, with the same options except t_max, which is 1.
   Scene(MovingVertices vertices, const Scene& other);
-  /// The same mesh at other places, with the same options but for the separation.
+  /// The same mesh at other places, with the same options except the separation.
   Scene(MovingVertices vertices, const Scene& other, const Separation& separation);
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
@@ -100,28 +102,28 @@ class Scene {
   // ---- Searching ----
 
   /// The trees with boxes at t=0 and at the time `end`; with one instant, around all places up to
-  /// it. \param end as that of FloatBounds
+  /// it. \param end As in FloatBounds.
   template <std::size_t instants>
   [[nodiscard]] Trees<instants> trees(double end) const;
   /// Sets the boxes anew.
   template <std::size_t instants>
   void fit(Trees<instants>& trees, double end) const;
 
-  /// Everything that there is to search for, kind by kind, in parts of at most so many groups.
+  /// The whole search, kind by kind, in parts of at most `groups_of_part` groups.
   [[nodiscard]] std::vector<SearchPart> parts(std::size_t groups_of_part) const;
 
-  /// Appends the pairs of a part to the buffer. With one instant: whose swept boxes are within the
-  /// separation, exactly these. With two: those that may touch, at least those that do.
+  /// Appends the pairs of a part to the buffer. With one instant: exactly the pairs whose swept
+  /// boxes are within the separation. With two: the pairs that may collide, including all that do.
   template <std::size_t instants>
   void find(const Trees<instants>& trees, const SearchPart& part, PairBuffer& pairs) const;
 
   // ---- Pairs ----
 
-  /// The numbers that users see.
+  /// The numbers of the interface.
   [[nodiscard]] IndexPair reported(PairKind kind, const IndexPair& pair) const;
 
-  /// Hands on which of the pairs that were found touch: report(place, collision), in any order.
-  /// Contacts after t_limit are of no interest.
+  /// Calls report(place, collision) for each pair that collides, in any order. Contacts after
+  /// t_limit may be ignored.
   template <class Report>
   void decide(PairKind kind, std::span<const IndexPair> pairs, double t_limit,
               const Report& report) const {
@@ -143,7 +145,8 @@ class Scene {
         });
   }
 
-  /// The vertices of a pair with the numbers that users see, and this pair as a query: as Step.
+  /// The vertices of a pair with the numbers of the interface, and this pair as a query: as in
+  /// Step.
   [[nodiscard]] std::array<std::int32_t, moving_points> vertices_of(PairKind kind,
                                                                     const IndexPair& pair) const;
   [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
@@ -151,7 +154,7 @@ class Scene {
  private:
   using PairRoom = std::array<IndexPair, kernel_block>;
 
-  /// What the search asks about pairs of a kind.
+  /// The context of the search's callbacks for pairs of a kind.
   struct Asked {
     const Scene* scene;
     PairKind kind;
@@ -160,12 +163,12 @@ class Scene {
   template <std::size_t instants>
   [[nodiscard]] PairRules rules(const Asked& asked) const;
 
-  /// The pairs for the certified solver. \param room for their numbers, if these are others
+  /// The pairs for the certified solver. \param room Memory for the numbers, if they differ.
   [[nodiscard]] Candidates candidates_of(PairKind kind, std::span<const IndexPair> pairs,
                                          PairRoom& room) const;
   /// The primitives of a pair.
   [[nodiscard]] std::array<Primitive, 2> primitives_of(PairKind kind, const IndexPair& pair) const;
-  /// Are their swept boxes within the separation?
+  /// True if the swept boxes are within the separation.
   [[nodiscard]] bool are_near(PairKind kind, const IndexPair& pair) const;
 
   MovingVertices vertices_;

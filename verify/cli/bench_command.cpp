@@ -49,7 +49,7 @@ constexpr std::string_view best_kernel = "best";
 struct Arguments {
   SourceArguments sources;
   SolverArguments solvers;
-  /// The two frames of a step, or nothing.
+  /// The two frames of a step; empty without --step.
   std::vector<fs::path> step;
   std::string kernel = std::string(best_kernel);
   jobs::BenchOptions bench;
@@ -70,7 +70,7 @@ const fast::CertifiedKernel* kernel_of(const std::string& name) {
   return kernel;
 }
 
-/// One run: its groups one after the other, then its reports.
+/// A run: the groups in order, then the reports.
 class BenchRun {
  public:
   explicit BenchRun(const Arguments& arguments)
@@ -154,13 +154,13 @@ class BenchRun {
                                 .stop = &io::interrupted()});
   }
 
-  /// Of the instruction set that the user chose.
+  /// The options with the kernel of the chosen instruction set.
   [[nodiscard]] const fast::SearchKernel* search_kernel() const {
     if (certified_.kernel == nullptr) return nullptr;
     return fast::find_search_kernel(certified_.kernel->instructions);
   }
 
-  /// The queries below a path, of one kind at a time: both may not fit into memory.
+  /// Measures the queries below a path, one kind at a time, because both may not fit into memory.
   void bench_path(const fs::path& path) {
     SourceArguments sources = arguments_.sources;
     sources.paths = {path};
@@ -184,14 +184,14 @@ class BenchRun {
     }
   }
 
-  /// \throws DatasetError if the source is about another separation than those before it.
+  /// \throws DatasetError if the separation of the source differs from that of the earlier ones.
   void require_one_separation(const data::QuerySource& source,
                               std::optional<Separation>& so_far) const {
     const Separation separation = separation_for(arguments_.sources, source);
     if (so_far && !judge::same_separation(*so_far, separation)) {
       throw data::DatasetError(source.name(), {},
-                               "is about a minimum separation of " + judge::to_text(separation) +
-                                   ", the files before it about " + judge::to_text(*so_far));
+                               "is for a minimum separation of " + judge::to_text(separation) +
+                                   ", the files before it for " + judge::to_text(*so_far));
     }
     so_far = separation;
   }
@@ -201,7 +201,7 @@ class BenchRun {
     return {kind_from_string(arguments_.sources.kind)};
   }
 
-  /// Files are opened once for each kind, so an error may come twice.
+  /// Files are opened once for each kind, so an error may occur twice.
   void fail(const std::string& message) {
     if (errors_.insert(message).second) report_error(message);
   }
@@ -217,7 +217,7 @@ class BenchRun {
   }
 
   const Arguments& arguments_;
-  Separation separation_;  // of what is not read from files
+  Separation separation_;  // of queries that are not read from files
   Files files_;
   Solvers solvers_;
   Output json_;
@@ -231,7 +231,7 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Measurement");
   command
       .add_option("--step", arguments.step,
-                  "Instead of queries: two meshes, before and after a step")
+                  "Measure a step instead of queries: meshes before and after it")
       ->type_name("FRAME0 FRAME1")
       ->expected(2)
       ->excludes(command.get_option("PATH"));
@@ -241,19 +241,21 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
       ->type_name("NAME")
       ->capture_default_str()
       ->check(CLI::IsMember({"scalar", "avx2", "avx512", "best"}).description(""));
-  command.add_option("--repetitions", arguments.bench.repetitions, "Times are medians of so many")
+  command
+      .add_option("--repetitions", arguments.bench.repetitions, "Repetitions; times are medians")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, 1'000'000));
   command
-      .add_option("--seconds", arguments.bench.seconds,
-                  "Seconds of a method and repetition; slower methods are timed on a sample")
+      .add_option(
+          "--seconds", arguments.bench.seconds,
+          "Time limit of a method and repetition in seconds; slower methods are timed on a sample")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(1e-6, 1e6));
   command
       .add_option("--judge", arguments.bench.judge,
-                  "Judge so many queries of a group, and all that a method calls collisions")
+                  "Queries to judge per group, plus every reported collision")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(0, INT64_MAX));
@@ -261,7 +263,7 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
   add_json_option(command, arguments.json_file);
 }
 
-/// Where the user names no solver, the default methods are timed.
+/// The default methods, if the user names no solver.
 void settle(const CLI::App& command, Arguments& arguments) {
   if (arguments.solvers.empty()) arguments.solvers.methods = solvers::default_methods();
   arguments.solvers.kernel = kernel_of(arguments.kernel);
@@ -281,8 +283,8 @@ void add_bench_command(CLI::App& app, Status& status) {
            "touchstone bench data/handcrafted --method tight_inclusion --json result.json\n"
            "touchstone bench --step 92.ply 93.ply --method certified",
            "Without PATH: two patches of mesh that move through each other, and the built-in set. "
-           "Built-in solvers "
-           "run in this process, in one thread, plugins in child processes. With --step the "
+           "Built-in solvers run in this process, in one thread; plugins run in child processes. "
+           "With --step the "
            "queries are the "
            "candidates of the broad phase, and the whole step is timed, with one thread and with "
            "--threads.\n" +

@@ -1,4 +1,4 @@
-// touchstone candidates: what may touch in a step of a simulation, as a dataset.
+// touchstone candidates: the candidate pairs of a step of a simulation, as a dataset.
 
 #include <fmt/format.h>
 
@@ -44,7 +44,7 @@ struct Arguments {
   std::string json_file;
 };
 
-/// The files that a run writes beside the summary.
+/// The output files of a run in addition to the summary.
 struct Arrays {
   explicit Arrays(const std::string& prefix)
       : vertex_face(prefix + "_vf.npy"),
@@ -60,15 +60,15 @@ struct Arrays {
   fs::path vertex_face, edge_edge, vertex_face_pairs, edge_edge_pairs, edges;
 };
 
-/// Candidates of a kind and how long it took to find them.
+/// Candidates of a kind, with the time of the search.
 struct Found {
   Kind kind;
   std::vector<fast::IndexPair> pairs;
   double seconds;
 };
 
-/// So many candidates of a kind fit into the memory that is free now; no limit where the system does
-/// not say.
+/// The number of candidates of a kind that fit into the available memory; no limit if that is
+/// unknown.
 std::uint64_t candidates_in_free_memory() {
   static constexpr std::uint64_t bytes_each = 24;
   std::ifstream file("/proc/meminfo");
@@ -79,7 +79,7 @@ std::uint64_t candidates_in_free_memory() {
   return std::numeric_limits<std::uint64_t>::max();
 }
 
-/// \throws std::runtime_error saying how many candidates there are, and what to do, if they are too many.
+/// \throws std::runtime_error with the number of candidates and advice, if they are too many.
 std::vector<fast::IndexPair> find_pairs(const mesh::MovingMesh& mesh, Kind kind,
                                         const fast::BroadPhaseOptions& options) {
   try {
@@ -103,8 +103,8 @@ Found find(const mesh::MovingMesh& mesh, Kind kind, fast::BroadPhaseOptions opti
   return {.kind = kind, .pairs = std::move(pairs), .seconds = time.count()};
 }
 
-/// Writes the candidates as queries, one after the other: they would take much more memory than the
-/// pairs. Nothing remains if the user interrupts it.
+/// Writes the candidates as a stream of queries, which would take much more memory than the pairs.
+/// After an interrupt there is no file.
 void write_queries(const fs::path& path, const mesh::MovingMesh& mesh, const Found& found) {
   static constexpr std::size_t pairs_of_update = 1U << 14U;
   const fast::Candidates candidates = mesh::candidates_of(mesh, found.kind, found.pairs);
@@ -174,12 +174,12 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command.add_option("before", arguments.before, "Mesh before the step: .ply or .obj")
       ->type_name("FRAME0")
       ->required();
-  command.add_option("after", arguments.after, "The same mesh after it: the vertices have moved")
+  command.add_option("after", arguments.after, "The same mesh after the step, with moved vertices")
       ->type_name("FRAME1")
       ->required();
   add_distance_option(
       command, arguments.min_separation,
-      "Also pairs whose boxes are this near, enough for either norm: decimal or 0x1p-10");
+      "Also pairs whose boxes are within this distance (covers both norms): decimal or 0x1p-10");
   command.add_option("--threads", arguments.broad_phase.max_threads, "Cores to use (0: all)")
       ->type_name("N")
       ->capture_default_str()
@@ -193,9 +193,9 @@ void add_options(CLI::App& command, Arguments& arguments) {
       ->type_name("PREFIX")
       ->required();
   command
-      .add_option(
-          "--max-candidates", arguments.broad_phase.max_candidates,
-          "More of a kind are an error that gives their number (0: as many as fit into memory)")
+      .add_option("--max-candidates", arguments.broad_phase.max_candidates,
+                  "Maximum candidates of a kind; more are an error with their number (0: the "
+                  "memory's limit)")
       ->type_name("N")
       ->default_val(0)
       ->check(whole_number(0, UINT64_MAX));

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The file of certificates that a command writes, compressed where its name says so.
+/// The output file of certificates, compressed if its name ends in ".zst".
 
 #include <cstdint>
 #include <optional>
@@ -15,16 +15,15 @@
 
 namespace touchstone::verify::cli {
 
-/// A stream of certificates in a file, if one is named; compressed if the name ends in ".zst". A
-/// failure is reported, once, as that of Output.
+/// A stream of certificates in a file, if one is named. A failure is reported once, as by Output.
 class CertificatesFile {
  public:
-  /// \throws as Output does.
+  /// \throws as Output.
   /// \param header the first line
   CertificatesFile(Files& files, const std::string& name,
                    std::string_view header = exact::certificates_header());
 
-  /// Was a file named?
+  /// True if a file was named.
   [[nodiscard]] explicit operator bool() const { return static_cast<bool>(output_); }
   [[nodiscard]] bool failed() const { return output_.failed(); }
 
@@ -34,7 +33,7 @@ class CertificatesFile {
   /// Appends whole certificates.
   void write(std::string_view certificates);
 
-  /// Completes the stream, of so many certificates, and the file; closes it as incomplete if the run was
+  /// Completes the stream with this number of certificates, and the file; closes it as incomplete if the run was
   /// interrupted.
   void close(std::uint64_t certificates);
   /// The same with another closing line.
@@ -53,7 +52,7 @@ class CertificatesFile {
   std::uint64_t bytes_ = 0;
 };
 
-/// Says on standard error which queries have no certificate, and why.
+/// Reports on standard error the queries without a certificate, with the reasons.
 void report_beyond_limits(const jobs::ProofCounts& counts);
 
 }  // namespace touchstone::verify::cli

@@ -44,7 +44,7 @@ struct Arguments {
   std::string view_file;
 };
 
-/// Which solvers to judge: where the user names none, the default methods, on the built-in set only.
+/// The solvers to judge: by default our solvers, and only on the built-in set.
 SolverArguments judged_by(const Arguments& arguments) {
   SolverArguments judged = arguments.judged;
   if (judged.empty() && arguments.sources.built_in_set()) {
@@ -53,7 +53,7 @@ SolverArguments judged_by(const Arguments& arguments) {
   return judged;
 }
 
-/// One run: its sources one after the other, then its reports.
+/// A run: the sources in order, then the reports.
 class CertifyRun {
  public:
   explicit CertifyRun(const Arguments& arguments)
@@ -76,7 +76,7 @@ class CertifyRun {
                      .stopped = [this] { return stopped(); }});
     report_answers();
     solvers_.report_output(arguments_.judged.show_output);
-    // Files first: a closed standard output must not cost them.
+    // Files first, so that they are complete even if standard output is closed.
     truth_.close();
     proof_.close(sum_.proofs.certificates());
     if (json_) json_.write(io::json_document(report::to_json(results_)));
@@ -132,7 +132,7 @@ class CertifyRun {
     if (results_.back().error) report_error(*results_.back().error);
   }
 
-  /// A path or file that could not be opened: a result without queries.
+  /// The result for a path or file that could not be opened: no queries.
   void fail(const fs::path& path, const data::DatasetError& error) {
     report_error(error.what());
     jobs::CertifyResult result;
@@ -151,7 +151,7 @@ class CertifyRun {
     results_.push_back(std::move(result));
   }
 
-  /// Says which queries have no recorded answer, and which answers have no query.
+  /// Reports queries without a recorded answer, and answers without a query.
   void report_answers() const {
     for (std::size_t i = 0; i < sum_.methods.size(); ++i) {
       const jobs::MethodResult& method = sum_.methods[i];
@@ -165,7 +165,7 @@ class CertifyRun {
                                to_string(first->kind.value()),
                                first->methods[i].judgement.first_missing.value(), first->name));
     }
-    // A run that ended early did not ask all queries.
+    // A run that ended early did not solve all queries.
     if (sum_.interrupted || sum_.errors != 0) return;
     for (const std::string& warning : solvers_.warnings()) report_warning(warning);
   }
@@ -228,13 +228,12 @@ void add_certify_command(CLI::App& app, Status& status) {
                    "Write a proof of every verdict, as touchstone prove does")
       ->type_name("FILE");
   add_view_option(*command, arguments->view_file,
-                  "Write a page to look at the first 100 queries with a wrong answer or label");
+                  "Write an HTML viewer of the first 100 queries with a wrong answer or label");
   set_help(*command,
            "touchstone certify data/handcrafted --json result.json\n"
            "touchstone certify --min-separation 1e-8 --norm l2 --method tight_inclusion",
-           "Without --method, --plugin and --results our solvers are judged on the built-in set, "
-           "and none on other "
-           "queries (--method none: none). What is judged: docs/testing.md.\n" +
+           "By default our solvers are judged, and only on the built-in set; --method none "
+           "disables this. Definitions of wrong answers: docs/testing.md.\n" +
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->judged);

@@ -1,20 +1,20 @@
 #pragma once
 
 /// \file
-/// The subcommands of `touchstone`. Each adds itself to the command line; its callback runs the
-/// command and leaves the exit status behind.
+/// The subcommands of `touchstone`. Each adds itself to the command line; its callback runs
+/// the command and sets the exit status.
 
 #include <CLI/CLI.hpp>
 
 namespace touchstone::verify::cli {
 
-/// Outcome of a run; the process's exit status.
+/// Outcome of a run, used as the exit status.
 enum class Status : int {
   all_well = 0,
-  /// A recorded answer is not the truth, a solver broke its promise, or something touches in a step.
+  /// A wrong recorded answer, a broken promise of a solver, or a collision in a step.
   wrong_answers = 1,
-  bad_input = 2,      ///< input in error, or a command line that makes no sense
-  interrupted = 130,  ///< by a signal, with what was done until then reported
+  bad_input = 2,      ///< invalid input or usage
+  interrupted = 130,  ///< by a signal; the results so far are reported
 };
 
 /// `touchstone certify`

@@ -132,7 +132,7 @@ void add_derive_command(CLI::App& app, Status& status) {
   command->option_defaults()->group("Input");
   command
       ->add_option("--model", arguments->models,
-                   "Only these columns: published, rigorous, gappa, observed; repeatable")
+                   "Columns to compute: published, rigorous, gappa, observed; repeatable")
       ->type_name("NAME")
       ->check(CLI::IsMember(models_by_name).description(""));
   command->add_option("--precision", arguments->precision, "Only double, float or double_double")
@@ -141,7 +141,7 @@ void add_derive_command(CLI::App& app, Status& status) {
   add_seed_option(*command, arguments->seed, "Seed of the search for the worst error");
   command
       ->add_option("--evaluations", arguments->evaluations,
-                   "Evaluations of that search, for each row")
+                   "Evaluations of the search, for each row")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, UINT64_MAX));
@@ -155,9 +155,8 @@ void add_derive_command(CLI::App& app, Status& status) {
       ->type_name("FILE");
   add_json_option(*command, arguments->json_file);
   set_help(*command, "touchstone derive --model published --model rigorous --precision double",
-           "Bounds are in units of u times the greatest coordinate to the expression's degree. "
-           "Without gappa its "
-           "column is empty; --model gappa then is an error.\n" +
+           "Bounds are in units of u times a power of the greatest coordinate, the expression's "
+           "degree. Without gappa its column is empty; --model gappa is then an error.\n" +
                std::string(writing_statuses));
   command->callback([arguments, &status] { status = derive(*arguments); });
 }

@@ -16,10 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// More symbolic links than this in a row are a ring, as they are for the system.
+/// The maximum number of consecutive symbolic links, as in the system; more are treated as a cycle.
 constexpr int most_links = 40;
 
-/// Where a file of this name would come to be: behind symbolic links, also to what is not there yet.
+/// The place at which a file of this name would be created: the target of symbolic links, also if
+/// it does not exist yet.
 fs::path behind_links(fs::path path) {
   std::error_code error;
   for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
@@ -29,19 +30,20 @@ fs::path behind_links(fs::path path) {
   return error ? path : canonical;
 }
 
-/// \throws std::runtime_error with the reason that the system has given.
+/// \throws std::runtime_error with the system's reason.
 [[noreturn]] void fail(const std::string& name, const std::string& what, int reason) {
   throw std::runtime_error(name + ": " + what + ": " + std::generic_category().message(reason));
 }
 
-/// Is it a name that the system gives to what is open already?
+/// True if the system uses the name for an open descriptor.
 bool is_below_system_folder(const fs::path& path) {
   const fs::path absolute = fs::absolute(path).lexically_normal();
   const auto first = std::next(absolute.begin());
   return first != absolute.end() && (*first == "dev" || *first == "proc");
 }
 
-/// Is it anything but a file, or nothing yet? \throws std::runtime_error if the system does not say.
+/// True if it exists and is not a regular file. \throws std::runtime_error if the system does not
+/// tell.
 bool is_device(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -60,7 +62,7 @@ bool is_standard_output(const fs::path& path) {
 
 void Files::add_input(const fs::path& file) {
   std::error_code error;
-  // A pipe or terminal may be both ends of something.
+  // A pipe or terminal may be both an input and an output.
   const bool is_other = fs::is_other(fs::status(file, error));
   if (file.empty() || is_other) return;
   const fs::path place = behind_links(file);
@@ -99,7 +101,7 @@ Output::Output(Files& files, const std::string& name)
   if (name_.empty()) return;
   files.add_output(name_);
   if (is_device(name_)) {
-    // Never truncates: standard output may be a file that others have written to.
+    // Never truncates, because standard output may be a file with the output of other programs.
     const int descriptor = io::open_for_appending(name_);
     if (descriptor >= 0) device_.reset(::fdopen(descriptor, "a"));
     if (!device_) fail(name_, "cannot be opened for writing", errno);

@@ -1,11 +1,11 @@
 #pragma once
 
 /// \file
-/// The files of a command: each is read or written, and written as one output only.
+/// The files of a command: each is either an input or one output.
 ///
-/// An output takes the place of the file of its name. So the record of a run knows every output from
-/// the moment it is opened, and every input before it is read, those found in folders too: a file in
-/// two roles is an error before anything is lost.
+/// An output replaces the file of its name. Therefore the record of a run knows every output when
+/// it is opened, and every input before it is read, including those found in folders: a file in two
+/// roles is an error before any data is lost.
 
 #include <cstdio>
 #include <filesystem>
@@ -23,46 +23,46 @@ namespace touchstone::verify::cli {
 /// The record of a run.
 class Files {
  public:
-  /// Enters a file that is read; an empty name is no file.
+  /// Adds an input file; an empty name means none.
   /// \throws std::runtime_error if it is an output.
   void add_input(const std::filesystem::path& file);
   void add_inputs(std::span<const std::filesystem::path> files);
 
-  /// Enters a dataset, and the files beside it with its labels, times of impact and separation.
+  /// Adds a dataset, and its companion files with labels, times of impact and separation.
   /// \throws std::runtime_error as add_input.
   void add_dataset(const std::filesystem::path& file);
 
-  /// Enters a file that is written. \throws std::runtime_error if it is an input or another output.
+  /// Adds an output file. \throws std::runtime_error if it is an input or another output.
   void add_output(const std::filesystem::path& file);
 
-  /// Where a run prints its summary: on standard error if standard output is an output's.
+  /// The stream of a run's summary: standard error if standard output is an output file.
   [[nodiscard]] std::FILE* summary_stream() const;
 
-  /// Could an output not be written?
+  /// True if an output could not be written.
   [[nodiscard]] bool has_failed() const { return has_failed_; }
   void note_failure() { has_failed_ = true; }
 
  private:
-  /// By their places behind all symbolic links, with the names that the user knows.
+  /// The files by their resolved paths, with the names from the command line.
   std::map<std::filesystem::path, std::filesystem::path> inputs_;
   std::set<std::filesystem::path> outputs_;
   bool writes_standard_output_ = false;
   bool has_failed_ = false;
 };
 
-/// A file to write to if the user named one; "-" is standard output. It is opened before the work
-/// begins, so that a bad name costs nothing, and takes its name when it is complete, so that nothing
-/// older is lost before. Devices and pipes, and all below /dev and /proc, are written to as they are;
-/// a symbolic link stays one.
+/// An optional output file; "-" is standard output. It is opened before the work begins, so that a
+/// bad name is reported early, and is renamed when it is complete, so that an existing file is kept
+/// until then. Devices and pipes, and all files below /dev and /proc, are written to directly; a
+/// symbolic link remains one.
 ///
-/// A failure to write is reported, once, and the work goes on without the file.
+/// A failure to write is reported once, and the work continues without the file.
 class Output {
  public:
   /// \param files its record, which must live as long as it
-  /// \throws std::runtime_error as Files::add_output, or if the file cannot be made.
+  /// \throws std::runtime_error as Files::add_output, or if the file cannot be created.
   Output(Files& files, const std::string& name);
 
-  /// Was a file named?
+  /// True if a file was named.
   [[nodiscard]] explicit operator bool() const { return !name_.empty(); }
   [[nodiscard]] bool failed() const { return failed_; }
 

@@ -45,7 +45,7 @@ namespace fs = std::filesystem;
 
 constexpr double default_seconds = 60.0;
 constexpr double longest_run = 1e7;
-/// Seconds for making a finding simpler, at most.
+/// The maximum time, in seconds, for simplifying a finding.
 constexpr double shrink_seconds = 5.0;
 
 struct Arguments {
@@ -79,7 +79,7 @@ struct Arguments {
 
 // ---- The corpus ---------------------------------------------------------------------------------
 
-/// The kind of a file: what its path says, or else the only one that is asked for.
+/// The kind of a file: from its path, or else from --kind.
 Kind kind_of(const fs::path& file, const Arguments& arguments) {
   try {
     return data::kind_from_path(file);
@@ -105,7 +105,7 @@ std::vector<fuzz::CorpusQuery> read_corpus(const Arguments& arguments, Files& fi
 
 // ---- The dataset that is written ----------------------------------------------------------------
 
-/// FILE itself where its path says the kind, else with the kind in its name.
+/// FILE itself if its path determines the kind, else with the kind in its name.
 fs::path dataset_path(const fs::path& file, Kind kind) {
   try {
     if (data::kind_from_path(file) == kind) return file;
@@ -115,12 +115,12 @@ fs::path dataset_path(const fs::path& file, Kind kind) {
         fmt::format("{}-{}.csv", file.stem().string(), std::string(to_string(kind))));
     return result;
   }
-  throw std::runtime_error(fmt::format("{}: its name says that it has no {} queries; add --kind",
-                                       file.string(), to_string(kind)));
+  throw std::runtime_error(
+      fmt::format("{}: its name excludes {} queries; add --kind", file.string(), to_string(kind)));
 }
 
-/// The queries found, with their truth, as datasets. They appear when they are complete, and only
-/// if there are queries.
+/// The findings' queries, with their truth, as datasets. The files appear when they are complete,
+/// and only if there are queries.
 class FoundQueries {
  public:
   FoundQueries(Files& files, const Arguments& arguments, const Separation& separation)
@@ -166,13 +166,13 @@ class FoundQueries {
     std::uint64_t queries = 0;
   };
 
-  /// \throws std::runtime_error if a folder has queries about another separation.
+  /// \throws std::runtime_error if a folder has queries for another separation.
   void require_same_separation(const fs::path& file) const {
     const Separation recorded = data::recorded_separation(file);
     if (judge::same_separation(recorded, separation_)) return;
     if (is_contact(recorded) && is_without_datasets()) return;
     throw std::runtime_error(
-        fmt::format("{}: its folder is about a minimum separation of {}, not {}; choose another",
+        fmt::format("{}: its folder is for a minimum separation of {}, not {}; choose another",
                     file.string(), judge::to_text(recorded), judge::to_text(separation_)));
   }
 
@@ -192,7 +192,7 @@ class FoundQueries {
 
 // ---- The run ------------------------------------------------------------------------------------
 
-/// One run: the search, its findings as they come, then its reports.
+/// A run: the search with its findings as they occur, then the reports.
 class FuzzRun {
  public:
   explicit FuzzRun(const Arguments& arguments)
@@ -277,7 +277,8 @@ class FuzzRun {
   void load_method() {
     const SolverArguments& solver = arguments_.solver;
     if (solver.methods.size() + solver.plugins.size() != 1) {
-      throw std::invalid_argument("fuzz asks one solver: name one with --method or --plugin");
+      throw std::invalid_argument(
+          "fuzz needs exactly one solver: name it with --method or --plugin");
     }
     if (!solver.methods.empty()) {
       method_ = &solvers::find_method(solver.methods.front());
@@ -323,10 +324,10 @@ class FuzzRun {
     if (files_.has_failed()) return Status::bad_input;
     if (result.ended_by == fuzz::FuzzEnd::interrupt) return Status::interrupted;
     if (result.queries != 0) return Status::all_well;
-    report_error(fmt::format(
-        "nothing was judged: {} answered no query in {} s; give it more --seconds, or a "
-        "--query-limit below them to find the query that holds it up",
-        asked_.method, options_.seconds));
+    report_error(
+        fmt::format("nothing was judged: {} answered no query in {} s; increase --seconds, or set "
+                    "a smaller --query-limit to find the slow query",
+                    asked_.method, options_.seconds));
     return Status::bad_input;
   }
 
@@ -359,13 +360,13 @@ void add_search_options(CLI::App& command, Arguments& arguments) {
           fmt::format("Seconds to search (default {} unless --queries is given)", default_seconds))
       ->type_name("S")
       ->check(real_number(1e-3, longest_run));
-  command.add_option("--queries", arguments.queries, "Queries to ask")
+  command.add_option("--queries", arguments.queries, "Number of queries")
       ->type_name("N")
       ->check(whole_number(1, UINT64_MAX));
   add_seed_option(command, arguments.seed, "Seed of all queries");
   command
       .add_option("--most-findings", arguments.most_findings,
-                  "End after so many groups of findings (0: never)")
+                  "End after this number of groups of findings (0: never)")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(0, UINT32_MAX));
@@ -390,15 +391,16 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       ->type_name("FILE.csv");
   command
       .add_option("--write", arguments.page_folder,
-                  "Write a page a group for an issue tracker, with program, proof, test, JSON")
+                  "Write a page per group for an issue tracker, with program, proof, test, JSON")
       ->type_name("FOLDER");
   command
-      .add_option("--calls", arguments.calls,
-                  "What its programs call: plugin (the default for plugins), ticcd or ipc-toolkit")
+      .add_option(
+          "--calls", arguments.calls,
+          "Interface in the programs: plugin (the default for plugins), ticcd or ipc-toolkit")
       ->type_name("INTERFACE")
       ->check(CLI::IsMember({"plugin", "ticcd", "ipc-toolkit"}).description(""));
   add_json_option(command, arguments.json_file);
-  add_view_option(command, arguments.view_file, "Write a page to look at the first 100 findings");
+  add_view_option(command, arguments.view_file, "Write an HTML viewer of the first 100 findings");
 }
 
 }  // namespace
@@ -415,11 +417,9 @@ void add_fuzz_command(CLI::App& app, Status& status) {
       *command,
       "touchstone fuzz --plugin ./libsolver.so --only false_negative --seconds 600\n"
       "touchstone fuzz --plugin ./libsolver.so --exact --write findings --corpus data",
-      "The one solver runs in a child process. Findings are simplified, grouped by what can be "
-      "told of their cause, and printed with one example a group. The same --seed and --queries "
-      "give the same findings. "
-      "What is searched "
-      "and who judges: docs/testing.md.\n"
+      "The solver runs in a child process. Findings are simplified, grouped by their probable "
+      "cause, and printed with one example per group. The same --seed and --queries give the same "
+      "findings. The search and the judgement: docs/testing.md.\n"
       "Exit status: 0 nothing found (130: interrupted), 1 findings, 2 bad input or usage, nothing "
       "judged.");
   command->callback([arguments, command, &status] {

@@ -39,7 +39,7 @@ struct Arguments {
   SeparationArguments separation;
   bool npy = false;
   bool list = false;
-  /// Of two patches of mesh instead of queries: cells along a side; 0: none.
+  /// Two patches of mesh instead of queries: cells along a side; 0: none.
   int patch_cells = 0;
   double grading = 1.0;
   std::string json_file;
@@ -49,7 +49,7 @@ struct Written {
   fs::path file;
   std::uint64_t queries = 0;
   std::uint64_t collisions = 0;
-  bool is_known = true;  ///< Is the truth known by construction?
+  bool is_known = true;  // whether the truth is known by construction
 };
 
 std::vector<generate::Family> chosen(const std::vector<std::string>& names,
@@ -66,7 +66,7 @@ void list_families(const std::vector<generate::Family>& chosen_families) {
     io::print(stdout, fmt::format("{}\n    {}\n", family.name, family.reason));
 }
 
-/// The query without what is known of it at another separation.
+/// The query without the truth for another separation.
 void keep_claims_about(const Separation& separation, const data::QuerySource& source,
                        std::optional<data::RecordedQuery>& query) {
   if (!query || judge::same_separation(source.recorded_separation(), separation)) return;
@@ -74,7 +74,7 @@ void keep_claims_about(const Separation& separation, const data::QuerySource& so
   query->toi.reset();
 }
 
-/// Every query of a source, with what is known of it at the separation; counted.
+/// Writes and counts every query of a source, with its truth for the separation.
 template <class Use>
 Written for_each_query(data::QuerySource& source, const Separation& separation,
                        const fs::path& file, const Use& use) {
@@ -115,7 +115,7 @@ Written write_npy(data::QuerySource& source, const Separation& separation, const
   const fs::path companion = folder / "toi" / (source.name() + "_toi.csv");
   if (fs::exists(companion)) {
     throw std::runtime_error(companion.string() +
-                             ": would be taken for the array's; choose another folder");
+                             ": would become the array's companion; choose another folder");
   }
   fs::create_directories(folder);
   data::NpyWriter queries(file);
@@ -126,7 +126,7 @@ Written write_npy(data::QuerySource& source, const Separation& separation, const
   return written;
 }
 
-/// \throws std::runtime_error if the folder has queries about another separation.
+/// \throws std::runtime_error if the folder has queries for another separation.
 void require_same_separation(const fs::path& folder, const Separation& separation) {
   const bool has_queries = fs::exists(folder / to_string(Kind::vertex_face)) ||
                            fs::exists(folder / to_string(Kind::edge_edge));
@@ -134,7 +134,7 @@ void require_same_separation(const fs::path& folder, const Separation& separatio
   if ((!has_queries && is_contact(recorded)) || judge::same_separation(recorded, separation))
     return;
   throw std::runtime_error(
-      fmt::format("{}: is about a minimum separation of {}, not {}; choose another folder",
+      fmt::format("{}: is for a minimum separation of {}, not {}; choose another folder",
                   folder.string(), judge::to_text(recorded), judge::to_text(separation)));
 }
 
@@ -222,7 +222,7 @@ Status generate(const Arguments& arguments) {
 void add_generate_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      app.add_subcommand("generate", "Write the built-in set: hard queries of known truth");
+      app.add_subcommand("generate", "Write the built-in set: degenerate queries of known truth");
   command->option_defaults()->group("Input");
   command->add_option("--family", arguments->names, "Only these families (see --list)")
       ->type_name("NAME");
@@ -234,32 +234,32 @@ void add_generate_command(CLI::App& app, Status& status) {
   add_separation_options(*command, arguments->separation);
   command
       ->add_option("--patches", arguments->patch_cells,
-                   "Instead of queries two patches of mesh, before and after a step, of N cells "
-                   "along a side: 4 N² faces")
+                   "Write two patches of mesh instead of queries, before and after a step, with N "
+                   "cells per side: 4 N² faces")
       ->type_name("N")
       ->check(whole_number(1, 20'000))
       ->excludes(command->get_option("--family"));
   command
       ->add_option("--grading", arguments->grading,
-                   "Of patches: the last cell of a side is so many times as wide as the first")
+                   "Patches: ratio of the widths of a side's last and first cell")
       ->type_name("G")
       ->capture_default_str()
       ->check(real_number(1.0, 1e9))
       ->needs(command->get_option("--patches"));
   command->option_defaults()->group("Output");
-  command->add_flag("--list", arguments->list, "List the families, and why their truth is known");
+  command->add_flag("--list", arguments->list, "List the families with the proofs of their truth");
   command->add_option("--out", arguments->folder, "Folder to write to")->type_name("FOLDER");
   command->add_flag("--npy", arguments->npy,
                     "Write float64 arrays of shape (N, 8, 3), without the truth, instead of CSV");
   add_json_option(*command, arguments->json_file);
-  set_help(*command,
-           "touchstone generate --out hard --count 100 --family hourglass\n"
-           "touchstone generate --out near --min-separation 1e-8 --norm l2\n"
-           "touchstone generate --out patches --patches 500",
-           "With --min-separation there are more families, with contact at exactly that distance; "
-           "the others are "
-           "written without truth, and FOLDER/separation.json says what the truth is about.\n" +
-               std::string(writing_statuses));
+  set_help(
+      *command,
+      "touchstone generate --out hard --count 100 --family hourglass\n"
+      "touchstone generate --out near --min-separation 1e-8 --norm l2\n"
+      "touchstone generate --out patches --patches 500",
+      "With --min-separation there are additional families, with contact at exactly that distance; "
+      "the others are written without truth. FOLDER/separation.json records the separation.\n" +
+          std::string(writing_statuses));
   command->callback([arguments, &status] { status = generate(*arguments); });
 }
 

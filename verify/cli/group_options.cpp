@@ -8,7 +8,7 @@
 namespace touchstone::verify::cli {
 namespace {
 
-/// The groups that are needed: none where all meet.
+/// The groups if they are needed: empty if all can collide.
 mesh::Groups groups_for(Files& files, const GroupArguments& arguments, const mesh::Mesh& mesh) {
   if (!arguments.file.empty()) {
     files.add_input(arguments.file);
@@ -33,11 +33,11 @@ CollidingGroups::CollidingGroups(Files& files, const GroupArguments& arguments,
 void add_group_options(CLI::App& command, GroupArguments& arguments) {
   command
       .add_option("--groups", arguments.file,
-                  "The name of each vertex's group, a line each (default: o, g of an OBJ)")
+                  "Group names of the vertices, one per line (default: o, g of an OBJ)")
       ->type_name("FILE");
   command
       .add_option("--apart", arguments.apart,
-                  "Two groups that do not meet; one twice: not itself; repeatable")
+                  "Ignore collisions between groups A and B (A A: within A); repeatable")
       ->type_name("GROUP GROUP");
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Which parts of a mesh do not meet, on the command line: --groups and --apart.
+/// Collision groups on the command line: --groups and --apart.
 
 #include <CLI/CLI.hpp>
 #include <array>
@@ -18,17 +18,17 @@ namespace touchstone::verify::cli {
 
 struct GroupArguments {
   std::string file;
-  /// Names of groups that do not meet.
+  /// Pairs of names of groups between which collisions are ignored.
   std::vector<std::pair<std::string, std::string>> apart;
 };
 
 /// Adds --groups and --apart. The arguments must live until the command line is parsed.
 void add_group_options(CLI::App& command, GroupArguments& arguments);
 
-/// The groups of a mesh that the user asked for, by their numbers.
+/// The requested groups of a mesh, by their numbers.
 class CollidingGroups {
  public:
-  /// \param files gets the file that is read
+  /// \param files records the input file
   /// \throws std::runtime_error, std::invalid_argument or DatasetError if they cannot be used.
   CollidingGroups(Files& files, const GroupArguments& arguments, const mesh::Mesh& mesh);
 

@@ -9,9 +9,9 @@
 namespace touchstone::verify::cli {
 namespace {
 
-/// Options stand behind their names from this column on.
+/// The column of the descriptions of options.
 constexpr std::size_t description_column = 26;
-/// Between examples and notes in a footer: CLI11 keeps one text for both.
+/// The separator between examples and notes in a footer, because CLI11 stores one text for both.
 constexpr char separator = '\f';
 
 std::string heading(std::string_view text) { return "\n" + std::string(text) + ":\n"; }
@@ -50,7 +50,7 @@ class HelpFormatter : public CLI::Formatter {
     return line.substr(line.find_first_not_of('\n'));
   }
 
-  /// A subcommand's help does not name the option that was given to print it.
+  /// A subcommand's help omits the help option itself.
   [[nodiscard]] std::string options_of(const CLI::App& app, const std::string& group) const {
     std::string lines;
     for (const CLI::Option* option : app.get_options()) {
@@ -76,7 +76,7 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
-/// So many letters are missing, wrong or too many (Levenshtein's distance).
+/// The number of missing, wrong and additional letters (the Levenshtein distance).
 std::size_t distance_between(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -1,4 +1,4 @@
-// The command line: one subcommand a job.
+// The command line: one subcommand for each job.
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -28,18 +28,19 @@ using touchstone::verify::cli::use_help_format;
 using touchstone::verify::cli::version;
 using touchstone::verify::io::print;
 
-/// No file that is opened later may become a standard stream that was closed when the program began, and
-/// take what is printed. Writing to what stands in fails, as it would have.
+/// Replaces standard streams that were closed when the program began, so that no later file becomes
+/// a standard stream and receives printed text. Writing to the replacement fails, as it would have
+/// without it.
 void open_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) >= 0) continue;
-    // The lowest free number is given out, and that is this one.
+    // The system assigns the lowest free descriptor, which is this one.
     [[maybe_unused]] const int opened =
         ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
 }
 
-/// If there is no subcommand of this name, says so, and which one may be meant.
+/// Reports an unknown subcommand, with the probably intended one.
 bool report_unknown(const CLI::App& app, const std::string& word) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
@@ -58,7 +59,7 @@ int run(int argc, char** argv) {
   use_help_format(app);
   set_help(app, "touchstone certify path/to/queries",
            "touchstone COMMAND --help describes a command.\n"
-           "Exit status: 0 all is well, 1 wrong answers or collisions, 2 bad input or usage, 130 "
+           "Exit status: 0 success, 1 wrong answers or collisions, 2 bad input or usage, 130 "
            "interrupted.");
   app.set_version_flag("--version", std::string(version()), "Print the version");
   // The message quotes the command line.
@@ -86,7 +87,7 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    // Help and version are exceptions, too.
+    // Help and version are exceptions too.
     std::ostringstream help, reason;
     const int code = app.exit(error, help, reason);
     print(stdout, help.str());
@@ -105,7 +106,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     open_standard_streams();
-    // Then a write to a pipe without a reader fails, which print() handles.
+    // A write to a pipe without a reader then fails, which print() handles.
     std::signal(SIGPIPE, SIG_IGN);
     touchstone::fast::require_strict_arithmetic();
     const int status = run(argc, argv);

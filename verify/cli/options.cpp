@@ -21,7 +21,7 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
     const char* end = text.data() + text.size();
     const auto [stopped, error] = std::from_chars(text.data(), end, value);
     if (error == std::errc() && stopped == end && value >= least && value <= greatest) return {};
-    return fmt::format("{} is no whole number from {} to {}", text, least, greatest);
+    return fmt::format("{} is not a whole number from {} to {}", text, least, greatest);
   };
   return {check, ""};
 }
@@ -32,7 +32,7 @@ CLI::Validator real_number(double least, double greatest) {
     const char* end = text.data() + text.size();
     const auto [stopped, error] = std::from_chars(text.data(), end, value);
     if (error == std::errc() && stopped == end && value >= least && value <= greatest) return {};
-    return fmt::format("{} is no number from {} to {}", text, least, greatest);
+    return fmt::format("{} is not a number from {} to {}", text, least, greatest);
   };
   return {check, ""};
 }
@@ -40,7 +40,7 @@ CLI::Validator real_number(double least, double greatest) {
 CLI::Validator distance_number() {
   const auto check = [](const std::string& text) -> std::string {
     if (data::distance_from_text(text)) return {};
-    return fmt::format("{} is no finite number from 0 on", text);
+    return fmt::format("{} must be a finite number ≥ 0", text);
   };
   return {check, ""};
 }
@@ -55,13 +55,13 @@ Separation SeparationArguments::settle(const Separation& recorded) const {
                          .norm = norm.value_or(recorded.norm)};
   if (judge::same_separation(asked, recorded)) return asked;
   throw std::invalid_argument(
-      fmt::format("asked for a minimum separation of {}, but its separation.json says {}",
+      fmt::format("a minimum separation of {} is requested, but its separation.json has {}",
                   judge::to_text(asked), judge::to_text(recorded)));
 }
 
 CLI::Option* add_distance_option(CLI::App& command, std::optional<double>& distance,
                                  const std::string& description) {
-  // Read by strtod: CLI11 would round twice.
+  // Uses strtod, because CLI11 would round twice.
   return command
       .add_option_function<std::string>(
           "--min-separation",

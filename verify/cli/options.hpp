@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// Pieces of the command line that several subcommands share.
+/// Common options of subcommands.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace touchstone::verify::cli {
 
-/// The default seed of everything that is generated.
+/// The default seed of generated queries.
 inline constexpr std::uint64_t default_seed = 2021;
 
 /// Accepts whole numbers from `least` to `greatest` (CLI11 alone lets "-1" wrap around).
@@ -22,20 +22,21 @@ inline constexpr std::uint64_t default_seed = 2021;
 /// Accepts finite numbers from `least` to `greatest`.
 [[nodiscard]] CLI::Validator real_number(double least, double greatest);
 
-/// Accepts finite numbers from 0 on as strtod takes them, hexadecimal ones too, that do not become 0.
+/// Accepts finite numbers ≥ 0 in the forms of strtod, including hexadecimal ones, except positive
+/// ones that would become 0.
 [[nodiscard]] CLI::Validator distance_number();
 
-/// The separation that the user asked for.
+/// The requested separation.
 struct SeparationArguments {
   std::optional<double> distance;
   std::optional<Norm> norm;
 
-  /// The separation asked for on the command line; contact itself if nothing is said.
+  /// The separation of the command line; by default distance 0.
   [[nodiscard]] Separation given() const;
 
-  /// The separation to ask for of queries whose recorded answers are about `recorded`: that one if
-  /// nothing is said. Answers about contact contradict nothing.
-  /// \throws std::invalid_argument naming both if what is said contradicts what is recorded.
+  /// The separation for queries whose recorded answers are for `recorded`: by default that one.
+  /// Answers for distance 0 contradict no option.
+  /// \throws std::invalid_argument naming both if the option contradicts the record.
   [[nodiscard]] Separation settle(const Separation& recorded) const;
 };
 
@@ -49,7 +50,7 @@ void add_separation_options(CLI::App& command, SeparationArguments& arguments);
 /// Adds --json FILE. The text must live until the command line is parsed, as all arguments below.
 void add_json_option(CLI::App& command, std::string& file);
 
-/// Adds --kind, which limits a command to queries of one kind, or says the kind of all.
+/// Adds --kind, which selects queries of one kind, or declares the kind of all.
 void add_kind_option(CLI::App& command, std::string& kind, const std::string& description);
 
 /// Adds --seed.
@@ -61,7 +62,7 @@ void report_error(std::string_view message);
 /// Prints "touchstone: warning: …" on standard error, printable.
 void report_warning(std::string_view message);
 
-/// The command line of this process, as one types it, the program's name without a path.
+/// The command line of this process, quoted for a shell, with the program's name without a path.
 [[nodiscard]] std::string command_line();
 
 }  // namespace touchstone::verify::cli

@@ -1,4 +1,4 @@
-// touchstone prove: certificates for a checker that trusts nothing of the oracle.
+// touchstone prove: certificates for a checker that does not trust the oracle.
 
 #include <fmt/format.h>
 
@@ -49,7 +49,7 @@ exact::ProveOptions proof_options(const Arguments& arguments) {
   return options;
 }
 
-/// One run: its sources one after the other, then its summary.
+/// A run: the sources in order, then the summary.
 class ProveRun {
  public:
   explicit ProveRun(const Arguments& arguments)
@@ -90,7 +90,7 @@ class ProveRun {
     options.on_progress = progress;
     options.on_certificates = [this](std::string_view certificates) {
       out_.write(certificates);
-      // An exception ends the proving at once; the failure itself is reported already.
+      // An exception ends the proofs immediately; the failure was already reported.
       if (out_.failed()) throw std::runtime_error("certificates cannot be written");
     };
     const jobs::SourceProof proof = jobs::prove(source, options);
@@ -172,22 +172,22 @@ void add_prove_command(CLI::App& app, Status& status) {
       ->required();
   command
       ->add_option("--claim", arguments->claim,
-                   "Claim about a collision: its time_of_impact, or only that it is a collision")
+                   "Claim for a collision: its time_of_impact, or only the collision")
       ->type_name("CLAIM")
       ->check(CLI::IsMember({"time_of_impact", "collision"}).description(""))
       ->capture_default_str();
   command
-      ->add_option("--width", arguments->width,
-                   "Width of the interval around a time of impact, a decimal number (default: two "
-                   "neighbouring "
-                   "doubles)")
+      ->add_option(
+          "--width", arguments->width,
+          "Width of the interval around a time of impact, a decimal number (default: neighbouring "
+          "doubles)")
       ->type_name("W");
   add_json_option(*command, arguments->json_file);
-  set_help(
-      *command,
-      "touchstone prove data/handcrafted --out handcrafted.cert.zst\n"
-      "zstdcat handcrafted.cert.zst | touchstone-check -",
-      "A proof beyond the limits of the format is bad input.\n" + std::string(writing_statuses));
+  set_help(*command,
+           "touchstone prove data/handcrafted --out handcrafted.cert.zst\n"
+           "zstdcat handcrafted.cert.zst | touchstone-check -",
+           "A query whose proof exceeds the limits of the format is bad input.\n" +
+               std::string(writing_statuses));
   command->callback([arguments, &status] { status = ProveRun(*arguments).run(); });
 }
 

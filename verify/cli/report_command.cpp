@@ -1,4 +1,4 @@
-// touchstone report: the field of methods, measured and drawn on one page.
+// touchstone report: measurements of all methods on one page.
 
 #include <fmt/format.h>
 
@@ -61,7 +61,8 @@ struct Arguments {
   std::string view_file;
 };
 
-/// What each method answered wrongly, at most as much as a page holds; of several settings the first.
+/// The wrong answers of each method, at most as many as fit on a page, for the first of several
+/// settings.
 class WrongAnswers {
  public:
   void add(judge::WrongQuery wrong) {
@@ -76,7 +77,8 @@ class WrongAnswers {
     of_method.push_back(std::move(wrong));
   }
 
-  /// Gives the page the first query of each method, then the second, and so on: none takes all the places.
+  /// Adds the first query of each method to the page, then the second, and so on, so that the
+  /// places are shared.
   void add_to(ViewFile& page) const {
     for (std::size_t i = 0; i < ViewFile::most_queries; ++i) {
       for (const auto& [method, wrong] : by_method_) {
@@ -89,7 +91,7 @@ class WrongAnswers {
   std::map<std::string, std::vector<judge::WrongQuery>> by_method_;
 };
 
-/// The last part of a path that says something.
+/// The last component of a path that is a name.
 std::string short_name(const fs::path& path) {
   const fs::path normal = fs::absolute(path).lexically_normal();
   return normal.has_filename() ? normal.filename().string()
@@ -105,7 +107,7 @@ class ReportRun {
         markdown_(files_, arguments.markdown_file),
         view_(files_, arguments.view_file) {
     if (!page_ && !json_ && !markdown_ && !view_) {
-      throw std::invalid_argument("nothing to write: name --out, --json, --markdown or --view");
+      throw std::invalid_argument("no output: name --out, --json, --markdown or --view");
     }
     files_.add_inputs(arguments.solvers.files());
     for (const std::string& input : {arguments.from_file, arguments.compare_file}) {
@@ -197,7 +199,7 @@ class ReportRun {
     return {kind_from_string(arguments_.sources.kind)};
   }
 
-  /// The two moving patches, and the hard set with about as many queries as are asked.
+  /// The two moving patches, and the built-in set with about the requested number of queries.
   [[nodiscard]] std::vector<data::QueryGroup> built_in() const {
     const std::uint64_t seed = arguments_.sources.seed;
     const std::uint64_t a_family =
@@ -257,7 +259,7 @@ class ReportRun {
   // ---- Output -----------------------------------------------------------------------------------
 
   void write(const report::Measurements& measurements) {
-    // The measurements first: all else can be made from them.
+    // The measurements first, because all other outputs can be derived from them.
     if (json_) json_.write(io::json_document(report::to_json(measurements)));
     json_.close();
     if (page_) page_.write(report::report_page(measurements, before_ ? &*before_ : nullptr));
@@ -313,20 +315,20 @@ void add_measuring_options(CLI::App& command, Arguments& arguments) {
   add_recorded_option(command, arguments.solvers);
   command
       .add_option("--count", arguments.experiments.count,
-                  "Queries of a group: a sample of larger ones, a quarter of it over the distance")
+                  "Maximum queries per group (a quarter of it in the separation experiment)")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, UINT32_MAX));
   command
       .add_option(
           "--seconds", arguments.experiments.seconds,
-          "Processor seconds of a method, group and setting; slower methods get fewer queries")
+          "Processor seconds per method, group and setting; slower methods get fewer queries")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(1e-6, 1e6));
   command
       .add_option("--repetitions", arguments.experiments.repetitions,
-                  "Times are medians of so many")
+                  "Repetitions; times are medians")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, 1'000'000));
@@ -356,23 +358,22 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
   command.option_defaults()->group("Output");
   command
       .add_option("--from", arguments.from_file,
-                  "Measure nothing: read what --json of an earlier run wrote")
+                  "Read the --json file of an earlier run instead of measuring")
       ->type_name("FILE.json")
       ->excludes(command.get_option("PATH"))
       ->excludes(command.get_option("--method"));
   command
       .add_option("--compare", arguments.compare_file,
-                  "What --json of an earlier run wrote: the page shows what has changed since")
+                  "The --json file of an earlier run: the page shows the changes since")
       ->type_name("OLD.json");
   command.add_option("--out", arguments.page_file, "Write the page")->type_name("FILE.html");
   add_json_option(command, arguments.json_file);
   command
       .add_option("--markdown", arguments.markdown_file,
-                  "Write the tables as Markdown, beside the published numbers")
+                  "Write the tables as Markdown, with the published numbers")
       ->type_name("FILE.md");
-  add_view_option(
-      command, arguments.view_file,
-      "Write a page to look at 100 queries with a wrong answer, of each method as many");
+  add_view_option(command, arguments.view_file,
+                  "Write an HTML viewer of 100 wrong answers, split evenly among the methods");
   command.get_option("--view")->excludes(command.get_option("--from"));
 }
 
@@ -381,7 +382,7 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
 void add_report_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      app.add_subcommand("report", "Measure all solvers, and draw a page of speed against error");
+      app.add_subcommand("report", "Measure all solvers, and write a page of speed against error");
   add_measuring_options(*command, *arguments);
   add_output_options(*command, *arguments);
   set_help(

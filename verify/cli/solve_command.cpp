@@ -39,17 +39,17 @@ struct Arguments {
   std::string json_file;
 };
 
-/// The one solver that the user named.
+/// The only solver on the command line.
 SolverArguments the_solver(const Arguments& arguments) {
   if (arguments.solver.methods.size() + arguments.solver.plugins.size() != 1 ||
       (!arguments.solver.methods.empty() && arguments.solver.methods.front() == "none")) {
-    throw std::invalid_argument("solve takes one solver: --method NAME or --plugin LIB.so");
+    throw std::invalid_argument("solve needs exactly one solver: --method NAME or --plugin LIB.so");
   }
   if (arguments.out_file.empty()) throw std::invalid_argument("--out has no file name");
   return arguments.solver;
 }
 
-/// One run: its sources one after the other, then its summary.
+/// A run: the sources in order, then the summary.
 class SolveRun {
  public:
   explicit SolveRun(const Arguments& arguments)
@@ -105,7 +105,7 @@ class SolveRun {
     options.on_answer = [&](std::uint64_t index, const fast::Answer& answer,
                             const solvers::Failure* failure) {
       out_.write(solvers::answer_row(source.name(), index, source.kind(), answer, failure));
-      // An exception ends the solving at once; the failure itself is reported already.
+      // An exception ends the run immediately; the failure was already reported.
       if (out_.failed()) throw std::runtime_error("answers cannot be written");
     };
     const jobs::SolveResult result = jobs::solve(source, solver_, options);
@@ -141,7 +141,7 @@ class SolveRun {
     return json;
   }
 
-  /// The one of all sources, if it is one and more than contact.
+  /// The common separation of all sources, if there is one and its distance is positive.
   [[nodiscard]] std::optional<Separation> the_separation() const {
     return judge::common_separation(separations_);
   }
@@ -187,8 +187,7 @@ void add_solve_command(CLI::App& app, Status& status) {
   add_json_option(*command, arguments->json_file);
   set_help(
       *command, "touchstone solve --plugin ./libsolver.so data/handcrafted --out answers.csv",
-      "A method that knows linf only finds all that is within the distance in l2, and more.\n" +
-          std::string(writing_statuses));
+      "A method that supports only linf is conservative for l2.\n" + std::string(writing_statuses));
   command->callback([arguments, command, &status] {
     settle_solver_options(*command, arguments->sources.built_in_set(), arguments->solver);
     status = SolveRun(*arguments).run();

@@ -26,7 +26,7 @@ constexpr std::int64_t built_in_max_checks = 100'000;
 constexpr double bytes_of_gibibyte = 0x1p30;
 constexpr double most_gibibytes = 1e6;
 
-/// \throws std::invalid_argument for "none" beside others.
+/// \throws std::invalid_argument for "none" with others.
 std::vector<std::string> named_methods(const SolverArguments& arguments) {
   const bool has_none = std::ranges::find(arguments.methods, no_method) != arguments.methods.end();
   if (!has_none) return arguments.methods;
@@ -55,14 +55,16 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
   command
       .add_option(
           "--max-checks", arguments.options.max_checks,
-          fmt::format("Steps of iterative methods for a query (0: no limit; built-in set: {})",
-                      built_in_max_checks))
+          fmt::format(
+              "Maximum steps of iterative methods per query (0: no limit; built-in set: {})",
+              built_in_max_checks))
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(0, INT64_MAX));
   command
-      .add_option("--query-limit", arguments.query_limit,
-                  "Seconds for a query in a child process; then it is undecided (0: no limit)")
+      .add_option(
+          "--query-limit", arguments.query_limit,
+          "Time limit of a query in a child process, in seconds; then undecided (0: no limit)")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(0.0, longest_limit));
@@ -77,9 +79,9 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
       ->type_name("GIB")
       ->check(real_number(0.0, most_gibibytes));
   command.add_flag("--allow-processes", arguments.allow_processes,
-                   "Let plugins start processes of their own");
+                   "Allow plugins to start processes");
   command.add_flag("--show-output", arguments.show_output,
-                   "Show what plugins print, on standard error");
+                   "Show the output of plugins on standard error");
 }
 
 void add_plugin_option(CLI::App& command, SolverArguments& arguments) {
@@ -133,7 +135,7 @@ void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArg
   for (const std::string name : {"--exact", "--query-limit", "--memory-limit", "--allow-processes",
                                  "--show-output", "--tolerance", "--max-checks"}) {
     if (arguments.empty() && is_given(name)) {
-      throw std::invalid_argument(name + " is for solvers, and none is named");
+      throw std::invalid_argument(name + " needs a solver, and none is named");
     }
   }
 }
@@ -159,7 +161,7 @@ void report_output(std::string_view solver, const solvers::CapturedOutput& outpu
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
   if (crashes == 0) return;
   report_error(
-      fmt::format("{} ended its process {} times, at no particular query", solver, crashes));
+      fmt::format("{} ended its process {} times, not at a particular query", solver, crashes));
 }
 
 Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host) {
@@ -220,9 +222,9 @@ std::vector<std::string> Solvers::warnings() const {
     const auto groups = answers.groups();
     const auto group =
         std::ranges::find_if(groups, [](const auto& candidate) { return candidate.unasked != 0; });
-    result.push_back(fmt::format(
-        "{}:{}: {} answers are to queries that were not there, first to {} of {}", path.string(),
-        group->first_unasked_line, unasked, to_string(group->kind), group->file));
+    result.push_back(fmt::format("{}:{}: {} answers refer to unknown queries (first: {} of {})",
+                                 path.string(), group->first_unasked_line, unasked,
+                                 to_string(group->kind), group->file));
   }
   return result;
 }

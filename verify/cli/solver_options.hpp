@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The solvers that a command line names: methods of ours, plugins, recorded answers.
+/// The solvers of a command line: built-in methods, plugins, recorded answers.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -21,32 +21,32 @@
 
 namespace touchstone::verify::cli {
 
-/// The solvers that the user named, and their options.
+/// The named solvers and their options.
 struct SolverArguments {
   std::vector<std::string> methods;
   std::vector<std::filesystem::path> plugins;
   std::vector<std::filesystem::path> results;
-  /// Wall-clock seconds a query; 0: no limit.
+  /// Wall-clock seconds for a query; 0: no limit.
   double query_limit = fuzz::FuzzOptions{}.query_limit_seconds;
   bool exact = false;
-  /// Bytes of memory that a solver's process may take; 0: no limit.
+  /// Memory limit of a solver's process in bytes; 0: no limit.
   std::uint64_t memory_limit = solvers::ChildLimits{}.memory_bytes;
   bool allow_processes = false;
   bool show_output = false;
   fast::MethodOptions options;
-  /// Of the certified solver; null: the best one for this processor.
+  /// The kernel of the certified solver; null: the best one for this processor.
   const fast::CertifiedKernel* kernel = nullptr;
 
-  /// Files that are read.
+  /// The input files.
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
 
-  /// Limits of a solver's process.
+  /// The limits of a solver's process.
   [[nodiscard]] solvers::ChildLimits limits() const;
 
   /// The plugin at a path, loaded in a child process. \throws DatasetError as load_plugin does.
   [[nodiscard]] std::unique_ptr<fast::Method> load(const std::filesystem::path& plugin) const;
 
-  /// Options of a solver's process: it ends at an interrupt.
+  /// The options of a solver's process, which ends at an interrupt.
   [[nodiscard]] solvers::SolverProcessOptions process() const;
 
   [[nodiscard]] bool empty() const { return methods.empty() && plugins.empty() && results.empty(); }
@@ -66,41 +66,42 @@ void add_recorded_option(CLI::App& command, SolverArguments& arguments);
 /// Adds --exact.
 void add_exact_flag(CLI::App& command, SolverArguments& arguments);
 
-/// To be called on the arguments of a parsed command line: on the built-in set, which is made of the
-/// hardest queries, methods take fewer steps unless --max-checks says how many.
-/// \throws std::invalid_argument if an option of solvers is given and no solver is asked.
+/// Adjusts the arguments of a parsed command line: on the built-in set, which has the most
+/// difficult queries, methods take fewer steps unless --max-checks is given.
+/// \throws std::invalid_argument if an option of solvers is given without a solver.
 void settle_solver_options(const CLI::App& command, bool built_in_set, SolverArguments& arguments);
 
-/// Prints on standard error what a solver printed if that is asked for, line by line behind its name,
-/// printable (verify/io/printable.hpp); else how to see it. Nothing if it printed nothing.
+/// Prints a solver's output on standard error if requested, each line after its name, printable
+/// (verify/io/printable.hpp); otherwise a hint. Nothing without output.
 void report_output(std::string_view solver, const solvers::CapturedOutput& output, bool show);
 
-/// Says on standard error that a solver ended its process so often, unless that is never.
+/// Reports on standard error how often a solver ended its process, if ever.
 void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes);
 
-/// Where methods answer.
+/// The process in which methods run.
 enum class MethodHost : std::uint8_t {
-  children_with_limit,  ///< in child processes if there is a limit of time for a query
+  children_with_limit,  ///< in child processes if there is a time limit for queries
   this_process
 };
 
-/// The solvers of a run, and all that they need to live.
+/// The solvers of a run, with the objects that they depend on.
 class Solvers {
  public:
-  /// Those that the arguments name, in the order methods, plugins, results. Plugins answer in child
-  /// processes, until interrupted. The method "none" stands for no method. Of several with one name,
-  /// the second is called "NAME (2)", and so on.
-  /// \throws std::invalid_argument for an unknown method, or "none" beside others; DatasetError if a
-  /// plugin or a file of answers cannot be loaded; as Files does, which gets those that are read.
+  /// The solvers of the arguments, in the order methods, plugins, results. Plugins run in child
+  /// processes, until interrupted. The method "none" means no method. If several have the same
+  /// name, the second is called "NAME (2)", and so on.
+  /// \throws std::invalid_argument for an unknown method, or "none" with others; DatasetError if a
+  /// plugin or a file of answers cannot be loaded; the exceptions of Files, which records the input
+  /// files.
   Solvers(Files& files, const SolverArguments& arguments,
           MethodHost host = MethodHost::children_with_limit);
 
   [[nodiscard]] std::vector<const solvers::Solver*> all() const;
 
-  /// Their output since the last call. Not to be called while one of them is solving.
+  /// Reports their output since the last call. Must not be called while one of them is solving.
   void report_output(bool show) const;
 
-  /// Files of answers with answers to queries that were never asked: a warning text each.
+  /// Warnings for files with answers to queries that do not occur.
   [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
@@ -113,9 +114,9 @@ class Solvers {
   [[nodiscard]] const fast::Method& method_named(std::string_view name,
                                                  const SolverArguments& arguments);
 
-  /// Methods that are not in the registry.
+  /// The methods that are not in the registry.
   std::vector<std::unique_ptr<fast::Method>> methods_;
-  std::deque<Results> results_;  // its elements stay where they are
+  std::deque<Results> results_;  // the addresses of elements are stable
   std::vector<std::unique_ptr<solvers::Solver>> solvers_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Progress over sources that count alike.
+/// Progress over sources of equal weight.
 class TotalProgress {
  public:
   TotalProgress(const std::string& title, std::size_t sources)
@@ -52,7 +52,7 @@ void for_each_family(const SourceArguments& arguments, const SourceHandlers& han
   }
 }
 
-/// Names what a search leaves out, not all of it where there is much.
+/// Reports the files that a search skips, up to a maximum number.
 class LeftOutReport {
  public:
   void add(const data::DatasetError& left_out) {
@@ -115,14 +115,13 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
   command.option_defaults()->group("Input");
   command
       .add_option("PATH", arguments.paths,
-                  "Dataset files (.csv, .npy) or folders; without any, the built-in set")
+                  "Dataset files (.csv, .npy) or folders; default: the built-in set")
       ->type_name("");
-  add_kind_option(command, arguments.kind,
-                  "vertex-face or edge-edge, where the path does not say which");
+  add_kind_option(command, arguments.kind, "vertex-face or edge-edge, if the path does not tell");
   command.add_flag("--round", arguments.round,
                    "Round coordinates that are not doubles, and count them");
   command.add_flag("--keep-going", arguments.keep_going,
-                   "Skip and count queries and files in error (exit status 2)");
+                   "Skip and count invalid queries and files (exit status 2)");
   command.add_option("--threads", arguments.threads, "Cores to use (0: all)")
       ->type_name("N")
       ->capture_default_str();
@@ -152,7 +151,7 @@ void for_each_source(const SourceArguments& arguments, Files& files,
       for_each_file(arguments, files, handlers);
     }
   } catch (const io::Interrupted&) {
-    // The command goes on with what it has, as after an interrupt between two queries.
+    // The command continues with the results so far, as after an interrupt between two queries.
   }
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// The inputs of a command: paths on the command line, or none, as sources of queries; frames of a mesh.
+/// The inputs of a command: sources of queries from paths or the built-in set, and frames of
+/// a mesh.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
@@ -20,7 +21,7 @@
 
 namespace touchstone::verify::cli {
 
-/// The queries that the user named, and the cores to use on them.
+/// The queries of the command line, and the number of cores.
 struct SourceArguments {
   std::vector<std::filesystem::path> paths;
   std::string kind;
@@ -31,7 +32,7 @@ struct SourceArguments {
   std::uint64_t count = 1000;
   SeparationArguments separation = {};
 
-  /// Without a path the queries are those of the built-in set.
+  /// Without a path the built-in set is used.
   [[nodiscard]] bool built_in_set() const { return paths.empty(); }
 };
 
@@ -40,30 +41,30 @@ void add_source_options(CLI::App& command, SourceArguments& arguments);
 
 /// The callbacks of a command for its sources.
 struct SourceHandlers {
-  /// Of the progress bar over all sources.
+  /// The title of the progress bar over all sources.
   std::string title;
-  /// Called with a source and with what to tell the fraction of it that is done.
+  /// Called with a source and with a function that reports its completed fraction.
   std::function<void(data::QuerySource&, const std::function<void(double)>&)> use;
-  /// A path or file that could not be opened.
+  /// Called with a path or file that could not be opened.
   std::function<void(const std::filesystem::path&, const data::DatasetError&)> fail;
-  /// Is the rest to be left alone? Asked before each source and after each failure.
+  /// True to skip the rest; called before each source and after each failure.
   std::function<bool()> stopped;
 };
 
-/// The separation of a source: the user's, or the one recorded with the source.
+/// The separation of a source: from the options, or recorded with the source.
 /// \throws DatasetError naming both if they contradict each other.
 [[nodiscard]] Separation separation_for(const SourceArguments& arguments,
                                         const data::QuerySource& source);
 
-/// Opens and hands over the sources one after the other: the families of the built-in set (of
-/// that with a separation, if one is asked for), or the dataset files of all paths, each once.
-/// Queries skipped with keep_going, and what a search of folders leaves out, are reported on
-/// standard error. An interrupt ends it wherever it is.
-/// \param files gets the datasets, with what accompanies them. \throws std::runtime_error as Files does.
+/// Opens the sources in order and passes them on: the families of the built-in set (for the
+/// separation, if one is requested), or the dataset files of all paths, each once. Queries skipped
+/// with keep_going, and files that a search of folders skips, are reported on standard error. An
+/// interrupt ends it at any point.
+/// \param files records the datasets and their companions. \throws std::runtime_error as Files.
 void for_each_source(const SourceArguments& arguments, Files& files,
                      const SourceHandlers& handlers);
 
-/// Opens the frames of a mesh, as mesh::open_frames does. \param record gets their files
+/// Opens the frames of a mesh, as mesh::open_frames. \param record records their files
 [[nodiscard]] std::unique_ptr<mesh::Frames> open_frames(
     Files& record, std::span<const std::filesystem::path> paths);
 

@@ -37,7 +37,7 @@ struct Arguments {
   std::string picture_file;
 };
 
-/// Those that are named, in their own order; all if none is.
+/// The named kinds of difficulty, in their usual order; by default all.
 std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& names) {
   std::vector<const stability::Hardness*> result;
   for (const std::string& name : names) static_cast<void>(stability::hardness_from_name(name));
@@ -48,7 +48,7 @@ std::vector<const stability::Hardness*> chosen(const std::vector<std::string>& n
   return result;
 }
 
-/// Where the user names no solver, all methods but the baselines.
+/// All methods except the baselines, if the user names no solver.
 SolverArguments judged_by(const Arguments& arguments) {
   SolverArguments judged = arguments.judged;
   if (!judged.empty()) return judged;
@@ -80,7 +80,7 @@ Status run(const Arguments& arguments) {
     report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
   }
   solvers.report_output(arguments.judged.show_output);
-  // Files first: a closed standard output must not cost them.
+  // Files first, so that they are complete even if standard output is closed.
   if (json) json.write(io::json_document(report::to_json(result)));
   json.close();
   if (picture) picture.write(report::stability_page(result, command_line()));
@@ -113,8 +113,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
   add_separation_options(command, arguments.separation);
   command.option_defaults()->group("Output");
   add_json_option(command, arguments.json_file);
-  command
-      .add_option("--picture", arguments.picture_file, "Draw the result as a page for a browser")
+  command.add_option("--picture", arguments.picture_file, "Write the result as an HTML page")
       ->type_name("FILE.html");
 }
 
@@ -132,9 +131,8 @@ void add_stability_command(CLI::App& app, Status& status) {
                         stability::level_text(hardness, hardness.levels.back()));
   }
   set_help(*command, "touchstone stability --method tight_inclusion --picture stability.html",
-           "Queries that are hard in one way, at eleven levels: " + list +
-               ". Half of them collide. Without --method and --plugin all built-in solvers but the "
-               "baselines are "
+           "Queries with one kind of difficulty, at eleven levels: " + list +
+               ". Half of them collide. By default all built-in solvers except the baselines are "
                "judged.\n" +
                std::string(judging_statuses));
   command->callback([arguments, command, &status] {

@@ -1,4 +1,4 @@
-// touchstone step: what touches in the steps of a simulation, and when.
+// touchstone step: the collisions in the steps of a simulation.
 
 #include <fmt/format.h>
 
@@ -50,7 +50,7 @@ struct Arguments {
   std::string view_file;
 };
 
-/// The steps of a run, one after the other.
+/// A run: the steps in order.
 class StepRun {
  public:
   explicit StepRun(const Arguments& arguments)
@@ -119,7 +119,7 @@ class StepRun {
     report_.frames.push_back(std::move(frame));
   }
 
-  /// The page shows the first step in which something touches, or else the first of all.
+  /// The page shows the first step with a collision, or else the first step.
   void view_step(std::size_t i, const mesh::Vertices& before, const mesh::Vertices& after) {
     const bool is_free = report_.steps.back().is_free;
     if (!view_ || shows_contact_ || (is_free && i > 1)) return;
@@ -135,14 +135,14 @@ class StepRun {
         .on_text =
             [this](std::string_view text) {
               proof_.write(text);
-              // An exception ends the proving at once; the failure itself is reported already.
+              // An exception ends the proof immediately; the failure was already reported.
               if (proof_.failed()) throw std::runtime_error("the proof cannot be written");
             },
         .on_progress = progress,
         .stop = &io::interrupted()};
   }
 
-  /// The proof of a step that is none ends the run: those behind it would not be read.
+  /// A failed proof of a step ends the run, because the later proofs would not be read.
   [[nodiscard]] bool is_stopped() const { return io::interrupted() || lacks_proof(); }
   [[nodiscard]] bool lacks_proof() const {
     return !report_.steps.empty() && report_.steps.back().proof &&
@@ -197,13 +197,13 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
   jobs::StepQuestion& question = arguments.check.question;
   CLI::Option* const all = command.add_flag_callback(
       "--all", [&question] { question = jobs::StepQuestion::all; },
-      "Every pair that touches, with its times (the default)");
+      "Find every collision, with its times (the default)");
   CLI::Option* const earliest = command.add_flag_callback(
       "--earliest", [&question] { question = jobs::StepQuestion::earliest; },
-      "Only the earliest impact and the pairs that realise it");
+      "Find only the earliest impact and its pairs");
   CLI::Option* const free = command.add_flag_callback(
       "--free", [&question] { question = jobs::StepQuestion::free; },
-      "Only whether anything touches");
+      "Find only whether there is a collision");
   earliest->excludes(all);
   free->excludes(all)->excludes(earliest);
   command
@@ -213,8 +213,8 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
       ->check(real_number(0.0, 1.0));
   command
       .add_option("--alpha", arguments.check.alpha,
-                  "Judge the step that a simulator takes with this step size: to the rounded "
-                  "x0 + alpha (x1 - x0); and say how large it may be")
+                  "Judge the step with this step size, to the rounded x0 + alpha (x1 - x0), and "
+                  "report a maximal one")
       ->type_name("A")
       ->check(real_number(0.0, 1.0));
   command.add_option("--threads", arguments.check.step.max_threads, "Cores to use (0: all)")
@@ -222,17 +222,16 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
       ->capture_default_str()
       ->check(whole_number(0, INT_MAX));
   command.option_defaults()->group("Output");
-  command.add_option("--csv", arguments.csv_file, "Write each pair that touches as a row")
+  command.add_option("--csv", arguments.csv_file, "Write a row for each collision")
       ->type_name("FILE");
   command
       .add_option("--prove", arguments.proof_file,
-                  "Write a proof of each step, for touchstone-check: that nothing touches (up to "
-                  "--t-max), or when the earliest contact is; compressed if the name ends in .zst")
+                  "Write a proof of each step, for touchstone-check: no collision (up to --t-max), "
+                  "or the time of the earliest contact; compressed if the name ends in .zst")
       ->type_name("FILE");
   add_json_option(command, arguments.json_file);
-  add_view_option(
-      command, arguments.view_file,
-      "Write a page to look at the first step in which something touches, with its pairs");
+  add_view_option(command, arguments.view_file,
+                  "Write an HTML viewer of the first step with a collision");
 }
 
 }  // namespace
@@ -240,19 +239,19 @@ void add_step_options(CLI::App& command, Arguments& arguments) {
 void add_step_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
-      app.add_subcommand("step", "What touches in the steps of a simulation, and when, exactly");
+      app.add_subcommand("step", "Find the collisions in the steps of a simulation, exactly");
   add_input_options(*command, *arguments);
   add_step_options(*command, *arguments);
   set_help(*command,
            "touchstone step frames/92.ply frames/93.ply --csv pairs.csv\n"
            "touchstone step frames/ --earliest --json steps.json\n"
            "touchstone step frames/ --free --prove steps.cert && touchstone-check steps.cert",
-           "A step is the straight motion of every vertex from one frame to the next; write the "
-           "substeps of a simulator that takes several. Each frame is searched for edges that "
-           "pierce faces as well. Pairs that share a vertex are left out. Numbers begin at 0; "
+           "A step is the straight motion of every vertex from one frame to the next; a simulator "
+           "with substeps should write each of them. Each frame is also searched for edges that "
+           "pierce faces. Pairs that share a vertex are ignored. Numbers begin at 0; "
            "edges are numbered by their larger vertex, then by the smaller.\n"
-           "Exit status: 0 all is free, 1 something touches or a frame intersects itself, 2 bad "
-           "input or usage, 130 interrupted (what is done is written).");
+           "Exit status: 0 free of collisions, 1 a collision or a frame that intersects itself, 2 "
+           "bad input or usage, 130 interrupted (results so far are written).");
   command->callback([arguments, &status] { status = StepRun(*arguments).run(); });
 }
 

@@ -1,4 +1,4 @@
-// touchstone view: a page to look at queries.
+// touchstone view: an HTML viewer of queries.
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A page holds at most so many queries.
+/// The maximum number of queries on a page.
 constexpr std::size_t most_queries = 1000;
 
 struct Arguments {
@@ -49,14 +49,14 @@ struct Arguments {
   std::string out_file;
 };
 
-/// Where the user names no solver, those that promise something.
+/// The methods with a promise, if the user names no solver.
 SolverArguments asked_by(const Arguments& arguments) {
   SolverArguments asked = arguments.solvers;
   if (asked.empty()) asked.methods = solvers::default_methods();
   return asked;
 }
 
-/// The step between two frames that the user named, if any.
+/// The step between the two frames of the command line, if any.
 std::optional<view::ViewedStep> read_step(const Arguments& arguments, Files& files) {
   const bool has_groups = !arguments.groups.file.empty() || !arguments.groups.apart.empty();
   if (arguments.step.empty()) {
@@ -96,7 +96,7 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments, Files& files) {
   return queries;
 }
 
-/// What the page shows: the first pairs of a step, and the queries of the other inputs.
+/// The contents of the page: the first pairs of a step, and the queries of the other inputs.
 std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
                                            const std::optional<view::ViewedStep>& step,
                                            Files& files) {
@@ -146,7 +146,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
       ->type_name("");
   command
       .add_option("--step", arguments.step,
-                  "The step between two frames of a mesh (.ply, .obj), and the pairs that touch")
+                  "The step between two frames of a mesh (.ply, .obj) with its collisions")
       ->type_name("FRAME FRAME")
       ->expected(2);
   add_group_options(command, arguments.groups);
@@ -156,7 +156,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
       ->type_name("N")
       ->allow_extra_args(false)
       ->check(whole_number(0, UINT64_MAX));
-  command.add_option("--most", arguments.files.most, "At most so many queries")
+  command.add_option("--most", arguments.files.most, "Maximum number of queries")
       ->type_name("N")
       ->capture_default_str()
       ->check(whole_number(1, most_queries));
@@ -164,7 +164,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
       .add_option("--points", arguments.points,
                   "The 24 coordinates of a query, in one word: decimal, hexadecimal or fractions")
       ->type_name("NUMBERS");
-  add_kind_option(command, arguments.kind, "vertex-face or edge-edge, where nothing else says it");
+  add_kind_option(command, arguments.kind, "vertex-face or edge-edge, if the input does not tell");
   command.add_flag("--round", arguments.files.round,
                    "Round coordinates of datasets that are not doubles");
   add_separation_options(command, arguments.separation);
@@ -178,7 +178,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
 
 void add_view_command(CLI::App& app, Status& status) {
   const auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("view", "Write a page to look at queries");
+  CLI::App* command = app.add_subcommand("view", "Write an HTML viewer of queries");
   add_options(*command, *arguments);
   set_help(
       *command,

@@ -71,9 +71,9 @@ std::string ViewFile::summary(std::uint64_t allowed) const {
   if (!step_.is_null()) {
     const auto total = step_.at("total").get<std::size_t>();
     return fmt::format("{}: {}, {}\n", name, step_.at("label").get<std::string>(),
-                       total == 0   ? "in which nothing touches"
-                       : total == 1 ? "1 pair touches"
-                                    : fmt::format("{} pairs touch", total));
+                       total == 0   ? "without a collision"
+                       : total == 1 ? "1 collision"
+                                    : fmt::format("{} collisions", total));
   }
   if (queries_.empty() && allowed != 0) {
     return fmt::format(

@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The page that a command writes to look at what it found (--view), as `touchstone view` writes pages.
+/// The viewer of a command's results (--view), as `touchstone view` writes pages.
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
@@ -17,32 +17,33 @@
 
 namespace touchstone::verify::cli {
 
-/// A page of the first queries that a command found, if a file is named. A failure is reported, once, as that
-/// of Output.
+/// A page of the first queries that a command found, if a file is named. A failure is reported
+/// once, as by Output.
 class ViewFile {
  public:
-  /// A page holds at most so many queries.
+  /// The maximum number of queries on a page.
   static constexpr std::size_t most_queries = 100;
 
-  /// \throws as Output does.
+  /// \throws as Output.
   ViewFile(Files& files, const std::string& name) : name_(name), output_(files, name) {}
 
-  /// Was a file named?
+  /// True if a file was named.
   [[nodiscard]] explicit operator bool() const { return static_cast<bool>(output_); }
 
-  /// Has it as many queries as a page holds?
+  /// True if the page is full.
   [[nodiscard]] bool is_full() const { return queries_.size() >= most_queries; }
 
-  /// Takes a query unless it is full. A query that it has already gets the further notes and answers.
+  /// Adds a query unless the page is full. If the page has the query already, its notes and answers
+  /// are extended.
   void add(view::ViewedQuery query);
 
-  /// Takes a step, and the first of its pairs.
+  /// Adds a step, and the first of its pairs.
   void add(const view::ViewedStep& step);
 
-  /// Writes the page: on it the certified solver answers too, under these options.
+  /// Writes the page, with answers of the certified solver under these options.
   void write(const fast::MethodOptions& options = {});
 
-  /// What the page shows, a line: nothing if no file was named or it could not be written.
+  /// A line about the contents of the page; empty if no file was named or it could not be written.
   /// \param allowed false positives, which break no promise and are not on the page
   [[nodiscard]] std::string summary(std::uint64_t allowed = 0) const;
 

@@ -78,7 +78,7 @@ Separation read_separation(const fs::path& path) {
   try {
     const nlohmann::json json = parse(path);
     const auto distance = distance_from_text(json.at(distance_key).get<std::string>());
-    if (!distance) throw DatasetError(path, {}, "min_separation is no finite number from 0 on");
+    if (!distance) throw DatasetError(path, {}, "min_separation must be a finite number ≥ 0");
     return {.distance = *distance, .norm = norm_from_string(json.at(norm_key).get<std::string>())};
   } catch (const nlohmann::json::exception& error) {
     throw DatasetError(path, {}, std::string("is no separation: ") + error.what());

@@ -1,15 +1,16 @@
 #pragma once
 
 /// \file
-/// Files that appear whole or not at all.
+/// Files that appear completely or not at all.
 ///
 /// The data goes to a temporary name in the target's folder and takes the target's name when it is
-/// complete; a file that was there before stays as it was until then. The temporary name,
-/// <name>.touchstone.partial-<process>-<number> with <name> cut to what a file's name may have, has an
-/// extension of its own, so that a search for datasets does not find what a killed run left.
+/// complete; an existing file is unchanged until then. The temporary name,
+/// <name>.touchstone.partial-<process>-<number> with <name> shortened to the limit of file names,
+/// has a separate extension, so that a search for datasets does not find the remains of a killed
+/// run.
 ///
-/// Who writes a temporary file holds a lock (flock) on it, which ends with the process however that
-/// ends. Who begins to write into a folder removes the temporary files there that nobody holds.
+/// The writer of a temporary file holds a lock (flock) on it, which ends with the process in any
+/// case. A new writer in a folder removes the temporary files that are not locked.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +20,10 @@
 
 namespace touchstone::verify::io {
 
-/// A file open for writing, buffered. Without close() nothing remains of it.
+/// A file open for writing, buffered. Without close() it is discarded.
 class OutputFile {
  public:
-  /// Also removes what killed runs left in the target's folder.
+  /// Also removes temporary files of killed runs in the target's folder.
   /// \throws DatasetError if no file can be made in the target's folder.
   explicit OutputFile(std::filesystem::path path);
   OutputFile(const OutputFile&) = delete;
@@ -36,15 +37,15 @@ class OutputFile {
   /// \throws DatasetError if they cannot be written.
   void write(std::string_view bytes);
 
-  /// Replaces bytes at an offset (in bytes from the start); they must lie inside what was written.
+  /// Replaces bytes at an offset (in bytes from the start); they must be within the written part.
   /// \throws DatasetError if they cannot be written.
   void overwrite(std::uint64_t offset, std::string_view bytes);
 
-  /// Writes all that is left and gives the file its name. To be called once, as the last call.
-  /// \throws DatasetError if either fails; the target is then as it was.
+  /// Writes the rest and renames the file. Must be called once, as the last call.
+  /// \throws DatasetError if either fails; the target is then unchanged.
   void close() { close_as(path_); }
 
-  /// The same with another name in the target's folder; the target stays as it was.
+  /// The same with another name in the target's folder; the target is unchanged.
   void close_as(const std::filesystem::path& path);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

@@ -283,7 +283,7 @@ std::vector<fs::path> frame_files(std::span<const fs::path> paths) {
   if (paths.size() == 1 && is_folder(paths.front())) return mesh_files_in(paths.front());
   for (const fs::path& path : paths) {
     if (paths.size() > 1 && (path.extension() == ".npz" || is_folder(path))) {
-      throw data::DatasetError(path, {}, "an archive or a folder is named alone");
+      throw data::DatasetError(path, {}, "pass either one archive, one folder, or a list of files");
     }
   }
   return {paths.begin(), paths.end()};

@@ -49,7 +49,7 @@ struct MeasureOptions {
   /// Processor seconds that the sample of a method may take; positive. All that is done with a
   /// method takes a few times as long.
   double seconds = 1.0;
-  /// Times are medians of so many, of fewer where one takes longer than `seconds`; at least 1.
+  /// Repetitions; times are medians, of fewer where one takes longer than `seconds`; at least 1.
   std::size_t repetitions = 5;
   solvers::SolverProcessOptions process = {};
   /// Settings of one method are asked the same queries.

@@ -609,7 +609,7 @@ TEST_F(Tool, MissingAnswersAreBadInputAndNamed) {
   EXPECT_TRUE(
       contains(certify.err, "no answer to 1 queries, first to vertex-face query 1 of " + file))
       << certify.err;
-  EXPECT_TRUE(contains(certify.err, answers + ":3: 1 answers are to queries that were not there"))
+  EXPECT_TRUE(contains(certify.err, answers + ":3: 1 answers refer to unknown queries"))
       << certify.err;
   EXPECT_EQ(json("result.json").at("methods")[0].at("missing"), 1);
   EXPECT_EQ(json("result.json").at("methods")[0].at("queries"), 1);
@@ -795,7 +795,7 @@ TEST_F(Tool, ACrashThatDoesNotRepeatIsReportedAndIsAnError) {
   std::string text;
   for (int i = 0; i < 2048; ++i) text += misbehave(Misbehaviour::dies_at_call_1500);
   const std::string file = write("queries_vf.csv", text);
-  const std::string said = "misbehaving ended its process 1 times, at no particular query";
+  const std::string said = "misbehaving ended its process 1 times, not at a particular query";
   // One thread, hence one process.
   const Outcome solve =
       run({"solve", file, "--plugin", tests::plugin_library("misbehaving"), "--threads", "1",

@@ -242,7 +242,7 @@ TEST_F(ViewCommand, StepShowsTheFirstStepInWhichSomethingTouches) {
   for (const std::string question : {"--all", "--earliest", "--free"}) {
     const tests::Outcome outcome = step({frames[0], frames[1], frames[2], frames[3], question});
     EXPECT_EQ(outcome.status, 1) << outcome.err;
-    EXPECT_TRUE(contains(outcome.out, path("page.html") + ": 1.obj to 2.obj, 1 pair touches\n"));
+    EXPECT_TRUE(contains(outcome.out, path("page.html") + ": 1.obj to 2.obj, 1 collision\n"));
     const nlohmann::json page = queries("page.html");
     ASSERT_EQ(page.size(), 1U);
     EXPECT_EQ(page[0].at("label"), "1.obj to 2.obj: vertex 3, face 0");
@@ -251,7 +251,7 @@ TEST_F(ViewCommand, StepShowsTheFirstStepInWhichSomethingTouches) {
   }
   const tests::Outcome free = step({frames[0], frames[1]});
   EXPECT_EQ(free.status, 0);
-  EXPECT_TRUE(contains(free.out, ": 0.obj to 1.obj, in which nothing touches\n")) << free.out;
+  EXPECT_TRUE(contains(free.out, ": 0.obj to 1.obj, without a collision\n")) << free.out;
   EXPECT_EQ(queries("page.html").size(), 0U);
   EXPECT_TRUE(contains(read("page.html"), R"(id="step_facts")"));
   EXPECT_EQ(step({frames[0], frames[1], "--csv", path("page.html")}).status, 2);

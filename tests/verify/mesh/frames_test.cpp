@@ -174,7 +174,7 @@ TEST(Frames, ThatDoNotGoTogetherAreAnError) {
                      [&] {
                        (void)open({file, folder.path() / "b.npz"});
                      }),
-            "b.npz: an archive or a folder is named alone");
+            "b.npz: pass either one archive, one folder, or a list of files");
   fs::create_directory(folder.path() / "empty");
   EXPECT_EQ(error_of(folder, [&] { (void)open({folder.path() / "empty"}); }),
             "empty: no .ply or .obj file in this folder");

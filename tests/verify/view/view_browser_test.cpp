@@ -483,7 +483,7 @@ TEST_F(ViewBrowser, TheSliderMovesTheMesh) {
     say({ heights: [0, 2048, 4096].map(at), verdict: find("step_verdict").textContent,
       hidden: [find("query").hidden, find("numbers").hidden] });
   )");
-  EXPECT_EQ(result.at("verdict"), "Nothing touches.");
+  EXPECT_EQ(result.at("verdict"), "No collision.");
   EXPECT_EQ(result.at("hidden"), nlohmann::json::array({true, true}));
   const nlohmann::json& heights = result.at("heights");
   const double low = heights.at(0).at(0), middle = heights.at(1).at(0), high = heights.at(2).at(0);
@@ -507,11 +507,11 @@ TEST_F(ViewBrowser, PairsOfAStepLeadToTheirQueries) {
       drawn: [pixels("mesh"), pixels("motion")] });
   )");
   const std::string verdict = result.at("verdict");
-  EXPECT_TRUE(verdict.find(" pairs touch, the first at t = ") != std::string::npos) << verdict;
+  EXPECT_TRUE(verdict.find(" collisions, the first at t = ") != std::string::npos) << verdict;
   const std::size_t pairs = result.at("names").size();
   ASSERT_GE(pairs, 2U);
-  EXPECT_EQ(result.at("marks").at(0), fmt::format("t = 0, 0 of {} have touched", pairs));
-  EXPECT_EQ(result.at("marks").at(2), fmt::format("t = 1, {0} of {0} have touched", pairs));
+  EXPECT_EQ(result.at("marks").at(0), fmt::format("t = 0, 0 of {} have collided", pairs));
+  EXPECT_EQ(result.at("marks").at(2), fmt::format("t = 1, {0} of {0} have collided", pairs));
   const nlohmann::json &first = result.at("first"), &last = result.at("last");
   EXPECT_EQ(first.at("label"), "rising: " + result.at("names").at(0).get<std::string>());
   EXPECT_EQ(first.at("verdict"), "vertex-face: collides");

@@ -1,9 +1,9 @@
 "use strict";
-// Draws the figures of a report from the data that stand in the page. Each form of figure is a function
-// that draws one panel into an SVG of the width there is; all numbers and words come from the data.
+// Draws the figures of a report from the data in the page. Each form of figure is a function that
+// draws one panel into an SVG of the available width; all numbers and words come from the data.
 
 (function () {
-  // JSON has no infinite numbers: they are words there.
+  // Infinite numbers are words in JSON.
   const isPlace = (key) => key === "x" || key === "y";
   const figures = JSON.parse(document.getElementById("figures").textContent,
     (key, value) => (isPlace(key) && typeof value === "string" ? Number(value) : value));
@@ -34,8 +34,8 @@
   const isTime = (label) => /, ns$/.test(label);
   const axisTitle = (label) => label.replace(/, ns$/, "");
 
-  /// A scale over the values, logarithmic or not. What is infinite has a place of its own at the upper
-  /// end, and zeros of a logarithmic one have one at the lower end.
+  /// A scale over the values, logarithmic or not. Infinite values have a separate place at the
+  /// upper end, and zeros of a logarithmic scale have one at the lower end.
   function makeScale(values, isLog, range, label) {
     const finite = values.filter(Number.isFinite);
     const direction = Math.sign(range[1] - range[0]);
@@ -62,7 +62,7 @@
     return { place, ticks, text, zero: hasZero ? range[0] : null, infinite };
   }
 
-  /// A scale on which the values stand evenly spaced.
+  /// A scale with evenly spaced values.
   function makeEvenScale(values, range) {
     const ticks = Array.from(new Set(values)).sort((a, b) => a - b);
     return { place: d3.scalePoint().domain(ticks).range(range), ticks, text: powerText, zero: null, infinite: null };
@@ -93,7 +93,7 @@
     svg.append("line").attr("class", kind || "rule").attr("x1", x1).attr("y1", y1).attr("x2", x2).attr("y2", y2);
   }
 
-  /// Where what is not on the scale stands, with its name.
+  /// The place of values outside of the scale, with its name.
   const ends = (scale) => [[scale.zero, "0"], [scale.infinite, "∞"]].filter(([end]) => end !== null);
 
   function drawXAxis(svg, scale, box, label) {
@@ -130,8 +130,8 @@
       .style("stroke-width", width).style("opacity", opacity);
   }
 
-  /// Where a name of some width may stand around a point, within the frame, the nearest first: its box, what anchors
-  /// the text in it, and the end of a line that leads to it.
+  /// Possible places of a name of some width around a point, within the frame, the closest first:
+  /// its box, the anchor of its text, and the end of a line that leads to it.
   function placesOfName(x, y, width, frame) {
     const sides = [9, 24, 48, 72].flatMap((dx) => [["start", dx], ["end", -dx - width]]).concat([["middle", -width / 2]]);
     const places = d3.cross(d3.range(-90, 91, 15), sides, (dy, [anchor, dx]) => {
@@ -145,8 +145,9 @@
     return d3.sort(places.filter((place) => isInside(place.box) && place.distance >= 6), rank);
   }
 
-  /// Puts each name beside its point, where it hides no point, no other name and none of the further boxes; a
-  /// line, which crosses no other name if that can be, leads to a name that is not next to its point.
+  /// Places each name beside its point such that it hides no point, no other name and none of the
+  /// further boxes; a line, which crosses no other name if possible, leads to a name that is not
+  /// next to its point.
   function drawNames(svg, names, box, further) {
     const taken = names.map(({ x, y }) => [x - 9, y - 9, x + 9, y + 9]).concat(further);
     const drawn = [];
@@ -177,7 +178,7 @@
     `${axisTitle(figure.x_label)}: ${valueText(figure.x_label, point.x)}\n` +
     `${axisTitle(figure.y_label)}: ${valueText(figure.y_label, point.y)}`;
 
-  /// Is it drawn paler, beside another series of the same method?
+  /// True if it is drawn paler, beside another series of the same method.
   const isSecond = (series) => series.role === "faint" || / \(L2\)$/.test(series.name);
 
   const allPoints = (panel) => panel.series.flatMap((series) => series.points);
@@ -197,7 +198,7 @@
     return { svg, box, x, y };
   }
 
-  /// Draws the front; the boxes of its lines.
+  /// Draws the front; returns the boxes of its lines.
   function drawFront(svg, front, x, y, box) {
     if (front.length === 0) return [];
     const corners = [[x.place(front[0].x), box.top]];
@@ -309,7 +310,7 @@
     return `${Math.round(value > 99 && value < 100 ? 99 : value)}%`;
   }
 
-  /// In few characters: two digits, one and a power of ten where they are many.
+  /// A short text of a number: two digits, or one and a power of ten.
   function shortText(value) {
     if (value === 0 || value === Infinity) return numberText(value);
     if (value >= 0.01 && value < 9950) return String(Number(value.toPrecision(2)));
@@ -324,7 +325,8 @@
 
   const cellText = (figure, value) => (isTime(figure.y_label) ? shortTimeText(value) : shortText(value));
 
-  /// The look of a cell: its fill, its texts from the longest to the shortest, and the colour of these.
+  /// The appearance of a cell: its fill, its texts from the longest to the shortest, and their
+  /// colour.
   function markLook(point) {
     if (point.label === "") return { fill: "var(--calm)", texts: [] };
     const kind = point.label[0];
@@ -361,7 +363,7 @@
   const pen = document.createElement("canvas").getContext("2d");
   const widths = new Map();
 
-  /// Of a cell's text as it is drawn.
+  /// The width of a cell's text as drawn.
   function widthOf(text, weight) {
     const key = `${weight}${text}`;
     if (!widths.has(key)) {
@@ -415,7 +417,7 @@
       write(svg, left + cell * (i + 0.5), height - 24, panel.powers ? `2${superscript(level)}` : `${level}`, "middle",
         "tick");
     });
-    // In the middle, and inside where it is wide.
+    // In the middle, and inside if it is wide.
     const half = 3.1 * panel.caption.length;
     write(svg, Math.min((left + width) / 2, width - half), height - 6, panel.caption, "middle", "axis");
   }
@@ -423,7 +425,7 @@
   const forms = { points: drawPoints, lines: drawLines, ridges: drawRidges, bars: drawBars, marks: drawGrid,
     shades: drawGrid };
 
-  /// Is what stands along its y axis said above it?
+  /// True if the label of its y axis is above it.
   const hasYCaption = (figure) => figure.y_label !== "" && ![drawRidges, drawGrid].includes(forms[figure.form]);
 
   // ---- Legends ----------------------------------------------------------------------------------
@@ -436,7 +438,7 @@
       ["var(--line)", "! errors or hangs besides"]],
   };
 
-  /// What a figure's colours mean: of each its tone and name, and perhaps its symbol and opacity.
+  /// The legend of a figure's colours: tone and name of each, and optionally symbol and opacity.
   function legendOf(figure) {
     if (figure.form in legendsOfForms) return legendsOfForms[figure.form];
     if (figure.form === "shades") {
@@ -472,7 +474,7 @@
 
   const pictureStyle = document.querySelector("style").textContent.split("/* ---- The page")[0];
 
-  /// Draws a legend into a picture; the height that it takes.
+  /// Draws a legend into a picture; returns its height.
   function drawPictureLegend(svg, figure, width) {
     const isNamed = figure.panels.every((panel) => panel.series.every((series) => series.role === "point"));
     if (isNamed) return 0;
@@ -488,8 +490,8 @@
     return y + 14;
   }
 
-  /// A figure as an SVG file of its own, which brings its style along: its legend, where the points have no
-  /// names, and its panels, two abreast.
+  /// A figure as a separate SVG file with its style: its legend, if the points have no names, and
+  /// its panels in two columns.
   function pictureOf(figure) {
     const wide = 440;
     const gap = 24;
@@ -518,11 +520,11 @@
     const height = bottom + gap / 2;
     paper.attr("height", height);
     svg.attr("width", width).attr("height", height).attr("viewBox", `0 0 ${width} ${height}`);
-    // Elements stand on lines of their own, so that two pictures can be compared.
+    // Each element is on a separate line, so that two pictures can be compared.
     return new XMLSerializer().serializeToString(svg.node()).replace(/></g, ">\n<") + "\n";
   }
 
-  /// A link to the figure as a picture, beside that to its numbers; it is drawn when it is asked for.
+  /// A link to the figure as a picture, beside that to its numbers; the picture is drawn on demand.
   function addPictureLink(figure) {
     const link = d3.select(`#${figure.id} .origin`).append("a").attr("class", "svg")
       .attr("download", `${figure.id}.svg`).attr("href", "#").text("SVG");
@@ -531,10 +533,10 @@
 
   // ---- Tables -----------------------------------------------------------------------------------
 
-  /// The number that a cell begins with, after a sign for what is wrong; NaN where there is none.
+  /// The number at the beginning of a cell, after a sign for a fault; NaN if there is none.
   const numberOf = (text) => parseFloat(text.replace(/^✗ /, ""));
 
-  /// Cells without a number stand last, whichever way the numbers go.
+  /// Cells without a number are last in both orders.
   function isBefore(a, b, direction) {
     const [x, y] = [numberOf(a), numberOf(b)];
     if (Number.isNaN(x) && Number.isNaN(y)) return direction * a.localeCompare(b);
@@ -548,7 +550,7 @@
     table.tBodies[0].append(...rows);
   }
 
-  /// Makes the names of the columns buttons that sort by them: upwards, then downwards.
+  /// Turns the names of the columns into buttons for sorting: upwards, then downwards.
   function makeSortable(table) {
     const heads = Array.from(table.tHead.rows[0].cells);
     heads.forEach((head, column) => {
@@ -565,7 +567,7 @@
     });
   }
 
-  /// Tells the style how wide the first column is: where the second one stays.
+  /// Sets the width of the first column in the style, which is the position of the second one.
   function keepColumns(table) {
     table.style.setProperty("--first", `${table.tHead.rows[0].cells[0].offsetWidth}px`);
   }

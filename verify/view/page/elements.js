@@ -1,6 +1,6 @@
-// Elements of the document, in few words.
+// Short functions for elements of the document.
 
-/// An element with attributes and children; those called on… are listeners.
+/// An element with attributes and children; attributes named on… are listeners.
 export function make(tag, attributes = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {

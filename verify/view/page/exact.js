@@ -1,6 +1,6 @@
-// Exact numbers: doubles as the rational numbers that they are, in integers of any size.
+// Exact numbers: doubles as rational numbers of integers of any size.
 //
-// A rational is { n, d }, d > 0, not reduced. Nothing here rounds but what says so.
+// A rational is { n, d }, d > 0, not reduced. Functions round only if their comment says so.
 
 const view = new DataView(new ArrayBuffer(8));
 
@@ -89,7 +89,7 @@ export function nearest({ n, d }) {
   const { quotient, isExact } = exact(shift);
   const rough = scaled(Number(quotient), -shift);
   if (rough >= 2 ** -1020) {
-    // An odd last bit stands for what is left out: far below the last bit of a double.
+    // An odd last bit represents the truncated part: far below the last bit of a double.
     return sign * scaled(Number(isExact ? quotient : quotient | 1n), -shift);
   }
   // Near the subnormal numbers: the multiple of 2^-1074, whose factor is its bits.
@@ -150,13 +150,14 @@ export function shortText(value, digits = 6) {
   return `${value.n < 0n ? "-" : ""}${Number(mantissa)}e${Number(rest) + power}`;
 }
 
-/// A double in the fewest digits that tell it from its neighbours; small and large ones with a power of ten.
+/// A double with the fewest digits that distinguish it from its neighbours; small and large ones
+/// with a power of ten.
 export function doubleText(x) {
   const size = Math.abs(x);
   return size === 0 || (size >= 1e-3 && size < 1e15) ? String(x) : x.toExponential().replace("e+", "e");
 }
 
-/// The rational that a text stands for: "1/3", "-0x1.8p-3", "2.5e-4"; null if it is none.
+/// The rational of a text: "1/3", "-0x1.8p-3", "2.5e-4"; null if it is none.
 export function parseRational(text) {
   const word = text.trim();
   const slash = word.indexOf("/");
@@ -177,7 +178,7 @@ export function parseRational(text) {
   return match[1] === "-" ? { n: -value.n, d: value.d } : value;
 }
 
-/// The double nearest to what a text says; NaN if it is no finite number. −0 keeps its sign.
+/// The double nearest to the number of a text; NaN if it is not a finite number. −0 keeps its sign.
 export function parseDouble(text) {
   const value = parseRational(text);
   if (value === null) return NaN;

@@ -1,10 +1,9 @@
-// What the page knows of its queries. The tool writes for each (verify/view/query_facts.cpp):
+// The data of the page's queries. The tool writes for each (verify/view/query_facts.cpp):
 //
-//   label, kind, coordinates, min_separation, norm, notes
-//   truth        collides, text, toi, u, v
-//   approach     how near they come that do not touch: above, at_most, and the time
-//   certificate  claim, accepted, reason, pieces, text, given
-//   answers      solver, promise, recorded, verdict, failure, toi_lower, toi_upper, tolerance, faults, breaks_promise
+//   label, kind, coordinates, min_separation, norm, notes truth collides, text, toi, u, v approach
+//   the least distance without a collision: above, at_most, and the time certificate claim,
+//   accepted, reason, pieces, text, given answers solver, promise, recorded, verdict, failure,
+//   toi_lower, toi_upper, tolerance, faults, breaks_promise
 //
 // A toi and an approach are lower and upper (doubles), exact (a rational, or null) and time (a rational near
 // it). Here texts of doubles become doubles, and texts of rationals rationals.
@@ -36,7 +35,7 @@ export function readFacts(facts) {
   };
 }
 
-/// A query without any answer: one that was pasted.
+/// A query without answers, from pasted text.
 export const withoutAnswer = (query, label) =>
   ({ ...query, label, notes: [], truth: null, approach: null, certificate: null, answers: [] });
 
@@ -48,14 +47,14 @@ export function momentText({ lower, upper, exact }) {
   return exact.length < 40 ? `${exact} ≈ ${value}` : `about ${value}`;
 }
 
-/// "(u, v) = (0.25, 0.5)"; in nine digits where they are no doubles.
+/// "(u, v) = (0.25, 0.5)"; with nine digits if they are not doubles.
 export function placeText({ u, v }) {
   const isExact = [u, v].every(({ lower, upper }) => lower === upper);
   const [first, second] = [u, v].map(({ lower }) => doubleText(isExact ? lower : Number(lower.toPrecision(9))));
   return `(u, v) ${isExact ? "=" : "≈"} (${first}, ${second})`;
 }
 
-/// Do they touch, in few words.
+/// The verdict in few words.
 export function verdictText({ truth, min_separation }) {
   if (truth === null) return "not decided";
   if (min_separation > 0) return truth.collides ? "comes within the distance" : "stays farther";

@@ -26,7 +26,7 @@ export const writers = {
 
 const isKind = (kind) => kind === "vertex-face" || kind === "edge-edge";
 
-/// What a text says of the kind; null if nothing.
+/// The kind in a text; null if there is none.
 function kindOf(text) {
   const found = /(vertex|edge)[-_](face|edge)/i.exec(text);
   const kind = found && `${found[1]}-${found[2]}`.toLowerCase();
@@ -55,7 +55,8 @@ function fromJson(text) {
     min_separation: distance, norm: separation.norm === "l2" ? "l2" : "linf" };
 }
 
-/// Rows of numbers with commas: x, y, z, or numerator and denominator of each, and perhaps a label.
+/// Rows of numbers with commas: x, y, z, or numerator and denominator of each, and optionally a
+/// label.
 function fromRows(lines) {
   const fields = lines.map((line) => line.split(",").map((field) => field.replace(/"/g, "").trim()));
   const width = fields[0].length;
@@ -66,10 +67,10 @@ function fromRows(lines) {
 }
 
 const number = String.raw`[-+]?(?:0x[0-9a-f]*\.?[0-9a-f]*(?:p[-+]?\d+)?|(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)`;
-/// Numbers and fractions that are no parts of names.
+/// Numbers and fractions that are not parts of names.
 const numberPattern = new RegExp(String.raw`(?<![\w.])${number}(?:/${number})?(?![\w.])`, "gi");
 
-/// The query that a text holds: { kind (null where it does not say), coordinates, min_separation, norm }.
+/// The query in a text: { kind (null if unknown), coordinates, min_separation, norm }.
 /// \throws Error with the reason if there is none.
 export function readQuery(text) {
   const contact = { kind: kindOf(text), min_separation: 0, norm: "linf" };

@@ -1,8 +1,9 @@
-// What is seen: a place and a radius, and exact positions as coordinates relative to them.
+// The visible part: a place and a radius, and exact positions as coordinates relative to them.
 //
-// A picture shows the ball of a radius around a place. Relative to both, coordinates are computed exactly and
-// then cut to 72 bits behind the point; primitives are clipped to the cube around the ball before they are
-// rounded. So a part of a primitive that is 1e300 times larger than what is seen is as sharp as one that is not.
+// A picture shows the ball of a radius around a place. Relative to both, coordinates are computed
+// exactly and then truncated to 72 fractional bits; primitives are clipped to the cube around the
+// ball before they are rounded. So a primitive that is 1e300 times larger than the visible part is
+// as sharp as a small one.
 
 const fractionBits = 72n;
 const limit = 1n << fractionBits;
@@ -32,10 +33,11 @@ export class Frame {
 export const toNumbers = (point) => point.map((x) => Number(x) / unit);
 const isWithin = (point) => point.every((x) => x >= -limit && x <= limit);
 
-/// A point, as numbers; null if it is not seen.
+/// A point, as numbers; null if it is not visible.
 export const seenPoint = (point) => (isWithin(point) ? toNumbers(point) : null);
 
-/// What is seen of a polygon, or of a segment as one of two points: corners as numbers; empty if nothing is.
+/// The visible part of a polygon, or of a segment as one of two points: corners as numbers; empty
+/// if it is invisible.
 export function clipped(polygon) {
   let points = polygon;
   if (!points.every(isWithin)) {

@@ -1,18 +1,19 @@
-// How a query is looked at: at what time, from how near, and in which window of time.
+// The view of a query: time, zoom and window of time.
 //
-// The place is where the primitives touch, or are nearest. The zoom goes from a radius that holds all of the motion
-// to one in which the gap fills the picture; the window of time shrinks with it, to the time in which points cross
-// the picture. All of it is chosen by doubles, and then taken as exact.
+// The place is that of the contact, or of the nearest points. The zoom goes from a radius that
+// contains the whole motion to one in which the gap fills the picture; the window of time shrinks
+// with it, to the time in which points cross the picture. All of these are chosen in doubles, and
+// then treated as exact.
 
 import { absolute, add, compare, log2, multiply, one, rational, shortText, subtract, zero } from "./exact.js";
 import { Frame } from "./frame.js";
 import { likelyNearestTime, minus, Motion } from "./motion.js";
 import { positionIn } from "./timeline.js";
 
-/// Steps of the slider of time.
+/// Steps of the time slider.
 export const steps = 4096;
 
-/// How much smaller the gap is than all that is seen, at the least: what contact is enlarged by.
+/// The least ratio of the visible part to the gap, with which contact is enlarged.
 const leastZoom = 40;
 const roomForGap = 1;  // log2 of the radius over the gap
 
@@ -21,7 +22,7 @@ const largest = (vectors) => vectors.flat().reduce((a, b) => {
   return size > a ? size : a;
 }, 0n);
 
-/// log2 of n/d; of nothing: of 1.
+/// log2 of n/d; by default of 1.
 const lg = (n, d) => (n === 0n ? 0 : log2({ n, d }));
 
 export class Look {
@@ -60,13 +61,13 @@ export class Look {
     if (near.squared.n > 0n && !this.touches()) this.lgEnd = Math.min(log2(near.squared) / 2 + roomForGap, this.lgAll);
   }
 
-  /// Is the gap 0 at the time that is looked at, or so near to it that it means nothing?
+  /// True if the gap is 0 at the shown time, or negligible.
   touches() {
     const { truth, min_separation } = this.facts;
     return Boolean(truth && truth.toi && min_separation === 0);
   }
 
-  /// Is the window of time a point of it, from which nothing can be chosen?
+  /// True if the window of time is a single point, without a choice.
   get canZoom() {
     return this.lgEnd < this.lgAll;
   }
@@ -77,7 +78,7 @@ export class Look {
     this.reframe();
   }
 
-  /// Nearer by a factor.
+  /// Zooms in by a factor.
   zoomBy(factor) {
     this.zoomTo(this.zoom + Math.log2(factor) / Math.max(this.lgAll - this.lgEnd, 1));
   }
@@ -135,7 +136,7 @@ export class Look {
     return certificate.pieces.find(({ from, to }) => compare(from, this.t) <= 0 && compare(this.t, to) <= 0) || null;
   }
 
-  /// A time in words: so many digits, and how far it is from that of the place.
+  /// A time as text: a number of digits, and its distance from the time of the place.
   timeText(time, digits) {
     const { truth, approach } = this.facts;
     const name = truth && truth.toi ? "toi" : approach ? "nearest" : "";

@@ -1,4 +1,4 @@
-// The page: a list of queries, of which one is looked at.
+// The page: a list of queries, of which one is shown.
 
 import { hexadecimalText, log2, nearest, rational, rationalText, shortText } from "./exact.js";
 import { find, make } from "./elements.js";
@@ -13,7 +13,7 @@ import { drawTimeline } from "./timeline.js";
 
 const zoomSteps = 1000;
 const secondsOfPlay = 4;
-/// log2 of the smallest gap that is seen, in units of the radius.
+/// log2 of the smallest visible gap, in units of the radius.
 const lgSmallest = -5;
 
 const queries = JSON.parse(find("queries").textContent).map(readFacts);
@@ -104,7 +104,7 @@ function page() {
         button("draw", "Draw this text", "", draw), make("output", { id: "drawn" }))));
 }
 
-// ---- The query that is looked at ----------------------------------------------------------------
+// ---- The query that is shown --------------------------------------------------------------------
 
 function show(index) {
   isPlaying = false;
@@ -144,7 +144,7 @@ function badge(facts) {
   return verdictText(facts) + (wrong > 0 ? `, ✗ ${wrong}` : "");
 }
 
-/// Draws and writes what depends on the time; and, where the frame has changed, all.
+/// Updates the parts that depend on the time or, if the frame has changed, all parts.
 function update(isNewFrame) {
   const { motion, facts, t, window, frame, cornerFrame, place } = look;
   const state = motion.at(t);
@@ -191,7 +191,7 @@ function writeReadout(near, piece) {
 
 // ---- Numbers ------------------------------------------------------------------------------------
 
-/// A rational in the chosen format; ≈ where that rounds it.
+/// A rational in the chosen format, with ≈ if it is rounded.
 function numberText(value) {
   if (format === "rational") return rationalText(value);
   const near = nearest(value);
@@ -235,7 +235,7 @@ function indexOf(query) {
   return index < 0 ? queries.push(query) - 1 : index;
 }
 
-/// Looks at the query that the text holds: with its answer if the page holds it.
+/// Shows the query in a text, with its answers if the page contains it.
 function draw() {
   const said = find("drawn");
   try {
@@ -330,7 +330,7 @@ function makePictures() {
   }
 }
 
-/// A pair of the step: with its answer, if the page holds it.
+/// A pair of the step, with its answers if the page contains it.
 function showPair(n) {
   const query = withoutAnswer(queryOf(step, step.pairs[n]), `${step.label}: ${step.pairs[n].name}`);
   show(indexOf(query));

@@ -1,5 +1,5 @@
-// A query in motion: the positions of its points at a rational time, its corners, and where its
-// primitives are nearest, all exactly (docs/theory.md, sections 1.1 to 1.3).
+// A query in motion: the positions of its points at a rational time, its corners, and its nearest
+// points, all exact (docs/theory.md, sections 1.1 to 1.3).
 //
 // A vector is three integers. Vectors of one time have one denominator.
 
@@ -40,7 +40,7 @@ export class Motion {
     this.end = points(1);
   }
 
-  /// Where the points are at time t: vectors over `d`.
+  /// The positions of the points at time t: vectors over `d`.
   at(t) {
     const rest = t.d - t.n;
     return {
@@ -76,8 +76,8 @@ export class Motion {
 
 /// The point of a polygon of corners nearest to the origin: its squared distance, and (u,v) over one denominator.
 ///
-/// It is a corner, the foot of a perpendicular on a side, or that on the polygon's plane: the nearest of those that
-/// are on the polygon.
+/// It is a corner, the foot of a perpendicular on a side, or on the polygon's plane: the nearest of
+/// these points that is on the polygon.
 function nearestToOrigin(corners, pairs) {
   const found = [];
   corners.forEach((w, i) => {
@@ -107,8 +107,8 @@ function nearestToOrigin(corners, pairs) {
   return found.reduce((best, one) => (compare(one.squared, best.squared) < 0 ? one : best));
 }
 
-/// The direction that a feature of a certificate names, at the corners of some time, as a unit vector of
-/// doubles (docs/theory.md, sections 3.2 and 3.3); null where it is 0.
+/// The direction that a feature of a certificate names, at the corners of some time, as a unit
+/// vector of doubles (docs/theory.md, sections 3.2 and 3.3); null if it is 0.
 export function directionOf(feature, corners) {
   const words = feature.split(" ");
   const axis = (k) => axes.map((name) => (name === words[k] ? 1n : 0n));
@@ -135,8 +135,8 @@ function unit(vector) {
   return rounded.map((x) => x / length);
 }
 
-/// For a query of which nothing is known: a time at which its primitives are about as near as they come.
-/// It is found among samples, and is no answer to anything: only what to look at.
+/// For a query without truth: a time at which the distance of its primitives is nearly least. It
+/// comes from samples, and is used only for the view.
 export function likelyNearestTime(motion) {
   const at = (n, d) => ({ t: { n, d }, squared: motion.nearest(motion.at({ n, d })).squared });
   const samples = Array.from({ length: 65 }, (_, i) => at(BigInt(i), 64n));

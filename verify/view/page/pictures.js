@@ -1,7 +1,7 @@
 // The two pictures of a query: its primitives in motion, and its corners around the origin.
 //
-// What does not change while time runs (traces) is computed once for a frame and a window of time; the rest
-// at every time anew.
+// Traces, which do not depend on the time, are computed once for a frame and a window of time; the
+// rest is computed for each time.
 
 import { clipped, seenPoint, toNumbers } from "./frame.js";
 
@@ -10,7 +10,7 @@ const ghosts = 13;
 /// Both primitives have a colour; one has round points, the other boxes.
 export const looks = [{ color: "s1", shape: "ball" }, { color: "s3", shape: "box" }];
 
-/// The corners of a polygon, and the first once more.
+/// The corners of a polygon, with the first repeated.
 export const outline = (points) => (points.length > 2 ? [...points, points[0]] : points);
 export const sides = (points) => points.slice(1).map((point, i) => [points[i], point]);
 
@@ -49,7 +49,7 @@ function drawTraces(scene, all) {
   });
 }
 
-/// At the end of a path, if it is seen.
+/// A mark at the end of a path, if it is visible.
 function drawArrow(scene, path, color) {
   if (path.length < 2) return;
   const [from, to] = path;

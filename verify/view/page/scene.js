@@ -1,14 +1,15 @@
-// A picture in three dimensions of what lies in the ball of radius 1: three.js draws it, names stand above it as text.
+// A three-dimensional picture of the ball of radius 1, drawn by three.js, with names as text above
+// it.
 //
-// All pictures of a page are seen from the same side. What is drawn is a list of shapes, each of a colour of
-// the page's style; a picture is drawn when something changes, and not otherwise.
+// All pictures of a page have the same viewpoint. Their contents are a list of shapes, each in a
+// colour of the page's style; a picture is drawn only after a change.
 
 import * as THREE from "three";
 
 const fieldOfView = 28;
 const distance = 1.02 / Math.sin((fieldOfView / 2) * (Math.PI / 180));
 
-/// From where all pictures are seen, and which axis is upwards in them.
+/// The common viewpoint of all pictures, and their upward axis.
 export class Viewpoint {
   constructor(up) {
     this.up = up;
@@ -27,7 +28,7 @@ export class Viewpoint {
     this.above = Math.max(-1.55, Math.min(1.55, this.above + above));
     this.change();
   }
-  /// Another axis upwards.
+  /// Changes the upward axis.
   tilt() {
     this.up = (this.up + 1) % 3;
     this.change();
@@ -71,7 +72,7 @@ export class Scene {
     const sun = new THREE.DirectionalLight(0xffffff, 0.5);
     sun.position.set(0.4, -0.8, 1);
     this.scene.add(sun);
-    // What stays while time runs, and what does not.
+    // The parts that do not depend on the time, and those that do.
     this.still = new THREE.Group();
     this.moving = new THREE.Group();
     this.scene.add(this.still, this.moving);
@@ -86,7 +87,8 @@ export class Scene {
 
   // ---- Contents ---------------------------------------------------------------------------------
 
-  /// Begins with what stays, or with what does not: what is drawn from now on takes its place.
+  /// Starts the part that does not depend on the time, or the one that does: it replaces the
+  /// previous one.
   begin(group) {
     this.content = group;
     for (const child of group.children) {
@@ -157,7 +159,7 @@ export class Scene {
       side: THREE.DoubleSide, depthWrite: false }), true);
   }
 
-  /// A ball or a cube around a point: what is within a distance.
+  /// A ball or a cube around a point: the points within a distance.
   neighbourhood(center, radius, isBall, color) {
     const geometry = isBall ? new THREE.SphereBufferGeometry(radius, 24, 16)
       : new THREE.BoxBufferGeometry(2 * radius, 2 * radius, 2 * radius);
@@ -175,8 +177,8 @@ export class Scene {
 
   // ---- Drawing ----------------------------------------------------------------------------------
 
-  /// Gives the picture the size of its place on the page. Asked at every drawing: an observer reports a new place only
-  /// after the next frame.
+  /// Adapts the picture to its size on the page. Called for every drawing, because an observer
+  /// reports a new size only after the next frame.
   fit() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const drawn = this.renderer.getSize(new THREE.Vector2());
@@ -196,7 +198,8 @@ export class Scene {
     this.placeNames();
   }
 
-  /// Names stand beside their points, away from the middle of all, or below one another where they would overlap.
+  /// Names are placed beside their points, away from the centre of all, or below one another if
+  /// they would overlap.
   placeNames() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const places = this.labels.map(({ point }) => {
@@ -219,8 +222,8 @@ export class Scene {
     }
   }
 
-  /// Browsers print a canvas of WebGL as an empty one: on paper an image of it stands before it, of a size that it has
-  /// on the screen and on paper.
+  /// Browsers print a WebGL canvas as an empty one: on paper an image of it is placed before it,
+  /// with the same size on the screen and on paper.
   listenToPrinter() {
     const place = this.canvas.parentElement, image = document.createElement("img");
     image.alt = "";
@@ -237,7 +240,7 @@ export class Scene {
     });
   }
 
-  // ---- Hands ------------------------------------------------------------------------------------
+  // ---- Input ------------------------------------------------------------------------------------
 
   listen() {
     const pointers = new Map();
@@ -279,7 +282,7 @@ export class Scene {
   }
 }
 
-/// Has this browser what the pictures need?
+/// True if this browser supports the pictures.
 export function canDraw() {
   const canvas = document.createElement("canvas");
   return Boolean(canvas.getContext("webgl2") || canvas.getContext("webgl"));

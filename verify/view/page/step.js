@@ -1,8 +1,8 @@
-// A step: a mesh at the time of a slider, and the pairs that touch by their time.
+// A step: a mesh at the time of a slider, and the colliding pairs by time.
 //
-// Both ends of every vertex lie on the graphics processor; it alone computes where they are between, so that a slider
-// moves a mesh of any size at the cost of drawing it. For the pictures positions are rounded to float relative to the mesh's
-// box; a pair that is looked at is a query of the exact doubles.
+// Both ends of every vertex are on the graphics processor, which computes the positions between, so
+// that a slider moves a mesh of any size at the cost of drawing it. For the pictures positions are
+// rounded to float relative to the mesh's box; a shown pair is a query of the exact doubles.
 
 import * as THREE from "three";
 import { make, find } from "./elements.js";
@@ -20,7 +20,7 @@ function bytesOf(text) {
   return bytes.buffer;
 }
 
-/// What the tool writes (verify/view/step_facts.cpp), with arrays of numbers.
+/// The output of the tool (verify/view/step_facts.cpp), with arrays of numbers.
 export function readStep(facts) {
   return {
     ...facts,
@@ -134,7 +134,7 @@ export class StepPicture {
       return result;
     };
     const add = (object) => {
-      // Where its vertices are, only the graphics processor knows.
+      // Only the graphics processor has the positions of the vertices.
       object.frustumCulled = false;
       this.group.add(object);
       return object;
@@ -147,7 +147,8 @@ export class StepPicture {
     const edges = step.pairs.filter(({ kind }) => kind === "edge-edge").flatMap(({ points }) => points);
     add(new THREE.Mesh(geometry(Uint32Array.from(faces)), this.material(surfaceShaders, "s3", {}, near)));
     add(new THREE.LineSegments(geometry(Uint32Array.from(edges)), this.material(markShaders, "s1", this.look(1, -1), { depthTest: false })));
-    // Where pairs touch: hollow marks, full for those that have touched; smaller the more there are.
+    // The places of collisions: hollow marks, full after the time of impact; smaller if there are
+    // many.
     const size = Math.max(3, 10 * Math.min(1, (200 / pairs.length) ** 0.3));
     const places = this.contactPlaces(pairs);
     const contacts = { position: places, next: places };
@@ -178,7 +179,7 @@ export class StepPicture {
     return new THREE.BufferAttribute(places, 3);
   }
 
-  /// \param touched how many pairs have touched by the time
+  /// \param touched the number of pairs whose time of impact has passed
   draw(t, touched, chosen) {
     this.time.value = t;
     this.past.geometry.setDrawRange(0, touched);
@@ -189,7 +190,7 @@ export class StepPicture {
     this.scene.render();
   }
 
-  /// The pair that is looked at: its primitives, as in the picture of the query, and its name.
+  /// The shown pair: its primitives, as in the picture of the query, and its name.
   drawChosen(t, n) {
     const { scene, step } = this;
     scene.begin(scene.moving);
@@ -208,7 +209,7 @@ export class StepPicture {
       for (const [a, b] of sides(outline(corners))) scene.rod(a, b, color, 0.006);
       for (const corner of corners) scene.dot(corner, color, shape, 0.01);
     });
-    // Seen through whatever lies before it, in this order.
+    // Drawn through all parts before it, in this order.
     scene.moving.children.forEach((object, i) => {
       object.material.depthTest = false;
       object.renderOrder = i + 1;
@@ -217,7 +218,7 @@ export class StepPicture {
     if (Math.hypot(...place) < 1.2) scene.name(place, name, "ink");
   }
 
-  // ---- What is seen -----------------------------------------------------------------------------
+  // ---- The visible part -------------------------------------------------------------------------
 
   place() {
     this.group.scale.setScalar(this.scale);
@@ -234,7 +235,7 @@ export class StepPicture {
     return [0, 1, 2].map((k) => places[3 * n + k]);
   }
 
-  /// The place where a pair touches, to the middle.
+  /// Moves the place of a collision to the centre.
   goTo(n) {
     this.focus = this.contactPlace(n);
     this.place();
@@ -251,11 +252,11 @@ export class StepPicture {
 
 const steps = 4096;
 
-/// \param show called with the number of a pair to look at
+/// \param show called with the number of the chosen pair
 export class StepPart {
   constructor(step, viewpoint, canDraw, show) {
     this.step = step;
-    // The pair that is looked at: at first the first.
+    // The shown pair, initially the first.
     this.chosen = step.pairs.length > 0 ? 0 : null;
     this.show = show;
     find("step").append(...this.parts());
@@ -274,21 +275,21 @@ export class StepPart {
 
   parts() {
     const { step } = this;
-    const count = step.total === 1 ? "1 pair touches" : `${step.total} pairs touch`;
+    const count = step.total === 1 ? "1 collision" : `${step.total} collisions`;
     const first = step.pairs.length > 0 ? `, the first at t = ${doubleText(step.pairs[0].toi[0])}` : "";
     const separation = step.min_separation > 0 ? ` within ${doubleText(step.min_separation)} (${step.norm})` : "";
     const elements = `${step.before.length / 3} vertices, ${step.faces.length / 3} faces`;
     return [
       make("h2", {}, step.label),
-      make("p", {}, make("strong", { id: "step_verdict" }, `${step.total === 0 ? "Nothing touches" : count + first}${separation}.`), ` ${elements}.`),
+      make("p", {}, make("strong", { id: "step_verdict" }, `${step.total === 0 ? "No collision" : count + first}${separation}.`), ` ${elements}.`),
       make("div", { class: "step" },
         make("figure", { id: "mesh" },
-          make("figcaption", {}, "The mesh; a diamond where a pair touches, full once it has"),
+          make("figcaption", {}, "The mesh; a diamond at the place of each collision, full after its time of impact"),
           make("div", { class: "canvas" },
             make("canvas", { tabindex: "0", role: "img", "aria-label": "The mesh. Arrow keys turn it, plus and minus zoom." }),
             make("div", { class: "names" }))),
         make("div", {},
-          make("ol", { id: "pairs", tabindex: "0", "aria-label": "Pairs that touch, by time" },
+          make("ol", { id: "pairs", tabindex: "0", "aria-label": "Collisions, by time" },
             ...step.pairs.slice(0, listed).map((pair, i) => make("li", {}, make("button", { type: "button", onclick: () => this.choose(i) },
               make("span", {}, pair.name), ` t ≈ ${doubleText(Number(pair.toi[0].toPrecision(6)))}`)))),
           step.total > listed ? make("p", {}, `and ${step.total - listed} more`) : null)),
@@ -305,7 +306,7 @@ export class StepPart {
     ];
   }
 
-  /// How many pairs have touched by now.
+  /// The number of pairs whose time of impact has passed.
   get touched() {
     const { pairs } = this.step;
     let [low, high] = [0, pairs.length];
@@ -328,7 +329,7 @@ export class StepPart {
     find("step_time").value = Math.round(this.t * steps);
     const { pairs, total } = this.step;
     const all = total > pairs.length ? `the first ${pairs.length}` : String(total);
-    find("step_now").textContent = `t = ${doubleText(this.t)}, ${touched} of ${all} have touched`;
+    find("step_now").textContent = `t = ${doubleText(this.t)}, ${touched} of ${all} have collided`;
     for (const [i, item] of [...find("pairs").children].entries()) {
       item.classList.toggle("past", i < touched);
       item.classList.toggle("chosen", i === this.chosen);

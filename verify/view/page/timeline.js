@@ -5,7 +5,7 @@ import { compare, divide, doubleText, nearest, rational, subtract } from "./exac
 import { make } from "./elements.js";
 import { distanceText, momentText, verdictText } from "./facts.js";
 
-/// Where a time stands in a window, from 0 to 1; beyond that it is outside.
+/// The position of a time in a window, from 0 to 1 if it is inside.
 export function positionIn(window, time) {
   const length = subtract(window.to, window.from);
   return nearest(divide(subtract(time, window.from), length));
@@ -22,7 +22,7 @@ function mark(window, time, kind, tip) {
   return element;
 }
 
-/// A bar between two times, of which at least a part is in the window; else null.
+/// A bar between two times, clipped to the window; null if it is outside.
 function bar(window, from, to, kind, tip, text) {
   if (compare(to, window.from) < 0 || compare(from, window.to) > 0) return null;
   const [start, end] = [positionIn(window, from), positionIn(window, to)];
