@@ -133,7 +133,7 @@ TEST(Released, is_found_by_a_query_of_everyday_size) {
                               .seed = seed,
                               .method = {.max_checks = 10'000},
                               .shrink_seconds = 60.0,
-                              .only = {verify::fuzz::FindingKind::false_negative},
+                              .only = {verify::judge::Fault::false_negative},
                               .on_finding = look_at});
     EXPECT_TRUE(found) << "seed " << seed;
   }

@@ -68,10 +68,10 @@ struct Arguments {
     return {kind_from_string(kind)};
   }
 
-  [[nodiscard]] std::vector<fuzz::FindingKind> sought() const {
-    std::vector<fuzz::FindingKind> result;
+  [[nodiscard]] std::vector<judge::Fault> sought() const {
+    std::vector<judge::Fault> result;
     for (const std::string& name : only)
-      result.push_back(fuzz::finding_kind_from_string(name).value());
+      result.push_back(fuzz::judge::fault_from_name(name).value());
     return result;
   }
 };
@@ -315,8 +315,8 @@ class FuzzRun {
   }
 
   [[nodiscard]] Status status(const fuzz::FuzzResult& result) const {
-    const bool seeks_ends = fuzz::seeks(options_, fuzz::FindingKind::crash) ||
-                            fuzz::seeks(options_, fuzz::FindingKind::exit);
+    const bool seeks_ends = fuzz::seeks(options_, judge::Fault::crash) ||
+                            fuzz::seeks(options_, judge::Fault::exit);
     if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
       return Status::wrong_answers;
     }
@@ -345,7 +345,7 @@ class FuzzRun {
 std::vector<std::string> finding_kind_names() {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < fuzz::finding_kinds; ++i) {
-    names.emplace_back(fuzz::to_string(static_cast<fuzz::FindingKind>(i)));
+    names.emplace_back(fuzz::to_string(static_cast<judge::Fault>(i)));
   }
   return names;
 }

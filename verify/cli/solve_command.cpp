@@ -113,7 +113,7 @@ class SolveRun {
     options.stop = &io::interrupted();
     options.on_progress = progress;
     options.on_answer = [&](std::uint64_t index, const fast::Answer& answer,
-                            const solvers::Failure* failure) {
+                            const judge::Failure* failure) {
       out_.write(solvers::answer_row(source.name(), index, source.kind(), answer, failure));
       // An exception ends the solving at once; the failure itself is reported already.
       if (out_.failed()) throw std::runtime_error("answers cannot be written");

@@ -36,7 +36,7 @@ std::optional<Diagnosis> tolerance_fault(Kind kind, const Query& query, const An
                                          const Standard& standard) {
   const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
   if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
-  return Diagnosis{FindingKind::beyond_tolerance,
+  return Diagnosis{judge::Fault::beyond_tolerance,
                    fmt::format("{}, but they never come within {}, as that claims", to_text(answer),
                                judge::to_text(*claimed))};
 }
@@ -45,10 +45,10 @@ std::optional<Diagnosis> toi_fault(const judge::GroundTruth& truth, const Answer
   const auto [lower, upper] = truth.toi.value();
   // The enclosure's ends are neighbouring doubles, or one: these comparisons are exact.
   if (answer.toi_lower > lower) {
-    return Diagnosis{FindingKind::late_toi, fmt::format("toi_lower {} is late", answer.toi_lower)};
+    return Diagnosis{judge::Fault::late_toi, fmt::format("toi_lower {} is late", answer.toi_lower)};
   }
   if (answer.toi_upper < upper) {
-    return Diagnosis{FindingKind::early_toi_upper,
+    return Diagnosis{judge::Fault::early_toi_upper,
                      fmt::format("toi_upper {} is early", answer.toi_upper)};
   }
   return std::nullopt;
@@ -80,32 +80,32 @@ bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judge
 std::optional<Diagnosis> diagnose(Kind kind, const Query& query, const judge::GroundTruth& truth,
                                   const Answer& answer, const Standard& standard) {
   if (answer.verdict == Verdict::error)
-    return diagnose_failure(solvers::failure_of(answer).value(), 0.0);
+    return diagnose_failure(judge::failure_of(answer).value(), 0.0);
   if (answer.verdict == Verdict::yes && has_bad_number(answer)) {
-    return Diagnosis{FindingKind::not_finite, to_text(answer)};
+    return Diagnosis{judge::Fault::not_finite, to_text(answer)};
   }
   if (truth.collides) {
     if (answer.verdict == Verdict::no) {
-      return Diagnosis{FindingKind::false_negative, "no, but they collide"};
+      return Diagnosis{judge::Fault::false_negative, "no, but they collide"};
     }
     return answer.verdict == Verdict::yes ? toi_fault(truth, answer) : std::nullopt;
   }
   if (answer.verdict == Verdict::no) return std::nullopt;
   if (standard.promise == Promise::exact) {
     return Diagnosis{
-        answer.verdict == Verdict::yes ? FindingKind::false_positive : FindingKind::undecided,
+        answer.verdict == Verdict::yes ? judge::Fault::false_positive : judge::Fault::undecided,
         to_text(answer) + ", but they do not collide, and it promises exactness"};
   }
   return answer.verdict == Verdict::yes ? tolerance_fault(kind, query, answer, standard)
                                         : std::nullopt;
 }
 
-Diagnosis diagnose_failure(const solvers::Failure& failure, double limit_seconds) {
-  const FindingKind what = finding_kind_of(failure.kind);
+Diagnosis diagnose_failure(const judge::Failure& failure, double limit_seconds) {
+  const judge::Fault what = finding_kind_of(failure.kind);
   switch (failure.kind) {
-    case solvers::FailureKind::hang:
+    case judge::Fault::hang:
       return {what, fmt::format("takes more than {} s", limit_seconds)};
-    case solvers::FailureKind::no_verdict:
+    case judge::Fault::no_verdict:
       return {what, "error or no verdict, of a valid query"};
     default:
       return {what, solvers::to_text(failure)};
@@ -122,7 +122,7 @@ std::optional<Diagnosis> diagnose_judge(const judge::GroundTruth& truth,
 }
 
 std::string to_text(const Answer& answer) {
-  std::string text(solvers::to_string(answer.verdict));
+  std::string text(judge::to_string(answer.verdict));
   const auto add = [&text](std::string_view name, double value) {
     if (!std::isnan(value)) text += fmt::format(", {} {}", name, value);
   };

@@ -15,8 +15,8 @@
 #include "fast/certified.hpp"
 #include "fast/method.hpp"
 #include "verify/fuzz/finding.hpp"
-#include "verify/judge/judge.hpp"
-#include "verify/solvers/failure.hpp"
+#include "verify/judge/judgement.hpp"
+#include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::fuzz {
 
@@ -30,7 +30,7 @@ struct Standard {
 
 /// The kind of fault, and a description.
 struct Diagnosis {
-  FindingKind what;
+  judge::Fault what;
   std::string detail;
 };
 
@@ -55,7 +55,7 @@ struct Diagnosis {
 
 /// The fault of a solver that gave no answer, or an impossible one.
 /// \param limit_seconds that a query may take
-[[nodiscard]] Diagnosis diagnose_failure(const solvers::Failure& failure, double limit_seconds);
+[[nodiscard]] Diagnosis diagnose_failure(const judge::Failure& failure, double limit_seconds);
 
 /// Does the oracle's truth contradict what the certified solver found?
 [[nodiscard]] std::optional<Diagnosis> diagnose_judge(const judge::GroundTruth& truth,

@@ -4,62 +4,62 @@
 
 namespace touchstone::verify::fuzz {
 
-std::string_view to_string(FindingKind what) {
+std::string_view to_string(judge::Fault what) {
   switch (what) {
-    case FindingKind::false_negative:
+    case judge::Fault::false_negative:
       return "false_negative";
-    case FindingKind::false_positive:
+    case judge::Fault::false_positive:
       return "false_positive";
-    case FindingKind::late_toi:
+    case judge::Fault::late_toi:
       return "late_toi";
-    case FindingKind::early_toi_upper:
+    case judge::Fault::early_toi_upper:
       return "early_toi_upper";
-    case FindingKind::beyond_tolerance:
+    case judge::Fault::beyond_tolerance:
       return "beyond_tolerance";
-    case FindingKind::asymmetry:
+    case judge::Fault::asymmetry:
       return "asymmetry";
-    case FindingKind::crash:
-      return solvers::to_string(solvers::FailureKind::crash);
-    case FindingKind::exit:
-      return solvers::to_string(solvers::FailureKind::exit);
-    case FindingKind::exception:
-      return solvers::to_string(solvers::FailureKind::exception);
-    case FindingKind::no_verdict:
-      return solvers::to_string(solvers::FailureKind::no_verdict);
-    case FindingKind::not_finite:
-      return solvers::to_string(solvers::FailureKind::not_finite);
-    case FindingKind::hang:
-      return solvers::to_string(solvers::FailureKind::hang);
-    case FindingKind::undecided:
-      return solvers::to_string(solvers::FailureKind::undecided);
+    case judge::Fault::crash:
+      return solvers::to_string(judge::Fault::crash);
+    case judge::Fault::exit:
+      return solvers::to_string(judge::Fault::exit);
+    case judge::Fault::exception:
+      return solvers::to_string(judge::Fault::exception);
+    case judge::Fault::no_verdict:
+      return solvers::to_string(judge::Fault::no_verdict);
+    case judge::Fault::not_finite:
+      return solvers::to_string(judge::Fault::not_finite);
+    case judge::Fault::hang:
+      return solvers::to_string(judge::Fault::hang);
+    case judge::Fault::undecided:
+      return solvers::to_string(judge::Fault::undecided);
   }
   throw std::invalid_argument("no kind of finding");
 }
 
-std::optional<FindingKind> finding_kind_from_string(std::string_view name) {
+std::optional<judge::Fault> judge::fault_from_name(std::string_view name) {
   for (std::size_t i = 0; i < finding_kinds; ++i) {
-    const auto kind = static_cast<FindingKind>(i);
+    const auto kind = static_cast<judge::Fault>(i);
     if (to_string(kind) == name) return kind;
   }
   return std::nullopt;
 }
 
-FindingKind finding_kind_of(solvers::FailureKind kind) {
+judge::Fault finding_kind_of(judge::Fault kind) {
   switch (kind) {
-    case solvers::FailureKind::crash:
-      return FindingKind::crash;
-    case solvers::FailureKind::exit:
-      return FindingKind::exit;
-    case solvers::FailureKind::exception:
-      return FindingKind::exception;
-    case solvers::FailureKind::no_verdict:
-      return FindingKind::no_verdict;
-    case solvers::FailureKind::not_finite:
-      return FindingKind::not_finite;
-    case solvers::FailureKind::hang:
-      return FindingKind::hang;
-    case solvers::FailureKind::undecided:
-      return FindingKind::undecided;
+    case judge::Fault::crash:
+      return judge::Fault::crash;
+    case judge::Fault::exit:
+      return judge::Fault::exit;
+    case judge::Fault::exception:
+      return judge::Fault::exception;
+    case judge::Fault::no_verdict:
+      return judge::Fault::no_verdict;
+    case judge::Fault::not_finite:
+      return judge::Fault::not_finite;
+    case judge::Fault::hang:
+      return judge::Fault::hang;
+    case judge::Fault::undecided:
+      return judge::Fault::undecided;
   }
   throw std::invalid_argument("no kind of failure");
 }

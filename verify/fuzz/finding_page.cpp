@@ -16,33 +16,33 @@ namespace touchstone::verify::fuzz {
 namespace {
 
 /// The title's verb and object.
-std::string_view fault_in_words(FindingKind what) {
+std::string_view fault_in_words(judge::Fault what) {
   switch (what) {
-    case FindingKind::false_negative:
+    case judge::Fault::false_negative:
       return "misses a collision";
-    case FindingKind::false_positive:
+    case judge::Fault::false_positive:
       return "reports a collision that there is not";
-    case FindingKind::late_toi:
+    case judge::Fault::late_toi:
       return "gives a time of impact that is too late";
-    case FindingKind::early_toi_upper:
+    case judge::Fault::early_toi_upper:
       return "gives an upper bound of the time of impact that is too early";
-    case FindingKind::beyond_tolerance:
+    case judge::Fault::beyond_tolerance:
       return "reports a collision farther away than its tolerance";
-    case FindingKind::asymmetry:
+    case judge::Fault::asymmetry:
       return "answers an exact image of a query in another way";
-    case FindingKind::crash:
+    case judge::Fault::crash:
       return "crashes";
-    case FindingKind::exit:
+    case judge::Fault::exit:
       return "ends the process";
-    case FindingKind::exception:
+    case judge::Fault::exception:
       return "throws an exception";
-    case FindingKind::no_verdict:
+    case judge::Fault::no_verdict:
       return "gives no verdict";
-    case FindingKind::not_finite:
+    case judge::Fault::not_finite:
       return "gives a number that is none";
-    case FindingKind::hang:
+    case judge::Fault::hang:
       return "does not answer in time";
-    case FindingKind::undecided:
+    case judge::Fault::undecided:
       return "does not decide";
   }
   return "is wrong";

@@ -305,12 +305,12 @@ class Run {
   }
 
   /// The failure at a query, or null.
-  [[nodiscard]] const solvers::Failure* failure_at(std::size_t i) const {
-    const auto found = std::ranges::lower_bound(failures_, i, {}, &solvers::QueryFailure::position);
+  [[nodiscard]] const judge::Failure* failure_at(std::size_t i) const {
+    const auto found = std::ranges::lower_bound(failures_, i, {}, &judge::QueryFailure::position);
     return found != failures_.end() && found->position == i ? &found->failure : nullptr;
   }
 
-  void judge_query(std::size_t i, const solvers::Failure* failure) {
+  void judge_query(std::size_t i, const judge::Failure* failure) {
     GeneratorStatistics& statistics = result_.generators[block_.arms[i]];
     ++result_.queries;
     ++statistics.queries;
@@ -357,7 +357,7 @@ class Run {
     }
     auto diagnosis = diagnose(block_.kind, query, truth, answers_[i], standard_);
     if (!diagnosis && missing.any()) {
-      diagnosis = {FindingKind::not_finite,
+      diagnosis = {judge::Fault::not_finite,
                    fmt::format("{} is NaN, which it gives with other collisions",
                                missing.lower ? "toi_lower" : "toi_upper")};
       return reward + report(i, {*diagnosis, name_, missing}, verdict);
@@ -381,12 +381,12 @@ class Run {
     const bool origin_has_answer = failure_at(image->origin) == nullptr;
     const Answer& other = answers_[image->origin];
     if (!origin_has_answer || !contradict(answers_[i], other, !image->symmetry.reversed)) return;
-    diagnosis.what = FindingKind::asymmetry;
+    diagnosis.what = judge::Fault::asymmetry;
     diagnosis.detail += fmt::format("; of what this is an exact image of ({}) it says: {}",
                                     to_text(image->symmetry), to_text(other));
   }
 
-  double report_failure(std::size_t i, const solvers::Failure& failure) {
+  double report_failure(std::size_t i, const judge::Failure& failure) {
     ++result_.judged_by_oracle;
     return report(i, {diagnose_failure(failure, options_.query_limit_seconds), name_},
                   exact::decide(block_.kind, block_.queries[i], options_.separation));
@@ -468,7 +468,7 @@ class Run {
   /// The properties that make two findings alike at first sight.
   struct Class {
     std::string method;
-    FindingKind what;
+    judge::Fault what;
     Kind kind;
     fast::Stage stage;
     std::size_t arm;
@@ -505,7 +505,7 @@ class Run {
   Block block_;
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
-  std::vector<solvers::QueryFailure> failures_;
+  std::vector<judge::QueryFailure> failures_;
   jobs::Deadline judging_end_;
 };
 
@@ -531,7 +531,7 @@ void check(const FuzzOptions& options) {
 
 }  // namespace
 
-bool seeks(const FuzzOptions& options, FindingKind what) {
+bool seeks(const FuzzOptions& options, judge::Fault what) {
   return options.only.empty() || std::ranges::find(options.only, what) != options.only.end();
 }
 

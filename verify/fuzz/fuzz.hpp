@@ -66,7 +66,7 @@ struct FuzzOptions {
   /// run if that is less; 0: it stays as it is.
   double shrink_seconds = 0.0;
   /// Kinds of findings that are sought; empty: all. Others are counted and nothing else.
-  std::vector<FindingKind> only = {};
+  std::vector<judge::Fault> only = {};
   /// Queries to mutate.
   std::vector<CorpusQuery> corpus = {};
   /// Kinds of queries to ask; not empty.
@@ -85,7 +85,7 @@ struct FuzzOptions {
 };
 
 /// Is that kind of findings sought?
-[[nodiscard]] bool seeks(const FuzzOptions& options, FindingKind what);
+[[nodiscard]] bool seeks(const FuzzOptions& options, judge::Fault what);
 
 /// Options of the calls to the method.
 [[nodiscard]] fast::MethodOptions method_options(const FuzzOptions& options);

@@ -21,7 +21,7 @@ struct FuzzReport {
   std::uint64_t seed = 0;
   double seconds = 0.0;                ///< asked for; 0: no limit
   std::uint64_t queries = 0;           ///< asked for; 0: no limit
-  std::vector<FindingKind> only = {};  ///< sought; empty: all
+  std::vector<judge::Fault> only = {};  ///< sought; empty: all
   FuzzResult result;
 };
 

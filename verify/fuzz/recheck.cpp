@@ -23,8 +23,8 @@ using fast::Verdict;
 constexpr std::size_t most_failures = 4;
 
 /// Was the query asked alone, in a process of its own, before it was a finding?
-bool is_confirmed_alone(FindingKind what) {
-  return what == FindingKind::crash || what == FindingKind::exit || what == FindingKind::hang;
+bool is_confirmed_alone(judge::Fault what) {
+  return what == judge::Fault::crash || what == judge::Fault::exit || what == judge::Fault::hang;
 }
 
 /// Are the same bounds missing in both?
@@ -124,7 +124,7 @@ std::optional<Diagnosis> Recheck::diagnose_reply(const Query& query,
   if (reply.failure) return diagnose_failure(*reply.failure, query_limit_seconds_);
   if (finding_.missing.any() && reply.answer.verdict == Verdict::yes &&
       lacks_same_bounds(reply.answer, finding_.original.answer)) {
-    return Diagnosis{FindingKind::not_finite, finding_.original.detail};
+    return Diagnosis{judge::Fault::not_finite, finding_.original.detail};
   }
   Standard standard = standard_;
   if (of_judge_) standard = {.promise = fast::Promise::exact, .separation = standard_.separation};
@@ -132,13 +132,13 @@ std::optional<Diagnosis> Recheck::diagnose_reply(const Query& query,
 }
 
 bool Recheck::is_same(const Diagnosis& diagnosis) const {
-  return diagnosis.what == finding_.what || finding_.what == FindingKind::asymmetry;
+  return diagnosis.what == finding_.what || finding_.what == judge::Fault::asymmetry;
 }
 
 void simplify(const fast::Method& method, const FuzzOptions& options,
               const jobs::Deadline& deadline, Finding& finding) {
   // In less time than that no query can be seen to hang.
-  const bool is_hang = finding.what == FindingKind::hang;
+  const bool is_hang = finding.what == judge::Fault::hang;
   if (is_hang && deadline.seconds_left() <= options.query_limit_seconds) return;
   Recheck recheck(method, finding, options);
   const auto must_end = [&] { return deadline.is_over() || jobs::is_stopped(options.stop); };

@@ -59,7 +59,7 @@ class Recheck {
   /// The solver's answer to this query alone, or the reason why there is none.
   struct Reply {
     fast::Answer answer;
-    std::optional<solvers::Failure> failure;
+    std::optional<judge::Failure> failure;
   };
   [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const jobs::Deadline& deadline);
   [[nodiscard]] std::optional<Diagnosis> diagnose_reply(const Query& query,

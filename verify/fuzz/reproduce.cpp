@@ -132,7 +132,7 @@ constexpr std::string_view includes =
 #include "fast/method.hpp"
 #include "verify/judge/claimed_distance.hpp"
 #include "verify/judge/ground_truth.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/plugin.hpp"
 #include "verify/solvers/registry.hpp"
 )";
@@ -217,7 +217,7 @@ std::string as_cpp_test(const Reproduction& found) {
   result += fmt::format("\nnamespace {} {{\n\n", space);
   result += fmt::format("// {}: {}. The primitives {}.\n", io::printable(found.solver.method), what,
                         found.failing.collides ? "collide" : "do not collide");
-  if (found.what == FindingKind::hang) result += "// Run it with a limit of time.\n";
+  if (found.what == judge::Fault::hang) result += "// Run it with a limit of time.\n";
   result += fmt::format("constexpr Kind kind = {};\n", enumerator(found.kind));
   result += fmt::format("constexpr fast::MethodOptions options{{\n{}}};\n",
                         options_as_code(found.solver.options));

@@ -49,7 +49,7 @@ struct SolverCall {
 
 /// A query and the wrong answer to it.
 struct Reproduction {
-  FindingKind what = FindingKind::false_negative;
+  judge::Fault what = judge::Fault::false_negative;
   Kind kind = Kind::vertex_face;
   FailingCase failing;
   /// Of what is wrong only in that.

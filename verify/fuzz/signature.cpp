@@ -58,8 +58,8 @@ class ScaleSearch {
 };
 
 /// Has it a reason that tells one fault from another?
-bool has_reason(FindingKind what) {
-  return what == FindingKind::crash || what == FindingKind::exit || what == FindingKind::exception;
+bool has_reason(judge::Fault what) {
+  return what == judge::Fault::crash || what == judge::Fault::exit || what == judge::Fault::exception;
 }
 
 void add_end(const std::optional<int>& exponent, ScaleEnds& all) {
@@ -93,7 +93,7 @@ int least_scale(double tolerance) {
 
 ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
                        const jobs::Deadline& deadline, const Finding& finding) {
-  if (finding.what == FindingKind::hang || !is_contact(finding.separation)) return {};
+  if (finding.what == judge::Fault::hang || !is_contact(finding.separation)) return {};
   ScaleSearch search(method, options, deadline, finding);
   return {.end_below = search.end_below(), .end_above = search.end_above()};
 }

@@ -47,7 +47,7 @@ struct ScaleEnds {
 /// As above. Of a fault that depends on the scale, kind, shape and time are not set.
 struct Signature {
   std::string method;
-  FindingKind what = FindingKind::false_negative;
+  judge::Fault what = judge::Fault::false_negative;
   /// The reason of a crash, an exit or an exception; else empty.
   std::string reason = {};
   ScaleEnds ends = {};

@@ -24,7 +24,7 @@ class BlockAnswers {
     });
     complete_ = passes.complete();
     for (std::size_t unit = 0; unit < replies_.size(); ++unit) {
-      for (const solvers::QueryFailure& found : replies_[unit].failures) {
+      for (const judge::QueryFailure& found : replies_[unit].failures) {
         failures_.push_back(
             {.position = unit * Passes::unit + found.position, .failure = found.failure});
       }
@@ -52,14 +52,14 @@ class BlockAnswers {
   }
 
  private:
-  static void add(const fast::Answer& answer, const solvers::Failure* failure,
+  static void add(const fast::Answer& answer, const judge::Failure* failure,
                   SolveResult& result) {
     using fast::Verdict;
     Verdict verdict = answer.verdict;
     if (const auto why =
-            failure != nullptr ? std::optional(*failure) : solvers::failure_of(answer)) {
+            failure != nullptr ? std::optional(*failure) : judge::failure_of(answer)) {
       ++result.failures[static_cast<std::size_t>(why->kind)];
-      verdict = solvers::verdict_of(why->kind);
+      verdict = judge::verdict_of(why->kind);
     }
     ++result.queries;
     result.yes += verdict == Verdict::yes ? 1U : 0U;
@@ -71,7 +71,7 @@ class BlockAnswers {
   const Block& block_;
   std::vector<fast::Answer> answers_;
   std::vector<solvers::SolveReply> replies_;     // of the part that begins with a unit
-  std::vector<solvers::QueryFailure> failures_;  // by position in the block
+  std::vector<judge::QueryFailure> failures_;  // by position in the block
   std::size_t complete_ = 0;
 };
 

@@ -71,7 +71,7 @@ class Stream {
       if (!query) return;
       block.queries.push_back(query->query);
       block.indices.push_back(query->index);
-      block.claims.push_back({query->collides, std::move(query->toi)});
+      block.labels.push_back({query->collides, std::move(query->toi)});
     } catch (const io::Interrupted&) {
       ended_ = result_.interrupted = true;
     } catch (const std::exception& error) {
@@ -94,7 +94,7 @@ class Stream {
 }  // namespace
 
 Passes::Passes(std::size_t queries, const std::atomic<bool>* stop)
-    : queries_(queries), stop_(stop), done_((queries + unit - 1) / unit) {}
+    : queries_(queries), stop_(stop), done_(units(queries)) {}
 
 void Passes::run(std::size_t span, const std::function<bool(std::size_t, std::size_t)>& work) {
   const std::size_t step =

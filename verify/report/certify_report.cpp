@@ -129,10 +129,10 @@ std::string wrong_answers_of(const jobs::CertifyResult& result, const jobs::Meth
 /// Number of missing answers, by kind, unless the solver itself was undecided.
 std::string failures_text(const jobs::MethodResult& method) {
   const judge::Judgement& judged = method.judgement;
-  const auto is_other = [&](solvers::FailureKind kind) {
-    return kind != solvers::FailureKind::undecided && judged.count(kind) != 0;
+  const auto is_other = [&](judge::Fault kind) {
+    return kind != judge::Fault::undecided && judged.count(kind) != 0;
   };
-  if (std::ranges::none_of(solvers::all_failure_kinds, is_other)) return {};
+  if (std::ranges::none_of(judge::failures, is_other)) return {};
   return fmt::format("no answer: {}: {}\n", method.name, to_text(judged.failures));
 }
 

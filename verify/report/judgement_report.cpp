@@ -76,7 +76,7 @@ std::string wrong_answers_text(const NamedJudgement& named,
 
 std::string to_text(const FailureCounts& failures) {
   std::string text;
-  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
+  for (const judge::Fault kind : judge::failures) {
     const std::uint64_t count = failures[static_cast<std::size_t>(kind)];
     if (count == 0) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, solvers::to_string(kind));
@@ -110,7 +110,7 @@ nlohmann::json to_json(const judge::WrongAnswer& wrong) {
 
 nlohmann::json to_json(const FailureCounts& failures) {
   nlohmann::json json = nlohmann::json::object();
-  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
+  for (const judge::Fault kind : judge::failures) {
     json[solvers::to_string(kind)] = failures[static_cast<std::size_t>(kind)];
   }
   return json;

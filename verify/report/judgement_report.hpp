@@ -16,7 +16,7 @@
 #include "fast/method.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/io/text_table.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/report/measurement.hpp"
 
 namespace touchstone::verify::report {
@@ -53,7 +53,7 @@ struct NamedJudgement {
 [[nodiscard]] std::string wrong_answers_text(
     const NamedJudgement& named, const std::function<data::QueryPlace(std::size_t)>& place_of);
 
-using FailureCounts = std::array<std::uint64_t, solvers::failure_kinds>;
+using FailureCounts = std::array<std::uint64_t, judge::failure_count>;
 
 /// "1 crash, 2 undecided": how many of each kind; empty if there are none.
 [[nodiscard]] std::string to_text(const FailureCounts& failures);

@@ -13,7 +13,7 @@
 #include "verify/jobs/deadline.hpp"
 #include "verify/jobs/statistics.hpp"
 #include "verify/jobs/timing.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/report/judgement_report.hpp"
 
 namespace touchstone::verify::report {
@@ -285,7 +285,7 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
                                           const std::atomic<bool>* stop, const OnWrong& on_wrong) {
   std::vector<std::size_t> positions;
   std::vector<fast::Answer> answers;
-  std::vector<solvers::QueryFailure> failures;
+  std::vector<judge::QueryFailure> failures;
   for (std::size_t i = 0; i < group.queries().size(); ++i) {
     const data::QueryPlace place = group.place_of(i);
     const std::uint64_t index = place.index;

@@ -55,7 +55,7 @@ char character_of(const stability::Outcome& outcome) {
 char failures_of(const jobs::CertifyResult& judged, std::size_t method) {
   const judge::Judgement& judgement = judged.methods.at(method).judgement;
   const bool has_errors = judgement.count(judge::Fault::error) != 0;
-  const bool has_hangs = judgement.count(solvers::FailureKind::hang) != 0;
+  const bool has_hangs = judgement.count(judge::Fault::hang) != 0;
   if (has_errors) return has_hangs ? '#' : 'E';
   return has_hangs ? 'H' : '.';
 }
@@ -154,7 +154,7 @@ StabilityMark mark_of(const stability::StabilityCell& cell, std::size_t method) 
           .early_upper_tois = judged.count(judge::Fault::early_toi_upper),
           .beyond_tolerance = judged.count(judge::Fault::beyond_tolerance),
           .errors = judged.count(judge::Fault::error),
-          .hangs = judged.count(solvers::FailureKind::hang),
+          .hangs = judged.count(judge::Fault::hang),
           .undecided = judged.undecided,
           .worst = std::string(name_of(outcome)),
           .worst_rate = outcome.rate,

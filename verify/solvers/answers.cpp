@@ -45,31 +45,17 @@ using Fields = std::array<std::string, most_columns>;
 
 }  // namespace
 
-std::string_view to_string(fast::Verdict verdict) {
-  switch (verdict) {
-    case fast::Verdict::no:
-      return "no";
-    case fast::Verdict::yes:
-      return "yes";
-    case fast::Verdict::undecided:
-      return "undecided";
-    case fast::Verdict::error:
-      return "error";
-  }
-  throw std::invalid_argument("no verdict");
-}
-
 std::string answers_header() { return std::string(header) + "\n"; }
 
 std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
-                       const fast::Answer& answer, const Failure* failure) {
-  const std::optional<Failure> why =
-      failure != nullptr ? std::optional(*failure) : failure_of(answer);
+                       const fast::Answer& answer, const judge::Failure* failure) {
+  const std::optional<judge::Failure> why =
+      failure != nullptr ? std::optional(*failure) : judge::failure_of(answer);
   fast::Answer said = answer;
-  if (why && why->kind == FailureKind::not_finite) said = {.verdict = verdict_of(why->kind)};
-  const bool says_all = !why || why->kind == FailureKind::undecided;
+  if (why && why->kind == judge::Fault::not_finite) said = {.verdict = judge::verdict_of(why->kind)};
+  const bool says_all = !why || why->kind == judge::Fault::undecided;
   return io::csv_row({std::string(file), std::to_string(index), std::string(to_string(kind)),
-                      std::string(to_string(said.verdict)), io::csv_number(said.toi_lower),
+                      std::string(judge::to_string(said.verdict)), io::csv_number(said.toi_lower),
                       io::csv_number(said.toi_upper), io::csv_number(said.tolerance),
                       says_all ? std::string() : to_text(*why)});
 }
@@ -190,7 +176,7 @@ class AnswersReader {
   [[nodiscard]] fast::Verdict read_verdict() const {
     for (const auto verdict :
          {fast::Verdict::no, fast::Verdict::yes, fast::Verdict::undecided, fast::Verdict::error}) {
-      if (field(Column::verdict) == to_string(verdict)) return verdict;
+      if (field(Column::verdict) == judge::to_string(verdict)) return verdict;
     }
     fail(Column::verdict,
          "verdict must be yes, no, undecided or error: " + data::quote(field(Column::verdict)));
@@ -229,16 +215,16 @@ class AnswersReader {
   }
 
   /// Nothing where the field is empty or not there.
-  [[nodiscard]] std::optional<FailureKind> read_failure(fast::Verdict verdict) const {
+  [[nodiscard]] std::optional<judge::Fault> read_failure(fast::Verdict verdict) const {
     if (columns_ < most_columns || field(Column::failure).empty()) return std::nullopt;
-    const std::optional<Failure> failure = failure_from_text(field(Column::failure));
+    const std::optional<judge::Failure> failure = judge::failure_from_text(field(Column::failure));
     if (!failure) {
       fail(Column::failure,
            "must be a kind of failure or empty: " + data::quote(field(Column::failure)));
     }
-    if (verdict_of(failure->kind) != verdict) {
+    if (judge::verdict_of(failure->kind) != verdict) {
       fail(Column::failure, fmt::format("a failure of kind {} is no answer {}",
-                                        to_string(failure->kind), to_string(verdict)));
+                                        to_string(failure->kind), judge::to_string(verdict)));
     }
     return failure->kind;
   }

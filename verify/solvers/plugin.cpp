@@ -212,7 +212,7 @@ class Loading {
       }
       if (jobs::is_stopped(options_.stop)) throw io::Interrupted();
       const ChildProcess::Seconds passed = Clock::now() - start;
-      if (passed.count() > options_.load_seconds) fail({.kind = FailureKind::hang});
+      if (passed.count() > options_.load_seconds) fail({.kind = judge::Fault::hang});
     }
   }
 
@@ -225,12 +225,12 @@ class Loading {
     const std::string text = message.substr(std::min(message.size(), calls.size()));
     if (is_about(named)) return text;
     if (is_about(refused)) throw data::DatasetError(path_, {}, text);
-    if (is_about(threw)) fail({.kind = FailureKind::exception, .what = text});
+    if (is_about(threw)) fail({.kind = judge::Fault::exception, .what = text});
     if (is_about(calls)) at_ = text;
     return std::nullopt;
   }
 
-  [[noreturn]] void fail(const Failure& failure) const {
+  [[noreturn]] void fail(const judge::Failure& failure) const {
     throw data::DatasetError(path_, {}, "cannot load: " + at_ + ": " + to_text(failure));
   }
 

@@ -17,7 +17,7 @@
 
 #include "exact/query.hpp"
 #include "verify/jobs/certify.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/stability/hardness.hpp"
 

@@ -14,7 +14,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/judge/ground_truth.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/certificate_facts.hpp"
@@ -116,11 +116,11 @@ nlohmann::json answer_facts(const judge::GivenAnswer& given, fast::Promise promi
     faults.push_back(judge::to_string(fault));
     is_broken = is_broken || judge::breaks(fault, promise);
   }
-  const auto failure = given.failure ? given.failure : solvers::failure_of(given.answer);
+  const auto failure = given.failure ? given.failure : judge::failure_of(given.answer);
   return {{"solver", io::printable(given.solver)},
           {"promise", solvers::to_string(promise)},
           {"recorded", is_recorded},
-          {"verdict", solvers::to_string(given.answer.verdict)},
+          {"verdict", judge::to_string(given.answer.verdict)},
           {"failure", failure ? solvers::to_text(*failure) : ""},
           {"toi_lower", number(given.answer.toi_lower)},
           {"toi_upper", number(given.answer.toi_upper)},

@@ -127,10 +127,10 @@ fast::Verdict verdict_from(std::string_view text) {
 }
 
 /// The failure of a finding that is one.
-std::optional<solvers::Failure> failure_of(const nlohmann::json& finding) {
-  const auto kind = solvers::failure_kind_from_string(finding.at("what").get<std::string>());
+std::optional<judge::Failure> failure_of(const nlohmann::json& finding) {
+  const auto kind = judge::fault_from_name(finding.at("what").get<std::string>());
   if (!kind) return std::nullopt;
-  return solvers::Failure{.kind = *kind};
+  return judge::Failure{.kind = *kind};
 }
 
 /// What a finding of the fuzzer has beyond a query.

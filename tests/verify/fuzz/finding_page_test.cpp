@@ -17,7 +17,7 @@ FuzzReport sample() {
   FuzzReport report{.solver = {.method = "mi|ne", .options = {.tolerance = 0.25, .max_checks = 9}},
                     .result = {}};
   Finding finding;
-  finding.what = FindingKind::false_negative;
+  finding.what = judge::Fault::false_negative;
   finding.method = "mi|ne";
   finding.simplest = {.query = tests::over_triangle(1, 1, 0.1, -2).query,
                       .answer = {.verdict = fast::Verdict::no},

@@ -38,7 +38,7 @@ using tests::FunctionMethod;
 
 /// A vertex that falls through a triangle: they touch at t = 1/3.
 Reproduction miss() {
-  return {.what = FindingKind::false_negative,
+  return {.what = judge::Fault::false_negative,
           .kind = Kind::vertex_face,
           .failing = {.query = tests::over_triangle(1, 1, 1, -2).query,
                       .answer = {.verdict = fast::Verdict::no},
@@ -50,7 +50,7 @@ Reproduction miss() {
 
 /// Two edges that come within 0.1 of each other, and are asked for 0.09.
 Reproduction claim() {
-  return {.what = FindingKind::false_positive,
+  return {.what = judge::Fault::false_positive,
           .kind = Kind::edge_edge,
           .failing = {.query = tests::over_edge(1, 1, -1, -0.1).query,
                       .answer = {.verdict = fast::Verdict::yes}},
@@ -233,7 +233,7 @@ TEST(AsCppTest, asks_for_the_numbers_that_were_missing_or_none) {
     return as_cpp_test(found).find(part) != std::string::npos;
   };
   Reproduction found = miss();
-  found.what = FindingKind::not_finite;
+  found.what = judge::Fault::not_finite;
   found.failing.answer = yes;
   EXPECT_FALSE(has(found, lower) || has(found, upper) || has(found, tolerance));
   found.missing.upper = true;
@@ -264,7 +264,7 @@ TEST(AsCppTest, warns_of_a_hang) {
   const std::string warning = "// Run it with a limit of time.\n";
   Reproduction found = miss();
   EXPECT_EQ(as_cpp_test(found).find(warning), std::string::npos);
-  found.what = FindingKind::hang;
+  found.what = judge::Fault::hang;
   EXPECT_NE(as_cpp_test(found).find(warning), std::string::npos);
 }
 

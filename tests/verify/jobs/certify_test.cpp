@@ -456,9 +456,9 @@ TEST(CertifyMethods, ACrashIsAnErrorAndAHangIsUndecided) {
   EXPECT_EQ(judgement.wrong_answers[0].index, 7U);
   EXPECT_EQ(judgement.wrong_answers[0].fault, judge::Fault::error);
   EXPECT_EQ(judgement.wrong_answers[0].answer, "crash: SIGKILL");
-  EXPECT_EQ(judgement.count(solvers::FailureKind::crash), 1U);
-  EXPECT_EQ(judgement.count(solvers::FailureKind::hang), 1U);
-  EXPECT_EQ(judgement.count(solvers::FailureKind::undecided), 0U);
+  EXPECT_EQ(judgement.count(judge::Fault::crash), 1U);
+  EXPECT_EQ(judgement.count(judge::Fault::hang), 1U);
+  EXPECT_EQ(judgement.count(judge::Fault::undecided), 0U);
 }
 
 TEST(CertifyMethods, FaultsAreFoundWhereverTheyAreInALongSource) {

@@ -158,7 +158,7 @@ TEST(TimedSolver, JudgesTheQueriesWhoseTruthIsKnown) {
   const judge::Judgement judgement = timed.judge(truths);
   EXPECT_EQ(judgement.queries, 4U);
   EXPECT_EQ(judgement.count(judge::Fault::false_negative), 2U);
-  EXPECT_EQ(judgement.count(solvers::FailureKind::exception), 1U);
+  EXPECT_EQ(judgement.count(judge::Fault::exception), 1U);
   ASSERT_EQ(judgement.wrong_answers.size(), 3U);
   EXPECT_EQ(judgement.wrong_answers[1].answer, "exception: thrown");
 }

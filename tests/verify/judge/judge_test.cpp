@@ -1,4 +1,4 @@
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -115,7 +115,7 @@ TEST(Judge, ATimeThatIsNotFiniteIsAnError) {
     const Judgement judgement = judge(hit(0.1, above(0.1)), answer);
     EXPECT_EQ(judgement.count(Fault::error), 1U);
     EXPECT_EQ(all_faults(judgement), 1U);
-    EXPECT_EQ(judgement.count(solvers::FailureKind::not_finite), 1U);
+    EXPECT_EQ(judgement.count(judge::Fault::not_finite), 1U);
     EXPECT_EQ(judgement.toi_errors.count(), 0U);
   }
 }
@@ -123,16 +123,16 @@ TEST(Judge, ATimeThatIsNotFiniteIsAnError) {
 TEST(Judge, CountsFailuresByTheirKind) {
   Judgement judgement;
   const GroundTruth truth = hit(0.25, 0.25);
-  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
-    const solvers::Failure failure{.kind = kind, .number = 3};
-    judgement.add(truth, {.verdict = solvers::verdict_of(kind)}, &failure);
+  for (const judge::Fault kind : judge::failures) {
+    const judge::Failure failure{.kind = kind, .number = 3};
+    judgement.add(truth, {.verdict = judge::verdict_of(kind)}, &failure);
   }
   // Without a failure the answer shows it.
   judgement.add(truth, {.verdict = Verdict::error});
   judgement.add(truth, {.verdict = Verdict::undecided});
-  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
+  for (const judge::Fault kind : judge::failures) {
     const bool is_shown =
-        kind == solvers::FailureKind::no_verdict || kind == solvers::FailureKind::undecided;
+        kind == judge::Fault::no_verdict || kind == judge::Fault::undecided;
     EXPECT_EQ(judgement.count(kind), is_shown ? 2U : 1U) << solvers::to_string(kind);
   }
   // A hang is no answer of the solver's, and taken for one that it is undecided.
@@ -141,7 +141,7 @@ TEST(Judge, CountsFailuresByTheirKind) {
   EXPECT_EQ(judgement.wrong_answers.at(1).answer, "exit: status 3");
   const Judgement once = judgement;
   judgement += once;
-  EXPECT_EQ(judgement.count(solvers::FailureKind::hang), 2U);
+  EXPECT_EQ(judgement.count(judge::Fault::hang), 2U);
 }
 
 TEST(Judge, ATimeThatIsADoubleMayBeHit) {

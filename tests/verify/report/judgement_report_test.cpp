@@ -69,10 +69,10 @@ TEST(JudgementReport, NamesAnswersThatBreakThePromiseOnly) {
 TEST(JudgementReport, CountsFailuresByKind) {
   FailureCounts failures{};
   EXPECT_EQ(to_text(failures), "");
-  failures[static_cast<std::size_t>(solvers::FailureKind::crash)] = 1;
-  failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 23;
+  failures[static_cast<std::size_t>(judge::Fault::crash)] = 1;
+  failures[static_cast<std::size_t>(judge::Fault::hang)] = 23;
   EXPECT_EQ(to_text(failures), "1 crash, 23 hang");
-  EXPECT_EQ(to_json(failures).size(), solvers::failure_kinds);
+  EXPECT_EQ(to_json(failures).size(), judge::failure_count);
   EXPECT_EQ(to_json(failures).at("hang"), 23);
   EXPECT_EQ(to_json(failures).at("exit"), 0);
 }

@@ -73,9 +73,9 @@ TEST(StabilityText, HasALineAHardnessAndACharacterALevel) {
 TEST(StabilityText, ShowsErrorsAndHangsBesideTheWorst) {
   judge::Judgement both = faults(1, 0);
   both.faults[static_cast<std::size_t>(judge::Fault::error)] = 1;
-  both.failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 1;
+  both.failures[static_cast<std::size_t>(judge::Fault::hang)] = 1;
   judge::Judgement hung = faults(0, 0);
-  hung.failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 1;
+  hung.failures[static_cast<std::size_t>(judge::Fault::hang)] = 1;
   const std::string text = to_text(result_of({cell("digits", 1, both), cell("digits", 2, hung)}));
   EXPECT_TRUE(contains(text, "digits    1 digits … 15 digits  edge-edge    N.              #H "))
       << text;

@@ -160,7 +160,7 @@ TEST(Solver, RecordedAnswersAreLookedUpBySourceKindAndIndex) {
   EXPECT_EQ(outcome.answers[2].verdict, Verdict::error);
   ASSERT_EQ(outcome.reply.failures.size(), 1U);
   EXPECT_EQ(outcome.reply.failures[0].position, 2U);
-  EXPECT_EQ(outcome.reply.failures[0].failure.kind, FailureKind::no_verdict);
+  EXPECT_EQ(outcome.reply.failures[0].failure.kind, judge::Fault::no_verdict);
 }
 
 TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
@@ -332,7 +332,7 @@ TEST(Solver, ACrashInABenchmarkCostsAQuery) {
                                                std::vector<const Solver*>{solver.get()}, options);
   const jobs::SolverResult& said = result.solvers.at(0);
   EXPECT_EQ(said.queries, 8U);
-  EXPECT_EQ(said.judgement.count(FailureKind::crash), 1U);
+  EXPECT_EQ(said.judgement.count(judge::Fault::crash), 1U);
   EXPECT_EQ(said.judgement.count(judge::Fault::error), 1U);
   ASSERT_EQ(said.judgement.wrong_answers.size(), 1U);
   EXPECT_EQ(said.judgement.wrong_answers[0].answer, "crash: SIGSEGV");

@@ -87,7 +87,7 @@ TEST(QueryFacts, AnswersAreHeldAgainstTheTruth) {
        .answer = {.verdict = fast::Verdict::yes, .toi_lower = 0.5, .toi_upper = 0.5}},
       {.solver = "hangs",
        .answer = {.verdict = fast::Verdict::error},
-       .failure = solvers::Failure{.kind = solvers::FailureKind::crash, .number = 11}}};
+       .failure = judge::Failure{.kind = judge::Fault::crash, .number = 11}}};
   const auto method = solvers::solver_in_process(solvers::find_method("certified"), {});
   const std::array<const solvers::Solver*, 1> asked{method.get()};
   const nlohmann::json answers = query_facts(query, asked).at("answers");

@@ -1,4 +1,4 @@
-#include "verify/solvers/failure.hpp"
+#include "verify/judge/fault.hpp"
 
 #include <gtest/gtest.h>
 
