@@ -71,8 +71,7 @@ struct Arguments {
 
   [[nodiscard]] std::vector<judge::Fault> sought() const {
     std::vector<judge::Fault> result;
-    for (const std::string& name : only)
-      result.push_back(fuzz::judge::fault_from_name(name).value());
+    for (const std::string& name : only) result.push_back(judge::fault_from_name(name).value());
     return result;
   }
 };
@@ -315,8 +314,8 @@ class FuzzRun {
   }
 
   [[nodiscard]] Status status(const fuzz::FuzzResult& result) const {
-    const bool seeks_ends = fuzz::seeks(options_, judge::Fault::crash) ||
-                            fuzz::seeks(options_, judge::Fault::exit);
+    const bool seeks_ends =
+        fuzz::seeks(options_, judge::Fault::crash) || fuzz::seeks(options_, judge::Fault::exit);
     if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
       return Status::wrong_answers;
     }
@@ -345,9 +344,7 @@ class FuzzRun {
 
 std::vector<std::string> finding_kind_names() {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < fuzz::finding_kinds; ++i) {
-    names.emplace_back(fuzz::to_string(static_cast<judge::Fault>(i)));
-  }
+  for (const judge::Fault fault : judge::all_faults) names.emplace_back(judge::to_string(fault));
   return names;
 }
 
@@ -390,7 +387,7 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       ->type_name("FILE.csv");
   command
       .add_option("--write", arguments.page_folder,
-                  "Write a page a group for an issue tracker, with program, proof, test, JSON")
+                  "Write a page a group for an issue tracker, with program, proof, JSON")
       ->type_name("FOLDER");
   command
       .add_option("--calls", arguments.calls,

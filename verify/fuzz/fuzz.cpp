@@ -306,8 +306,7 @@ class Run {
 
   /// The failure at a query, or null.
   [[nodiscard]] const judge::Failure* failure_at(std::size_t i) const {
-    const auto found = std::ranges::lower_bound(failures_, i, {}, &judge::QueryFailure::position);
-    return found != failures_.end() && found->position == i ? &found->failure : nullptr;
+    return judge::failure_at(failures_, i);
   }
 
   void judge_query(std::size_t i, const judge::Failure* failure) {
@@ -339,23 +338,25 @@ class Run {
 
   /// Looks for all that can be wrong with an answer. Returns the reward, and adds the work.
   double examine_answer(std::size_t i, double& work) {
-    const Query& query = block_.queries[i];
+    const judge::Question question{block_.kind, block_.queries[i], options_.separation};
     const bool is_drawn = random_.unit() < oracle_share_;
     const MissingBounds missing = missing_bounds(answers_[i]);
     if (!is_drawn && !missing.any() &&
-        is_beyond_doubt(block_.kind, query, judged_[i], answers_[i], standard_)) {
+        is_beyond_doubt(question, judged_[i], answers_[i], standard_)) {
       return 0.0;
     }
     work += oracle_work;
     ++result_.judged_by_oracle;
-    const exact::Verdict verdict = exact::decide(block_.kind, query, options_.separation);
+    const exact::Verdict verdict =
+        exact::decide(question.kind, question.query, question.separation);
     const judge::GroundTruth truth = judge::truth_of(result_.queries, verdict);
     double reward = 0.0;
     if (name_ != judge_name()) {
-      const auto of_judge = diagnose_judge(truth, judged_[i]);
+      const auto of_judge = diagnose(question, truth, answer_of(judged_[i]),
+                                     judge::standard_of(fast::certified_info()));
       if (of_judge) reward += report(i, {*of_judge, judge_name()}, verdict);
     }
-    auto diagnosis = diagnose(block_.kind, query, truth, answers_[i], standard_);
+    auto diagnosis = diagnose(question, truth, answers_[i], standard_);
     if (!diagnosis && missing.any()) {
       diagnosis = {judge::Fault::not_finite,
                    fmt::format("{} is NaN, which it gives with other collisions",
@@ -484,7 +485,7 @@ class Run {
   const FuzzOptions& options_;
   const fast::Method& method_;
   std::string name_;
-  Standard standard_;
+  judge::Standard standard_;
   double oracle_share_;
   std::vector<Generator> generators_;
   BlockMaker maker_;

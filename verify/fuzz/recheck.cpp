@@ -15,7 +15,6 @@ namespace touchstone::verify::fuzz {
 namespace {
 
 using fast::Answer;
-using fast::CertifiedResult;
 using fast::Verdict;
 
 /// The rest of a block is not asked after so many queries that ended the solver's process or took too
@@ -45,10 +44,10 @@ std::string certificate(Kind kind, const Query& query, const exact::Verdict& ver
 
 }  // namespace
 
-Standard standard_of(const fast::Method& method, const FuzzOptions& options) {
-  return {.promise = options.promise.value_or(method.promise()),
-          .separation = options.separation,
-          .filter = method.info().filter};
+judge::Standard standard_of(const fast::Method& method, const FuzzOptions& options) {
+  judge::Standard standard = judge::standard_of(method.info());
+  standard.promise = options.promise.value_or(standard.promise);
+  return standard;
 }
 
 solvers::SolverProcessOptions process_options(const FuzzOptions& options) {
@@ -61,13 +60,6 @@ solvers::SolverProcessOptions process_options(const FuzzOptions& options) {
 jobs::Deadline solver_deadline(const jobs::Deadline& deadline) {
   constexpr double least_seconds = 1e-3;
   return jobs::Deadline(std::max(least_seconds, deadline.seconds_left()));
-}
-
-Answer answer_of(const CertifiedResult& judged) {
-  return {.verdict = judged.verdict,
-          .toi_lower = judged.toi_lower,
-          .toi_upper = judged.toi_upper,
-          .tolerance = Answer::none};
 }
 
 FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
@@ -87,16 +79,19 @@ FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
 Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options)
     : finding_(finding),
       standard_(standard_of(method, options)),
+      separation_(options.separation),
       query_limit_seconds_(options.query_limit_seconds),
       of_judge_(finding.method == judge_name() && method.name() != judge_name()),
       solver_(method, process_options(options)),
-      method_options_(method_options(options)) {}
+      method_options_(method_options(options)) {
+  if (of_judge_) standard_ = judge::standard_of(fast::certified_info());
+}
 
 std::optional<FailingCase> Recheck::ask(const Query& query, const jobs::Deadline& deadline) {
   if (!is_finite(query) || deadline.is_over()) return std::nullopt;
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
-  const exact::Verdict verdict = exact::decide(finding_.kind, query, standard_.separation);
+  const exact::Verdict verdict = exact::decide(finding_.kind, query, separation_);
   const auto diagnosis = diagnose_reply(query, judge::truth_of(0, verdict), *reply);
   if (!diagnosis || !is_same(*diagnosis)) return std::nullopt;
   return failing_case(finding_.kind, query, reply->answer, verdict, diagnosis->detail,
@@ -106,9 +101,9 @@ std::optional<FailingCase> Recheck::ask(const Query& query, const jobs::Deadline
 std::optional<Recheck::Reply> Recheck::reply_to(const Query& query,
                                                 const jobs::Deadline& deadline) {
   if (of_judge_) {
-    return Reply{.answer = answer_of(
-                     fast::certified(finding_.kind, query, {.separation = standard_.separation})),
-                 .failure = std::nullopt};
+    return Reply{
+        .answer = answer_of(fast::certified(finding_.kind, query, {.separation = separation_})),
+        .failure = std::nullopt};
   }
   Reply reply;
   const solvers::SolverRun run = solver_.solve(finding_.kind, {&query, 1}, {&reply.answer, 1},
@@ -126,9 +121,7 @@ std::optional<Diagnosis> Recheck::diagnose_reply(const Query& query,
       lacks_same_bounds(reply.answer, finding_.original.answer)) {
     return Diagnosis{judge::Fault::not_finite, finding_.original.detail};
   }
-  Standard standard = standard_;
-  if (of_judge_) standard = {.promise = fast::Promise::exact, .separation = standard_.separation};
-  return diagnose(finding_.kind, query, truth, reply.answer, standard);
+  return diagnose({finding_.kind, query, separation_}, truth, reply.answer, standard_);
 }
 
 bool Recheck::is_same(const Diagnosis& diagnosis) const {

@@ -24,17 +24,14 @@ namespace touchstone::verify::fuzz {
 /// The name of the solver that judges the others.
 [[nodiscard]] inline std::string_view judge_name() { return fast::certified_info().name; }
 
-/// The promise and separation that a method is judged by.
-[[nodiscard]] Standard standard_of(const fast::Method& method, const FuzzOptions& options);
+/// The standard that a method is judged by in a run.
+[[nodiscard]] judge::Standard standard_of(const fast::Method& method, const FuzzOptions& options);
 
 /// Options of a solver's process in a run.
 [[nodiscard]] solvers::SolverProcessOptions process_options(const FuzzOptions& options);
 
 /// For the solver's process: as many seconds by the system's clock, at least a millisecond.
 [[nodiscard]] jobs::Deadline solver_deadline(const jobs::Deadline& deadline);
-
-/// The judge's decision as an answer.
-[[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& judged);
 
 /// The evidence of a fault. \param verdict of the query, at the run's separation
 [[nodiscard]] FailingCase failing_case(Kind kind, const Query& query, const fast::Answer& answer,
@@ -68,7 +65,8 @@ class Recheck {
   [[nodiscard]] bool is_same(const Diagnosis& diagnosis) const;
 
   Finding finding_;
-  Standard standard_;
+  judge::Standard standard_;
+  Separation separation_;
   double query_limit_seconds_;
   bool of_judge_;
   solvers::SolverProcess solver_;

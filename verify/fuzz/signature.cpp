@@ -59,7 +59,8 @@ class ScaleSearch {
 
 /// Has it a reason that tells one fault from another?
 bool has_reason(judge::Fault what) {
-  return what == judge::Fault::crash || what == judge::Fault::exit || what == judge::Fault::exception;
+  return what == judge::Fault::crash || what == judge::Fault::exit ||
+         what == judge::Fault::exception;
 }
 
 void add_end(const std::optional<int>& exponent, ScaleEnds& all) {

@@ -40,8 +40,8 @@ struct SolveResult {
   std::uint64_t no = 0;
   std::uint64_t undecided = 0;
   std::uint64_t errors = 0;  ///< answers that are errors, or yes with times that are not finite
-  /// Queries without an answer, by FailureKind: undecided ones and errors.
-  std::array<std::uint64_t, judge::failure_count> failures{};
+  /// Queries without an answer by their failure (verify/judge/fault.hpp): undecided ones and errors.
+  std::array<std::uint64_t, judge::fault_count> failures{};
   /// Processes that the solver ended at no particular query: see solver_process.hpp.
   std::uint64_t unplaced_crashes = 0;
   double nanoseconds = 0.0;   ///< processor time of the solver, summed over the queries

@@ -133,17 +133,15 @@ std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, 
 judge::Judgement TimedSolver::judge(std::span<const judge::GroundTruth> truths) const {
   judge::Judgement judgement;
   const std::vector<std::size_t>& places = positions();
-  auto failure = reply_.failures.begin();
   std::size_t i = 0;
   for (const judge::GroundTruth& truth : truths) {
     while (i < places.size() && places[i] < truth.index) ++i;
     if (i == places.size()) break;
     if (places[i] != truth.index) continue;
-    while (failure != reply_.failures.end() && failure->position < i) ++failure;
-    const bool has_failed = failure != reply_.failures.end() && failure->position == i;
-    judgement.add(truth, answers_[i], has_failed ? &failure->failure : nullptr);
+    judgement.add({samples_->group().kind(), queries()[i], separation_}, truth, answers_[i],
+                  solver_->standard(), judge::failure_at(reply_.failures, i));
   }
-  judgement.add_unplaced_crashes(unplaced_crashes_);
+  judgement.unplaced_crashes = unplaced_crashes_;
   return judgement;
 }
 

@@ -135,7 +135,7 @@ std::optional<Failure> failure_of(const fast::Answer& answer) {
   };
   if (std::isinf(answer.toi_lower)) return not_finite("toi_lower", answer.toi_lower);
   if (std::isinf(answer.toi_upper)) return not_finite("toi_upper", answer.toi_upper);
-  // No comparison holds of a NaN, the mark of what is not given.
+  // No comparison holds for a NaN, which marks a missing field.
   if (answer.tolerance < 0.0) return not_finite("tolerance", answer.tolerance);
   return std::nullopt;
 }

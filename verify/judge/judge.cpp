@@ -8,8 +8,8 @@ namespace {
 
 bool is_beyond(const Question& question, const fast::Answer& answer, const Separation& claimed) {
   const auto& [kind, query, separation] = question;
-  const bool is_seen = claimed.norm == Norm::linf &&
-                       is_seen_within(kind, query, answer.toi_lower, claimed.distance);
+  const bool is_seen =
+      claimed.norm == Norm::linf && is_seen_within(kind, query, answer.toi_lower, claimed.distance);
   return !is_seen && !exact::decide(kind, query, claimed).collides();
 }
 
@@ -46,7 +46,7 @@ std::vector<Fault> judge_verdict(const GroundTruth& truth, const fast::Answer& a
   if (verdict == Verdict::no) faults.push_back(Fault::false_negative);
   if (verdict != Verdict::yes) return faults;
   const auto [lower, upper] = truth.toi.value();
-  // No comparison holds of a NaN, the mark of what a solver does not give.
+  // No comparison holds for a NaN, which marks a missing field.
   if (answer.toi_lower > lower) faults.push_back(Fault::late_toi);
   if (answer.toi_upper < upper) faults.push_back(Fault::early_toi_upper);
   return faults;
@@ -55,8 +55,8 @@ std::vector<Fault> judge_verdict(const GroundTruth& truth, const fast::Answer& a
 std::optional<Separation> claim_of(const Question& question, const fast::Answer& answer,
                                    const Standard& standard) {
   if (answer.verdict != fast::Verdict::yes) return std::nullopt;
-  const Separation claimed = claimed_distance(standard.filter, question.kind, question.query,
-                                              answer, question.separation);
+  const Separation claimed =
+      claimed_distance(standard.filter, question.kind, question.query, answer, question.separation);
   return is_valid(claimed) ? std::optional(claimed) : std::nullopt;
 }
 

@@ -85,7 +85,7 @@ struct Judgement {
 
   std::uint64_t queries = 0;  ///< answered
   std::uint64_t missing = 0;  ///< not answered (in recorded answers), and not in `queries`
-  std::optional<std::uint64_t> first_missing;  ///< index of the first of these
+  std::optional<std::uint64_t> first_missing;       ///< index of the first of these
   std::array<std::uint64_t, fault_count> faults{};  ///< answers with each fault
   /// Processes that the method ended at no particular query (solver_process.hpp): errors, but in no count of faults.
   std::uint64_t unplaced_crashes = 0;

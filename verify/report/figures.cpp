@@ -450,19 +450,13 @@ class Builder {
     add(std::move(figure));
   }
 
-  /// The text in a cell: nothing where nothing is wrong, else a letter for the worst fault.
-  /// The worst kind, and "!" where there are errors or hangs besides.
+  /// The letter of the worst fault if there is one, and "!" where there are errors or hangs besides.
   static std::string mark_text(const StabilityMark& mark) {
-    const bool fails = mark.hangs != 0 || (mark.errors != 0 && mark.worst != "error");
-    return worst_text(mark) + (fails ? "!" : "");
-  }
-
-  static std::string worst_text(const StabilityMark& mark) {
-    if (mark.worst.empty()) return {};
-    if (mark.worst == "false negative") return "N";
-    if (mark.worst == "false positive") return "P";
-    if (mark.worst == "error") return "E";
-    return mark.worst == "beyond tolerance" ? "B" : "T";
+    std::string text;
+    if (mark.worst) text += judge::letter_of(*mark.worst);
+    const bool is_error = mark.worst && judge::is_error(*mark.worst);
+    if (mark.hangs != 0 || (mark.errors != 0 && !is_error)) text += '!';
+    return text;
   }
 
   static std::string row_of(const StabilityMark& mark) {
@@ -540,7 +534,7 @@ class Builder {
     for (const StabilityMark& mark : measurements_.stability) {
       series_of(panel_of(figure, mark), mark.method, row_of(mark))
           .points.push_back({static_cast<double>(mark.exponent), mark.worst_rate, mark_text(mark),
-                             mark.worst == "false negative", tip_of(mark)});
+                             mark.worst == judge::Fault::false_negative, tip_of(mark)});
       figure.data.rows.push_back(
           {mark.hardness, mark.measure, fmt::format("{}", mark.exponent),
            std::string(to_string(mark.kind)), mark.method, fmt::format("{}", mark.queries),
@@ -548,8 +542,9 @@ class Builder {
            fmt::format("{}", mark.false_negatives), fmt::format("{}", mark.late_tois),
            fmt::format("{}", mark.early_upper_tois), fmt::format("{}", mark.beyond_tolerance),
            fmt::format("{}", mark.errors), fmt::format("{}", mark.hangs),
-           fmt::format("{}", mark.undecided), mark.worst, fmt::format("{}", mark.worst_rate),
-           io::csv_number(mark.nanoseconds)});
+           fmt::format("{}", mark.undecided),
+           std::string(mark.worst ? judge::to_text(*mark.worst) : ""),
+           fmt::format("{}", mark.worst_rate), io::csv_number(mark.nanoseconds)});
     }
     add_grid(std::move(figure));
     add_stability_of("stability_toi_median", "Stability: the median error of the time of impact",

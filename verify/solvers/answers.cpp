@@ -52,7 +52,8 @@ std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
   const std::optional<judge::Failure> why =
       failure != nullptr ? std::optional(*failure) : judge::failure_of(answer);
   fast::Answer said = answer;
-  if (why && why->kind == judge::Fault::not_finite) said = {.verdict = judge::verdict_of(why->kind)};
+  if (why && why->kind == judge::Fault::not_finite)
+    said = {.verdict = judge::verdict_of(why->kind)};
   const bool says_all = !why || why->kind == judge::Fault::undecided;
   return io::csv_row({std::string(file), std::to_string(index), std::string(to_string(kind)),
                       std::string(judge::to_string(said.verdict)), io::csv_number(said.toi_lower),

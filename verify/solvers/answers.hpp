@@ -35,7 +35,8 @@ namespace touchstone::verify::solvers {
 /// \param failure why there is no answer; null: as the answer shows (failure_of), of which what is not
 /// finite becomes an error and "undecided" is not said twice
 [[nodiscard]] std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
-                                     const fast::Answer& answer, const judge::Failure* failure = nullptr);
+                                     const fast::Answer& answer,
+                                     const judge::Failure* failure = nullptr);
 
 /// An answer of such a file.
 struct RecordedAnswer {

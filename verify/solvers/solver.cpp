@@ -42,9 +42,9 @@ SolverTime time_of(const Work& work) {
 
 /// Solves one by one; a query where the method throws is in error.
 std::vector<judge::QueryFailure> solve_despite_exceptions(const fast::Method& method,
-                                                   const SolveRequest& request,
-                                                   std::span<fast::Answer> answers,
-                                                   const fast::MethodOptions& options) {
+                                                          const SolveRequest& request,
+                                                          std::span<fast::Answer> answers,
+                                                          const fast::MethodOptions& options) {
   std::vector<judge::QueryFailure> failures;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     try {

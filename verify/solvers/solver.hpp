@@ -17,9 +17,9 @@
 #include "exact/query.hpp"
 #include "fast/certified.hpp"
 #include "fast/method.hpp"
-#include "verify/solvers/answers.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/judge/judge.hpp"
+#include "verify/solvers/answers.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify::solvers {

@@ -23,8 +23,8 @@
 #include "exact/query.hpp"
 #include "fast/method.hpp"
 #include "verify/jobs/deadline.hpp"
-#include "verify/solvers/child_process.hpp"
 #include "verify/judge/fault.hpp"
+#include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::solvers {
 

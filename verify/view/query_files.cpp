@@ -129,7 +129,7 @@ fast::Verdict verdict_from(std::string_view text) {
 /// The failure of a finding that is one.
 std::optional<judge::Failure> failure_of(const nlohmann::json& finding) {
   const auto kind = judge::fault_from_name(finding.at("what").get<std::string>());
-  if (!kind) return std::nullopt;
+  if (!kind || !judge::is_failure(*kind)) return std::nullopt;
   return judge::Failure{.kind = *kind};
 }
 

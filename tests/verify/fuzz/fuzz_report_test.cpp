@@ -205,22 +205,5 @@ TEST(FuzzReport, WritesAFindingAsJson) {
   EXPECT_TRUE(to_json(report).at("findings").at(0).at("certificate").is_null());
 }
 
-TEST(judge::Fault, HasANameEach) {
-  std::set<std::string_view> names;
-  for (std::size_t i = 0; i < finding_kinds; ++i) {
-    const auto kind = static_cast<judge::Fault>(i);
-    names.insert(to_string(kind));
-    EXPECT_EQ(judge::fault_from_name(to_string(kind)), kind);
-  }
-  EXPECT_EQ(names.size(), finding_kinds);
-  EXPECT_FALSE(judge::fault_from_name("wrong"));
-}
-
-TEST(judge::Fault, NamesFailuresAsTheyAreNamedEverywhere) {
-  for (const judge::Fault kind : judge::failures) {
-    EXPECT_EQ(to_string(finding_kind_of(kind)), solvers::to_string(kind));
-  }
-}
-
 }  // namespace
 }  // namespace touchstone::verify::fuzz::fuzz_report_test

@@ -88,7 +88,7 @@ TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
   finding.original.answer = {.verdict = Verdict::yes, .toi_lower = Answer::none, .toi_upper = 0.5};
   finding.missing.lower = true;
   const std::array<judge::Fault, 3> kinds{judge::Fault::crash, judge::Fault::hang,
-                                         judge::Fault::not_finite};
+                                          judge::Fault::not_finite};
   const std::array<double, 3> words{1.0, 2.0, 0.5};
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     finding.what = kinds.at(i);

@@ -180,8 +180,15 @@ TEST(Figures, StagesAndStabilityAreCellsAndShares) {
 
 TEST(Figures, EveryFaultHasALetter) {
   Measurements measurements;
-  for (const char* const worst : {"", "false positive", "false negative", "late toi",
-                                  "early toi_upper", "error", "beyond tolerance"}) {
+  using judge::Fault;
+  for (const std::optional<Fault> worst :
+       std::initializer_list<std::optional<Fault>>{{},
+                                                   Fault::false_positive,
+                                                   Fault::false_negative,
+                                                   Fault::late_toi,
+                                                   Fault::early_toi_upper,
+                                                   Fault::no_verdict,
+                                                   Fault::beyond_tolerance}) {
     measurements.stability.push_back(
         {.method = "m", .hardness = "angle", .measure = {}, .worst = worst});
   }
@@ -195,7 +202,8 @@ TEST(Figures, EveryFaultHasALetter) {
 
 TEST(Figures, ErrorsAndHangsAreMarkedBesideTheWorst) {
   Measurements measurements;
-  const auto add = [&](const std::string& worst, std::uint64_t errors, std::uint64_t hangs) {
+  const auto add = [&](std::optional<judge::Fault> worst, std::uint64_t errors,
+                       std::uint64_t hangs) {
     measurements.stability.push_back({.method = "m",
                                       .hardness = "digits",
                                       .measure = {},
@@ -204,11 +212,11 @@ TEST(Figures, ErrorsAndHangsAreMarkedBesideTheWorst) {
                                       .hangs = hangs,
                                       .worst = worst});
   };
-  add("false negative", 1, 0);
-  add("false positive", 0, 2);
-  add("error", 3, 0);
-  add("error", 3, 1);
-  add("", 0, 1);
+  add(judge::Fault::false_negative, 1, 0);
+  add(judge::Fault::false_positive, 0, 2);
+  add(judge::Fault::crash, 3, 0);
+  add(judge::Fault::crash, 3, 1);
+  add({}, 0, 1);
   const std::vector<Figure> figures = figures_of(measurements);
   const FigurePanel& panel = figures.at(0).panels.at(0);
   EXPECT_FALSE(panel.powers);

@@ -111,7 +111,8 @@ TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
   EXPECT_EQ(early.at_limit, 200U);
   EXPECT_EQ(early.max_checks, 7);
   EXPECT_EQ(early.tolerance, 0.125);
-  EXPECT_TRUE(early.keeps_promise);
+  EXPECT_EQ(early.beyond_tolerance, 180U) << "the misses end ½ above";
+  EXPECT_FALSE(early.keeps_promise);
   EXPECT_EQ(early.toi_error, (Spread{.count = 20, .median = 0.125, .max = 0.125}));
   EXPECT_EQ(early.achieved_tolerance, (Spread{.count = 200, .median = 0.25, .max = 0.25}));
   const Measurement& late = all[2];
