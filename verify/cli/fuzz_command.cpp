@@ -82,7 +82,7 @@ struct Arguments {
 Kind kind_of(const fs::path& file, const Arguments& arguments) {
   try {
     return data::kind_from_path(file);
-  } catch (const data::DatasetError&) {
+  } catch (const io::DatasetError&) {
     if (arguments.kind.empty()) throw;
     return kind_from_string(arguments.kind);
   }
@@ -108,7 +108,7 @@ std::vector<fuzz::CorpusQuery> read_corpus(const Arguments& arguments, Files& fi
 fs::path dataset_path(const fs::path& file, Kind kind) {
   try {
     if (data::kind_from_path(file) == kind) return file;
-  } catch (const data::DatasetError&) {
+  } catch (const io::DatasetError&) {
     fs::path result = file;
     result.replace_filename(
         fmt::format("{}-{}.csv", file.stem().string(), std::string(to_string(kind))));

@@ -64,7 +64,7 @@ class ProveRun {
         {.title = "prove",
          .use = [this](data::QuerySource& source,
                        const Progress& progress) { prove_source(source, progress); },
-         .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
+         .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
     if (io::interrupted()) {
       out_.close_incomplete();

@@ -67,7 +67,7 @@ class SolveRun {
         {.title = "solve",
          .use = [this](data::QuerySource& source,
                        const Progress& progress) { solve_source(source, progress); },
-         .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
+         .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
     out_.close();
     if (json_) json_.write(io::json_document(summary()));

@@ -14,8 +14,8 @@
 
 #include "verify/cli/files.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/data/dataset_error.hpp"
 #include "verify/data/query_source.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/mesh/frames.hpp"
 
 namespace touchstone::verify::cli {
@@ -45,7 +45,7 @@ struct SourceHandlers {
   /// Called with a source and with what to tell the fraction of it that is done.
   std::function<void(data::QuerySource&, const std::function<void(double)>&)> use;
   /// A path or file that could not be opened.
-  std::function<void(const std::filesystem::path&, const data::DatasetError&)> fail;
+  std::function<void(const std::filesystem::path&, const io::DatasetError&)> fail;
   /// Is the rest to be left alone? Asked before each source and after each failure.
   std::function<bool()> stopped;
 };

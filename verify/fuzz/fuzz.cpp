@@ -12,22 +12,23 @@
 #include <utility>
 
 #include "fast/certified.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/coverage.hpp"
 #include "verify/fuzz/diagnosis.hpp"
-#include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
 #include "verify/fuzz/scheduler.hpp"
 #include "verify/fuzz/signature.hpp"
-#include "verify/fuzz/symmetry.hpp"
-#include "verify/jobs/deadline.hpp"
+#include "verify/generate/draws.hpp"
+#include "verify/generate/symmetry.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
+namespace draws = generate::draws;
 using draws::one_in;
 using fast::Answer;
 using fast::CertifiedResult;
@@ -66,7 +67,7 @@ bool is_moderate(const Query& query) {
 /// A query that is an exact image of another one in the block.
 struct Image {
   std::size_t origin;
-  Symmetry symmetry;
+  generate::Symmetry symmetry;
 };
 
 /// Queries that are asked together: first those that generators made, then images of some of them.
@@ -138,8 +139,8 @@ class BlockMaker {
     const std::size_t made = block.queries.size();
     for (std::size_t i = 0; i < made; ++i) {
       if (!one_in(random_, queries_an_image)) continue;
-      const Symmetry symmetry =
-          draw_symmetry(block.kind, block.queries[i], context_.separation(), random_);
+      const generate::Symmetry symmetry =
+          generate::draw_symmetry(block.kind, block.queries[i], context_.separation(), random_);
       block.queries.push_back(image(symmetry, block.queries[i]).value_or(block.queries[i]));
       block.arms.push_back(block.arms[i]);
       block.images.push_back({.origin = i, .symmetry = symmetry});
@@ -218,7 +219,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool is_stopped() const { return verify::jobs::is_stopped(options_.stop); }
+  [[nodiscard]] bool is_stopped() const { return verify::base::is_stopped(options_.stop); }
 
   /// Wall-clock time of the run so far.
   [[nodiscard]] double seconds() const { return options_.clock() - start_; }
@@ -493,7 +494,7 @@ class Run {
   fast::MethodOptions method_options_;
   Random random_;
   double start_ = options_.clock();
-  jobs::Deadline end_{
+  base::Deadline end_{
       options_.seconds > 0.0 ? options_.seconds : std::numeric_limits<double>::infinity(),
       options_.clock};
   CoverageTable coverage_;
@@ -507,7 +508,7 @@ class Run {
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
   std::vector<judge::QueryFailure> failures_;
-  jobs::Deadline judging_end_;
+  base::Deadline judging_end_;
 };
 
 void check(const FuzzOptions& options) {

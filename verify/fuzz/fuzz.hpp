@@ -23,8 +23,8 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
-#include "verify/jobs/deadline.hpp"
 #include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::fuzz {
@@ -81,7 +81,7 @@ struct FuzzOptions {
   /// Called with every finding that is kept, when it is found, made simpler and in a group.
   std::function<void(const Finding&)> on_finding = nullptr;
   /// The clock of all times above but the query limit's.
-  jobs::SecondsClock clock = jobs::steady_seconds;
+  base::SecondsClock clock = base::steady_seconds;
 };
 
 /// Is that kind of findings sought?

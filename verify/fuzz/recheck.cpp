@@ -7,9 +7,8 @@
 
 #include "exact/certificate.hpp"
 #include "exact/certificate/certificate_text.hpp"
-#include "verify/fuzz/draws.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/shrink.hpp"
-#include "verify/jobs/deadline.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
@@ -57,9 +56,9 @@ solvers::SolverProcessOptions process_options(const FuzzOptions& options) {
           .limits = options.limits};
 }
 
-jobs::Deadline solver_deadline(const jobs::Deadline& deadline) {
+base::Deadline solver_deadline(const base::Deadline& deadline) {
   constexpr double least_seconds = 1e-3;
-  return jobs::Deadline(std::max(least_seconds, deadline.seconds_left()));
+  return base::Deadline(std::max(least_seconds, deadline.seconds_left()));
 }
 
 FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
@@ -87,7 +86,7 @@ Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzO
   if (of_judge_) standard_ = judge::standard_of(fast::certified_info());
 }
 
-std::optional<FailingCase> Recheck::ask(const Query& query, const jobs::Deadline& deadline) {
+std::optional<FailingCase> Recheck::ask(const Query& query, const base::Deadline& deadline) {
   if (!is_finite(query) || deadline.is_over()) return std::nullopt;
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
@@ -99,7 +98,7 @@ std::optional<FailingCase> Recheck::ask(const Query& query, const jobs::Deadline
 }
 
 std::optional<Recheck::Reply> Recheck::reply_to(const Query& query,
-                                                const jobs::Deadline& deadline) {
+                                                const base::Deadline& deadline) {
   if (of_judge_) {
     return Reply{
         .answer = answer_of(fast::certified(finding_.kind, query, {.separation = separation_})),
@@ -129,12 +128,12 @@ bool Recheck::is_same(const Diagnosis& diagnosis) const {
 }
 
 void simplify(const fast::Method& method, const FuzzOptions& options,
-              const jobs::Deadline& deadline, Finding& finding) {
+              const base::Deadline& deadline, Finding& finding) {
   // In less time than that no query can be seen to hang.
   const bool is_hang = finding.what == judge::Fault::hang;
   if (is_hang && deadline.seconds_left() <= options.query_limit_seconds) return;
   Recheck recheck(method, finding, options);
-  const auto must_end = [&] { return deadline.is_over() || jobs::is_stopped(options.stop); };
+  const auto must_end = [&] { return deadline.is_over() || base::is_stopped(options.stop); };
   const auto fails = [&](const Query& query) {
     std::optional<FailingCase> evidence = recheck.ask(query, deadline);
     if (evidence) finding.simplest = std::move(*evidence);

@@ -12,10 +12,10 @@
 #include "exact/query.hpp"
 #include "fast/certified.hpp"
 #include "fast/method.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/solver_process.hpp"
 
@@ -31,7 +31,7 @@ namespace touchstone::verify::fuzz {
 [[nodiscard]] solvers::SolverProcessOptions process_options(const FuzzOptions& options);
 
 /// For the solver's process: as many seconds by the system's clock, at least a millisecond.
-[[nodiscard]] jobs::Deadline solver_deadline(const jobs::Deadline& deadline);
+[[nodiscard]] base::Deadline solver_deadline(const base::Deadline& deadline);
 
 /// The evidence of a fault. \param verdict of the query, at the run's separation
 [[nodiscard]] FailingCase failing_case(Kind kind, const Query& query, const fast::Answer& answer,
@@ -50,7 +50,7 @@ class Recheck {
   /// The evidence, if it does; nothing if it does not, or has not answered at the deadline, or the
   /// query is not finite.
   [[nodiscard]] std::optional<FailingCase> ask(const Query& query,
-                                               const jobs::Deadline& deadline = {});
+                                               const base::Deadline& deadline = {});
 
  private:
   /// The solver's answer to this query alone, or the reason why there is none.
@@ -58,7 +58,7 @@ class Recheck {
     fast::Answer answer;
     std::optional<judge::Failure> failure;
   };
-  [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const jobs::Deadline& deadline);
+  [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const base::Deadline& deadline);
   [[nodiscard]] std::optional<Diagnosis> diagnose_reply(const Query& query,
                                                         const judge::GroundTruth& truth,
                                                         const Reply& reply) const;
@@ -76,6 +76,6 @@ class Recheck {
 /// Makes the finding's query simpler as long as the solver does the same wrong to it (shrink.hpp),
 /// until the deadline or the options' stop. A hang is left alone if it takes longer.
 void simplify(const fast::Method& method, const FuzzOptions& options,
-              const jobs::Deadline& deadline, Finding& finding);
+              const base::Deadline& deadline, Finding& finding);
 
 }  // namespace touchstone::verify::fuzz

@@ -20,7 +20,7 @@ constexpr std::array scales_to_ask{-40, -30, -24, -20, -17, -14, -12, -10, -8, -
 class ScaleSearch {
  public:
   ScaleSearch(const fast::Method& method, const FuzzOptions& options,
-              const jobs::Deadline& deadline, const Finding& finding)
+              const base::Deadline& deadline, const Finding& finding)
       : query_(finding.simplest.query),
         exponent_(size_exponent(query_)),
         least_(least_scale(options.method.tolerance)),
@@ -53,7 +53,7 @@ class ScaleSearch {
   const Query& query_;
   int exponent_;
   int least_;
-  const jobs::Deadline& deadline_;
+  const base::Deadline& deadline_;
   Recheck recheck_;
 };
 
@@ -93,7 +93,7 @@ int least_scale(double tolerance) {
 }
 
 ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
-                       const jobs::Deadline& deadline, const Finding& finding) {
+                       const base::Deadline& deadline, const Finding& finding) {
   if (finding.what == judge::Fault::hang || !is_contact(finding.separation)) return {};
   ScaleSearch search(method, options, deadline, finding);
   return {.end_below = search.end_below(), .end_above = search.end_above()};

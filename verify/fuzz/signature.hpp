@@ -21,9 +21,9 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/jobs/deadline.hpp"
 
 namespace touchstone::verify::fuzz {
 
@@ -68,7 +68,7 @@ inline constexpr int greatest_scale = 40;
 /// powers of two, up and down, until it is right or the greatest coordinate is beyond 2^least_scale() to
 /// 2^greatest_scale. Of a hang, and of what is about a separation, nothing is asked, and no end is known.
 [[nodiscard]] ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
-                                     const jobs::Deadline& deadline, const Finding& finding);
+                                     const base::Deadline& deadline, const Finding& finding);
 
 /// Of the finding's simplest query; its scales are known.
 [[nodiscard]] Signature signature_of(const Finding& finding);

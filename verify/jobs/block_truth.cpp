@@ -1,7 +1,7 @@
 #include "verify/jobs/block_truth.hpp"
 
+#include "verify/base/thread_clock.hpp"
 #include "verify/jobs/certify.hpp"
-#include "verify/jobs/thread_clock.hpp"
 
 namespace touchstone::verify::jobs {
 
@@ -23,11 +23,11 @@ std::span<const DecidedPart> BlockTruth::parts(std::size_t count) const {
 void BlockTruth::decide(std::size_t first, std::size_t count, DecidedPart& part) {
   std::vector<exact::Verdict> verdicts;
   verdicts.reserve(count);
-  const double start = thread_nanoseconds();
+  const double start = base::thread_nanoseconds();
   for (std::size_t i = 0; i < count; ++i) {
     verdicts.push_back(exact::decide(block_.kind, block_.queries[first + i], options_.separation));
   }
-  part.nanoseconds = thread_nanoseconds() - start;
+  part.nanoseconds = base::thread_nanoseconds() - start;
   for (std::size_t i = 0; i < count; ++i) {
     const exact::Verdict& verdict = verdicts[i];
     const std::uint64_t index = block_.indices[first + i];
@@ -45,13 +45,13 @@ void BlockTruth::decide(std::size_t first, std::size_t count, DecidedPart& part)
 
 void BlockTruth::prove(std::size_t first, const std::vector<exact::Verdict>& verdicts,
                        DecidedPart& part) const {
-  const double start = thread_nanoseconds();
+  const double start = base::thread_nanoseconds();
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     append_certificate(block_.kind, block_.queries[first + i], verdicts[i],
                        certificate_label(*block_.source, block_.indices[first + i]), {},
                        part.certificates, part.proofs);
   }
-  part.proofs.nanoseconds = thread_nanoseconds() - start;
+  part.proofs.nanoseconds = base::thread_nanoseconds() - start;
 }
 
 void BlockTruth::add_to(CertifyResult& result, std::size_t count) const {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "verify/base/cores.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/cores.hpp"
-#include "verify/jobs/deadline.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
@@ -61,7 +61,7 @@ class Stream {
 
  private:
   void read_query(Block& block) {
-    if (is_stopped(options_.stop)) {
+    if (base::is_stopped(options_.stop)) {
       ended_ = result_.interrupted = true;
       return;
     }
@@ -120,7 +120,7 @@ std::size_t Passes::complete() const {
 
 StreamResult stream(data::QuerySource& source, const BlockWork& work,
                     const StreamOptions& options) {
-  const int threads = cores_for(options.threads);
+  const int threads = base::cores_for(options.threads);
   const std::size_t blocks_in_flight = 2 * static_cast<std::size_t>(threads);
   Stream ends(source, options, blocks_in_flight);
   const auto read = [&](tbb::flow_control& flow) {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <limits>
 
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/jobs/statistics.hpp"
 
 namespace touchstone::verify::jobs {
@@ -68,10 +68,10 @@ void TimedSolver::choose_sample(const SampleLimits& limits) {
   for (;;) {
     take(count);
     double growth = possible_growth(limits);
-    if (count == most || is_stopped(limits.stop)) return;
+    if (count == most || base::is_stopped(limits.stop)) return;
     // The first run of a sample also accesses its memory for the first time.
     if (growth < 2.0) growth = possible_growth(limits);
-    if (growth < 2.0 || is_stopped(limits.stop)) return;
+    if (growth < 2.0 || base::is_stopped(limits.stop)) return;
     count = std::min(count * std::bit_floor(static_cast<std::size_t>(growth)), most);
   }
 }
@@ -114,7 +114,7 @@ std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, 
   const WallClock::time_point start = WallClock::now();
   for (int sweep = 0; sweep < sweeps && nanoseconds_since(start) <= 1e9 * seconds; ++sweep) {
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      if (is_stopped(stop)) return std::nullopt;
+      if (base::is_stopped(stop)) return std::nullopt;
       const solvers::SolveRequest request{.kind = samples_->group().kind(),
                                           .queries = queries().subspan(chosen[i], 1),
                                           .separation = separation_};

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/jobs/statistics.hpp"
 #include "verify/jobs/timing.hpp"
 #include "verify/judge/judgement.hpp"
@@ -122,7 +122,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return jobs::is_stopped(options_.stop); }
+  [[nodiscard]] bool stopped() const { return base::is_stopped(options_.stop); }
 
   void tell(double fraction) const {
     if (options_.on_progress) options_.on_progress(fraction);

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/jobs/thread_clock.hpp"
+#include "verify/base/thread_clock.hpp"
 
 namespace touchstone::verify::solvers {
 namespace {
@@ -31,11 +31,11 @@ fast::MethodOptions with_separation(fast::MethodOptions options, const SolveRequ
 /// The time that work takes in this thread.
 template <class Work>
 SolverTime time_of(const Work& work) {
-  const double start = jobs::thread_nanoseconds();
+  const double start = base::thread_nanoseconds();
   const WallClock::time_point wall_start = WallClock::now();
   work();
   const double seconds = std::chrono::duration<double>(WallClock::now() - wall_start).count();
-  return {.processor_nanoseconds = jobs::thread_nanoseconds() - start, .wall_seconds = seconds};
+  return {.processor_nanoseconds = base::thread_nanoseconds() - start, .wall_seconds = seconds};
 }
 
 // ---- In this process ----------------------------------------------------------------------------

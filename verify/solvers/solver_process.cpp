@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 
 namespace touchstone::verify::solvers {
 namespace {
@@ -217,7 +217,7 @@ class SolverProcess::Impl {
       : method_(method), options_(options) {}
 
   SolverRun solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
-                  const fast::MethodOptions& method_options, const jobs::Deadline& deadline) {
+                  const fast::MethodOptions& method_options, const base::Deadline& deadline) {
     deadline_ = deadline;
     run_ = {};
     lost_children_ = 0;
@@ -248,7 +248,7 @@ class SolverProcess::Impl {
   };
 
   [[nodiscard]] bool is_stopped() const {
-    return verify::jobs::is_stopped(options_.stop) || deadline_.is_over();
+    return verify::base::is_stopped(options_.stop) || deadline_.is_over();
   }
 
   [[nodiscard]] bool has_failed_enough() const {
@@ -414,7 +414,7 @@ class SolverProcess::Impl {
   std::optional<TemporaryFolder> folder_;
   std::unique_ptr<ChildProcess> child_;
   CapturedOutput output_;
-  jobs::Deadline deadline_;
+  base::Deadline deadline_;
   SolverRun run_;
   /// Failures of this call that ended a child.
   std::size_t lost_children_ = 0;
@@ -434,7 +434,7 @@ SolverProcess::~SolverProcess() = default;
 SolverRun SolverProcess::solve(Kind kind, std::span<const Query> queries,
                                std::span<fast::Answer> answers,
                                const fast::MethodOptions& method_options,
-                               const jobs::Deadline& deadline) {
+                               const base::Deadline& deadline) {
   return impl_->solve(kind, queries, answers, method_options, deadline);
 }
 

@@ -22,7 +22,7 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/judge/fault.hpp"
 #include "verify/solvers/child_process.hpp"
 
@@ -76,7 +76,7 @@ class SolverProcess {
   [[nodiscard]] SolverRun solve(Kind kind, std::span<const Query> queries,
                                 std::span<fast::Answer> answers,
                                 const fast::MethodOptions& method_options,
-                                const jobs::Deadline& deadline = {});
+                                const base::Deadline& deadline = {});
 
   /// The output of its child processes since the last call, which clears it.
   [[nodiscard]] CapturedOutput take_output();

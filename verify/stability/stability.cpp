@@ -5,7 +5,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 
 namespace touchstone::verify::stability {
 namespace {
@@ -58,7 +58,7 @@ StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
                          .total = {},
                          .cells = cells_of(sorts)};
   result.total.name = "total";
-  const auto stopped = [&] { return jobs::is_stopped(options.stop); };
+  const auto stopped = [&] { return base::is_stopped(options.stop); };
   std::size_t done = 0;
   for (; done < result.cells.size() && !stopped(); ++done) {
     const auto on_progress = [&](double fraction) {

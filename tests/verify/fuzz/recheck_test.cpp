@@ -67,7 +67,7 @@ TEST(Recheck, AsksAgainAboutAnyQuery) {
   Query infinite = finding.original.query;
   infinite.coordinates.front() = HUGE_VAL;
   EXPECT_FALSE(recheck.ask(infinite));
-  EXPECT_FALSE(recheck.ask(finding.original.query, jobs::Deadline(0.0)));
+  EXPECT_FALSE(recheck.ask(finding.original.query, base::Deadline(0.0)));
 }
 
 TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
@@ -141,7 +141,7 @@ TEST(Simplify, says_if_the_time_was_too_short) {
   // A clock that goes on whenever somebody looks.
   for (const double step : {1.0, 0.2, 0.05}) {
     double now = 0.0;
-    const jobs::Deadline deadline(1.0, [&now, step] { return now += step; });
+    const base::Deadline deadline(1.0, [&now, step] { return now += step; });
     Finding finding = found;
     simplify(method, {}, deadline, finding);
     EXPECT_EQ(finding.shrinking, Shrinking::cut_short);
@@ -191,7 +191,7 @@ TEST(Simplify, leaves_a_hang_alone_that_takes_longer_than_there_is_time) {
   Finding finding;
   finding.what = judge::Fault::hang;
   finding.method = "function";
-  simplify(method, {.query_limit_seconds = 10.0}, jobs::Deadline(5.0, [] { return 0.0; }), finding);
+  simplify(method, {.query_limit_seconds = 10.0}, base::Deadline(5.0, [] { return 0.0; }), finding);
   EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
 }
 

@@ -85,7 +85,7 @@ TEST(ScaleRange, is_not_known_when_the_time_is_over) {
   const FunctionMethod method(
       [](Kind kind, const Query& query) { return answer_of(fast::certified(kind, query)); });
   const ScaleRange range =
-      scale_range(method, {}, jobs::Deadline(0.0), finding_of(Kind::vertex_face, falling));
+      scale_range(method, {}, base::Deadline(0.0), finding_of(Kind::vertex_face, falling));
   EXPECT_FALSE(range.end_below || range.end_above);
 }
 

@@ -35,8 +35,8 @@ data::QueryGroup falling(std::size_t count) {
 Answer no(Kind, const Query&) { return {.verdict = Verdict::no}; }
 
 Answer slow_no(Kind, const Query&) {
-  const double start = thread_nanoseconds();
-  while (thread_nanoseconds() - start < 1e6) continue;
+  const double start = base::thread_nanoseconds();
+  while (base::thread_nanoseconds() - start < 1e6) continue;
   return {.verdict = Verdict::no};
 }
 

@@ -14,7 +14,7 @@
 #include "fast/certified.hpp"
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
-#include "verify/jobs/thread_clock.hpp"
+#include "verify/base/thread_clock.hpp"
 
 namespace touchstone::verify::report::measure_test {
 namespace {
@@ -153,8 +153,8 @@ TEST(Measure, LargerGroupsAreSampledAndItIsSaid) {
 
 /// Burns so much processor time.
 Answer slow_no(Kind, const Query&) {
-  const double start = jobs::thread_nanoseconds();
-  while (jobs::thread_nanoseconds() - start < 1e6) continue;
+  const double start = base::thread_nanoseconds();
+  while (base::thread_nanoseconds() - start < 1e6) continue;
   return {.verdict = Verdict::no};
 }
 

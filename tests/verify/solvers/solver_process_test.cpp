@@ -451,7 +451,7 @@ TEST(SolverProcess, StopsAtItsTime) {
   std::vector<Query> queries = numbered(10);
   plant(queries, Act::hangs, {5});
   std::vector<Answer> answers(queries.size());
-  const SolverRun cut = process.solve(Kind::vertex_face, queries, answers, {}, jobs::Deadline(0.1));
+  const SolverRun cut = process.solve(Kind::vertex_face, queries, answers, {}, base::Deadline(0.1));
   EXPECT_LE(cut.answered, 5U);
   EXPECT_TRUE(cut.failures.empty());
   // The next call has all the time.

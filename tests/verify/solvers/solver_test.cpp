@@ -17,10 +17,10 @@
 
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
+#include "verify/base/thread_clock.hpp"
 #include "verify/generate/workload.hpp"
 #include "verify/jobs/bench.hpp"
 #include "verify/jobs/stream.hpp"
-#include "verify/jobs/thread_clock.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
 // A program of its own: it makes processes, which copy no threads.
@@ -90,8 +90,8 @@ TEST(Solver, InThisAndInChildProcessesGivesTheMethodsAnswers) {
 
 TEST(Solver, TimeIsTheProcessorTimeOfTheMethod) {
   const FunctionMethod burner([](Kind, const Query&) -> Answer {
-    const double start = jobs::thread_nanoseconds();
-    while (jobs::thread_nanoseconds() < start + 2e6) continue;
+    const double start = base::thread_nanoseconds();
+    while (base::thread_nanoseconds() < start + 2e6) continue;
     return {};
   });
   EXPECT_GE(ask(*solver_in_process(burner, {}), 10).nanoseconds(), 20e6);

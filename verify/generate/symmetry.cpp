@@ -1,4 +1,4 @@
-#include "verify/fuzz/symmetry.hpp"
+#include "verify/generate/symmetry.hpp"
 
 #include <fmt/format.h>
 
@@ -6,15 +6,13 @@
 #include <cmath>
 #include <utility>
 
-#include "verify/fuzz/draws.hpp"
-#include "verify/judge/separation_inference.hpp"
+#include "verify/generate/draws.hpp"
 
-namespace touchstone::verify::fuzz {
+namespace touchstone::verify::generate {
 namespace {
 
 using draws::below;
 using draws::one_in;
-using generate::Random;
 
 constexpr int greatest_exponent = 60;
 
@@ -136,4 +134,4 @@ std::string to_text(const Symmetry& symmetry) {
   return text.empty() ? "none" : text;
 }
 
-}  // namespace touchstone::verify::fuzz
+}  // namespace touchstone::verify::generate
