@@ -55,7 +55,7 @@ bool is_beyond_doubt(const judge::Question& question, const CertifiedResult& jud
                      const Answer& answer, const judge::Standard& standard) {
   if (judged.verdict == Verdict::error) return false;
   judge::GroundTruth truth{.index = 0, .collides = judged.verdict == Verdict::yes, .toi = {}};
-  if (truth.collides) truth.toi = {judged.toi_lower, judged.toi_upper};
+  if (truth.collides) truth.toi = exact::DoubleInterval{judged.toi_lower, judged.toi_upper};
   if (broken(judge::judge_verdict(truth, answer), standard.promise)) return false;
   if (truth.collides) return true;
   const auto claimed = judge::claim_of(question, answer, standard);

@@ -44,7 +44,7 @@ inline constexpr std::array<Fault, fault_count> all_faults = [] {
 }();
 
 /// The failures, in their order.
-inline constexpr std::span failures = std::span(all_faults).subspan<4, 7>();
+inline constexpr std::span all_failures = std::span(all_faults).subspan<4, 7>();
 
 [[nodiscard]] constexpr bool is_failure(Fault fault) {
   return Fault::crash <= fault && fault <= Fault::undecided;

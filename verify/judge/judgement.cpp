@@ -72,7 +72,7 @@ double ToiErrors::max() const {
 
 std::uint64_t Judgement::errors() const {
   std::uint64_t sum = unplaced_crashes;
-  for (const Fault fault : failures) sum += is_error(fault) ? count(fault) : 0;
+  for (const Fault fault : all_failures) sum += is_error(fault) ? count(fault) : 0;
   return sum;
 }
 

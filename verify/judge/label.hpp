@@ -19,15 +19,15 @@ namespace touchstone::verify::judge {
 
 /// The label of a query: what its source claims of it.
 struct Label {
-  std::optional<bool> collides;
-  std::optional<exact::Rational> toi;
+  std::optional<bool> collides = std::nullopt;
+  std::optional<exact::Rational> toi = std::nullopt;
 };
 
 /// The comparison of labels with the truth.
 struct LabelComparison {
   Inference inference = Inference::all;
   /// A recorded time of impact may be off by this much.
-  exact::Rational tolerance;
+  exact::Rational tolerance = {};
 
   /// Is the recorded verdict compared?
   [[nodiscard]] bool uses_verdict(const Label& label) const;

@@ -132,7 +132,7 @@ std::string failures_text(const jobs::MethodResult& method) {
   const auto is_other = [&](judge::Fault kind) {
     return kind != judge::Fault::undecided && judged.count(kind) != 0;
   };
-  if (std::ranges::none_of(judge::failures, is_other)) return {};
+  if (std::ranges::none_of(judge::all_failures, is_other)) return {};
   return fmt::format("no answer: {}: {}\n", method.name, to_text(judged.faults));
 }
 

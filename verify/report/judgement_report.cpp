@@ -90,7 +90,7 @@ std::string wrong_answers_text(const NamedJudgement& named,
 
 std::string to_text(const FailureCounts& failures) {
   std::string text;
-  for (const judge::Fault kind : judge::failures) {
+  for (const judge::Fault kind : judge::all_failures) {
     const std::uint64_t count = failures[static_cast<std::size_t>(kind)];
     if (count == 0) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, judge::to_string(kind));
@@ -125,7 +125,7 @@ nlohmann::json to_json(const judge::WrongAnswer& wrong) {
 
 nlohmann::json to_json(const FailureCounts& failures) {
   nlohmann::json json = nlohmann::json::object();
-  for (const judge::Fault kind : judge::failures) {
+  for (const judge::Fault kind : judge::all_failures) {
     json[judge::to_string(kind)] = failures[static_cast<std::size_t>(kind)];
   }
   return json;

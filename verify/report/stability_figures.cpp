@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,8 +14,6 @@
 
 namespace touchstone::verify::report {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using Count = std::uint64_t StabilityMark::*;
 
@@ -99,11 +96,11 @@ class Maps {
     add_worst();
     add_number("stability_toi_median", "Stability: the median error of the time of impact",
                "error of the time of impact, median", [](const StabilityMark& mark) {
-                 return mark.toi_error ? mark.toi_error->median : nan;
+                 return mark.toi_error ? mark.toi_error->median : Measurement::unknown;
                });
     add_number("stability_toi_max", "Stability: the greatest error of the time of impact",
                "error of the time of impact, greatest", [](const StabilityMark& mark) {
-                 return mark.toi_error ? mark.toi_error->max : nan;
+                 return mark.toi_error ? mark.toi_error->max : Measurement::unknown;
                });
     add_number("stability_time", "Stability: the time a query", "time a query, ns",
                [](const StabilityMark& mark) { return mark.nanoseconds; });

@@ -105,7 +105,7 @@ TEST(Diagnose, TellsFailuresApart) {
   const auto what = [](const judge::Failure& failure) {
     return diagnose_failure(failure, 10.0).what;
   };
-  for (const judge::Fault kind : judge::failures) {
+  for (const judge::Fault kind : judge::all_failures) {
     EXPECT_EQ(what({.kind = kind}), kind);
   }
   EXPECT_EQ(diagnose_failure({.kind = judge::Fault::hang}, 10.0).detail, "takes more than 10 s");

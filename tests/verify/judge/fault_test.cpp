@@ -81,7 +81,7 @@ TEST(FailureAt, IsFoundByItsPosition) {
 }
 
 TEST(VerdictOf, OnlyIndecisionIsConservative) {
-  for (const Fault kind : failures) {
+  for (const Fault kind : all_failures) {
     const bool is_undecided = kind == Fault::undecided || kind == Fault::hang;
     EXPECT_EQ(verdict_of(kind), is_undecided ? Verdict::undecided : Verdict::error);
   }

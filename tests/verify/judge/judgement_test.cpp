@@ -62,14 +62,14 @@ TEST(Judgement, CountsAndListsFaults) {
 TEST(Judgement, CountsFailuresByTheirKind) {
   Judgement judgement;
   const GroundTruth truth = hit(0.25, 0.25);
-  for (const Fault kind : failures) {
+  for (const Fault kind : all_failures) {
     const Failure failure{.kind = kind, .number = 3};
     add(judgement, truth, {.verdict = verdict_of(kind)}, &failure);
   }
   // Without a failure the answer shows it.
   add(judgement, truth, {.verdict = Verdict::error});
   add(judgement, truth, {.verdict = Verdict::undecided});
-  for (const Fault kind : failures) {
+  for (const Fault kind : all_failures) {
     const bool is_shown = kind == Fault::no_verdict || kind == Fault::undecided;
     EXPECT_EQ(judgement.count(kind), is_shown ? 2U : 1U) << to_string(kind);
   }

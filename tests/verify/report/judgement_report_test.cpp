@@ -74,7 +74,7 @@ TEST(JudgementReport, CountsFailuresByKind) {
   failures[static_cast<std::size_t>(judge::Fault::crash)] = 1;
   failures[static_cast<std::size_t>(judge::Fault::hang)] = 23;
   EXPECT_EQ(to_text(failures), "1 crash, 23 hang");
-  EXPECT_EQ(to_json(failures).size(), judge::failures.size());
+  EXPECT_EQ(to_json(failures).size(), judge::all_failures.size());
   EXPECT_EQ(to_json(failures).at("hang"), 23);
   EXPECT_EQ(to_json(failures).at("exit"), 0);
 }
