@@ -15,9 +15,6 @@
 namespace touchstone::verify::generate {
 namespace {
 
-using draws::below;
-using draws::one_in;
-
 /// Points, in units.
 using Layout = std::array<Vector, moving_points>;
 
@@ -40,7 +37,7 @@ class Scene {
       touch_in_a_plane(touch.places);
       return touch;
     }
-    switch (below(random_, 3)) {
+    switch (draws::below(random_, 3)) {
       case 0:
         touch_at_a_point(touch);
         break;
@@ -60,7 +57,7 @@ class Scene {
     const std::array<Vector, 2> motions{draw_motion(), draw_motion()};
     for (std::size_t point = 0; point < moving_points; ++point) {
       result.at(point) = result.at(point) + motions.at(point < second() ? 0 : 1);
-      if (one_in(random_, 3)) result.at(point) = result.at(point) + draw_place();
+      if (draws::one_in(random_, 3)) result.at(point) = result.at(point) + draw_place();
     }
     if (touch.shared && random_.coin())
       result.at((*touch.shared)[0]) = result.at((*touch.shared)[1]);
@@ -91,11 +88,11 @@ class Scene {
   }
 
   Vector draw_motion() {
-    const std::size_t how = below(random_, 4);
+    const std::size_t how = draws::below(random_, 4);
     if (how == 0) return {};
     Vector motion = draw_place();
     if (how == 1) {
-      const std::size_t axis = below(random_, 3);
+      const std::size_t axis = draws::below(random_, 3);
       for (std::size_t other = 0; other < 3; ++other) {
         if (other != axis) motion.at(other) = 0;
       }
@@ -104,8 +101,8 @@ class Scene {
   }
 
   void touch_at_a_point(Touch& touch) {
-    const std::size_t of_first = below(random_, second());
-    const std::size_t of_second = second() + below(random_, moving_points - second());
+    const std::size_t of_first = draws::below(random_, second());
+    const std::size_t of_second = second() + draws::below(random_, moving_points - second());
     touch.places.at(of_first) = touch.places.at(of_second);
     touch.shared = {of_first, of_second};
   }
@@ -168,7 +165,7 @@ Query in_another_order(Kind kind, const Query& query, Random& random) {
 }
 
 constexpr int most_digits = 6;
-constexpr int least_exponent = -3, greatest_exponent = 4;
+constexpr int least_power = -3, greatest_power = 4;
 
 std::array<Layout, 2> draw_ends(Kind kind, const EverydayScene& options, Random& random) {
   // Layout are sums of up to four draws: the first, two of the shape, and a motion.
@@ -183,7 +180,7 @@ std::array<Layout, 2> draw_ends(Kind kind, const EverydayScene& options, Random&
     ends.at(1 - end) = scene.moved(touch);
   }
   if (options.clearance == 0) return ends;
-  const std::size_t axis = below(random, 3);
+  const std::size_t axis = draws::below(random, 3);
   const std::int64_t away = random.coin() ? options.clearance : -options.clearance;
   for (Layout& places : ends) {
     for (std::size_t point = 0; point < scene.second(); ++point) places.at(point).at(axis) += away;
@@ -192,9 +189,9 @@ std::array<Layout, 2> draw_ends(Kind kind, const EverydayScene& options, Random&
 }
 
 EverydayScene draw_scene(Random& random) {
-  return {.digits = 1 + static_cast<int>(below(random, most_digits)),
-          .exponent = static_cast<int>(random.between(least_exponent, greatest_exponent)),
-          .as_float = one_in(random, 3),
+  return {.digits = 1 + static_cast<int>(draws::below(random, most_digits)),
+          .exponent = static_cast<int>(random.between(least_power, greatest_power)),
+          .as_float = draws::one_in(random, 3),
           .time = random.coin() ? TouchTime::at_start : TouchTime::at_end,
           .clearance = 0};
 }

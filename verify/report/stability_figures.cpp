@@ -24,7 +24,7 @@ struct CountName {
   std::string_view words;
 };
 
-constexpr std::array counts{
+constexpr std::array cell_counts{
     CountName{&StabilityMark::queries, "queries", "queries"},
     CountName{&StabilityMark::collisions, "collisions", "collisions"},
     CountName{&StabilityMark::false_positives, "false_positives", "false positives"},
@@ -37,7 +37,7 @@ constexpr std::array counts{
     CountName{&StabilityMark::undecided, "undecided", "undecided"},
 };
 
-/// The counts in the order of a cell's text.
+/// The cell_counts in the order of a cell's text.
 constexpr std::array in_text{&StabilityMark::false_negatives,  &StabilityMark::false_positives,
                              &StabilityMark::late_tois,        &StabilityMark::early_upper_tois,
                              &StabilityMark::beyond_tolerance, &StabilityMark::errors,
@@ -61,7 +61,7 @@ std::string tip_of(const StabilityMark& mark) {
   std::string text = fmt::format("{} queries, {} collisions", mark.queries, mark.collisions);
   for (const Count count : in_text) {
     if (mark.*count == 0) continue;
-    const auto* const name = std::ranges::find(counts, count, &CountName::count);
+    const auto* const name = std::ranges::find(cell_counts, count, &CountName::count);
     text += fmt::format(", {} {}", mark.*count, name->words);
   }
   if (mark.toi_error) {
@@ -145,7 +145,7 @@ class Maps {
         .y_log = false,
         .panels = {},
         .data = {{}, {"hardness", "measure", "level", "kind", "method"}, {}}};
-    for (const CountName& name : counts) figure.data.columns.emplace_back(name.column);
+    for (const CountName& name : cell_counts) figure.data.columns.emplace_back(name.column);
     for (const char* const column : {"worst", "worst_rate", "ns_per_query"}) {
       figure.data.columns.emplace_back(column);
     }
@@ -154,7 +154,8 @@ class Maps {
           add_cell(figure, mark,
                    {static_cast<double>(mark.exponent), mark.worst_rate, mark_text(mark),
                     mark.worst == judge::Fault::false_negative, tip_of(mark)});
-      for (const CountName& name : counts) row.push_back(fmt::format("{}", mark.*(name.count)));
+      for (const CountName& name : cell_counts)
+        row.push_back(fmt::format("{}", mark.*(name.count)));
       row.emplace_back(mark.worst ? judge::to_text(*mark.worst) : "");
       row.push_back(fmt::format("{}", mark.worst_rate));
       row.push_back(io::csv_number(mark.nanoseconds));
