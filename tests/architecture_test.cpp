@@ -133,6 +133,36 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/plugin.h", "stdint.h"},
 });
 
+/// The folders of verify, and the folders that each may include besides itself: only some of those above it, so that there
+/// are no circles. All lines for verify above hold as well.
+struct Layer {
+  std::string_view folder;
+  std::vector<std::string_view> includes;
+};
+
+const std::vector<Layer>& verify_layers() {
+  static const std::vector<Layer> layers{
+      {"base", {}},
+      {"io", {}},
+      {"data", {"io"}},
+      {"mesh", {"data", "io"}},
+      {"generate", {"data", "mesh"}},
+      {"baselines", {"generate"}},
+      {"judge", {"base", "data", "io"}},
+      {"solvers", {"base", "baselines", "io", "judge"}},
+      {"jobs", {"base", "data", "io", "judge", "mesh", "solvers"}},
+      {"fuzz", {"base", "data", "generate", "io", "judge", "solvers"}},
+      {"stability", {"base", "data", "generate", "jobs", "judge", "solvers"}},
+      {"report",
+       {"base", "data", "generate", "io", "jobs", "judge", "mesh", "solvers", "stability"}},
+      {"view", {"data", "io", "jobs", "judge", "mesh", "report", "solvers"}},
+      {"cli",
+       {"data", "fuzz", "generate", "io", "jobs", "judge", "mesh", "report", "solvers", "stability",
+        "view"}},
+  };
+  return layers;
+}
+
 /// A file that a rule does not hold for, with the reason.
 struct Exception {
   std::string_view header;
@@ -185,8 +215,11 @@ constexpr auto headers_without_test = std::to_array<Exception>({
     {"verify/cli/group_options.hpp", "tested through the commands that use it"},
     {"verify/cli/options.hpp", "tested through the commands that use it"},
     {"verify/cli/view_file.hpp", "tested through the commands that use it"},
-    {"verify/fuzz/draws.hpp", "a part of the generators, tested through their queries"},
+    {"verify/generate/draws.hpp", "a part of the generators, tested through their queries"},
+    {"verify/jobs/block_answers.hpp", "a part of certify and solve, tested through them"},
+    {"verify/jobs/block_truth.hpp", "a part of certify, tested through it"},
     {"verify/fuzz/finding.hpp", "what the fuzzer hands out, without code"},
+    {"verify/generate/draws.hpp", "a part of the generators, tested through their queries"},
     {"verify/generate/grid.hpp", "a part of the families, tested through their queries"},
     {"verify/generate/passing_planes.hpp", "a part of the families, tested through their queries"},
     {"verify/generate/random.hpp", "a part of the families, tested through their queries"},
@@ -240,6 +273,22 @@ bool is_permitted(std::string_view path, const Include& include) {
   });
 }
 
+/// The folder of verify that a path is in; empty for other paths.
+std::string_view verify_folder(std::string_view path) {
+  constexpr std::string_view verify = "verify/";
+  if (!path.starts_with(verify)) return {};
+  path.remove_prefix(verify.size());
+  return path.substr(0, path.find('/') == std::string_view::npos ? 0 : path.find('/'));
+}
+
+/// Does the include obey verify_layers()?
+bool is_in_layers(std::string_view path, const Include& include) {
+  const std::string_view from = verify_folder(path), target = verify_folder(include.name);
+  if (from.empty() || target.empty() || from == target) return true;
+  const auto layer = std::ranges::find(verify_layers(), from, &Layer::folder);
+  return layer != verify_layers().end() && std::ranges::count(layer->includes, target) != 0;
+}
+
 std::string_view without_leading_space(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
   return text;
@@ -280,7 +329,7 @@ Violations forbidden_includes(const std::string& path, std::string_view text) {
     const bool extension = directive == "include_next" || directive == "import";
     if (directive != "include" && !extension) continue;
     const Include include = parse_target(line);
-    if (extension || !is_permitted(path, include)) {
+    if (extension || !is_permitted(path, include) || !is_in_layers(path, include)) {
       std::string violation = path;
       violation.append(":").append(std::to_string(number)).append(": ").append(include.name);
       result.push_back(std::move(violation));
@@ -409,6 +458,25 @@ TEST(SourceTree, ModulesIncludeOnlyWhatTheyMay) {
   }
 }
 
+/// Nor does a line permit an include that nobody needs.
+TEST(SourceTree, FoldersOfVerifyAreInLayers) {
+  std::vector<std::string_view> above;
+  for (const auto& [folder, includes] : verify_layers()) {
+    for (const std::string_view target : includes) {
+      EXPECT_EQ(std::ranges::count(above, target), 1) << folder << " includes " << target;
+      const std::string include = "#include \"verify/" + std::string(target) + "/";
+      const std::string inside = "verify/" + std::string(folder) + "/";
+      EXPECT_TRUE(std::ranges::any_of(source_tree(),
+                                      [&](const auto& file) {
+                                        return file.first.starts_with(inside) &&
+                                               file.second.find(include) != std::string::npos;
+                                      }))
+          << folder << " need not include " << target;
+    }
+    above.push_back(folder);
+  }
+}
+
 TEST(SourceTree, EveryHeaderHasATest) { EXPECT_EQ(untested_headers(source_tree()), Violations{}); }
 
 TEST(SourceTree, ExceptionsAreNeeded) {
@@ -481,6 +549,10 @@ TEST(PlantedFault, EachForbiddenIncludeIsFound) {
       {"filters/derivation/model.cpp", "#include \"verify/io/terminal.hpp\"\n"},
       {"filters/derivation/model.cpp", "#include <CGAL/gmpxx.h>\n"},
       {"fast/solver.cpp", "#include \"filters/derivation/rounding_model.hpp\"\n"},
+      {"verify/io/csv.cpp", "#include \"verify/data/dataset.hpp\"\n"},
+      {"verify/judge/judge.cpp", "#include \"verify/solvers/solver.hpp\"\n"},
+      {"verify/stability/new.cpp", "#include \"verify/fuzz/fuzz.hpp\"\n"},
+      {"verify/unknown/new.cpp", "#include \"verify/io/csv.hpp\"\n"},
       {"verify/dataset.cpp", "#include <boost/any.hpp>\n"},
       {"verify/dataset.cpp", "#include <stdio.h>\n"},
       {"verify/plugin.h", "#include <math.h>\n"},

@@ -23,7 +23,7 @@ struct RecorderOptions {
 
 class Recorder {
  public:
-  /// \throws verify::data::DatasetError if no file can be created there.
+  /// \throws verify::io::DatasetError if no file can be created there.
   explicit Recorder(RecorderOptions options);
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -33,7 +33,7 @@ class Recorder {
 
   void add(Kind kind, const Query& query);
 
-  /// Writes the rest, and renames the files. \throws verify::data::DatasetError if it cannot be
+  /// Writes the rest, and renames the files. \throws verify::io::DatasetError if it cannot be
   /// written.
   void close();
 

@@ -17,6 +17,7 @@
 #include "tests/mutants/hunt.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/fuzz/plainness.hpp"
+#include "verify/generate/decimal.hpp"
 #include "verify/solvers/plugin.hpp"
 #include "verify/solvers/registry.hpp"
 
@@ -106,7 +107,7 @@ TEST(Mutants, become_simple_queries) {
   EXPECT_EQ(verify::fuzz::degeneracy(found.finding->kind, query), 0U);
   EXPECT_LE(verify::fuzz::magnitudes(query).size(), 2U);
   for (const double x : verify::fuzz::magnitudes(query)) {
-    EXPECT_EQ(verify::fuzz::shortest_decimal(x).count, 1) << x;
+    EXPECT_EQ(verify::generate::shortest_decimal(x).count, 1) << x;
   }
 }
 
@@ -125,7 +126,7 @@ TEST(Released, is_found_by_a_query_of_everyday_size) {
       EXPECT_LE(all.size(), 4U);
       for (const double x : all) {
         EXPECT_TRUE(x >= 1e-3 && x <= 1e3) << x;
-        EXPECT_LE(verify::fuzz::shortest_decimal(x).count, 4) << x;
+        EXPECT_LE(verify::generate::shortest_decimal(x).count, 4) << x;
       }
     };
     (void)verify::fuzz::fuzz(verify::solvers::find_method("tight_inclusion_released"),
@@ -133,7 +134,7 @@ TEST(Released, is_found_by_a_query_of_everyday_size) {
                               .seed = seed,
                               .method = {.max_checks = 10'000},
                               .shrink_seconds = 60.0,
-                              .only = {verify::fuzz::FindingKind::false_negative},
+                              .only = {verify::judge::Fault::false_negative},
                               .on_finding = look_at});
     EXPECT_TRUE(found) << "seed " << seed;
   }

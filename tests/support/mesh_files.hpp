@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/mesh/mesh.hpp"
 
 namespace touchstone::tests {
@@ -52,7 +52,7 @@ class MeshFolder {
   [[nodiscard]] std::string error_of(const std::filesystem::path& path) const {
     try {
       (void)verify::mesh::read_mesh(path);
-    } catch (const verify::data::DatasetError& error) {
+    } catch (const verify::io::DatasetError& error) {
       const std::string folder = path_.string() + "/", text = error.what();
       return text.starts_with(folder) ? text.substr(folder.size()) : text;
     }

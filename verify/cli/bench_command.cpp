@@ -177,7 +177,7 @@ class BenchRun {
                  group.read(source, progress, [this] { return stopped(); });
                  skipped_ += source.skipped();
                },
-           .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
+           .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
            .stopped = [this] { return stopped(); }});
       const Separation asked = separation.value_or(separation_);
       bench_group(group, solvers_.all(), asked);
@@ -189,7 +189,7 @@ class BenchRun {
                               std::optional<Separation>& so_far) const {
     const Separation separation = separation_for(arguments_.sources, source);
     if (so_far && !judge::same_separation(*so_far, separation)) {
-      throw data::DatasetError(source.name(), {},
+      throw io::DatasetError(source.name(), {},
                                "is for a minimum separation of " + judge::to_text(separation) +
                                    ", the files before it for " + judge::to_text(*so_far));
     }

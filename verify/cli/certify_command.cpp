@@ -67,13 +67,13 @@ class CertifyRun {
   }
 
   Status run() {
-    for_each_source(arguments_.sources, files_,
-                    {.title = "certify",
-                     .use = [this](data::QuerySource& source,
-                                   const Progress& progress) { certify_source(source, progress); },
-                     .fail = [this](const fs::path& path,
-                                    const data::DatasetError& error) { fail(path, error); },
-                     .stopped = [this] { return stopped(); }});
+    for_each_source(
+        arguments_.sources, files_,
+        {.title = "certify",
+         .use = [this](data::QuerySource& source,
+                       const Progress& progress) { certify_source(source, progress); },
+         .fail = [this](const fs::path& path, const io::DatasetError& error) { fail(path, error); },
+         .stopped = [this] { return stopped(); }});
     report_answers();
     solvers_.report_output(arguments_.judged.show_output);
     // Files first, so that they are complete even if standard output is closed.
@@ -133,7 +133,7 @@ class CertifyRun {
   }
 
   /// The result for a path or file that could not be opened: no queries.
-  void fail(const fs::path& path, const data::DatasetError& error) {
+  void fail(const fs::path& path, const io::DatasetError& error) {
     report_error(error.what());
     jobs::CertifyResult result;
     result.name = path.string();

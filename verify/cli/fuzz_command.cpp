@@ -69,10 +69,9 @@ struct Arguments {
     return {kind_from_string(kind)};
   }
 
-  [[nodiscard]] std::vector<fuzz::FindingKind> sought() const {
-    std::vector<fuzz::FindingKind> result;
-    for (const std::string& name : only)
-      result.push_back(fuzz::finding_kind_from_string(name).value());
+  [[nodiscard]] std::vector<judge::Fault> sought() const {
+    std::vector<judge::Fault> result;
+    for (const std::string& name : only) result.push_back(judge::fault_from_name(name).value());
     return result;
   }
 };
@@ -83,7 +82,7 @@ struct Arguments {
 Kind kind_of(const fs::path& file, const Arguments& arguments) {
   try {
     return data::kind_from_path(file);
-  } catch (const data::DatasetError&) {
+  } catch (const io::DatasetError&) {
     if (arguments.kind.empty()) throw;
     return kind_from_string(arguments.kind);
   }
@@ -109,7 +108,7 @@ std::vector<fuzz::CorpusQuery> read_corpus(const Arguments& arguments, Files& fi
 fs::path dataset_path(const fs::path& file, Kind kind) {
   try {
     if (data::kind_from_path(file) == kind) return file;
-  } catch (const data::DatasetError&) {
+  } catch (const io::DatasetError&) {
     fs::path result = file;
     result.replace_filename(
         fmt::format("{}-{}.csv", file.stem().string(), std::string(to_string(kind))));
@@ -316,8 +315,8 @@ class FuzzRun {
   }
 
   [[nodiscard]] Status status(const fuzz::FuzzResult& result) const {
-    const bool seeks_ends = fuzz::seeks(options_, fuzz::FindingKind::crash) ||
-                            fuzz::seeks(options_, fuzz::FindingKind::exit);
+    const bool seeks_ends =
+        fuzz::seeks(options_, judge::Fault::crash) || fuzz::seeks(options_, judge::Fault::exit);
     if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
       return Status::wrong_answers;
     }
@@ -346,9 +345,7 @@ class FuzzRun {
 
 std::vector<std::string> finding_kind_names() {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < fuzz::finding_kinds; ++i) {
-    names.emplace_back(fuzz::to_string(static_cast<fuzz::FindingKind>(i)));
-  }
+  for (const judge::Fault fault : judge::all_faults) names.emplace_back(judge::to_string(fault));
   return names;
 }
 
@@ -391,7 +388,7 @@ void add_output_options(CLI::App& command, Arguments& arguments) {
       ->type_name("FILE.csv");
   command
       .add_option("--write", arguments.page_folder,
-                  "Write a page per group for an issue tracker, with program, proof, test, JSON")
+                  "Write a page per group for an issue tracker, with program, proof, JSON")
       ->type_name("FOLDER");
   command
       .add_option(

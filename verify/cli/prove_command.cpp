@@ -64,7 +64,7 @@ class ProveRun {
         {.title = "prove",
          .use = [this](data::QuerySource& source,
                        const Progress& progress) { prove_source(source, progress); },
-         .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
+         .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
     out_.close(sum_.counts.certificates());
     if (json_) json_.write(io::json_document(summary()));

@@ -241,7 +241,7 @@ class ReportRun {
                });
                skipped_ += source.skipped();
              },
-         .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
+         .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
     for (data::QueryGroup& group : of_path) {
       if (!group.queries().empty()) groups.push_back(std::move(group));

@@ -67,7 +67,7 @@ class SolveRun {
         {.title = "solve",
          .use = [this](data::QuerySource& source,
                        const Progress& progress) { solve_source(source, progress); },
-         .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
+         .fail = [this](const fs::path&, const io::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
     out_.close();
     if (json_) json_.write(io::json_document(summary()));
@@ -103,7 +103,7 @@ class SolveRun {
     options.stop = &io::interrupted();
     options.on_progress = progress;
     options.on_answer = [&](std::uint64_t index, const fast::Answer& answer,
-                            const solvers::Failure* failure) {
+                            const judge::Failure* failure) {
       out_.write(solvers::answer_row(source.name(), index, source.kind(), answer, failure));
       // An exception ends the run immediately; the failure was already reported.
       if (out_.failed()) throw std::runtime_error("answers cannot be written");

@@ -55,7 +55,7 @@ void for_each_family(const SourceArguments& arguments, const SourceHandlers& han
 /// Reports the files that a search skips, up to a maximum number.
 class LeftOutReport {
  public:
-  void add(const data::DatasetError& left_out) {
+  void add(const io::DatasetError& left_out) {
     if (++count_ <= most_named) report_warning(left_out.what());
   }
 
@@ -73,7 +73,7 @@ class LeftOutReport {
 std::vector<fs::path> find_files(const SourceArguments& arguments, Files& record,
                                  const SourceHandlers& handlers) {
   LeftOutReport left_out;
-  const data::LeftOut on_left_out = [&](const data::DatasetError& error) { left_out.add(error); };
+  const data::LeftOut on_left_out = [&](const io::DatasetError& error) { left_out.add(error); };
   std::vector<fs::path> files;
   std::set<fs::path> seen;
   for (const fs::path& path : arguments.paths) {
@@ -82,7 +82,7 @@ std::vector<fs::path> find_files(const SourceArguments& arguments, Files& record
         record.add_dataset(file);
         if (seen.insert(fs::weakly_canonical(file)).second) files.push_back(file);
       }
-    } catch (const data::DatasetError& error) {
+    } catch (const io::DatasetError& error) {
       handlers.fail(path, error);
       if (handlers.stopped()) return {};
     }
@@ -97,13 +97,13 @@ void for_each_file(const SourceArguments& arguments, Files& record,
   if (!arguments.kind.empty()) options.kind = kind_from_string(arguments.kind);
   options.round = arguments.round;
   options.keep_going = arguments.keep_going;
-  options.on_skip = [](const data::DatasetError& error) { report_error(error.what()); };
+  options.on_skip = [](const io::DatasetError& error) { report_error(error.what()); };
   const std::vector<fs::path> files = find_files(arguments, record, handlers);
   TotalProgress progress(handlers.title, files.size());
   for (std::size_t i = 0; i < files.size() && !handlers.stopped(); ++i) {
     try {
       handlers.use(*data::open_dataset(files[i], options), progress.of(i));
-    } catch (const data::DatasetError& error) {
+    } catch (const io::DatasetError& error) {
       handlers.fail(files[i], error);
     }
   }
@@ -138,7 +138,7 @@ Separation separation_for(const SourceArguments& arguments, const data::QuerySou
   try {
     return arguments.separation.settle(source.recorded_separation());
   } catch (const std::invalid_argument& error) {
-    throw data::DatasetError(source.name(), {}, error.what());
+    throw io::DatasetError(source.name(), {}, error.what());
   }
 }
 

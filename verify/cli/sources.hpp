@@ -15,8 +15,8 @@
 
 #include "verify/cli/files.hpp"
 #include "verify/cli/options.hpp"
-#include "verify/data/dataset_error.hpp"
 #include "verify/data/query_source.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/mesh/frames.hpp"
 
 namespace touchstone::verify::cli {
@@ -46,7 +46,7 @@ struct SourceHandlers {
   /// Called with a source and with a function that reports its completed fraction.
   std::function<void(data::QuerySource&, const std::function<void(double)>&)> use;
   /// Called with a path or file that could not be opened.
-  std::function<void(const std::filesystem::path&, const data::DatasetError&)> fail;
+  std::function<void(const std::filesystem::path&, const io::DatasetError&)> fail;
   /// True to skip the rest; called before each source and after each failure.
   std::function<bool()> stopped;
 };

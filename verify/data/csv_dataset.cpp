@@ -28,7 +28,7 @@ bool is_name(std::string_view text) {
 
 CsvDataset::CsvDataset(const std::filesystem::path& path, const DatasetOptions& options)
     : DatasetSource(path, options), lines_(path) {
-  if (CsvDataset::at_end()) throw DatasetError(path, {}, "no queries");
+  if (CsvDataset::at_end()) throw io::DatasetError(path, {}, "no queries");
 }
 
 /// Skips blank lines and headers between two queries.
@@ -57,26 +57,27 @@ bool CsvDataset::is_header(std::string_view line) {
 
 DatasetSource::StoredQuery CsvDataset::read(std::uint64_t) {
   Rows rows{.query = {}, .rounded = 0};
-  std::optional<DatasetError> fault;
+  std::optional<io::DatasetError> fault;
   std::uint64_t last_line = 0;
   for (std::size_t row = 0; row < query_points; ++row) {
     const std::optional<io::Line> line =
         ahead_ ? std::exchange(ahead_, std::nullopt) : lines_.next();
     if (!line) {
       if (fault) break;
-      throw DatasetError(path(), {.line = last_line},
-                         fmt::format("truncated query: {} of {} rows; if a row is missing further "
-                                     "up, queries behind it were put together of two",
-                                     row, query_points));
+      throw io::DatasetError(
+          path(), {.line = last_line},
+          fmt::format("truncated query: {} of {} rows; if a row is missing further "
+                      "up, queries behind it were put together of two",
+                      row, query_points));
     }
     last_line = line->number;
     split_row(*line);
     // The labels of all rows, for they tell whether these are the rows of one query.
-    std::optional<DatasetError> label_fault = read_label(*line, rows);
+    std::optional<io::DatasetError> label_fault = read_label(*line, rows);
     if (!fault) fault = read_point(*line, row, rows);
     if (!fault) fault = std::move(label_fault);
   }
-  if (fault) throw DatasetError(*fault);
+  if (fault) throw io::DatasetError(*fault);
   rounded_ += rows.rounded;
   return rows.query;
 }
@@ -103,12 +104,12 @@ void CsvDataset::split_row(const io::Line& line) {
   columns_ = split.count;
 }
 
-std::optional<DatasetError> CsvDataset::read_label(const io::Line& line, Rows& rows) {
+std::optional<io::DatasetError> CsvDataset::read_label(const io::Line& line, Rows& rows) {
   if (columns_ != 4 && columns_ != 7) return std::nullopt;
   const std::size_t column = columns_.value();
   const std::string_view text = field(column - 1);
   if (text != "0" && text != "1") {
-    return error(line, column, "label must be 0 or 1: " + quote(text));
+    return error(line, column, "label must be 0 or 1: " + io::quote(text));
   }
   const bool label = text == "1";
   if (!rows.query.label) {
@@ -121,8 +122,8 @@ std::optional<DatasetError> CsvDataset::read_label(const io::Line& line, Rows& r
   return std::nullopt;
 }
 
-std::optional<DatasetError> CsvDataset::read_point(const io::Line& line, std::size_t row,
-                                                   Rows& rows) const {
+std::optional<io::DatasetError> CsvDataset::read_point(const io::Line& line, std::size_t row,
+                                                       Rows& rows) const {
   const bool is_fraction = columns_ >= 6;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t column = is_fraction ? 2 * axis : axis;
@@ -146,8 +147,8 @@ std::string_view CsvDataset::field(std::size_t column) const {
   return io::trimmed(fields_.at(column));
 }
 
-DatasetError CsvDataset::error(const io::Line& line, std::size_t column,
-                               const std::string& reason) const {
+io::DatasetError CsvDataset::error(const io::Line& line, std::size_t column,
+                                   const std::string& reason) const {
   return {path(), {.line = line.number, .column = column}, reason};
 }
 

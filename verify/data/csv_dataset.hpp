@@ -60,13 +60,13 @@ class CsvDataset final : public DatasetSource {
   [[nodiscard]] bool is_header(std::string_view line);
   void split_row(const io::Line& line);
   /// Return the fault of a row that invalidates its query, if any.
-  [[nodiscard]] std::optional<DatasetError> read_label(const io::Line& line, Rows& rows);
-  [[nodiscard]] std::optional<DatasetError> read_point(const io::Line& line, std::size_t row,
-                                                       Rows& rows) const;
+  [[nodiscard]] std::optional<io::DatasetError> read_label(const io::Line& line, Rows& rows);
+  [[nodiscard]] std::optional<io::DatasetError> read_point(const io::Line& line, std::size_t row,
+                                                           Rows& rows) const;
   /// Counted from 0; without the spaces around it.
   [[nodiscard]] std::string_view field(std::size_t column) const;
-  [[nodiscard]] DatasetError error(const io::Line& line, std::size_t column,
-                                   const std::string& reason) const;
+  [[nodiscard]] io::DatasetError error(const io::Line& line, std::size_t column,
+                                       const std::string& reason) const;
   /// Ends the stream at a line after which rows cannot be counted.
   [[noreturn]] void lose_count(const io::Line& line, std::size_t column, const std::string& reason);
 

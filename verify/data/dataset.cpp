@@ -104,7 +104,7 @@ class Search {
   }
 
   void leave_out(const fs::path& path, const std::string& reason) const {
-    if (on_left_out_) on_left_out_(DatasetError(path, {}, "left out: " + reason));
+    if (on_left_out_) on_left_out_(io::DatasetError(path, {}, "left out: " + reason));
   }
 
   const LeftOut& on_left_out_;
@@ -119,9 +119,9 @@ std::vector<fs::path> datasets_below(const fs::path& folder, const LeftOut& on_l
     found = Search(on_left_out).below(folder);
   } catch (const fs::filesystem_error& error) {
     const fs::path& where = error.path1().empty() ? folder : error.path1();
-    throw DatasetError(where, {}, "cannot read: " + error.code().message());
+    throw io::DatasetError(where, {}, "cannot read: " + error.code().message());
   }
-  if (found.empty()) throw DatasetError(folder, {}, "no dataset (.csv, .npy) in this folder");
+  if (found.empty()) throw io::DatasetError(folder, {}, "no dataset (.csv, .npy) in this folder");
   return found;
 }
 
@@ -148,7 +148,7 @@ std::optional<Kind> kind_from_parts(const fs::path& path) {
     const bool vertex_face = contains_word(name, to_string(Kind::vertex_face));
     const bool edge_edge = contains_word(name, to_string(Kind::edge_edge));
     if (vertex_face && edge_edge) {
-      throw DatasetError(path, {}, quote(name) + " names both kinds; pass --kind");
+      throw io::DatasetError(path, {}, io::quote(name) + " names both kinds; pass --kind");
     }
     if (vertex_face || edge_edge) kind = vertex_face ? Kind::vertex_face : Kind::edge_edge;
   }
@@ -171,8 +171,9 @@ std::vector<fs::path> find_datasets(std::span<const fs::path> paths, const LeftO
   for (const fs::path& path : paths) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::not_found) throw DatasetError(path, {}, "does not exist");
-    if (error) throw DatasetError(path, {}, "cannot read: " + error.message());
+    if (status.type() == fs::file_type::not_found)
+      throw io::DatasetError(path, {}, "does not exist");
+    if (error) throw io::DatasetError(path, {}, "cannot read: " + error.message());
     if (status.type() == fs::file_type::directory) {
       const std::vector<fs::path> below = datasets_below(path, on_left_out);
       found.insert(found.end(), below.begin(), below.end());
@@ -189,16 +190,16 @@ Kind kind_from_path(const fs::path& path) {
   if (ends_in_word(stem, "vf")) return Kind::vertex_face;
   if (ends_in_word(stem, "ee")) return Kind::edge_edge;
   if (const auto kind = kind_from_parts(fs::absolute(path).lexically_normal())) return *kind;
-  throw DatasetError(path, {},
-                     "the path does not say whether its queries are vertex-face or edge-edge; "
-                     "pass --kind vertex-face or --kind edge-edge");
+  throw io::DatasetError(path, {},
+                         "the path does not say whether its queries are vertex-face or edge-edge; "
+                         "pass --kind vertex-face or --kind edge-edge");
 }
 
 std::unique_ptr<QuerySource> open_dataset(const fs::path& path, const DatasetOptions& options) {
   const fs::path extension = path.extension();
   if (extension == ".csv") return std::make_unique<CsvDataset>(path, options);
   if (extension == ".npy") return std::make_unique<NpyDataset>(path, options);
-  throw DatasetError(path, {}, "unknown format: only .csv and .npy are datasets");
+  throw io::DatasetError(path, {}, "unknown format: only .csv and .npy are datasets");
 }
 
 }  // namespace touchstone::verify::data

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "exact/query.hpp"
-#include "verify/data/dataset_error.hpp"
 #include "verify/data/query_source.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::data {
 
@@ -33,11 +33,11 @@ struct DatasetOptions {
   bool keep_going = false;
   /// With keep_going: called once for each skipped query (and for each other fault that skipped()
   /// counts), with its first error.
-  std::function<void(const DatasetError&)> on_skip = nullptr;
+  std::function<void(const io::DatasetError&)> on_skip = nullptr;
 };
 
 /// Called with each file, folder or link that a search skips, and the reason.
-using LeftOut = std::function<void(const DatasetError&)>;
+using LeftOut = std::function<void(const io::DatasetError&)>;
 
 /// The dataset files of the paths: a file itself, or all files *.csv and *.npy below a folder, in
 /// the order of their names. Symbolic links are followed, but no folder below a path is searched

@@ -16,12 +16,12 @@ DatasetSource::DatasetSource(const std::filesystem::path& path, DatasetOptions o
 
 std::optional<RecordedQuery> DatasetSource::next() {
   while (!ended_) {
-    std::optional<DatasetError> fault;
+    std::optional<io::DatasetError> fault;
     try {
       std::optional<RecordedQuery> record = read_record();
       if (record) return record;
       ended_ = true;
-    } catch (const DatasetError& error) {
+    } catch (const io::DatasetError& error) {
       fault = error;
     }
     if (fault) {
@@ -39,8 +39,9 @@ std::optional<RecordedQuery> DatasetSource::read_record() {
   const StoredQuery stored = read(index);
   RecordedTruth truth = ground_truth_files_.at(index);
   if (stored.label && truth.collides && *stored.label != *truth.collides) {
-    throw DatasetError(path_, stored.label_position,
-                       "label differs from that in " + ground_truth_files_.label_path().string());
+    throw io::DatasetError(
+        path_, stored.label_position,
+        "label differs from that in " + ground_truth_files_.label_path().string());
   }
   return RecordedQuery{.query = stored.query,
                        .index = index,
@@ -48,17 +49,17 @@ std::optional<RecordedQuery> DatasetSource::read_record() {
                        .toi = std::move(truth.toi)};
 }
 
-void DatasetSource::give_up(const DatasetError& fault) {
+void DatasetSource::give_up(const io::DatasetError& fault) {
   ended_ = true;
-  throw DatasetError(fault);
+  throw io::DatasetError(fault);
 }
 
 /// Ground truth files must not have more entries than there are queries.
 void DatasetSource::finish() {
-  for (const DatasetError& fault : ground_truth_files_.beyond(count_)) skip(fault);
+  for (const io::DatasetError& fault : ground_truth_files_.beyond(count_)) skip(fault);
 }
 
-void DatasetSource::skip(const DatasetError& fault) {
+void DatasetSource::skip(const io::DatasetError& fault) {
   if (!options_.keep_going) throw fault;
   ++skipped_;
   if (options_.on_skip) options_.on_skip(fault);

@@ -34,7 +34,7 @@ class DatasetSource : public QuerySource {
     Query query;
     std::optional<bool> label;
     /// The position of the first label.
-    FilePosition label_position;
+    io::FilePosition label_position;
   };
 
   /// \throws DatasetError if the kind is unknown, or a companion file or the separation's cannot be read.
@@ -42,7 +42,7 @@ class DatasetSource : public QuerySource {
 
   /// Ends the stream with this error, with and without keep_going: for a fault after which the
   /// place of the next query is unknown. The rest of the companions is ignored.
-  [[noreturn]] void give_up(const DatasetError& fault);
+  [[noreturn]] void give_up(const io::DatasetError& fault);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const DatasetOptions& options() const { return options_; }
@@ -55,7 +55,7 @@ class DatasetSource : public QuerySource {
 
   [[nodiscard]] std::optional<RecordedQuery> read_record();
   void finish();
-  void skip(const DatasetError& fault);
+  void skip(const io::DatasetError& fault);
 
   std::filesystem::path path_;
   std::string name_;

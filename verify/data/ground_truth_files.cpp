@@ -64,34 +64,34 @@ LabelReader::LabelReader(std::filesystem::path path) : file_(std::move(path)) {
 }
 
 bool LabelReader::at(std::uint64_t index) {
-  if (broken_) throw DatasetError(*broken_);
+  if (broken_) throw io::DatasetError(*broken_);
   while (elements_ <= index) {
     const std::optional<Element> element = next_element();
     if (!element) {
-      throw DatasetError(
+      throw io::DatasetError(
           path(), position_,
           fmt::format("no label for query {}: the array has only {}", index, elements_));
     }
     if (elements_ <= index) continue;
     if (element->text == "true" || element->text == "1") return true;
     if (element->text == "false" || element->text == "0") return false;
-    throw DatasetError(path(), element->position, "not a boolean: " + quote(element->text));
+    throw io::DatasetError(path(), element->position, "not a boolean: " + io::quote(element->text));
   }
   throw std::logic_error("labels are read in ascending order");
 }
 
-std::optional<DatasetError> LabelReader::beyond(std::uint64_t count) {
+std::optional<io::DatasetError> LabelReader::beyond(std::uint64_t count) {
   if (broken_ || closed_) return std::nullopt;
   try {
     while (const std::optional<Element> element = next_element()) {
       if (elements_ > count) {
-        return DatasetError(path(), element->position,
-                            fmt::format("more labels than the {} queries", count));
+        return io::DatasetError(path(), element->position,
+                                fmt::format("more labels than the {} queries", count));
       }
     }
     take();
     if (skip_whitespace() != end_of_file) fail("expected nothing after the array");
-  } catch (const DatasetError& fault) {
+  } catch (const io::DatasetError& fault) {
     return fault;
   }
   return std::nullopt;
@@ -154,40 +154,40 @@ int LabelReader::skip_whitespace() {
 
 void LabelReader::fail(const std::string& reason) {
   broken_.emplace(path(), position_, reason);
-  throw DatasetError(*broken_);
+  throw io::DatasetError(*broken_);
 }
 
 ToiReader::ToiReader(std::filesystem::path path) : lines_(std::move(path)) {
   const std::optional<io::Line> header = lines_.next();
-  if (!header) throw DatasetError(lines_.path(), {}, "expected the header query,toi");
+  if (!header) throw io::DatasetError(lines_.path(), {}, "expected the header query,toi");
   std::array<std::string, 2> fields;
   if (!split_fields(header->text, fields) || io::trimmed(fields[0]) != "query" ||
       io::trimmed(fields[1]) != "toi") {
-    throw DatasetError(lines_.path(), {.line = 1}, "expected the header query,toi");
+    throw io::DatasetError(lines_.path(), {.line = 1}, "expected the header query,toi");
   }
 }
 
 std::optional<exact::Rational> ToiReader::at(std::uint64_t index) {
-  if (broken_) throw DatasetError(*broken_);
+  if (broken_) throw io::DatasetError(*broken_);
   seek(index);
   if (!entry_ || entry_->query != index) return std::nullopt;
   try {
     return exact::rational_from_decimal(entry_->decimal);
   } catch (const std::invalid_argument&) {
-    throw DatasetError(lines_.path(), {.line = entry_->line, .column = 2},
-                       "not a decimal number: " + quote(entry_->decimal));
+    throw io::DatasetError(lines_.path(), {.line = entry_->line, .column = 2},
+                           "not a decimal number: " + io::quote(entry_->decimal));
   }
 }
 
-std::optional<DatasetError> ToiReader::beyond(std::uint64_t count) {
+std::optional<io::DatasetError> ToiReader::beyond(std::uint64_t count) {
   if (broken_) return std::nullopt;
   try {
     seek(count);
-  } catch (const DatasetError& fault) {
+  } catch (const io::DatasetError& fault) {
     return fault;
   }
   if (!entry_) return std::nullopt;
-  return DatasetError(
+  return io::DatasetError(
       lines_.path(), {.line = entry_->line, .column = 1},
       fmt::format("toi of query {}, but there are {} queries", entry_->query, count));
 }
@@ -198,7 +198,7 @@ void ToiReader::seek(std::uint64_t index) {
       entry_ = next_entry();
       ended_ = !entry_;
     }
-  } catch (const DatasetError& fault) {
+  } catch (const io::DatasetError& fault) {
     broken_ = fault;
     throw;
   }
@@ -214,15 +214,15 @@ std::optional<ToiReader::Entry> ToiReader::next_entry() {
   }
   const std::string_view query_text = io::trimmed(fields[0]);
   const std::optional<std::uint64_t> query = parse_number(query_text);
-  const FilePosition position{.line = line->number, .column = 1};
-  if (!query) fail(position, "not a query number: " + quote(query_text));
+  const io::FilePosition position{.line = line->number, .column = 1};
+  if (!query) fail(position, "not a query number: " + io::quote(query_text));
   if (entry_ && *query <= entry_->query) fail(position, "query numbers do not ascend");
   return Entry{
       .query = *query, .decimal = std::string(io::trimmed(fields[1])), .line = line->number};
 }
 
-void ToiReader::fail(FilePosition position, const std::string& reason) const {
-  throw DatasetError(lines_.path(), position, reason);
+void ToiReader::fail(io::FilePosition position, const std::string& reason) const {
+  throw io::DatasetError(lines_.path(), position, reason);
 }
 
 std::vector<std::filesystem::path> find_ground_truth_files(const std::filesystem::path& dataset) {
@@ -246,8 +246,8 @@ RecordedTruth GroundTruthFiles::at(std::uint64_t index) {
   return truth;
 }
 
-std::vector<DatasetError> GroundTruthFiles::beyond(std::uint64_t count) {
-  std::vector<DatasetError> faults;
+std::vector<io::DatasetError> GroundTruthFiles::beyond(std::uint64_t count) {
+  std::vector<io::DatasetError> faults;
   if (labels_) {
     if (auto fault = labels_->beyond(count)) faults.push_back(*fault);
   }

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "exact/algebra/number.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 
 namespace touchstone::verify::data {
@@ -38,7 +38,7 @@ class LabelReader {
 
   /// The error, if any, after the labels of `count` queries: an additional label, or invalid JSON
   /// that at() has not reported. Must be the last call.
-  [[nodiscard]] std::optional<DatasetError> beyond(std::uint64_t count);
+  [[nodiscard]] std::optional<io::DatasetError> beyond(std::uint64_t count);
 
   [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
 
@@ -46,7 +46,7 @@ class LabelReader {
   /// An element of the array: a bare word or number, not yet known to be a label.
   struct Element {
     std::string text;
-    FilePosition position;
+    io::FilePosition position;
   };
 
   [[nodiscard]] std::optional<Element> next_element();
@@ -60,10 +60,10 @@ class LabelReader {
   std::array<char, 4096> buffer_{};
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
-  FilePosition position_{.line = 1, .column = 1};
+  io::FilePosition position_{.line = 1, .column = 1};
   std::uint64_t elements_ = 0;
   bool closed_ = false;
-  std::optional<DatasetError> broken_;
+  std::optional<io::DatasetError> broken_;
 };
 
 /// Times of impact from lines "query,toi" below that header: query numbers strictly ascending,
@@ -79,7 +79,7 @@ class ToiReader {
 
   /// The error, if any, after the entries of `count` queries: an entry of a later query, or an
   /// invalid line that at() has not reported. Must be the last call.
-  [[nodiscard]] std::optional<DatasetError> beyond(std::uint64_t count);
+  [[nodiscard]] std::optional<io::DatasetError> beyond(std::uint64_t count);
 
  private:
   struct Entry {
@@ -91,12 +91,12 @@ class ToiReader {
   /// Advances entry_ to the first one of query `index` or later.
   void seek(std::uint64_t index);
   [[nodiscard]] std::optional<Entry> next_entry();
-  [[noreturn]] void fail(FilePosition position, const std::string& reason) const;
+  [[noreturn]] void fail(io::FilePosition position, const std::string& reason) const;
 
   io::LineReader lines_;
   std::optional<Entry> entry_;
   bool ended_ = false;
-  std::optional<DatasetError> broken_;
+  std::optional<io::DatasetError> broken_;
 };
 
 /// The ground truth of a query that files beside the dataset record.
@@ -122,7 +122,7 @@ class GroundTruthFiles {
   [[nodiscard]] RecordedTruth at(std::uint64_t index);
 
   /// The errors after the entries of `count` queries, at most one for each file.
-  [[nodiscard]] std::vector<DatasetError> beyond(std::uint64_t count);
+  [[nodiscard]] std::vector<io::DatasetError> beyond(std::uint64_t count);
 
   /// The file of the labels, empty if there is none.
   [[nodiscard]] std::filesystem::path label_path() const;

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "verify/data/dataset_error.hpp"
 #include "verify/data/npy_header.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::data {
 namespace {
@@ -26,7 +26,7 @@ constexpr std::array<std::uint64_t, 2> extents{query_points, 3};
 /// Number of queries that the header announces. \throws NpyHeaderError if it is that of another array.
 std::uint64_t query_count(const NpyHeader& header) {
   if (header.descr != descr) {
-    throw NpyHeaderError("dtype " + quote(header.descr) +
+    throw NpyHeaderError("dtype " + io::quote(header.descr) +
                          ", expected \"<f8\" (little-endian float64)");
   }
   require_c_order(header);
@@ -66,7 +66,7 @@ NpyReader::NpyReader(const std::filesystem::path& path) : file_(path) {
   try {
     count_ = read_header(file_);
   } catch (const NpyHeaderError& error) {
-    throw DatasetError(path, {}, error.what());
+    throw io::DatasetError(path, {}, error.what());
   }
 }
 
@@ -86,9 +86,10 @@ void NpyReader::fill() {
       read_bytes(file_, {static_cast<char*>(bytes), block_.size() * sizeof(Query)});
   block_.resize(size / sizeof(Query));
   if (!block_.empty()) return;
-  throw DatasetError(file_.path(), {},
-                     fmt::format("has become shorter while it was read: query {} of {} is missing",
-                                 position_, count_));
+  throw io::DatasetError(
+      file_.path(), {},
+      fmt::format("has become shorter while it was read: query {} of {} is missing", position_,
+                  count_));
 }
 
 NpyWriter::NpyWriter(std::filesystem::path path) : file_(std::move(path)) {

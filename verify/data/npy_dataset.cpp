@@ -20,8 +20,8 @@ DatasetSource::StoredQuery NpyDataset::read(std::uint64_t index) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (std::isfinite(query.coordinates.at(3 * row + axis))) continue;
       static constexpr std::string_view axes = "xyz";
-      throw DatasetError(path(), {},
-                         fmt::format("query {}, point {}, {}: not finite", index, row, axes[axis]));
+      throw io::DatasetError(
+          path(), {}, fmt::format("query {}, point {}, {}: not finite", index, row, axes[axis]));
     }
   }
   return {.query = query, .label = std::nullopt, .label_position = {}};
@@ -30,7 +30,7 @@ DatasetSource::StoredQuery NpyDataset::read(std::uint64_t index) {
 const Query& NpyDataset::read_query() {
   try {
     return file_.next();
-  } catch (const DatasetError& fault) {
+  } catch (const io::DatasetError& fault) {
     give_up(fault);
   }
 }

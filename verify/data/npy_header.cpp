@@ -7,7 +7,7 @@
 #include <optional>
 #include <system_error>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::data {
 namespace {
@@ -54,7 +54,7 @@ class HeaderParser {
     } else if (key == "shape" && !entries.shape) {
       entries.shape = read_tuple();
     } else {
-      throw NpyHeaderError("unknown or repeated key in the header: " + quote(key));
+      throw NpyHeaderError("unknown or repeated key in the header: " + io::quote(key));
     }
   }
 

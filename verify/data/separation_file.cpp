@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
 
@@ -39,11 +39,12 @@ nlohmann::json parse(const fs::path& path) {
     if (event != nlohmann::json::parse_event_t::key || depth != 1) return true;
     const auto key = value.get<std::string>();
     if (key != distance_key && key != norm_key) {
-      throw DatasetError(
-          path, {},
-          fmt::format("unknown key {}, expected {} and {}", quote(key), distance_key, norm_key));
+      throw io::DatasetError(path, {},
+                             fmt::format("unknown key {}, expected {} and {}", io::quote(key),
+                                         distance_key, norm_key));
     }
-    if (!seen.insert(key).second) throw DatasetError(path, {}, "repeated key " + quote(key));
+    if (!seen.insert(key).second)
+      throw io::DatasetError(path, {}, "repeated key " + io::quote(key));
     return true;
   };
   return io::read_json(path, most_bytes, check_key);
@@ -78,12 +79,12 @@ Separation read_separation(const fs::path& path) {
   try {
     const nlohmann::json json = parse(path);
     const auto distance = distance_from_text(json.at(distance_key).get<std::string>());
-    if (!distance) throw DatasetError(path, {}, "min_separation must be a finite number ≥ 0");
+    if (!distance) throw io::DatasetError(path, {}, "min_separation must be a finite number ≥ 0");
     return {.distance = *distance, .norm = norm_from_string(json.at(norm_key).get<std::string>())};
   } catch (const nlohmann::json::exception& error) {
-    throw DatasetError(path, {}, std::string("is no separation: ") + error.what());
+    throw io::DatasetError(path, {}, std::string("is no separation: ") + error.what());
   } catch (const std::invalid_argument& error) {
-    throw DatasetError(path, {}, error.what());
+    throw io::DatasetError(path, {}, error.what());
   }
 }
 

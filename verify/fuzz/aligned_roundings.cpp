@@ -5,11 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "verify/fuzz/draws.hpp"
+#include "verify/generate/draws.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
+namespace draws = generate::draws;
 using generate::Random;
 
 /// Coordinates of the axis are in [1,2), as whole numbers of their unit in the last place; the time

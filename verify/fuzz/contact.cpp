@@ -6,12 +6,13 @@
 #include <cstdint>
 #include <optional>
 
-#include "verify/fuzz/draws.hpp"
-#include "verify/fuzz/symmetry.hpp"
+#include "verify/generate/draws.hpp"
+#include "verify/generate/symmetry.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
+namespace draws = generate::draws;
 using draws::below;
 using draws::one_in;
 using generate::Random;
@@ -39,7 +40,7 @@ Vector place_of(const Query& query, std::size_t end, std::size_t point) {
 /// The query under a random symmetry that keeps distances and the time.
 Query turned(Kind kind, const Query& query, Random& random) {
   // A positive distance excludes symmetries that do not keep distances.
-  Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0}, random);
+  generate::Symmetry symmetry = generate::draw_symmetry(kind, query, {.distance = 1.0}, random);
   symmetry.reversed = false;
   return image(symmetry, query).value_or(query);
 }

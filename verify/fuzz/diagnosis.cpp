@@ -2,127 +2,97 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
-#include "exact/oracle.hpp"
 #include "verify/judge/claimed_distance.hpp"
 #include "verify/judge/separation_inference.hpp"
-#include "verify/solvers/answers.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
 using fast::Answer;
 using fast::CertifiedResult;
-using fast::Promise;
 using fast::Verdict;
+using judge::Fault;
 
-/// Of a yes: an infinite bound, or an invalid tolerance. (NaN says: not given.)
-bool has_bad_number(const Answer& answer) {
-  return std::isinf(answer.toi_lower) || std::isinf(answer.toi_upper) || answer.tolerance < 0.0;
+/// The first of the faults that breaks the promise.
+std::optional<Fault> broken(const std::vector<Fault>& faults, fast::Promise promise) {
+  const auto first =
+      std::ranges::find_if(faults, [&](Fault fault) { return judge::breaks(fault, promise); });
+  if (first == faults.end()) return std::nullopt;
+  const bool is_undecided = *first == Fault::false_positive && faults.front() == Fault::undecided;
+  return is_undecided ? Fault::undecided : *first;
 }
 
-/// The distance that a yes claims, if it claims one.
-std::optional<Separation> claim_of(Kind kind, const Query& query, const Answer& answer,
-                                   const Standard& standard) {
-  const Separation claimed =
-      judge::claimed_distance(standard.filter, kind, query, answer, standard.separation);
-  return is_valid(claimed) ? std::optional(claimed) : std::nullopt;
-}
-
-/// Of a yes to what does not collide; what collides is near enough for any claim.
-std::optional<Diagnosis> tolerance_fault(Kind kind, const Query& query, const Answer& answer,
-                                         const Standard& standard) {
-  const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
-  if (!claimed || exact::decide(kind, query, *claimed).collides()) return std::nullopt;
-  return Diagnosis{FindingKind::beyond_tolerance,
-                   fmt::format("{}, but they never come within {}, as that claims", to_text(answer),
-                               judge::to_text(*claimed))};
-}
-
-std::optional<Diagnosis> toi_fault(const judge::GroundTruth& truth, const Answer& answer) {
-  const auto [lower, upper] = truth.toi.value();
-  // The enclosure's ends are neighbouring doubles, or one: these comparisons are exact.
-  if (answer.toi_lower > lower) {
-    return Diagnosis{FindingKind::late_toi, fmt::format("toi_lower {} is late", answer.toi_lower)};
+std::string detail_of(Fault what, const judge::Question& question, const Answer& answer,
+                      const judge::Standard& standard) {
+  switch (what) {
+    case Fault::no_verdict:
+      return "error or no verdict, of a valid query";
+    case Fault::false_negative:
+      return "no, but they collide";
+    case Fault::late_toi:
+      return fmt::format("toi_lower {} is late", answer.toi_lower);
+    case Fault::early_toi_upper:
+      return fmt::format("toi_upper {} is early", answer.toi_upper);
+    case Fault::false_positive:
+    case Fault::undecided:
+      return to_text(answer) + ", but they do not collide, and it promises exactness";
+    case Fault::beyond_tolerance:
+      return fmt::format("{}, but they never come within {}, as that claims", to_text(answer),
+                         judge::to_text(judge::claim_of(question, answer, standard).value()));
+    default:
+      return to_text(answer);
   }
-  if (answer.toi_upper < upper) {
-    return Diagnosis{FindingKind::early_toi_upper,
-                     fmt::format("toi_upper {} is early", answer.toi_upper)};
-  }
-  return std::nullopt;
 }
 
 }  // namespace
 
-bool is_beyond_doubt(Kind kind, const Query& query, const CertifiedResult& judged,
-                     const Answer& answer, const Standard& standard) {
-  if (answer.verdict == Verdict::error || judged.verdict == Verdict::error) return false;
-  const bool is_yes = answer.verdict == Verdict::yes;
-  if (is_yes && has_bad_number(answer)) return false;
-  if (judged.verdict == Verdict::no) {
-    if (answer.verdict == Verdict::no) return true;
-    if (standard.promise == Promise::exact) return false;
-    if (!is_yes) return true;
-    const std::optional<Separation> claimed = claim_of(kind, query, answer, standard);
-    return !claimed ||
-           (claimed->norm == Norm::linf &&
-            judge::is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
-           fast::certified(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
-  }
-  if (answer.verdict == Verdict::no) return false;
-  if (!is_yes) return true;
-  // No comparison holds of a NaN.
-  return !(answer.toi_lower > judged.toi_lower) && !(answer.toi_upper < judged.toi_upper);
+bool is_beyond_doubt(const judge::Question& question, const CertifiedResult& judged,
+                     const Answer& answer, const judge::Standard& standard) {
+  if (judged.verdict == Verdict::error) return false;
+  judge::GroundTruth truth{.index = 0, .collides = judged.verdict == Verdict::yes, .toi = {}};
+  if (truth.collides) truth.toi = exact::DoubleInterval{judged.toi_lower, judged.toi_upper};
+  if (broken(judge::judge_verdict(truth, answer), standard.promise)) return false;
+  if (truth.collides) return true;
+  const auto claimed = judge::claim_of(question, answer, standard);
+  const auto& [kind, query, separation] = question;
+  return !claimed ||
+         (claimed->norm == Norm::linf &&
+          judge::is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
+         fast::certified(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
 }
 
-std::optional<Diagnosis> diagnose(Kind kind, const Query& query, const judge::GroundTruth& truth,
-                                  const Answer& answer, const Standard& standard) {
-  if (answer.verdict == Verdict::error)
-    return diagnose_failure(solvers::failure_of(answer).value(), 0.0);
-  if (answer.verdict == Verdict::yes && has_bad_number(answer)) {
-    return Diagnosis{FindingKind::not_finite, to_text(answer)};
-  }
-  if (truth.collides) {
-    if (answer.verdict == Verdict::no) {
-      return Diagnosis{FindingKind::false_negative, "no, but they collide"};
-    }
-    return answer.verdict == Verdict::yes ? toi_fault(truth, answer) : std::nullopt;
-  }
-  if (answer.verdict == Verdict::no) return std::nullopt;
-  if (standard.promise == Promise::exact) {
-    return Diagnosis{
-        answer.verdict == Verdict::yes ? FindingKind::false_positive : FindingKind::undecided,
-        to_text(answer) + ", but they do not collide, and it promises exactness"};
-  }
-  return answer.verdict == Verdict::yes ? tolerance_fault(kind, query, answer, standard)
-                                        : std::nullopt;
+std::optional<Diagnosis> diagnose(const judge::Question& question, const judge::GroundTruth& truth,
+                                  const Answer& answer, const judge::Standard& standard) {
+  const auto what = broken(judge::judge(question, truth, answer, standard), standard.promise);
+  if (!what) return std::nullopt;
+  return Diagnosis{*what, detail_of(*what, question, answer, standard)};
 }
 
-Diagnosis diagnose_failure(const solvers::Failure& failure, double limit_seconds) {
-  const FindingKind what = finding_kind_of(failure.kind);
+Diagnosis diagnose_failure(const judge::Failure& failure, double limit_seconds) {
   switch (failure.kind) {
-    case solvers::FailureKind::hang:
-      return {what, fmt::format("takes more than {} s", limit_seconds)};
-    case solvers::FailureKind::no_verdict:
-      return {what, "error or no verdict, of a valid query"};
+    case Fault::hang:
+      return {failure.kind, fmt::format("takes more than {} s", limit_seconds)};
+    case Fault::no_verdict:
+      return {failure.kind, "error or no verdict, of a valid query"};
     default:
-      return {what, solvers::to_text(failure)};
+      return {failure.kind, judge::to_text(failure)};
   }
 }
 
-std::optional<Diagnosis> diagnose_judge(const judge::GroundTruth& truth,
-                                        const CertifiedResult& judged) {
-  const Answer answer{.verdict = judged.verdict,
-                      .toi_lower = judged.toi_lower,
-                      .toi_upper = judged.toi_upper,
-                      .tolerance = Answer::none};
-  return diagnose(Kind::vertex_face, {}, truth, answer, {.promise = Promise::exact});
+Answer answer_of(const CertifiedResult& judged) {
+  return {.verdict = judged.verdict,
+          .toi_lower = judged.toi_lower,
+          .toi_upper = judged.toi_upper,
+          .tolerance = Answer::none};
 }
 
 std::string to_text(const Answer& answer) {
-  std::string text(solvers::to_string(answer.verdict));
+  std::string text(judge::to_string(answer.verdict));
   const auto add = [&text](std::string_view name, double value) {
     if (!std::isnan(value)) text += fmt::format(", {} {}", name, value);
   };

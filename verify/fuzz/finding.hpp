@@ -12,37 +12,9 @@
 #include "exact/algebra/number.hpp"
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/solvers/failure.hpp"
+#include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::fuzz {
-
-/// The kind of a finding: a wrong answer, or a missing one.
-enum class FindingKind : std::uint8_t {
-  false_negative,    ///< no, but they collide
-  false_positive,    ///< yes of what calls itself exact, but they do not collide
-  late_toi,          ///< toi_lower is above the exact time of impact
-  early_toi_upper,   ///< toi_upper is below the exact time of impact
-  beyond_tolerance,  ///< yes, but they never come as near as its tolerance claims
-  asymmetry,         ///< another answer than to what the query is an exact image of, and wrong
-  // Those of FailureKind (solvers/failure.hpp).
-  crash,       ///< a signal ends its process
-  exit,        ///< it ends its process with an exit status
-  exception,   ///< it throws
-  no_verdict,  ///< it answers error to a valid query, or sets no verdict
-  not_finite,  ///< yes with invalid bounds or tolerance
-  hang,        ///< it takes longer than the limit
-  undecided    ///< of what calls itself exact, though they do not collide
-};
-inline constexpr std::size_t finding_kinds = 13;
-
-/// "false_negative", "late_toi" and so on, as above.
-[[nodiscard]] std::string_view to_string(FindingKind what);
-
-/// The kind of that name, if there is one.
-[[nodiscard]] std::optional<FindingKind> finding_kind_from_string(std::string_view name);
-
-/// A failure as a finding.
-[[nodiscard]] FindingKind finding_kind_of(solvers::FailureKind kind);
 
 /// A query that a solver answers wrongly, its answer, and the truth: all of the same query.
 struct FailingCase {
@@ -86,7 +58,7 @@ struct ScaleRange {
 
 /// Something that a solver does wrong, confirmed by the oracle.
 struct Finding {
-  FindingKind what = FindingKind::false_negative;
+  judge::Fault what = judge::Fault::false_negative;
   Kind kind = Kind::vertex_face;
   Separation separation = {};
   std::string method;         ///< that is wrong: the one asked, or "certified" where the judge is

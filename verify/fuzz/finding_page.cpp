@@ -15,39 +15,6 @@
 namespace touchstone::verify::fuzz {
 namespace {
 
-/// The title's verb and object.
-std::string_view fault_in_words(FindingKind what) {
-  switch (what) {
-    case FindingKind::false_negative:
-      return "misses a collision";
-    case FindingKind::false_positive:
-      return "reports a collision that there is not";
-    case FindingKind::late_toi:
-      return "gives a time of impact that is too late";
-    case FindingKind::early_toi_upper:
-      return "gives an upper bound of the time of impact that is too early";
-    case FindingKind::beyond_tolerance:
-      return "reports a collision farther away than its tolerance";
-    case FindingKind::asymmetry:
-      return "answers an exact image of a query in another way";
-    case FindingKind::crash:
-      return "crashes";
-    case FindingKind::exit:
-      return "ends the process";
-    case FindingKind::exception:
-      return "throws an exception";
-    case FindingKind::no_verdict:
-      return "gives no verdict";
-    case FindingKind::not_finite:
-      return "gives a number that is none";
-    case FindingKind::hang:
-      return "does not answer in time";
-    case FindingKind::undecided:
-      return "does not decide";
-  }
-  return "is wrong";
-}
-
 std::string code_block(std::string_view language, std::string_view text) {
   return fmt::format("```{}\n{}```\n", language, text);
 }
@@ -86,7 +53,7 @@ std::string as_page(const FuzzReport& report, const FindingGroup& group, CallInt
   const Reproduction found = reproduction_of(finding, report.solver);
   const FailingCase& failing = finding.simplest;
   std::string page = fmt::format("# {} {}\n\n{}\n## The points\n\n", io::printable(finding.method),
-                                 fault_in_words(finding.what), facts(report, group, finding));
+                                 judge::to_phrase(finding.what), facts(report, group, finding));
   page += "Each line gives the same doubles twice, in decimal and in hexadecimal.\n\n";
   page += code_block("", as_points(finding.kind, failing.query));
   page += fmt::format(
@@ -122,7 +89,6 @@ std::vector<std::filesystem::path> write_pages(const FuzzReport& report, CallInt
     pages.push_back(folder / (name + ".md"));
     write_file(pages.back(), as_page(report, group, interface, name));
     write_file(folder / (name + ".cpp"), as_main(found, interface));
-    write_file(folder / (name + "_test.cpp"), as_cpp_test(found));
     if (!finding.simplest.certificate.empty()) {
       write_file(folder / (name + ".cert"), finding.simplest.certificate);
     }

@@ -12,22 +12,23 @@
 #include <utility>
 
 #include "fast/certified.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/coverage.hpp"
 #include "verify/fuzz/diagnosis.hpp"
-#include "verify/fuzz/draws.hpp"
 #include "verify/fuzz/generators.hpp"
 #include "verify/fuzz/plainness.hpp"
 #include "verify/fuzz/recheck.hpp"
 #include "verify/fuzz/scheduler.hpp"
 #include "verify/fuzz/signature.hpp"
-#include "verify/fuzz/symmetry.hpp"
-#include "verify/jobs/deadline.hpp"
+#include "verify/generate/draws.hpp"
+#include "verify/generate/symmetry.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
+namespace draws = generate::draws;
 using draws::one_in;
 using fast::Answer;
 using fast::CertifiedResult;
@@ -66,7 +67,7 @@ bool is_moderate(const Query& query) {
 /// A query that is an exact image of another one in the block.
 struct Image {
   std::size_t origin;
-  Symmetry symmetry;
+  generate::Symmetry symmetry;
 };
 
 /// Queries that are asked together: first those that generators made, then images of some of them.
@@ -138,8 +139,8 @@ class BlockMaker {
     const std::size_t made = block.queries.size();
     for (std::size_t i = 0; i < made; ++i) {
       if (!one_in(random_, queries_an_image)) continue;
-      const Symmetry symmetry =
-          draw_symmetry(block.kind, block.queries[i], context_.separation(), random_);
+      const generate::Symmetry symmetry =
+          generate::draw_symmetry(block.kind, block.queries[i], context_.separation(), random_);
       block.queries.push_back(image(symmetry, block.queries[i]).value_or(block.queries[i]));
       block.arms.push_back(block.arms[i]);
       block.images.push_back({.origin = i, .symmetry = symmetry});
@@ -218,7 +219,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool is_stopped() const { return verify::jobs::is_stopped(options_.stop); }
+  [[nodiscard]] bool is_stopped() const { return verify::base::is_stopped(options_.stop); }
 
   /// Wall-clock time of the run so far.
   [[nodiscard]] double seconds() const { return options_.clock() - start_; }
@@ -305,12 +306,11 @@ class Run {
   }
 
   /// The failure at a query, or null.
-  [[nodiscard]] const solvers::Failure* failure_at(std::size_t i) const {
-    const auto found = std::ranges::lower_bound(failures_, i, {}, &solvers::QueryFailure::position);
-    return found != failures_.end() && found->position == i ? &found->failure : nullptr;
+  [[nodiscard]] const judge::Failure* failure_at(std::size_t i) const {
+    return judge::failure_at(failures_, i);
   }
 
-  void judge_query(std::size_t i, const solvers::Failure* failure) {
+  void judge_query(std::size_t i, const judge::Failure* failure) {
     GeneratorStatistics& statistics = result_.generators[block_.arms[i]];
     ++result_.queries;
     ++statistics.queries;
@@ -339,25 +339,27 @@ class Run {
 
   /// Looks for all that can be wrong with an answer. Returns the reward, and adds the work.
   double examine_answer(std::size_t i, double& work) {
-    const Query& query = block_.queries[i];
+    const judge::Question question{block_.kind, block_.queries[i], options_.separation};
     const bool is_drawn = random_.unit() < oracle_share_;
     const MissingBounds missing = missing_bounds(answers_[i]);
     if (!is_drawn && !missing.any() &&
-        is_beyond_doubt(block_.kind, query, judged_[i], answers_[i], standard_)) {
+        is_beyond_doubt(question, judged_[i], answers_[i], standard_)) {
       return 0.0;
     }
     work += oracle_work;
     ++result_.judged_by_oracle;
-    const exact::Verdict verdict = exact::decide(block_.kind, query, options_.separation);
+    const exact::Verdict verdict =
+        exact::decide(question.kind, question.query, question.separation);
     const judge::GroundTruth truth = judge::truth_of(result_.queries, verdict);
     double reward = 0.0;
     if (name_ != judge_name()) {
-      const auto of_judge = diagnose_judge(truth, judged_[i]);
+      const auto of_judge = diagnose(question, truth, answer_of(judged_[i]),
+                                     judge::standard_of(fast::certified_info()));
       if (of_judge) reward += report(i, {*of_judge, judge_name()}, verdict);
     }
-    auto diagnosis = diagnose(block_.kind, query, truth, answers_[i], standard_);
+    auto diagnosis = diagnose(question, truth, answers_[i], standard_);
     if (!diagnosis && missing.any()) {
-      diagnosis = {FindingKind::not_finite,
+      diagnosis = {judge::Fault::not_finite,
                    fmt::format("{} is NaN, which it gives with other collisions",
                                missing.lower ? "toi_lower" : "toi_upper")};
       return reward + report(i, {*diagnosis, name_, missing}, verdict);
@@ -381,12 +383,12 @@ class Run {
     const bool origin_has_answer = failure_at(image->origin) == nullptr;
     const Answer& other = answers_[image->origin];
     if (!origin_has_answer || !contradict(answers_[i], other, !image->symmetry.reversed)) return;
-    diagnosis.what = FindingKind::asymmetry;
+    diagnosis.what = judge::Fault::asymmetry;
     diagnosis.detail += fmt::format("; of what this is an exact image of ({}) it says: {}",
                                     to_text(image->symmetry), to_text(other));
   }
 
-  double report_failure(std::size_t i, const solvers::Failure& failure) {
+  double report_failure(std::size_t i, const judge::Failure& failure) {
     ++result_.judged_by_oracle;
     return report(i, {diagnose_failure(failure, options_.query_limit_seconds), name_},
                   exact::decide(block_.kind, block_.queries[i], options_.separation));
@@ -468,7 +470,7 @@ class Run {
   /// The properties that make two findings alike at first sight.
   struct Class {
     std::string method;
-    FindingKind what;
+    judge::Fault what;
     Kind kind;
     fast::Stage stage;
     std::size_t arm;
@@ -484,7 +486,7 @@ class Run {
   const FuzzOptions& options_;
   const fast::Method& method_;
   std::string name_;
-  Standard standard_;
+  judge::Standard standard_;
   double oracle_share_;
   std::vector<Generator> generators_;
   BlockMaker maker_;
@@ -492,7 +494,7 @@ class Run {
   fast::MethodOptions method_options_;
   Random random_;
   double start_ = options_.clock();
-  jobs::Deadline end_{
+  base::Deadline end_{
       options_.seconds > 0.0 ? options_.seconds : std::numeric_limits<double>::infinity(),
       options_.clock};
   CoverageTable coverage_;
@@ -505,8 +507,8 @@ class Run {
   Block block_;
   std::vector<Answer> answers_;
   std::vector<CertifiedResult> judged_;
-  std::vector<solvers::QueryFailure> failures_;
-  jobs::Deadline judging_end_;
+  std::vector<judge::QueryFailure> failures_;
+  base::Deadline judging_end_;
 };
 
 void check(const FuzzOptions& options) {
@@ -531,7 +533,7 @@ void check(const FuzzOptions& options) {
 
 }  // namespace
 
-bool seeks(const FuzzOptions& options, FindingKind what) {
+bool seeks(const FuzzOptions& options, judge::Fault what) {
   return options.only.empty() || std::ranges::find(options.only, what) != options.only.end();
 }
 

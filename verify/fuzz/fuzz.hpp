@@ -23,8 +23,8 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
-#include "verify/jobs/deadline.hpp"
 #include "verify/solvers/child_process.hpp"
 
 namespace touchstone::verify::fuzz {
@@ -66,7 +66,7 @@ struct FuzzOptions {
   /// run if that is less; 0: it stays as it is.
   double shrink_seconds = 0.0;
   /// Kinds of findings that are sought; empty: all. Others are counted and nothing else.
-  std::vector<FindingKind> only = {};
+  std::vector<judge::Fault> only = {};
   /// Queries to mutate.
   std::vector<CorpusQuery> corpus = {};
   /// Kinds of queries to ask; not empty.
@@ -81,11 +81,11 @@ struct FuzzOptions {
   /// Called with every finding that is kept, when it is found, made simpler and in a group.
   std::function<void(const Finding&)> on_finding = nullptr;
   /// The clock of all times above but the query limit's.
-  jobs::SecondsClock clock = jobs::steady_seconds;
+  base::SecondsClock clock = base::steady_seconds;
 };
 
 /// Is that kind of findings sought?
-[[nodiscard]] bool seeks(const FuzzOptions& options, FindingKind what);
+[[nodiscard]] bool seeks(const FuzzOptions& options, judge::Fault what);
 
 /// Options of the calls to the method.
 [[nodiscard]] fast::MethodOptions method_options(const FuzzOptions& options);

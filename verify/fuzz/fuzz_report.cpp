@@ -116,7 +116,7 @@ nlohmann::json group_json(const FuzzResult& result, const FindingGroup& group) {
 }
 
 nlohmann::json answer_json(const fast::Answer& answer) {
-  return {{"verdict", solvers::to_string(answer.verdict)},
+  return {{"verdict", judge::to_string(answer.verdict)},
           {"toi_lower", io::number_to_json(answer.toi_lower)},
           {"toi_upper", io::number_to_json(answer.toi_upper)},
           {"tolerance", io::number_to_json(answer.tolerance)}};
@@ -150,7 +150,7 @@ nlohmann::json solver_json(const SolverCall& solver) {
 std::string scale_text(const Finding& finding, const SolverCall& asked) {
   const auto& [below, above] = finding.scales;
   if (!below && !above) {
-    const bool is_asked = finding.what != FindingKind::hang && is_contact(finding.separation) &&
+    const bool is_asked = finding.what != judge::Fault::hang && is_contact(finding.separation) &&
                           finding.shrinking == Shrinking::complete;
     if (!is_asked) return "not asked at other scales";
     return fmt::format("wrong at any scale from 2^{} to 2^{}", least_scale(asked.options.tolerance),
@@ -221,7 +221,7 @@ nlohmann::json to_json(const FuzzReport& report) {
                           {"findings", generator.findings}});
   }
   nlohmann::json findings = nlohmann::json::array(), only = nlohmann::json::array();
-  for (const FindingKind kind : report.only) only.push_back(to_string(kind));
+  for (const judge::Fault kind : report.only) only.push_back(to_string(kind));
   for (const Finding& finding : result.findings) {
     findings.push_back(to_json(finding, report.solver));
   }

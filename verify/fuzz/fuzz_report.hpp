@@ -19,9 +19,9 @@ namespace touchstone::verify::fuzz {
 struct FuzzReport {
   SolverCall solver;  ///< that is searched for wrong answers
   std::uint64_t seed = 0;
-  double seconds = 0.0;                ///< asked for; 0: no limit
-  std::uint64_t queries = 0;           ///< asked for; 0: no limit
-  std::vector<FindingKind> only = {};  ///< sought; empty: all
+  double seconds = 0.0;                 ///< asked for; 0: no limit
+  std::uint64_t queries = 0;            ///< asked for; 0: no limit
+  std::vector<judge::Fault> only = {};  ///< sought; empty: all
   FuzzResult result;
 };
 

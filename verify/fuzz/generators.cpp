@@ -8,14 +8,14 @@
 
 #include "verify/fuzz/aligned_roundings.hpp"
 #include "verify/fuzz/contact.hpp"
-#include "verify/fuzz/draws.hpp"
-#include "verify/fuzz/everyday.hpp"
 #include "verify/fuzz/mutation.hpp"
-#include "verify/judge/separation_inference.hpp"
+#include "verify/generate/draws.hpp"
+#include "verify/generate/everyday.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
+namespace draws = generate::draws;
 using draws::below;
 using draws::one_in;
 using generate::Random;
@@ -124,8 +124,8 @@ Query contact_aligned(Kind kind, const GeneratorContext& context, Random& random
 }
 
 Query everyday(Kind kind, const GeneratorContext& /*context*/, Random& random) {
-  if (one_in(random, 8)) return everyday_near_miss(kind, random);
-  Query query = everyday_contact(kind, random);
+  if (one_in(random, 8)) return generate::everyday_near_miss(kind, random);
+  Query query = generate::everyday_contact(kind, random);
   if (one_in(random, 8)) nudge(query, random);
   return query;
 }

@@ -6,11 +6,12 @@
 #include <limits>
 #include <utility>
 
-#include "verify/fuzz/draws.hpp"
+#include "verify/generate/draws.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
+namespace draws = generate::draws;
 using draws::below;
 using draws::one_in;
 using generate::Random;

@@ -1,4 +1,5 @@
 #include "verify/fuzz/plainness.hpp"
+#include "verify/generate/decimal.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -185,43 +186,9 @@ std::vector<double> magnitudes(const Query& query) {
   return result;
 }
 
-Decimal shortest_decimal(double x) {
-  std::array<char, 32> text{};
-  const char* const end =
-      std::to_chars(text.begin(), text.end(), x, std::chars_format::scientific).ptr;
-  Decimal result;
-  const char* place = text.begin();
-  for (; place != end && *place != 'e'; ++place) {
-    if (*place == '.') continue;
-    result.digits = 10 * result.digits + static_cast<std::uint64_t>(*place - '0');
-    ++result.count;
-  }
-  // from_chars takes no plus.
-  if (*++place == '+') ++place;
-  std::from_chars(place, end, result.exponent);
-  result.exponent -= result.count - 1;
-  return result;
-}
-
-std::int64_t power_of_ten(int exponent) {
-  std::int64_t power = 1;
-  for (int i = 0; i < exponent; ++i) power *= 10;
-  return power;
-}
-
-double from_decimal(std::uint64_t digits, int exponent) {
-  std::array<char, 40> text{};
-  char* end = std::to_chars(text.begin(), text.end(), digits).ptr;
-  *end++ = 'e';
-  end = std::to_chars(end, text.end(), exponent).ptr;
-  double result = 0.0;
-  std::from_chars(text.begin(), end, result);
-  return result;
-}
-
 std::uint64_t writing_length(double magnitude) {
   constexpr int of_digit = 3, of_point = 2;
-  const Decimal decimal = shortest_decimal(magnitude);
+  const generate::Decimal decimal = generate::shortest_decimal(magnitude);
   const int empty = std::max({decimal.exponent, -decimal.exponent - decimal.count, 0});
   return static_cast<std::uint64_t>(of_digit * decimal.count + empty +
                                     (decimal.exponent < 0 ? of_point : 0));

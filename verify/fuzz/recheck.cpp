@@ -7,15 +7,13 @@
 
 #include "exact/certificate.hpp"
 #include "exact/certificate/certificate_text.hpp"
-#include "verify/fuzz/draws.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/shrink.hpp"
-#include "verify/jobs/deadline.hpp"
 
 namespace touchstone::verify::fuzz {
 namespace {
 
 using fast::Answer;
-using fast::CertifiedResult;
 using fast::Verdict;
 
 /// The rest of a block is not asked after so many queries that ended the solver's process or took too
@@ -23,8 +21,8 @@ using fast::Verdict;
 constexpr std::size_t most_failures = 4;
 
 /// Was the query asked alone, in a process of its own, before it was a finding?
-bool is_confirmed_alone(FindingKind what) {
-  return what == FindingKind::crash || what == FindingKind::exit || what == FindingKind::hang;
+bool is_confirmed_alone(judge::Fault what) {
+  return what == judge::Fault::crash || what == judge::Fault::exit || what == judge::Fault::hang;
 }
 
 /// Are the same bounds missing in both?
@@ -45,10 +43,10 @@ std::string certificate(Kind kind, const Query& query, const exact::Verdict& ver
 
 }  // namespace
 
-Standard standard_of(const fast::Method& method, const FuzzOptions& options) {
-  return {.promise = options.promise.value_or(method.promise()),
-          .separation = options.separation,
-          .filter = method.info().filter};
+judge::Standard standard_of(const fast::Method& method, const FuzzOptions& options) {
+  judge::Standard standard = judge::standard_of(method.info());
+  standard.promise = options.promise.value_or(standard.promise);
+  return standard;
 }
 
 solvers::SolverProcessOptions process_options(const FuzzOptions& options) {
@@ -58,16 +56,9 @@ solvers::SolverProcessOptions process_options(const FuzzOptions& options) {
           .limits = options.limits};
 }
 
-jobs::Deadline solver_deadline(const jobs::Deadline& deadline) {
+base::Deadline solver_deadline(const base::Deadline& deadline) {
   constexpr double least_seconds = 1e-3;
-  return jobs::Deadline(std::max(least_seconds, deadline.seconds_left()));
-}
-
-Answer answer_of(const CertifiedResult& judged) {
-  return {.verdict = judged.verdict,
-          .toi_lower = judged.toi_lower,
-          .toi_upper = judged.toi_upper,
-          .tolerance = Answer::none};
+  return base::Deadline(std::max(least_seconds, deadline.seconds_left()));
 }
 
 FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
@@ -87,16 +78,19 @@ FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
 Recheck::Recheck(const fast::Method& method, const Finding& finding, const FuzzOptions& options)
     : finding_(finding),
       standard_(standard_of(method, options)),
+      separation_(options.separation),
       query_limit_seconds_(options.query_limit_seconds),
       of_judge_(finding.method == judge_name() && method.name() != judge_name()),
       solver_(method, process_options(options)),
-      method_options_(method_options(options)) {}
+      method_options_(method_options(options)) {
+  if (of_judge_) standard_ = judge::standard_of(fast::certified_info());
+}
 
-std::optional<FailingCase> Recheck::ask(const Query& query, const jobs::Deadline& deadline) {
+std::optional<FailingCase> Recheck::ask(const Query& query, const base::Deadline& deadline) {
   if (!is_finite(query) || deadline.is_over()) return std::nullopt;
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
-  const exact::Verdict verdict = exact::decide(finding_.kind, query, standard_.separation);
+  const exact::Verdict verdict = exact::decide(finding_.kind, query, separation_);
   const auto diagnosis = diagnose_reply(query, judge::truth_of(0, verdict), *reply);
   if (!diagnosis || !is_same(*diagnosis)) return std::nullopt;
   return failing_case(finding_.kind, query, reply->answer, verdict, diagnosis->detail,
@@ -104,11 +98,11 @@ std::optional<FailingCase> Recheck::ask(const Query& query, const jobs::Deadline
 }
 
 std::optional<Recheck::Reply> Recheck::reply_to(const Query& query,
-                                                const jobs::Deadline& deadline) {
+                                                const base::Deadline& deadline) {
   if (of_judge_) {
-    return Reply{.answer = answer_of(
-                     fast::certified(finding_.kind, query, {.separation = standard_.separation})),
-                 .failure = std::nullopt};
+    return Reply{
+        .answer = answer_of(fast::certified(finding_.kind, query, {.separation = separation_})),
+        .failure = std::nullopt};
   }
   Reply reply;
   const solvers::SolverRun run = solver_.solve(finding_.kind, {&query, 1}, {&reply.answer, 1},
@@ -124,24 +118,22 @@ std::optional<Diagnosis> Recheck::diagnose_reply(const Query& query,
   if (reply.failure) return diagnose_failure(*reply.failure, query_limit_seconds_);
   if (finding_.missing.any() && reply.answer.verdict == Verdict::yes &&
       lacks_same_bounds(reply.answer, finding_.original.answer)) {
-    return Diagnosis{FindingKind::not_finite, finding_.original.detail};
+    return Diagnosis{judge::Fault::not_finite, finding_.original.detail};
   }
-  Standard standard = standard_;
-  if (of_judge_) standard = {.promise = fast::Promise::exact, .separation = standard_.separation};
-  return diagnose(finding_.kind, query, truth, reply.answer, standard);
+  return diagnose({finding_.kind, query, separation_}, truth, reply.answer, standard_);
 }
 
 bool Recheck::is_same(const Diagnosis& diagnosis) const {
-  return diagnosis.what == finding_.what || finding_.what == FindingKind::asymmetry;
+  return diagnosis.what == finding_.what || finding_.what == judge::Fault::asymmetry;
 }
 
 void simplify(const fast::Method& method, const FuzzOptions& options,
-              const jobs::Deadline& deadline, Finding& finding) {
+              const base::Deadline& deadline, Finding& finding) {
   // In less time than that no query can be seen to hang.
-  const bool is_hang = finding.what == FindingKind::hang;
+  const bool is_hang = finding.what == judge::Fault::hang;
   if (is_hang && deadline.seconds_left() <= options.query_limit_seconds) return;
   Recheck recheck(method, finding, options);
-  const auto must_end = [&] { return deadline.is_over() || jobs::is_stopped(options.stop); };
+  const auto must_end = [&] { return deadline.is_over() || base::is_stopped(options.stop); };
   const auto fails = [&](const Query& query) {
     std::optional<FailingCase> evidence = recheck.ask(query, deadline);
     if (evidence) finding.simplest = std::move(*evidence);

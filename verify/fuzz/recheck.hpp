@@ -12,10 +12,10 @@
 #include "exact/query.hpp"
 #include "fast/certified.hpp"
 #include "fast/method.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/diagnosis.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/solvers/solver_process.hpp"
 
@@ -24,17 +24,14 @@ namespace touchstone::verify::fuzz {
 /// The name of the solver that judges the others.
 [[nodiscard]] inline std::string_view judge_name() { return fast::certified_info().name; }
 
-/// The promise and separation that a method is judged by.
-[[nodiscard]] Standard standard_of(const fast::Method& method, const FuzzOptions& options);
+/// The standard that a method is judged by in a run.
+[[nodiscard]] judge::Standard standard_of(const fast::Method& method, const FuzzOptions& options);
 
 /// Options of a solver's process in a run.
 [[nodiscard]] solvers::SolverProcessOptions process_options(const FuzzOptions& options);
 
 /// For the solver's process: as many seconds by the system's clock, at least a millisecond.
-[[nodiscard]] jobs::Deadline solver_deadline(const jobs::Deadline& deadline);
-
-/// The judge's decision as an answer.
-[[nodiscard]] fast::Answer answer_of(const fast::CertifiedResult& judged);
+[[nodiscard]] base::Deadline solver_deadline(const base::Deadline& deadline);
 
 /// The evidence of a fault. \param verdict of the query, at the run's separation
 [[nodiscard]] FailingCase failing_case(Kind kind, const Query& query, const fast::Answer& answer,
@@ -53,22 +50,23 @@ class Recheck {
   /// The evidence, if it does; nothing if it does not, or has not answered at the deadline, or the
   /// query is not finite.
   [[nodiscard]] std::optional<FailingCase> ask(const Query& query,
-                                               const jobs::Deadline& deadline = {});
+                                               const base::Deadline& deadline = {});
 
  private:
   /// The solver's answer to this query alone, or the reason why there is none.
   struct Reply {
     fast::Answer answer;
-    std::optional<solvers::Failure> failure;
+    std::optional<judge::Failure> failure;
   };
-  [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const jobs::Deadline& deadline);
+  [[nodiscard]] std::optional<Reply> reply_to(const Query& query, const base::Deadline& deadline);
   [[nodiscard]] std::optional<Diagnosis> diagnose_reply(const Query& query,
                                                         const judge::GroundTruth& truth,
                                                         const Reply& reply) const;
   [[nodiscard]] bool is_same(const Diagnosis& diagnosis) const;
 
   Finding finding_;
-  Standard standard_;
+  judge::Standard standard_;
+  Separation separation_;
   double query_limit_seconds_;
   bool of_judge_;
   solvers::SolverProcess solver_;
@@ -78,6 +76,6 @@ class Recheck {
 /// Makes the finding's query simpler as long as the solver does the same wrong to it (shrink.hpp),
 /// until the deadline or the options' stop. A hang is left alone if it takes longer.
 void simplify(const fast::Method& method, const FuzzOptions& options,
-              const jobs::Deadline& deadline, Finding& finding);
+              const base::Deadline& deadline, Finding& finding);
 
 }  // namespace touchstone::verify::fuzz

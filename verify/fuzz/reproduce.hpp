@@ -1,8 +1,7 @@
 #pragma once
 
 /// \file
-/// A query as a person reads it, as a dataset holds it, and as a test and a command that show what is
-/// wrong.
+/// A query as a person reads it, as a dataset holds it, and as a command that shows what is wrong.
 
 #include <cstddef>
 #include <filesystem>
@@ -49,7 +48,7 @@ struct SolverCall {
 
 /// A query and the wrong answer to it.
 struct Reproduction {
-  FindingKind what = FindingKind::false_negative;
+  judge::Fault what = judge::Fault::false_negative;
   Kind kind = Kind::vertex_face;
   FailingCase failing;
   /// Of what is wrong only in that.
@@ -60,12 +59,6 @@ struct Reproduction {
 /// The reproduction of a finding's simplest query.
 /// \param asked the solver of the run; a finding against the judge is about `certified` instead
 [[nodiscard]] Reproduction reproduction_of(const Finding& finding, const SolverCall& asked);
-
-/// The text of a C++ file: a function that asks a method and judges its answer, and a GoogleTest that
-/// calls it. It includes headers of this library and links touchstone::verify; it fails where the
-/// method's answer breaks what the method is held to, and passes where it does not.
-/// \pre all coordinates are finite.
-[[nodiscard]] std::string as_cpp_test(const Reproduction& found);
 
 /// Commands for a POSIX shell that write the query as a dataset and ask the solver again, with all
 /// that it was asked with; `touchstone certify` then judges it.

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "verify/fuzz/plainness.hpp"
+#include "verify/generate/decimal.hpp"
 #include "verify/generate/random.hpp"
 
 namespace touchstone::verify::fuzz {
@@ -32,12 +33,13 @@ double with_sign_of(double x, double magnitude) { return x < 0.0 ? 0.0 - magnitu
 /// The decimals of this number of digits below and above a positive number; the number itself if it
 /// has no more digits.
 std::array<double, 2> with_digits(double x, int digits) {
-  const Decimal decimal = shortest_decimal(x);
+  const generate::Decimal decimal = generate::shortest_decimal(x);
   const int dropped = decimal.count - digits;
   if (dropped <= 0) return {x, x};
-  const std::uint64_t down = decimal.digits / static_cast<std::uint64_t>(power_of_ten(dropped));
-  return {from_decimal(down, decimal.exponent + dropped),
-          from_decimal(down + 1, decimal.exponent + dropped)};
+  const std::uint64_t down =
+      decimal.digits / static_cast<std::uint64_t>(generate::power_of_ten(dropped));
+  return {generate::from_decimal(down, decimal.exponent + dropped),
+          generate::from_decimal(down + 1, decimal.exponent + dropped)};
 }
 
 /// The nearest decimal with this number of digits.
@@ -56,14 +58,14 @@ constexpr int digits_of_sums = 14;
 /// Numbers to try in place of a positive one, the plainest first.
 std::vector<double> plainer_numbers(double magnitude) {
   std::vector<double> result{0.0, 1.0, 2.0, 3.0, 0.5};
-  const Decimal decimal = shortest_decimal(magnitude);
+  const generate::Decimal decimal = generate::shortest_decimal(magnitude);
   for (const std::uint64_t digit : {1U, 2U, 5U}) {
     for (const int more : {0, 1}) {
-      result.push_back(from_decimal(digit, decimal.exponent + decimal.count - 1 + more));
+      result.push_back(generate::from_decimal(digit, decimal.exponent + decimal.count - 1 + more));
     }
   }
-  result.push_back(from_decimal(decimal.digits, 0));
-  result.push_back(from_decimal(decimal.digits, 1 - decimal.count));
+  result.push_back(generate::from_decimal(decimal.digits, 0));
+  result.push_back(generate::from_decimal(decimal.digits, 1 - decimal.count));
   result.push_back(std::trunc(magnitude));
   result.push_back(std::ceil(magnitude));
   const auto add_rounded = [&](int count) {
@@ -208,10 +210,10 @@ class Shrinker {
       double greatest = 0.0;
       for_each_of(axis, query_, [&](double& x) { greatest = std::max(greatest, std::abs(x)); });
       if (greatest == 0.0) continue;
-      const Decimal decimal = shortest_decimal(greatest);
+      const generate::Decimal decimal = generate::shortest_decimal(greatest);
       const int top = decimal.exponent + decimal.count;
       for (const int digits : digit_counts) {
-        const double unit = from_decimal(1, top - digits);
+        const double unit = generate::from_decimal(1, top - digits);
         Query shorter = query_, on_grid = query_;
         for_each_of(axis, shorter, [&](double& x) { x = to_digits(x, digits); });
         for_each_of(axis, on_grid, [&](double& x) {
@@ -233,7 +235,7 @@ class Shrinker {
       values.erase(std::unique(values.begin(), values.end()), values.end());
       const double greatest = std::max(std::abs(values.front()), std::abs(values.back()));
       if (greatest == 0.0) continue;
-      const Decimal decimal = shortest_decimal(greatest);
+      const generate::Decimal decimal = generate::shortest_decimal(greatest);
       const int top = decimal.exponent + decimal.count;
       for (const int exponent : {top, top - 1, top - 2, top - 3}) {
         for (const std::uint64_t step : {1U, 2U, 3U, 5U, 7U}) {
@@ -254,7 +256,7 @@ class Shrinker {
     for_each_of(axis, plainer, [&](double& x) {
       const std::ptrdiff_t rank = rank_of(x) - zero;
       const double magnitude =
-          from_decimal(step * static_cast<std::uint64_t>(std::abs(rank)), exponent);
+          generate::from_decimal(step * static_cast<std::uint64_t>(std::abs(rank)), exponent);
       x = rank < 0 ? -magnitude : magnitude;
     });
     attempt(plainer);

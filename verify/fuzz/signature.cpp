@@ -20,7 +20,7 @@ constexpr std::array scales_to_ask{-40, -30, -24, -20, -17, -14, -12, -10, -8, -
 class ScaleSearch {
  public:
   ScaleSearch(const fast::Method& method, const FuzzOptions& options,
-              const jobs::Deadline& deadline, const Finding& finding)
+              const base::Deadline& deadline, const Finding& finding)
       : query_(finding.simplest.query),
         exponent_(size_exponent(query_)),
         least_(least_scale(options.method.tolerance)),
@@ -53,13 +53,14 @@ class ScaleSearch {
   const Query& query_;
   int exponent_;
   int least_;
-  const jobs::Deadline& deadline_;
+  const base::Deadline& deadline_;
   Recheck recheck_;
 };
 
 /// Has it a reason that tells one fault from another?
-bool has_reason(FindingKind what) {
-  return what == FindingKind::crash || what == FindingKind::exit || what == FindingKind::exception;
+bool has_reason(judge::Fault what) {
+  return what == judge::Fault::crash || what == judge::Fault::exit ||
+         what == judge::Fault::exception;
 }
 
 void add_end(const std::optional<int>& exponent, ScaleEnds& all) {
@@ -92,8 +93,8 @@ int least_scale(double tolerance) {
 }
 
 ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
-                       const jobs::Deadline& deadline, const Finding& finding) {
-  if (finding.what == FindingKind::hang || !is_contact(finding.separation)) return {};
+                       const base::Deadline& deadline, const Finding& finding) {
+  if (finding.what == judge::Fault::hang || !is_contact(finding.separation)) return {};
   ScaleSearch search(method, options, deadline, finding);
   return {.end_below = search.end_below(), .end_above = search.end_above()};
 }

@@ -21,9 +21,9 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/fuzz/finding.hpp"
 #include "verify/fuzz/fuzz.hpp"
-#include "verify/jobs/deadline.hpp"
 
 namespace touchstone::verify::fuzz {
 
@@ -47,7 +47,7 @@ struct ScaleEnds {
 /// As above. Of a fault that depends on the scale, kind, shape and time are not set.
 struct Signature {
   std::string method;
-  FindingKind what = FindingKind::false_negative;
+  judge::Fault what = judge::Fault::false_negative;
   /// The reason of a crash, an exit or an exception; else empty.
   std::string reason = {};
   ScaleEnds ends = {};
@@ -68,7 +68,7 @@ inline constexpr int greatest_scale = 40;
 /// powers of two, up and down, until it is right or the greatest coordinate is beyond 2^least_scale() to
 /// 2^greatest_scale. Of a hang, and of what is about a separation, nothing is asked, and no end is known.
 [[nodiscard]] ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
-                                     const jobs::Deadline& deadline, const Finding& finding);
+                                     const base::Deadline& deadline, const Finding& finding);
 
 /// Of the finding's simplest query; its scales are known.
 [[nodiscard]] Signature signature_of(const Finding& finding);

@@ -24,14 +24,14 @@ struct Names {
 std::string wrong_as_found(const Reproduction& found, const Names& names) {
   const FailingCase& failing = found.failing;
   switch (found.what) {
-    case FindingKind::false_negative:
+    case judge::Fault::false_negative:
       return std::string(names.is_no);
-    case FindingKind::false_positive:
-    case FindingKind::beyond_tolerance:
+    case judge::Fault::false_positive:
+    case judge::Fault::beyond_tolerance:
       return std::string(names.is_yes);
-    case FindingKind::asymmetry:
+    case judge::Fault::asymmetry:
       return std::string(failing.collides ? names.is_no : names.is_yes);
-    case FindingKind::late_toi:
+    case judge::Fault::late_toi:
       return fmt::format("{} && {} > {}", names.is_yes, names.lower, failing.toi->lower);
     default:
       return {};
@@ -43,13 +43,13 @@ std::string wrong_as_found_of_plugin(const Reproduction& found) {
   static constexpr Names names{
       .is_yes = "answer.verdict == 1", .is_no = "answer.verdict == 0", .lower = "answer.toi_lower"};
   switch (found.what) {
-    case FindingKind::early_toi_upper:
+    case judge::Fault::early_toi_upper:
       return fmt::format("{} && answer.toi_upper < {}", names.is_yes, found.failing.toi->upper);
-    case FindingKind::no_verdict:
+    case judge::Fault::no_verdict:
       return "answer.verdict == 3";
-    case FindingKind::undecided:
+    case judge::Fault::undecided:
       return "answer.verdict == 2";
-    case FindingKind::not_finite:
+    case judge::Fault::not_finite:
       return "!(std::isfinite(answer.toi_lower) && std::isfinite(answer.toi_upper))";
     default:
       return wrong_as_found(found, names);

@@ -21,7 +21,7 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 constexpr double jitter = 0.2;        // of a vertex in the patch, on each axis
 constexpr double roughness = 0.1;     // of a vertex off the patch
 constexpr double gap = 0.6;           // between the bottoms of the bowls at the start
-constexpr double approach = 2.0;      // way of each patch towards the other
+constexpr double approach_way = 2.0;  // way of each patch towards the other
 constexpr double slide = 1.6;         // way of each patch sideways
 constexpr double perturbation = 0.2;  // of each vertex' way, on each axis
 
@@ -73,7 +73,7 @@ class Patch {
   [[nodiscard]] Eigen::Vector3d way(int i, int j) {
     const double cell = width(i, j);
     return placed({slide * cell + noise(perturbation, cell), noise(perturbation, cell),
-                   approach * cell + noise(perturbation, cell)});
+                   approach_way * cell + noise(perturbation, cell)});
   }
 
  private:

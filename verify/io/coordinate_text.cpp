@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "exact/algebra/number.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::io {
 namespace {
@@ -72,7 +72,7 @@ exact::Rational any_number(std::string_view text, Part part) {
   } catch (const std::invalid_argument&) {
     const std::string_view reason =
         is_not_finite(text) ? "not a finite number: " : "not a number: ";
-    throw CoordinateError(part, std::string(reason) + data::quote(text));
+    throw CoordinateError(part, std::string(reason) + quote(text));
   }
 }
 

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::io {
@@ -29,13 +29,13 @@ InputFile::InputFile(std::filesystem::path path)
     : path_(std::move(path)),
       // The open of a pipe does not wait for its writer: read() does, where an interrupt ends it.
       descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-  if (descriptor_ < 0) throw data::DatasetError(path_, {}, "cannot open: " + last_system_error());
+  if (descriptor_ < 0) throw DatasetError(path_, {}, "cannot open: " + last_system_error());
   struct stat status {};
   const bool known = ::fstat(descriptor_, &status) == 0;
   if (!known || S_ISDIR(status.st_mode)) {
     const std::string reason = known ? "is a folder" : "cannot open: " + last_system_error();
     ::close(descriptor_);
-    throw data::DatasetError(path_, {}, reason);
+    throw DatasetError(path_, {}, reason);
   }
   size_ = static_cast<std::uint64_t>(std::max<off_t>(status.st_size, 0));
 }
@@ -53,7 +53,7 @@ std::size_t InputFile::read(std::span<char> buffer) {
     }
     if (errno == EINTR || errno == EAGAIN) continue;
     failed_ = true;
-    throw data::DatasetError(path_, {}, "cannot read: " + last_system_error());
+    throw DatasetError(path_, {}, "cannot read: " + last_system_error());
   }
 }
 
@@ -127,8 +127,8 @@ void LineReader::pass_over_line() {
     }
     length += end_ - begin_;
     if (length > longest_passed_line) {
-      throw data::DatasetError(path(), {.line = line_number_ + 1},
-                               "no line end within 64 MiB: not a text file");
+      throw DatasetError(path(), {.line = line_number_ + 1},
+                         "no line end within 64 MiB: not a text file");
     }
     begin_ = end_;
   } while (fill());
@@ -158,7 +158,7 @@ std::size_t LineReader::read(std::span<char> room) {
     if (is_at_end && decompressor_->is_complete()) return 0;
     const std::size_t count = decompress(room);
     if (count > 0) return count;
-    if (is_at_end) throw data::DatasetError(path(), {}, "its compressed stream is cut");
+    if (is_at_end) throw DatasetError(path(), {}, "its compressed stream is cut");
   }
 }
 
@@ -166,7 +166,7 @@ std::size_t LineReader::decompress(std::span<char> room) {
   try {
     return decompressor_->decompress(compressed_left_, room);
   } catch (const std::runtime_error& error) {
-    throw data::DatasetError(path(), {}, error.what());
+    throw DatasetError(path(), {}, error.what());
   }
 }
 
@@ -179,7 +179,7 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit) {
     count = file.read({bytes.data() + before, chunk});
     bytes.resize(before + count);
     if (bytes.size() > limit) {
-      throw data::DatasetError(path, {}, "has more than " + std::to_string(limit) + " bytes");
+      throw DatasetError(path, {}, "has more than " + std::to_string(limit) + " bytes");
     }
   }
   return bytes;

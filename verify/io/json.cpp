@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 
 namespace touchstone::verify::io {
@@ -32,15 +32,14 @@ nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_byt
                          const nlohmann::json::parser_callback_t& accept) {
   const auto check = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& value) {
     if (depth > deepest_json) {
-      throw data::DatasetError(path, {},
-                               "nested more than " + std::to_string(deepest_json) + " deep");
+      throw DatasetError(path, {}, "nested more than " + std::to_string(deepest_json) + " deep");
     }
     return accept == nullptr || accept(depth, event, value);
   };
   try {
     return nlohmann::json::parse(read_file(path, most_bytes), check);
   } catch (const nlohmann::json::parse_error& error) {
-    throw data::DatasetError(path, {}, std::string("no JSON: ") + error.what());
+    throw DatasetError(path, {}, std::string("no JSON: ") + error.what());
   }
 }
 

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::io {
 namespace {
@@ -27,8 +27,7 @@ fs::path temporary_name(const fs::path& target, unsigned attempt) {
       std::string(temporary_extension) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
   const std::string name = target.filename().string();
   // Some file systems refuse half a character of UTF-8.
-  return target.parent_path() /
-         (std::string(data::beginning(name, longest - ending.size())) + ending);
+  return target.parent_path() / (std::string(beginning(name, longest - ending.size())) + ending);
 }
 
 /// True if it has the form of the temporary names.
@@ -140,7 +139,7 @@ void OutputFile::flush() {
 }
 
 void OutputFile::fail() const {
-  throw data::DatasetError(path_, {}, "cannot write: " + std::generic_category().message(errno));
+  throw DatasetError(path_, {}, "cannot write: " + std::generic_category().message(errno));
 }
 
 }  // namespace touchstone::verify::io

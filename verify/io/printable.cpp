@@ -67,9 +67,9 @@ bool is_markup(std::string_view text, std::size_t i) {
   return marks.find(c) != std::string_view::npos;
 }
 
-/// The text with its quotes and backslashes escaped, and other characters as octal bytes of three
-/// digits, which C++ and shells read alike.
-std::string escaped_within(char quote, std::string_view text) {
+/// The text with its single quotes and backslashes escaped, and other characters as octal bytes of three
+/// digits, as shells read them.
+std::string escaped(std::string_view text) {
   std::string result;
   for_each_character(text, [&](const Character& character, std::string_view bytes) {
     if (!is_printable(character)) {
@@ -78,7 +78,7 @@ std::string escaped_within(char quote, std::string_view text) {
       }
       return;
     }
-    if (bytes.front() == quote || bytes.front() == '\\') result += '\\';
+    if (bytes.front() == '\'' || bytes.front() == '\\') result += '\\';
     result += bytes;
   });
   return result;
@@ -184,7 +184,7 @@ std::string html_escaped(std::string_view text) {
 std::string shell_word(std::string_view text) {
   static constexpr std::string_view harmless =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,";
-  if (!is_printable(text)) return "$'" + escaped_within('\'', text) + "'";
+  if (!is_printable(text)) return "$'" + escaped(text) + "'";
   if (!text.empty() && text.find_first_not_of(harmless) == std::string_view::npos) {
     return std::string(text);
   }
@@ -192,7 +192,5 @@ std::string shell_word(std::string_view text) {
   for (const char c : text) result += c == '\'' ? "'\\''" : std::string(1, c);
   return result + "'";
 }
-
-std::string cpp_literal(std::string_view text) { return '"' + escaped_within('"', text) + '"'; }
 
 }  // namespace touchstone::verify::io

@@ -58,7 +58,4 @@ struct Character {
 /// zsh.
 [[nodiscard]] std::string shell_word(std::string_view text);
 
-/// The bytes as a string literal of C++; printable.
-[[nodiscard]] std::string cpp_literal(std::string_view text);
-
 }  // namespace touchstone::verify::io

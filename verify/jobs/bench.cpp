@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/jobs/memory_pass.hpp"
 #include "verify/jobs/statistics.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
@@ -69,7 +69,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return is_stopped(options_.stop); }
+  [[nodiscard]] bool stopped() const { return base::is_stopped(options_.stop); }
 
   void repeat(std::size_t repetition) {
     for (const std::size_t item : order_of_repetition(timed_.size() + 1, repetition)) {

@@ -26,7 +26,7 @@
 #include "fast/method.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/jobs/timing.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::jobs {

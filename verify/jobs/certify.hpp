@@ -20,21 +20,12 @@
 #include "exact/query.hpp"
 #include "verify/data/query_source.hpp"
 #include "verify/jobs/prove.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
+#include "verify/judge/label.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::jobs {
-
-/// A recorded answer that is not the truth.
-struct Mismatch {
-  enum class Of : std::uint8_t { label, toi };
-
-  Of of;
-  std::uint64_t index;
-  std::string recorded;
-  std::string truth;
-};
 
 struct CertifyOptions {
   /// Minimum separation.
@@ -89,7 +80,7 @@ struct CertifyResult {
   std::uint64_t rounded = 0;  ///< coordinates rounded to double
   std::uint64_t errors = 0;   ///< errors that ended the reading
   double microseconds = 0.0;  ///< processor time of the oracle, summed over the queries
-  std::vector<Mismatch> mismatches;
+  std::vector<judge::Mismatch> mismatches;
   ProofCounts proofs;  ///< what was proved, where certificates are asked for
   /// In the order of CertifyOptions::solvers.
   std::vector<MethodResult> methods;
@@ -107,10 +98,8 @@ struct CertifyResult {
   CertifyResult& operator+=(const CertifyResult& other);
 };
 
-/// Decides every query of the source and compares. Errors of the source end up in the result.
-/// A recorded time of impact of a query that does not collide is a mismatch; a collision without a
-/// recorded time of impact is not. What is recorded about another separation is compared as far as
-/// something follows from it (verify/judge/separation_inference.hpp): collisions, which must be no later.
+/// Decides every query of the source, and judges labels (verify/judge/label.hpp) and answers (verify/judge/judge.hpp).
+/// Errors of the source end up in the result.
 [[nodiscard]] CertifyResult certify(data::QuerySource& source, const CertifyOptions& options = {});
 
 /// Sums of all counts, in a result called "total"; the mismatches and wrong answers stay with their

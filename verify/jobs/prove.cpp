@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "exact/certificate/certificate_text.hpp"
+#include "verify/base/thread_clock.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/text_table.hpp"
 #include "verify/jobs/stream.hpp"
-#include "verify/jobs/thread_clock.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
@@ -51,19 +51,19 @@ class BlockProofs {
   void prove_part(std::size_t first, std::size_t count, ProvedPart& part) const {
     std::vector<exact::Verdict> verdicts;
     verdicts.reserve(count);
-    const double start = thread_nanoseconds();
+    const double start = base::thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {
       verdicts.push_back(
           exact::decide(block_.kind, block_.queries[first + i], options_.separation));
     }
-    const double decided = thread_nanoseconds();
+    const double decided = base::thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {
       append_certificate(block_.kind, block_.queries[first + i], verdicts[i],
                          certificate_label(*block_.source, block_.indices[first + i]),
                          options_.proof, part.text, part.counts);
     }
     part.oracle_nanoseconds = decided - start;
-    part.counts.nanoseconds = thread_nanoseconds() - decided;
+    part.counts.nanoseconds = base::thread_nanoseconds() - decided;
   }
 
   const Block& block_;

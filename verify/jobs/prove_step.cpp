@@ -18,8 +18,8 @@
 #include "exact/contact/corner_motion.hpp"
 #include "exact/oracle.hpp"
 #include "fast/broad_phase.hpp"
-#include "verify/jobs/cores.hpp"
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/cores.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/jobs/step_places.hpp"
 
 namespace touchstone::verify::jobs {
@@ -264,17 +264,17 @@ class StepProver {
   void write_block(std::span<const Pair> pairs) {
     static constexpr std::size_t part = 256;
     std::vector<Arguments> parts((pairs.size() + part - 1) / part);
-    tbb::task_arena arena(cores_for(options_.threads));
+    tbb::task_arena arena(base::cores_for(options_.threads));
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-        if (is_stopped(options_.stop)) return;
+        if (base::is_stopped(options_.stop)) return;
         const std::size_t first = i * part;
         for (const Pair& pair : pairs.subspan(first, std::min(part, pairs.size() - first))) {
           argue(pair, parts[i]);
         }
       });
     });
-    proof_.interrupted = is_stopped(options_.stop);
+    proof_.interrupted = base::is_stopped(options_.stop);
     for (const Arguments& some : parts) {
       if (proof_.failure.empty()) proof_.failure = some.failure;
       if (!proof_.is_complete()) return;

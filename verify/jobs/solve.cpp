@@ -1,78 +1,51 @@
 #include "verify/jobs/solve.hpp"
 
-#include <span>
-#include <vector>
-
+#include "verify/jobs/block_answers.hpp"
 #include "verify/jobs/stream.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
 
-/// The parallel stage: the answers to one block.
-class BlockAnswers {
- public:
-  BlockAnswers(const Block& block, const solvers::Solver& solver, const SolveOptions& options)
-      : block_(block),
-        answers_(block.queries.size()),
-        replies_(block.queries.size() / Passes::unit + 1) {
-    Passes passes(block.queries.size(), options.stop);
-    passes.run(solver.good_span(), [&](std::size_t first, std::size_t count) {
-      solvers::SolveReply& reply = replies_[first / Passes::unit];
-      reply = solver.solve_timed(block.request(first, count, options.separation),
-                                 std::span(answers_).subspan(first, count));
-      return !reply.stopped;
-    });
-    complete_ = passes.complete();
-    for (std::size_t unit = 0; unit < replies_.size(); ++unit) {
-      for (const solvers::QueryFailure& found : replies_[unit].failures) {
-        failures_.push_back(
-            {.position = unit * Passes::unit + found.position, .failure = found.failure});
-      }
-    }
+void add(const fast::Answer& answer, const judge::Failure* failure, SolveResult& result) {
+  using fast::Verdict;
+  Verdict verdict = answer.verdict;
+  if (const auto why = failure != nullptr ? std::optional(*failure) : judge::failure_of(answer)) {
+    ++result.failures[static_cast<std::size_t>(why->kind)];
+    verdict = judge::verdict_of(why->kind);
   }
+  ++result.queries;
+  result.yes += verdict == Verdict::yes ? 1U : 0U;
+  result.no += verdict == Verdict::no ? 1U : 0U;
+  result.undecided += verdict == Verdict::undecided ? 1U : 0U;
+  result.errors += verdict == Verdict::error ? 1U : 0U;
+}
 
-  [[nodiscard]] bool complete() const { return complete_ == answers_.size(); }
+/// The parallel stage.
+class SolvedBlock {
+ public:
+  SolvedBlock(const Block& block, const solvers::Solver& solver, const SolveOptions& options)
+      : block_(block),
+        passes_(block.queries.size(), options.stop),
+        answers_(block, solver, options.separation, passes_) {}
+
+  [[nodiscard]] bool complete() const { return passes_.complete() == block_.queries.size(); }
 
   /// The serial stage.
   void add_to(SolveResult& result, const SolveOptions& options) const {
-    auto failure = failures_.begin();
-    for (std::size_t i = 0; i < complete_; ++i) {
-      const bool has_failed = failure != failures_.end() && failure->position == i;
-      add(answers_[i], has_failed ? &failure->failure : nullptr, result);
-      if (options.on_answer) {
-        options.on_answer(block_.indices[i], answers_[i], has_failed ? &failure->failure : nullptr);
-      }
-      if (has_failed) ++failure;
+    const std::size_t complete = passes_.complete();
+    for (std::size_t i = 0; i < complete; ++i) {
+      const fast::Answer& answer = answers_.answers()[i];
+      add(answer, answers_.failure(i), result);
+      if (options.on_answer) options.on_answer(block_.indices[i], answer, answers_.failure(i));
     }
-    for (std::size_t part = 0; part * Passes::unit < complete_; ++part) {
-      result.nanoseconds +=
-          replies_[part].time.value_or(solvers::SolverTime{}).processor_nanoseconds;
-      result.unplaced_crashes += replies_[part].unplaced_crashes;
-    }
+    result.nanoseconds += answers_.nanoseconds(complete);
+    result.unplaced_crashes += answers_.unplaced_crashes(complete);
   }
 
  private:
-  static void add(const fast::Answer& answer, const solvers::Failure* failure,
-                  SolveResult& result) {
-    using fast::Verdict;
-    Verdict verdict = answer.verdict;
-    if (const auto why =
-            failure != nullptr ? std::optional(*failure) : solvers::failure_of(answer)) {
-      ++result.failures[static_cast<std::size_t>(why->kind)];
-      verdict = solvers::verdict_of(why->kind);
-    }
-    ++result.queries;
-    result.yes += verdict == Verdict::yes ? 1U : 0U;
-    result.no += verdict == Verdict::no ? 1U : 0U;
-    result.undecided += verdict == Verdict::undecided ? 1U : 0U;
-    result.errors += verdict == Verdict::error ? 1U : 0U;
-  }
-
   const Block& block_;
-  std::vector<fast::Answer> answers_;
-  std::vector<solvers::SolveReply> replies_;     // of the part that begins with a unit
-  std::vector<solvers::QueryFailure> failures_;  // by position in the block
-  std::size_t complete_ = 0;
+  Passes passes_;
+  BlockAnswers answers_;
 };
 
 }  // namespace
@@ -100,8 +73,8 @@ SolveResult solve(data::QuerySource& source, const solvers::Solver& solver,
                   const SolveOptions& options) {
   SolveResult result;
   const StreamResult ended = stream(
-      source, [&](const Block& block) { return BlockAnswers(block, solver, options); },
-      [&](const BlockAnswers& answers) { answers.add_to(result, options); },
+      source, [&](const Block& block) { return SolvedBlock(block, solver, options); },
+      [&](const SolvedBlock& solved) { solved.add_to(result, options); },
       {.threads = options.threads, .on_progress = options.on_progress, .stop = options.stop});
   result.skipped = ended.skipped;
   result.rounded = ended.rounded;

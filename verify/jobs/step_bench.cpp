@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "verify/jobs/cores.hpp"
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/cores.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/jobs/memory_pass.hpp"
 #include "verify/jobs/statistics.hpp"
 
@@ -49,7 +49,7 @@ class StepRun {
   StepRun(const mesh::MovingMesh& mesh, const StepBenchOptions& options)
       : mesh_(mesh), options_(options) {
     series_.push_back({.threads = 1});
-    const int most = cores_for(options.threads);
+    const int most = base::cores_for(options.threads);
     if (most > 1) series_.push_back({.threads = most});
   }
 
@@ -88,7 +88,7 @@ class StepRun {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return is_stopped(options_.stop); }
+  [[nodiscard]] bool stopped() const { return base::is_stopped(options_.stop); }
 
   void pass_over_memory() {
     memory_pass_.add([&] {

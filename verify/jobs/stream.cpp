@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "verify/base/cores.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/cores.hpp"
-#include "verify/jobs/deadline.hpp"
 
 namespace touchstone::verify::jobs {
 namespace {
@@ -61,7 +61,7 @@ class Stream {
 
  private:
   void read_query(Block& block) {
-    if (is_stopped(options_.stop)) {
+    if (base::is_stopped(options_.stop)) {
       ended_ = result_.interrupted = true;
       return;
     }
@@ -71,7 +71,7 @@ class Stream {
       if (!query) return;
       block.queries.push_back(query->query);
       block.indices.push_back(query->index);
-      block.claims.push_back({query->collides, std::move(query->toi)});
+      block.labels.push_back({query->collides, std::move(query->toi)});
     } catch (const io::Interrupted&) {
       ended_ = result_.interrupted = true;
     } catch (const std::exception& error) {
@@ -94,7 +94,7 @@ class Stream {
 }  // namespace
 
 Passes::Passes(std::size_t queries, const std::atomic<bool>* stop)
-    : queries_(queries), stop_(stop), done_((queries + unit - 1) / unit) {}
+    : queries_(queries), stop_(stop), done_(units(queries)) {}
 
 void Passes::run(std::size_t span, const std::function<bool(std::size_t, std::size_t)>& work) {
   const std::size_t step =
@@ -120,7 +120,7 @@ std::size_t Passes::complete() const {
 
 StreamResult stream(data::QuerySource& source, const BlockWork& work,
                     const StreamOptions& options) {
-  const int threads = cores_for(options.threads);
+  const int threads = base::cores_for(options.threads);
   const std::size_t blocks_in_flight = 2 * static_cast<std::size_t>(threads);
   Stream ends(source, options, blocks_in_flight);
   const auto read = [&](tbb::flow_control& flow) {

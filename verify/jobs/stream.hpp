@@ -18,21 +18,15 @@
 #include <type_traits>
 #include <vector>
 
-#include "exact/algebra/number.hpp"
 #include "exact/query.hpp"
 #include "verify/data/query_source.hpp"
+#include "verify/judge/label.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::jobs {
 
 /// Some consecutive queries of a source.
 struct Block {
-  /// The source's claim about a query.
-  struct Claim {
-    std::optional<bool> collides;
-    std::optional<exact::Rational> toi;
-  };
-
   /// So many queries, but for the last block: as many as hide the cost of a clock call behind a
   /// solver that takes 10 ns a query.
   static constexpr std::size_t size = 2048;
@@ -41,7 +35,7 @@ struct Block {
   Kind kind;
   std::vector<Query> queries;
   std::vector<std::uint64_t> indices;
-  std::vector<Claim> claims;
+  std::vector<judge::Label> labels;
 
   /// Asks for the answers to `count` of them from number `first` on.
   [[nodiscard]] solvers::SolveRequest request(std::size_t first, std::size_t count,
@@ -59,6 +53,11 @@ class Passes {
  public:
   /// Parts of a pass begin at multiples of this.
   static constexpr std::size_t unit = 16;
+
+  /// The number of units that queries fill, the last one maybe in part.
+  [[nodiscard]] static constexpr std::size_t units(std::size_t queries) {
+    return (queries + unit - 1) / unit;
+  }
 
   /// \param stop May be null. Once true, no further part of a pass is begun.
   Passes(std::size_t queries, const std::atomic<bool>* stop);

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <limits>
 
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/jobs/statistics.hpp"
 
 namespace touchstone::verify::jobs {
@@ -68,10 +68,10 @@ void TimedSolver::choose_sample(const SampleLimits& limits) {
   for (;;) {
     take(count);
     double growth = possible_growth(limits);
-    if (count == most || is_stopped(limits.stop)) return;
+    if (count == most || base::is_stopped(limits.stop)) return;
     // The first run of a sample also accesses its memory for the first time.
     if (growth < 2.0) growth = possible_growth(limits);
-    if (growth < 2.0 || is_stopped(limits.stop)) return;
+    if (growth < 2.0 || base::is_stopped(limits.stop)) return;
     count = std::min(count * std::bit_floor(static_cast<std::size_t>(growth)), most);
   }
 }
@@ -114,7 +114,7 @@ std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, 
   const WallClock::time_point start = WallClock::now();
   for (int sweep = 0; sweep < sweeps && nanoseconds_since(start) <= 1e9 * seconds; ++sweep) {
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      if (is_stopped(stop)) return std::nullopt;
+      if (base::is_stopped(stop)) return std::nullopt;
       const solvers::SolveRequest request{.kind = samples_->group().kind(),
                                           .queries = queries().subspan(chosen[i], 1),
                                           .separation = separation_};
@@ -133,17 +133,15 @@ std::optional<std::vector<double>> TimedSolver::time_singles(std::size_t count, 
 judge::Judgement TimedSolver::judge(std::span<const judge::GroundTruth> truths) const {
   judge::Judgement judgement;
   const std::vector<std::size_t>& places = positions();
-  auto failure = reply_.failures.begin();
   std::size_t i = 0;
   for (const judge::GroundTruth& truth : truths) {
     while (i < places.size() && places[i] < truth.index) ++i;
     if (i == places.size()) break;
     if (places[i] != truth.index) continue;
-    while (failure != reply_.failures.end() && failure->position < i) ++failure;
-    const bool has_failed = failure != reply_.failures.end() && failure->position == i;
-    judgement.add(truth, answers_[i], has_failed ? &failure->failure : nullptr);
+    judgement.add({samples_->group().kind(), queries()[i], separation_}, truth, answers_[i],
+                  solver_->standard(), judge::failure_at(reply_.failures, i));
   }
-  judgement.add_unplaced_crashes(unplaced_crashes_);
+  judgement.unplaced_crashes = unplaced_crashes_;
   return judgement;
 }
 

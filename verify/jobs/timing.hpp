@@ -24,9 +24,9 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/base/thread_clock.hpp"
 #include "verify/data/query_group.hpp"
-#include "verify/jobs/thread_clock.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::jobs {
@@ -142,9 +142,9 @@ class TimedSolver {
 /// Processor time of the work in this thread in nanoseconds, as the mean of so many calls.
 template <class Work>
 [[nodiscard]] double time_of(std::size_t calls, const Work& work) {
-  const double start = thread_nanoseconds();
+  const double start = base::thread_nanoseconds();
   for (std::size_t i = 0; i < calls; ++i) work();
-  return (thread_nanoseconds() - start) / static_cast<double>(calls);
+  return (base::thread_nanoseconds() - start) / static_cast<double>(calls);
 }
 
 /// The order of measurements in a repetition: a rotation of 0, …, `items`−1, so that no item always runs

@@ -5,7 +5,7 @@
 
 #include <chrono>
 
-#include "verify/jobs/thread_clock.hpp"
+#include "verify/base/thread_clock.hpp"
 
 namespace touchstone::verify::jobs {
 
@@ -26,9 +26,9 @@ struct WorkTime {
 template <class Work>
 [[nodiscard]] WorkTime work_time_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
-  const double processor_start = process_seconds();
+  const double processor_start = base::process_seconds();
   work();
-  const double processor = process_seconds() - processor_start;
+  const double processor = base::process_seconds() - processor_start;
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   return {.wall = wall.count(), .processor = processor};
 }

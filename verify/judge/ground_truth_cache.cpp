@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "verify/jobs/cores.hpp"
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/cores.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/judge/ground_truth.hpp"
 #include "verify/judge/separation_inference.hpp"
 
@@ -22,7 +22,7 @@ constexpr std::size_t step = 4096;
 }  // namespace
 
 GroundTruthCache::GroundTruthCache(const data::QueryGroup& group, unsigned threads)
-    : group_(group), threads_(jobs::cores_for(threads)) {}
+    : group_(group), threads_(base::cores_for(threads)) {}
 
 GroundTruthCache::Known& GroundTruthCache::known_at(const Separation& separation) {
   const auto found = std::ranges::find_if(
@@ -42,7 +42,7 @@ void GroundTruthCache::decide(const Separation& separation, std::span<const std:
     arena.execute([&] {
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
         // The hardest take a quarter of a second each.
-        if (jobs::is_stopped(stop)) return;
+        if (base::is_stopped(stop)) return;
         const std::size_t position = positions[first + i];
         const Query& query = group_.queries().at(position);
         found[i] = truth_of(position, exact::decide(group_.kind(), query, separation));

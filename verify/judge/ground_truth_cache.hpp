@@ -13,7 +13,7 @@
 
 #include "exact/query.hpp"
 #include "verify/data/query_group.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 
 namespace touchstone::verify::judge {
 

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "verify/data/dataset_error.hpp"
 #include "verify/data/npy_header.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::mesh {
 namespace {
@@ -61,7 +61,7 @@ std::vector<fs::path> mesh_files_in(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (entry.is_regular_file() && is_mesh_file(entry.path())) files.push_back(entry.path());
   }
-  if (files.empty()) throw data::DatasetError(folder, {}, "no .ply or .obj file in this folder");
+  if (files.empty()) throw io::DatasetError(folder, {}, "no .ply or .obj file in this folder");
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
     const std::string x = a.filename().string(), y = b.filename().string();
     return is_before(x, y) || (!is_before(y, x) && x < y);
@@ -85,7 +85,7 @@ class FileFrames : public Frames {
     if (next_ == 1) return mesh_.vertices;
     Mesh mesh = read_mesh(file);
     if (!same_elements(mesh, mesh_)) {
-      throw data::DatasetError(file, {}, "is not the same mesh as " + files_.front().string());
+      throw io::DatasetError(file, {}, "is not the same mesh as " + files_.front().string());
     }
     return std::move(mesh.vertices);
   }
@@ -109,7 +109,7 @@ using Archive = std::unique_ptr<zip_t, CloseArchive>;
 /// One array of an archive, read front to back.
 class ArchivedArray {
  public:
-  /// \throws data::DatasetError if it is no array of numbers in C order.
+  /// \throws io::DatasetError if it is no array of numbers in C order.
   ArchivedArray(zip_t& archive, fs::path path, std::string name)
       : path_(std::move(path)),
         name_(std::move(name)),
@@ -126,7 +126,7 @@ class ArchivedArray {
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return header_.shape; }
 
   /// The next numbers, of the type that the header names: one of `Stored`.
-  /// \throws data::DatasetError if the type is another, or the array ends before.
+  /// \throws io::DatasetError if the type is another, or the array ends before.
   template <class Number, class... Stored>
   void take(std::span<Number> numbers,
             const std::array<std::string_view, sizeof...(Stored)>& names) {
@@ -134,12 +134,12 @@ class ArchivedArray {
     const bool found =
         ((header_.descr == names[i++] && (take_stored<Stored>(numbers), true)) || ...);
     if (!found) {
-      fail(fmt::format("dtype {}, expected {}", data::quote(header_.descr),
-                       fmt::join(names, " or ")));
+      fail(
+          fmt::format("dtype {}, expected {}", io::quote(header_.descr), fmt::join(names, " or ")));
     }
   }
 
-  /// \throws data::DatasetError unless the shape has so many extents, the last ones as given.
+  /// \throws io::DatasetError unless the shape has so many extents, the last ones as given.
   void require_shape(std::size_t extents, std::span<const std::uint64_t> last,
                      std::string_view expected) const {
     const std::vector<std::uint64_t>& shape = header_.shape;
@@ -152,7 +152,7 @@ class ArchivedArray {
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
-    throw data::DatasetError(path_, {}, name_ + ": " + reason);
+    throw io::DatasetError(path_, {}, name_ + ": " + reason);
   }
 
  private:
@@ -189,8 +189,7 @@ class ArchivedArray {
 class ArchivedFrames : public Frames {
  public:
   explicit ArchivedFrames(fs::path path) : path_(std::move(path)), archive_(open(path_)) {
-    if (!has("V"))
-      throw data::DatasetError(path_, {}, "no array V of positions, of shape (T, n, 3)");
+    if (!has("V")) throw io::DatasetError(path_, {}, "no array V of positions, of shape (T, n, 3)");
     vertices_.emplace(*archive_, path_, "V");
     constexpr std::array<std::uint64_t, 1> axes{3};
     vertices_->require_shape(3, axes, "(T, n, 3)");
@@ -220,7 +219,7 @@ class ArchivedFrames : public Frames {
     zip_error_init_with_code(&reason, error);
     const std::string text = zip_error_strerror(&reason);
     zip_error_fini(&reason);
-    throw data::DatasetError(path, {}, "cannot open: " + text);
+    throw io::DatasetError(path, {}, "cannot open: " + text);
   }
 
   [[nodiscard]] bool has(const std::string& name) const {
@@ -283,7 +282,7 @@ std::vector<fs::path> frame_files(std::span<const fs::path> paths) {
   if (paths.size() == 1 && is_folder(paths.front())) return mesh_files_in(paths.front());
   for (const fs::path& path : paths) {
     if (paths.size() > 1 && (path.extension() == ".npz" || is_folder(path))) {
-      throw data::DatasetError(path, {}, "pass either one archive, one folder, or a list of files");
+      throw io::DatasetError(path, {}, "pass either one archive, one folder, or a list of files");
     }
   }
   return {paths.begin(), paths.end()};

@@ -36,16 +36,16 @@ class Frames {
   /// What a user calls frame `i`: its file's name without a folder, or its number.
   [[nodiscard]] virtual std::string name(std::size_t i) const = 0;
   /// The vertices of the next frame, the first one first. \pre it was called less than count() times.
-  /// \throws data::DatasetError if it cannot be read, or its mesh is another.
+  /// \throws io::DatasetError if it cannot be read, or its mesh is another.
   [[nodiscard]] virtual Vertices next() = 0;
 };
 
 /// The files that hold the frames: those of the folder where one is named.
-/// \throws data::DatasetError if a folder has no mesh, or a folder or an archive is not named alone.
+/// \throws io::DatasetError if a folder has no mesh, or a folder or an archive is not named alone.
 [[nodiscard]] std::vector<std::filesystem::path> frame_files(
     std::span<const std::filesystem::path> paths);
 
-/// Opens mesh files, or one archive: the result of frame_files. \throws data::DatasetError naming what
+/// Opens mesh files, or one archive: the result of frame_files. \throws io::DatasetError naming what
 /// is in error.
 [[nodiscard]] std::unique_ptr<Frames> open_frames(std::vector<std::filesystem::path> files);
 

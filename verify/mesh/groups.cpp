@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 
 namespace touchstone::verify::mesh {
@@ -21,10 +21,10 @@ std::int32_t number_of(const Groups& groups, const std::string& name) {
   std::string names;
   for (const std::string& known :
        std::span(groups.names).first(std::min(most_named, groups.names.size()))) {
-    if (!known.empty()) names += (names.empty() ? "" : ", ") + data::quote(known);
+    if (!known.empty()) names += (names.empty() ? "" : ", ") + io::quote(known);
   }
   if (groups.names.size() > most_named) names += ", …";
-  throw std::invalid_argument(fmt::format("no group {}; there are: {}", data::quote(name), names));
+  throw std::invalid_argument(fmt::format("no group {}; there are: {}", io::quote(name), names));
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ Groups read_groups(const std::filesystem::path& path, std::size_t vertices) {
   io::LineReader lines(path);
   while (const auto line = lines.next()) {
     const auto fail = [&](const std::string& reason) {
-      throw data::DatasetError(path, {.line = line->number}, reason);
+      throw io::DatasetError(path, {.line = line->number}, reason);
     };
     if (line->too_long) fail("line too long");
     if (groups.of_vertex.size() == vertices) {
@@ -49,10 +49,10 @@ Groups read_groups(const std::filesystem::path& path, std::size_t vertices) {
     groups.of_vertex.push_back(found->second);
   }
   if (groups.of_vertex.size() < vertices) {
-    throw data::DatasetError(path, {},
-                             fmt::format("{} lines, but the mesh has {} vertices: a group's name "
-                                         "for each, a line each",
-                                         groups.of_vertex.size(), vertices));
+    throw io::DatasetError(path, {},
+                           fmt::format("{} lines, but the mesh has {} vertices: a group's name "
+                                       "for each, a line each",
+                                       groups.of_vertex.size(), vertices));
   }
   return groups;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "fast/broad_phase.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/mesh/obj.hpp"
 #include "verify/mesh/ply.hpp"
 
@@ -70,7 +70,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
   if (extension == ".ply") return read_ply(path);
   if (extension == ".obj") return read_obj(path);
-  throw data::DatasetError(path, {}, "unknown format: only .ply and .obj are meshes");
+  throw io::DatasetError(path, {}, "unknown format: only .ply and .obj are meshes");
 }
 
 }  // namespace touchstone::verify::mesh

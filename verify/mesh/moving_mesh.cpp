@@ -1,7 +1,7 @@
 #include "verify/mesh/moving_mesh.hpp"
 
 #include "fast/broad_phase.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/mesh/mesh.hpp"
 
 namespace touchstone::verify::mesh {
@@ -10,7 +10,7 @@ MovingMesh read_step(const std::filesystem::path& before, const std::filesystem:
   Mesh start = read_mesh(before);
   const Mesh end = read_mesh(after);
   if (!same_elements(start, end)) {
-    throw data::DatasetError(after, {}, "is not the same mesh as " + before.string());
+    throw io::DatasetError(after, {}, "is not the same mesh as " + before.string());
   }
   return {.name = before.stem().string() + "-" + after.stem().string(),
           .vertices = fast::MovingVertices(start.vertices, end.vertices),

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/mesh/words.hpp"
 
@@ -32,8 +32,8 @@ class ObjReader {
       read_line(line->text.substr(0, line->text.find('#')));
     }
     if (vertices_.empty()) {
-      throw data::DatasetError(path_, {},
-                               "no vertex (a line \"v x y z\"): an empty mesh, or not an OBJ file");
+      throw io::DatasetError(path_, {},
+                             "no vertex (a line \"v x y z\"): an empty mesh, or not an OBJ file");
     }
     require_vertices(faces_, face_places_);
     require_vertices(edges_, edge_places_);
@@ -66,7 +66,7 @@ class ObjReader {
       const std::string_view word = take_word(line);
       if (word.empty()) fail("a vertex must have three coordinates");
       const auto value = parse_number<double>(word);
-      if (!value) fail(data::quote(word) + " is no number, or none that a double holds");
+      if (!value) fail(io::quote(word) + " is no number, or none that a double holds");
       if (!std::isfinite(*value)) fail("a coordinate must be finite");
       coordinate = *value;
     }
@@ -118,11 +118,11 @@ class ObjReader {
         if (group == no_group) group = places[i].group;
         if (group == places[i].group || !groups.error.empty()) continue;
         groups.error =
-            data::DatasetError(
+            io::DatasetError(
                 path_, {.line = places[i].line},
                 "vertex " + std::to_string(std::int64_t{vertex} + 1) + " is in two groups, " +
-                    data::quote(group_names_[static_cast<std::size_t>(group)]) + " and " +
-                    data::quote(group_names_[static_cast<std::size_t>(places[i].group)]))
+                    io::quote(group_names_[static_cast<std::size_t>(group)]) + " and " +
+                    io::quote(group_names_[static_cast<std::size_t>(places[i].group)]))
                 .what();
       }
     }
@@ -161,11 +161,11 @@ class ObjReader {
   /// The vertex's index, counted from 0; not below 0.
   [[nodiscard]] std::int32_t read_corner(std::string_view word) const {
     const auto number = parse_number<std::int32_t>(word.substr(0, word.find('/')));
-    if (!number) fail(data::quote(word) + " is no corner");
+    if (!number) fail(io::quote(word) + " is no corner");
     if (*number > 0) return *number - 1;
     const auto index = static_cast<std::int64_t>(vertices_.size()) + *number;
     if (*number == 0 || index < 0) {
-      fail("corner " + data::quote(word) + ", but there are " + std::to_string(vertices_.size()) +
+      fail("corner " + io::quote(word) + ", but there are " + std::to_string(vertices_.size()) +
            " vertices before it, counted from 1");
     }
     return static_cast<std::int32_t>(index);
@@ -183,7 +183,7 @@ class ObjReader {
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
-    throw data::DatasetError(path_, {.line = line_}, reason);
+    throw io::DatasetError(path_, {.line = line_}, reason);
   }
 
   std::filesystem::path path_;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "exact/query.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/output_file.hpp"
 #include "verify/mesh/words.hpp"
@@ -143,8 +143,8 @@ class Input {
     if (!element_.empty()) place = std::string(element_) + " " + std::to_string(number_);
     if (binary_)
       place += (place.empty() ? "" : " at ") + ("byte " + std::to_string(element_offset_));
-    throw data::DatasetError(file_.path(), {.line = binary_ ? 0 : line_number_},
-                             place.empty() ? reason : place + ": " + reason);
+    throw io::DatasetError(file_.path(), {.line = binary_ ? 0 : line_number_},
+                           place.empty() ? reason : place + ": " + reason);
   }
   [[noreturn]] void fail_at_end() const { fail("the file ends early"); }
 
@@ -238,7 +238,7 @@ class HeaderReader {
   }
 
   [[noreturn]] void fail_at(std::string_view text) const {
-    input_.fail("malformed header at " + data::quote(text));
+    input_.fail("malformed header at " + io::quote(text));
   }
 
   Input& input_;
@@ -267,7 +267,7 @@ class TextValues {
       if (!parsed) return std::nullopt;
       return static_cast<double>(*parsed);
     });
-    if (!value) input_.fail(data::quote(word_) + " is no number of the property's type");
+    if (!value) input_.fail(io::quote(word_) + " is no number of the property's type");
     word_ = take_word(rest_);
     return *value;
   }

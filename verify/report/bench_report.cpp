@@ -76,9 +76,15 @@ void append_group(std::string& text, const jobs::BenchResult& group) {
                       judged_all ? "" : fmt::format(" among {} judged", group.judged),
                       io::number_text(group.memory_pass.median(), "{:.2f}"),
                       group.interrupted ? " (interrupted)" : "");
-  io::TextTable table(columns_of_group());
+  const bool shows_tolerances =
+      std::ranges::any_of(group.solvers, claims_too_much, &jobs::SolverResult::judgement);
+  std::vector<io::TextColumn> columns = columns_of_group();
+  if (shows_tolerances) columns.push_back(tolerance_column());
+  io::TextTable table(columns);
   for (const jobs::SolverResult& solver : group.solvers) {
-    table.add(row_of(solver, group));
+    io::TextRow row = row_of(solver, group);
+    if (shows_tolerances) row.push_back(tolerance_cell(solver.judgement));
+    table.add(row);
     const std::string stages = stages_text(solver);
     if (!stages.empty()) table.add_line(stages);
   }

@@ -36,8 +36,8 @@ io::TextRow row_of(const jobs::CertifyResult& result) {
           io::number_text(result.microseconds_per_query(), "{:.2f}")};
 }
 
-std::string_view name_of(jobs::Mismatch::Of of) {
-  return of == jobs::Mismatch::Of::label ? "label" : "toi";
+std::string_view name_of(judge::Mismatch::Of of) {
+  return of == judge::Mismatch::Of::label ? "label" : "toi";
 }
 
 bool has_separation(const std::vector<jobs::CertifyResult>& results) {
@@ -110,7 +110,7 @@ io::TextRow method_row(const std::string& name, std::string_view kind,
                                {io::number_text(time, "{:.1f}")},
                                toi_error_cells(judged.toi_errors)});
   if (tolerances == Tolerances::shown) {
-    row.push_back(std::to_string(judged.count(judge::Fault::beyond_tolerance)));
+    row.push_back(tolerance_cell(judged));
   }
   return row;
 }
@@ -129,21 +129,18 @@ std::string wrong_answers_of(const jobs::CertifyResult& result, const jobs::Meth
 /// Number of missing answers, by kind, unless the solver itself was undecided.
 std::string failures_text(const jobs::MethodResult& method) {
   const judge::Judgement& judged = method.judgement;
-  const auto is_other = [&](solvers::FailureKind kind) {
-    return kind != solvers::FailureKind::undecided && judged.count(kind) != 0;
+  const auto is_other = [&](judge::Fault kind) {
+    return kind != judge::Fault::undecided && judged.count(kind) != 0;
   };
-  if (std::ranges::none_of(solvers::all_failure_kinds, is_other)) return {};
-  return fmt::format("no answer: {}: {}\n", method.name, to_text(judged.failures));
-}
-
-bool claims_too_much(const jobs::MethodResult& method) {
-  return method.judgement.count(judge::Fault::beyond_tolerance) != 0;
+  if (std::ranges::none_of(judge::all_failures, is_other)) return {};
+  return fmt::format("no answer: {}: {}\n", method.name, to_text(judged.faults));
 }
 
 std::string methods_text(std::size_t width, const std::vector<jobs::CertifyResult>& results,
                          const jobs::CertifyResult& sum) {
   const bool shows_tolerances =
-      has_separation(results) || std::ranges::any_of(sum.methods, claims_too_much);
+      has_separation(results) ||
+      std::ranges::any_of(sum.methods, claims_too_much, &jobs::MethodResult::judgement);
   const Tolerances tolerances = shows_tolerances ? Tolerances::shown : Tolerances::hidden;
   for (const jobs::MethodResult& method : sum.methods) {
     width = std::max(width, io::printable(method.name).size());
@@ -153,7 +150,7 @@ std::string methods_text(std::size_t width, const std::vector<jobs::CertifyResul
        fault_columns(),
        {{"ns/query", 10}},
        toi_error_columns()});
-  if (shows_tolerances) columns.push_back({"beyond tol", 10});
+  if (shows_tolerances) columns.push_back(tolerance_column());
   io::TextTable table(columns);
   std::string wrong_answers;
   for (std::size_t i = 0; i < sum.methods.size(); ++i) {
@@ -180,9 +177,8 @@ nlohmann::json counts(const jobs::MethodResult& method) {
   json.update({{"name", method.name},
                {"promise", solvers::to_string(method.promise)},
                {"queries", judged.queries},
-               {"failures", to_json(judged.failures)},
+               {"failures", to_json(judged.faults)},
                {"unplaced_crashes", judged.unplaced_crashes},
-               {"beyond_tolerance", judged.count(judge::Fault::beyond_tolerance)},
                {"missing", judged.missing},
                {"ns_per_query", io::number_to_json(time)}});
   return json;
@@ -226,7 +222,7 @@ std::string to_text(const std::vector<jobs::CertifyResult>& results) {
   std::string text = separations_text(results) + table.text();
   text += reading_text(sum.skipped, sum.rounded);
   for (const jobs::CertifyResult& result : results) {
-    for (const jobs::Mismatch& mismatch : result.mismatches) {
+    for (const judge::Mismatch& mismatch : result.mismatches) {
       text += fmt::format("mismatch: {}: {} query {}: recorded {} {}, truth {}\n",
                           io::printable(result.name), kind_text(result), mismatch.index,
                           name_of(mismatch.of), mismatch.recorded, mismatch.truth);
@@ -258,7 +254,7 @@ nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {
     if (result.error) file["error"] = *result.error;
     json["files"].push_back(std::move(file));
     append_wrong_answers(json["methods"], result);
-    for (const jobs::Mismatch& mismatch : result.mismatches) {
+    for (const judge::Mismatch& mismatch : result.mismatches) {
       json["mismatches"].push_back({{"file", result.name},
                                     {"index", mismatch.index},
                                     {"kind", kind_text(result)},

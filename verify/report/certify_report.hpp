@@ -32,7 +32,7 @@ namespace touchstone::verify::report {
 ///
 /// `methods`, in the total and in each file, is a list of `name`, `promise` (what it was held to:
 /// "none", "conservative", "exact"), `queries`, the fields of a judgement (judgement_report.hpp),
-/// `missing`, `failures` (an object of the number of queries without an answer by FailureKind),
+/// `missing`, `failures` (an object of the number of queries without an answer by the name of the failure),
 /// `unplaced_crashes` (errors at no particular query), `beyond_tolerance` and `ns_per_query` (null where
 /// no time was taken). In the total each has `wrong_answers`, a list of `file`, `index`, `kind`, `fault`,
 /// `answer` and `truth`, of each source and fault the first Judgement::most_kept.

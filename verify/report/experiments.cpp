@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "fast/certified.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
-#include "verify/jobs/deadline.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
 #include "verify/report/measure.hpp"
 #include "verify/report/stability_report.hpp"
@@ -168,7 +168,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return jobs::is_stopped(options_.stop); }
+  [[nodiscard]] bool stopped() const { return base::is_stopped(options_.stop); }
 
   void tell(double fraction) const {
     if (options_.on_progress) options_.on_progress(fraction);

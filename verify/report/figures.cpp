@@ -3,21 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string_view>
 #include <utility>
 
 #include "fast/certified.hpp"
-#include "verify/io/csv.hpp"
-#include "verify/io/json.hpp"
+#include "verify/report/stability_figures.hpp"
+#include "verify/report/tables.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::report {
@@ -66,7 +63,8 @@ class Builder {
     add_checks();
     add_filters();
     add_stages();
-    add_stability();
+    std::ranges::move(stability_figures(measurements_.stability, slots_),
+                      std::back_inserter(figures_));
     return std::move(figures_);
   }
 
@@ -214,12 +212,7 @@ class Builder {
 
   FigureSeries& series_of(FigurePanel& panel, const std::string& method, const std::string& role,
                           const std::string& name = {}) {
-    const std::string& shown = name.empty() ? method : name;
-    const auto is_it = [&](const FigureSeries& s) { return s.name == shown && s.role == role; };
-    const auto found = std::ranges::find_if(panel.series, is_it);
-    if (found != panel.series.end()) return *found;
-    return panel.series.emplace_back(
-        FigureSeries{.name = shown, .role = role, .slot = slot_of(method), .points = {}});
+    return report::series_of(panel, name.empty() ? method : name, role, slot_of(method));
   }
 
   // ---- Running times ----------------------------------------------------------------------------
@@ -402,7 +395,7 @@ class Builder {
   void add_filters() {
     Figure figure{.id = "filter_misses",
                   .title = "What Tight-Inclusion misses with each filter, over the scale",
-                  .description = std::string(released_filter_sentence()),
+                  .description = std::string(filter_sentence()),
                   .x_label = "greatest coordinate",
                   .y_label = "contacts missed, of all",
                   .y_log = false,
@@ -415,7 +408,7 @@ class Builder {
          [](const Measurement& m) { return m.scale ? false_negative_rate(m) : nan; }, no_suffix});
   }
 
-  // ---- Stages and stability ---------------------------------------------------------------------
+  // ---- Stages -----------------------------------------------------------------------------------
 
   void add_stages() {
     Figure figure{.id = "stages",
@@ -450,240 +443,15 @@ class Builder {
     add(std::move(figure));
   }
 
-  /// The text in a cell: nothing where nothing is wrong, else a letter for the worst fault.
-  /// The worst kind, and "!" where there are errors or hangs besides.
-  static std::string mark_text(const StabilityMark& mark) {
-    const bool fails = mark.hangs != 0 || (mark.errors != 0 && mark.worst != "error");
-    return worst_text(mark) + (fails ? "!" : "");
-  }
-
-  static std::string worst_text(const StabilityMark& mark) {
-    if (mark.worst.empty()) return {};
-    if (mark.worst == "false negative") return "N";
-    if (mark.worst == "false positive") return "P";
-    if (mark.worst == "error") return "E";
-    return mark.worst == "beyond tolerance" ? "B" : "T";
-  }
-
-  static std::string row_of(const StabilityMark& mark) {
-    return mark.kind == Kind::vertex_face ? "vf" : "ee";
-  }
-
-  /// Appends ", 3 false negatives" if there are some.
-  static void append_count(std::string& text, std::uint64_t count, std::string_view what) {
-    if (count != 0) text += fmt::format(", {} {}", count, what);
-  }
-
-  /// All there is to say of a cell.
-  static std::string tip_of(const StabilityMark& mark) {
-    std::string text = fmt::format("{} queries, {} collisions", mark.queries, mark.collisions);
-    append_count(text, mark.false_negatives, "false negatives");
-    append_count(text, mark.false_positives, "false positives");
-    append_count(text, mark.late_tois, "late times of impact");
-    append_count(text, mark.early_upper_tois, "early upper times of impact");
-    append_count(text, mark.beyond_tolerance, "beyond the tolerance");
-    append_count(text, mark.errors, "errors");
-    append_count(text, mark.undecided, "undecided");
-    append_count(text, mark.hangs, "of them hangs");
-    if (mark.toi_error) {
-      text += fmt::format("\nerror of the time of impact: median {}, greatest {}",
-                          short_number(mark.toi_error->median), short_number(mark.toi_error->max));
-    }
-    if (!std::isnan(mark.nanoseconds)) text += fmt::format("\n{:.0f} ns a query", mark.nanoseconds);
-    if (!std::isnan(mark.checks)) text += fmt::format("\n{:.1f} checks a query", mark.checks);
-    return text;
-  }
-
-  /// The panel of a mark's hardness, made where there is none.
-  static FigurePanel& panel_of(Figure& figure, const StabilityMark& mark) {
-    const auto found = std::ranges::find(figure.panels, mark.hardness, &FigurePanel::title);
-    if (found != figure.panels.end()) return *found;
-    return figure.panels.emplace_back(FigurePanel{.title = mark.hardness,
-                                                  .caption = mark.measure,
-                                                  .powers = mark.is_power,
-                                                  .series = {},
-                                                  .front = {}});
-  }
-
-  /// With the rows of a method side by side.
-  void add_grid(Figure figure) {
-    for (FigurePanel& panel : figure.panels) {
-      std::ranges::stable_sort(panel.series, {}, &FigureSeries::slot);
-    }
-    add(std::move(figure));
-  }
-
-  void add_stability() {
-    Figure figure{
-        .id = "stability",
-        .title = "Stability: what goes wrong as queries get harder",
-        .description =
-            "A cell a level of hardness: the worst that happens at it, and how often, in percent. "
-            "N: "
-            "false negatives, of the collisions. T: the time of impact excludes the true "
-            "one, of the collisions. E: errors. B: a yes beyond its tolerance, of the misses. "
-            "Shades: false positives, of the misses, the deeper the more. Pale and empty: every "
-            "answer "
-            "is right. !: errors or hangs besides. vf: vertex-face. ee: edge-edge.",
-        .form = FigureForm::marks,
-        .x_label = "level",
-        .y_label = {},
-        .x_log = false,
-        .y_log = false,
-        .panels = {},
-        .data = {{},
-                 {"hardness", "measure", "level", "kind", "method", "queries", "collisions",
-                  "false_positives", "false_negatives", "late_tois", "early_upper_tois",
-                  "beyond_tolerance", "errors", "hangs", "undecided", "worst", "worst_rate",
-                  "ns_per_query"},
-                 {}}};
-    for (const StabilityMark& mark : measurements_.stability) {
-      series_of(panel_of(figure, mark), mark.method, row_of(mark))
-          .points.push_back({static_cast<double>(mark.exponent), mark.worst_rate, mark_text(mark),
-                             mark.worst == "false negative", tip_of(mark)});
-      figure.data.rows.push_back(
-          {mark.hardness, mark.measure, fmt::format("{}", mark.exponent),
-           std::string(to_string(mark.kind)), mark.method, fmt::format("{}", mark.queries),
-           fmt::format("{}", mark.collisions), fmt::format("{}", mark.false_positives),
-           fmt::format("{}", mark.false_negatives), fmt::format("{}", mark.late_tois),
-           fmt::format("{}", mark.early_upper_tois), fmt::format("{}", mark.beyond_tolerance),
-           fmt::format("{}", mark.errors), fmt::format("{}", mark.hangs),
-           fmt::format("{}", mark.undecided), mark.worst, fmt::format("{}", mark.worst_rate),
-           io::csv_number(mark.nanoseconds)});
-    }
-    add_grid(std::move(figure));
-    add_stability_of("stability_toi_median", "Stability: the median error of the time of impact",
-                     "error of the time of impact, median", [](const StabilityMark& mark) {
-                       return mark.toi_error ? mark.toi_error->median : nan;
-                     });
-    add_stability_of("stability_toi_max", "Stability: the greatest error of the time of impact",
-                     "error of the time of impact, greatest", [](const StabilityMark& mark) {
-                       return mark.toi_error ? mark.toi_error->max : nan;
-                     });
-    add_stability_of("stability_time", "Stability: the time a query", "time a query, ns",
-                     [](const StabilityMark& mark) { return mark.nanoseconds; });
-    add_stability_of("stability_checks", "Stability: the checks a query", "checks a query",
-                     [](const StabilityMark& mark) { return mark.checks; });
-  }
-
-  /// A number of each cell, of the methods that give it.
-  void add_stability_of(const std::string& id, const std::string& title, const std::string& y_label,
-                        double (*value)(const StabilityMark&)) {
-    Figure figure{.id = id,
-                  .title = title,
-                  .description =
-                      "A cell a level of hardness, the deeper the greater the number. "
-                      "Framed: not known. vf: vertex-face. ee: edge-edge.",
-                  .form = FigureForm::shades,
-                  .x_label = "level",
-                  .y_label = y_label,
-                  .x_log = false,
-                  .panels = {},
-                  .data = {{}, {"hardness", "measure", "level", "kind", "method", id}, {}}};
-    std::set<std::string> giving;
-    for (const StabilityMark& mark : measurements_.stability) {
-      if (!std::isnan(value(mark))) giving.insert(mark.method);
-    }
-    for (const StabilityMark& mark : measurements_.stability) {
-      if (!giving.contains(mark.method)) continue;
-      const double number = value(mark);
-      series_of(panel_of(figure, mark), mark.method, row_of(mark))
-          .points.push_back({static_cast<double>(mark.exponent), number, {}, false});
-      figure.data.rows.push_back({mark.hardness, mark.measure, fmt::format("{}", mark.exponent),
-                                  std::string(to_string(mark.kind)), mark.method,
-                                  io::csv_number(number)});
-    }
-    add_grid(std::move(figure));
-  }
-
   const Measurements& measurements_;
-  std::map<std::string, int> slots_;
+  MethodSlots slots_;
   std::vector<Figure> figures_;
 };
 
-nlohmann::json json_of(const std::vector<FigurePoint>& points) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const FigurePoint& point : points) {
-    nlohmann::json& json = list.emplace_back(nlohmann::json{{"x", io::number_to_json(point.x)},
-                                                            {"y", io::number_to_json(point.y)},
-                                                            {"label", point.label},
-                                                            {"open", point.open}});
-    if (!point.tip.empty()) json["tip"] = point.tip;
-  }
-  return list;
-}
-
-nlohmann::json json_of(const FigurePanel& panel) {
-  nlohmann::json all = nlohmann::json::array();
-  for (const FigureSeries& series : panel.series) {
-    all.push_back({{"name", series.name},
-                   {"role", series.role},
-                   {"slot", series.slot},
-                   {"points", json_of(series.points)}});
-  }
-  return {{"title", panel.title},
-          {"caption", panel.caption},
-          {"powers", panel.powers},
-          {"series", std::move(all)},
-          {"front", json_of(panel.front)}};
-}
-
 }  // namespace
-
-std::string_view to_string(FigureForm form) {
-  static constexpr std::array<std::string_view, 6> names{"points", "lines", "ridges",
-                                                         "bars",   "marks", "shades"};
-  return names.at(static_cast<std::size_t>(form));
-}
-
-std::vector<std::size_t> pareto_front(std::span<const FigurePoint> points) {
-  const auto beats = [](const FigurePoint& a, const FigurePoint& b) {
-    return a.x <= b.x && a.y <= b.y && (a.x < b.x || a.y < b.y);
-  };
-  std::vector<std::size_t> front;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto beats_it = [&](const FigurePoint& other) { return beats(other, points[i]); };
-    if (std::ranges::none_of(points, beats_it)) front.push_back(i);
-  }
-  std::ranges::stable_sort(front, {}, [&](std::size_t i) { return points[i].x; });
-  return front;
-}
-
-std::string_view released_filter_sentence() {
-  return "tight_inclusion_released has the filter and the order of operations that the public "
-         "Tight-Inclusion ships since January 2022: on each axis 30 (vertex-face) or 28 "
-         "(edge-edge) "
-         "times 2^-52 times min(x_max, 1)^3, where the paper has max(x_max, 1)^3. F is linear in "
-         "the "
-         "coordinates, so that this is too small where they are small or large. False negatives "
-         "were "
-         "seen on the public Tight-Inclusion itself (revision ca9a8c2), and on SCCD of 2026, which "
-         "inherits the filter and calls its answers certified. Contacts at t=1 are exact by "
-         "construction: a vertex of one primitive has the very coordinates of a vertex of the "
-         "other.";
-}
 
 std::vector<Figure> figures_of(const Measurements& measurements) {
   return Builder(measurements).figures();
-}
-
-nlohmann::json to_json(const std::vector<Figure>& figures) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Figure& figure : figures) {
-    nlohmann::json panels = nlohmann::json::array();
-    for (const FigurePanel& panel : figure.panels) panels.push_back(json_of(panel));
-    list.push_back({{"id", figure.id},
-                    {"title", figure.title},
-                    {"description", figure.description},
-                    {"form", to_string(figure.form)},
-                    {"x_label", figure.x_label},
-                    {"y_label", figure.y_label},
-                    {"x_log", figure.x_log},
-                    {"x_even", figure.x_even},
-                    {"y_log", figure.y_log},
-                    {"panels", std::move(panels)}});
-  }
-  return list;
 }
 
 }  // namespace touchstone::verify::report

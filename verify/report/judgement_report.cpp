@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "verify/io/printable.hpp"
 
 namespace touchstone::verify::report {
@@ -36,8 +38,18 @@ io::TextRow fault_cells(const judge::Judgement& judgement) {
           std::to_string(judgement.count(judge::Fault::false_positive)),
           std::to_string(judgement.count(judge::Fault::late_toi)),
           std::to_string(judgement.count(judge::Fault::early_toi_upper)),
-          std::to_string(judgement.undecided),
-          std::to_string(judgement.count(judge::Fault::error))};
+          std::to_string(judgement.undecided()),
+          std::to_string(judgement.errors())};
+}
+
+bool claims_too_much(const judge::Judgement& judgement) {
+  return judgement.count(judge::Fault::beyond_tolerance) != 0;
+}
+
+io::TextColumn tolerance_column() { return {"beyond tol", 10}; }
+
+std::string tolerance_cell(const judge::Judgement& judgement) {
+  return std::to_string(judgement.count(judge::Fault::beyond_tolerance));
 }
 
 std::vector<io::TextColumn> toi_error_columns() {
@@ -54,32 +66,34 @@ std::string wrong_answers_text(const NamedJudgement& named,
   const judge::Judgement& judgement = named.judgement;
   const std::string method = io::printable(named.method);
   std::string text;
-  std::array<std::uint64_t, judge::fault_count> printed{};
+  // By text: all errors together.
+  std::map<std::string_view, std::uint64_t> printed;
   for (std::size_t i = 0; i < judgement.wrong_answers.size(); ++i) {
     const judge::WrongAnswer& wrong = judgement.wrong_answers[i];
-    auto& count = printed[static_cast<std::size_t>(wrong.fault)];
+    std::uint64_t& count = printed[judge::to_text(wrong.fault)];
     if (!judge::breaks(wrong.fault, named.promise) || count == most_printed) continue;
     ++count;
     const data::QueryPlace place = place_of(i);
     text += fmt::format("{}: {}: {}: {} query {}: answer {}, truth {}\n",
-                        judge::to_string(wrong.fault), method, io::printable(place.source),
+                        judge::to_text(wrong.fault), method, io::printable(place.source),
                         named.kind, place.index, wrong.answer, wrong.truth);
   }
-  for (std::size_t i = 0; i < judge::fault_count; ++i) {
-    const std::uint64_t all = judgement.faults[i];
-    if (printed[i] != most_printed || all == most_printed) continue;
-    text += fmt::format("{}: {}: {}: and {} more\n", judge::to_string(static_cast<judge::Fault>(i)),
-                        method, io::printable(named.group), all - most_printed);
+  for (const judge::Fault fault : judge::all_faults) {
+    const auto count = printed.extract(judge::to_text(fault));
+    const std::uint64_t all = judgement.total(fault);
+    if (count.empty() || count.mapped() != most_printed || all == most_printed) continue;
+    text += fmt::format("{}: {}: {}: and {} more\n", judge::to_text(fault), method,
+                        io::printable(named.group), all - most_printed);
   }
   return text;
 }
 
 std::string to_text(const FailureCounts& failures) {
   std::string text;
-  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
+  for (const judge::Fault kind : judge::all_failures) {
     const std::uint64_t count = failures[static_cast<std::size_t>(kind)];
     if (count == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, solvers::to_string(kind));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, judge::to_string(kind));
   }
   return text;
 }
@@ -96,22 +110,23 @@ nlohmann::json to_json(const judge::Judgement& judgement) {
           {"false_positives", judgement.count(judge::Fault::false_positive)},
           {"late_toi", judgement.count(judge::Fault::late_toi)},
           {"early_toi_upper", judgement.count(judge::Fault::early_toi_upper)},
-          {"undecided", judgement.undecided},
-          {"errors", judgement.count(judge::Fault::error)},
+          {"beyond_tolerance", judgement.count(judge::Fault::beyond_tolerance)},
+          {"undecided", judgement.undecided()},
+          {"errors", judgement.errors()},
           {"toi_error", to_json(judgement.toi_errors)}};
 }
 
 nlohmann::json to_json(const judge::WrongAnswer& wrong) {
   return {{"index", wrong.index},
-          {"fault", judge::to_string(wrong.fault)},
+          {"fault", judge::to_text(wrong.fault)},
           {"answer", wrong.answer},
           {"truth", wrong.truth}};
 }
 
 nlohmann::json to_json(const FailureCounts& failures) {
   nlohmann::json json = nlohmann::json::object();
-  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
-    json[solvers::to_string(kind)] = failures[static_cast<std::size_t>(kind)];
+  for (const judge::Fault kind : judge::all_failures) {
+    json[judge::to_string(kind)] = failures[static_cast<std::size_t>(kind)];
   }
   return json;
 }

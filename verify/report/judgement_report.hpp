@@ -16,7 +16,7 @@
 #include "fast/method.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/io/text_table.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/report/measurement.hpp"
 
 namespace touchstone::verify::report {
@@ -31,6 +31,13 @@ namespace touchstone::verify::report {
 [[nodiscard]] std::vector<io::TextColumn> fault_columns();
 /// Their cells.
 [[nodiscard]] io::TextRow fault_cells(const judge::Judgement& judgement);
+
+/// Is a yes beyond its tolerance?
+[[nodiscard]] bool claims_too_much(const judge::Judgement& judgement);
+/// The column of these answers, for tables that have one only where it says something.
+[[nodiscard]] io::TextColumn tolerance_column();
+/// Its cell.
+[[nodiscard]] std::string tolerance_cell(const judge::Judgement& judgement);
 
 /// The columns of the errors of times of impact: median, 99th percentile, maximum.
 [[nodiscard]] std::vector<io::TextColumn> toi_error_columns();
@@ -53,7 +60,7 @@ struct NamedJudgement {
 [[nodiscard]] std::string wrong_answers_text(
     const NamedJudgement& named, const std::function<data::QueryPlace(std::size_t)>& place_of);
 
-using FailureCounts = std::array<std::uint64_t, solvers::failure_kinds>;
+using FailureCounts = std::array<std::uint64_t, judge::fault_count>;
 
 /// "1 crash, 2 undecided": how many of each kind; empty if there are none.
 [[nodiscard]] std::string to_text(const FailureCounts& failures);
@@ -65,15 +72,14 @@ using FailureCounts = std::array<std::uint64_t, solvers::failure_kinds>;
 // ---- JSON ---------------------------------------------------------------------------------------
 
 /// `false_negatives`, `false_positives` (undecided answers among them), `late_toi`, `early_toi_upper`,
-/// `undecided`, `errors`, and `toi_error`: null where no time of impact was given, else `count`, `p50`,
+/// `beyond_tolerance`, `undecided`, `errors`, and `toi_error`: null where no time of impact was given, else `count`, `p50`,
 /// `p90`, `p99` and `max` of the distance from toi_lower to the exact time of impact, quantiles to 1.6%.
 [[nodiscard]] nlohmann::json to_json(const judge::Judgement& judgement);
 
-/// `index`, `fault` ("false negative", "false positive", "late toi", "early toi_upper", "error",
-/// "beyond tolerance"), `answer` and `truth`.
+/// `index`, `fault` (its text, verify/judge/fault.hpp), `answer` and `truth`.
 [[nodiscard]] nlohmann::json to_json(const judge::WrongAnswer& wrong);
 
-/// The number of queries without an answer by FailureKind.
+/// The number of queries without an answer by the name of the failure.
 [[nodiscard]] nlohmann::json to_json(const FailureCounts& failures);
 
 }  // namespace touchstone::verify::report

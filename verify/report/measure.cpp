@@ -10,10 +10,10 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 #include "verify/jobs/statistics.hpp"
 #include "verify/jobs/timing.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/report/judgement_report.hpp"
 
 namespace touchstone::verify::report {
@@ -45,15 +45,17 @@ void set_counts(const judge::Judgement& judgement, Measurement& said) {
   said.false_negatives = judgement.count(judge::Fault::false_negative);
   said.late_tois = judgement.count(judge::Fault::late_toi);
   said.early_upper_tois = judgement.count(judge::Fault::early_toi_upper);
-  said.errors = judgement.count(judge::Fault::error);
-  said.undecided = judgement.undecided;
+  said.beyond_tolerance = judgement.count(judge::Fault::beyond_tolerance);
+  said.errors = judgement.errors();
+  said.undecided = judgement.undecided();
   said.keeps_promise = said.promise == fast::Promise::none || judge::keeps(judgement, said.promise);
   said.toi_error = spread_of(judgement.toi_errors);
 }
 
 /// Hands out the wrong answers.
 void tell_wrong(const data::QueryGroup& group, const Measurement& said,
-                const judge::Judgement& judgement, const OnWrong& on_wrong) {
+                const judge::Standard& standard, const judge::Judgement& judgement,
+                const OnWrong& on_wrong) {
   if (!on_wrong) return;
   for (const judge::WrongAnswer& wrong : judgement.wrong_answers) {
     if (!judge::breaks(wrong.fault, said.promise)) continue;
@@ -67,7 +69,7 @@ void tell_wrong(const data::QueryGroup& group, const Measurement& said,
               .answers = {{.solver = said.method,
                            .answer = wrong.given,
                            .failure = wrong.failure,
-                           .promise = said.promise}}});
+                           .standard = standard}}});
   }
 }
 
@@ -120,7 +122,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] bool stopped() const { return jobs::is_stopped(options_.stop); }
+  [[nodiscard]] bool stopped() const { return base::is_stopped(options_.stop); }
 
   void tell(double fraction) const {
     if (options_.on_progress) options_.on_progress(fraction);
@@ -205,7 +207,7 @@ class Run {
     }
     const judge::Judgement judgement = timed.judge(known_of(timed));
     set_counts(judgement, said);
-    tell_wrong(group_, said, judgement, options_.on_wrong);
+    tell_wrong(group_, said, timed.solver().standard(), judgement, options_.on_wrong);
     describe_queries(index, said);
     return said;
   }
@@ -268,14 +270,16 @@ std::optional<Measurement> judge_all(const data::QueryGroup& group, judge::Groun
   method.solve(group.kind(), queries, answers, options);
   Measurement said = of_separation(group, experiment, {.method = &method, .options = options});
   said.asked = queries.size();
+  const judge::Standard standard = judge::standard_of(method.info());
   judge::Judgement judgement;
   for (const judge::GroundTruth& truth : known) {
-    judgement.add(truth, answers[truth.index]);
+    judgement.add({group.kind(), queries[truth.index], options.separation}, truth,
+                  answers[truth.index], standard);
     said.collisions += truth.collides ? 1U : 0U;
     said.at_limit += is_at_limit(answers[truth.index], said.max_checks) ? 1U : 0U;
   }
   set_counts(judgement, said);
-  tell_wrong(group, said, judgement, on_wrong);
+  tell_wrong(group, said, standard, judgement, on_wrong);
   return said;
 }
 
@@ -285,7 +289,7 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
                                           const std::atomic<bool>* stop, const OnWrong& on_wrong) {
   std::vector<std::size_t> positions;
   std::vector<fast::Answer> answers;
-  std::vector<solvers::QueryFailure> failures;
+  std::vector<judge::QueryFailure> failures;
   for (std::size_t i = 0; i < group.queries().size(); ++i) {
     const data::QueryPlace place = group.place_of(i);
     const std::uint64_t index = place.index;
@@ -311,16 +315,15 @@ std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
   said.promise = recorded.promise();
   said.group_queries = group.queries().size();
   said.asked = positions.size();
+  const judge::Standard standard = recorded.standard();
   judge::Judgement judgement;
-  auto failure = failures.begin();
   for (std::size_t i = 0; i < known.size(); ++i) {
-    const bool has_failed = failure != failures.end() && failure->position == i;
-    judgement.add(known[i], answers[i], has_failed ? &failure->failure : nullptr);
-    if (has_failed) ++failure;
+    judgement.add({group.kind(), group.queries()[positions[i]]}, known[i], answers[i], standard,
+                  judge::failure_at(failures, i));
     said.collisions += known[i].collides ? 1U : 0U;
   }
   set_counts(judgement, said);
-  tell_wrong(group, said, judgement, on_wrong);
+  tell_wrong(group, said, standard, judgement, on_wrong);
   return said;
 }
 

@@ -24,7 +24,7 @@
 #include "fast/method.hpp"
 #include "verify/data/query_group.hpp"
 #include "verify/judge/ground_truth_cache.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/report/measurement.hpp"
 #include "verify/solvers/solver.hpp"
 

@@ -89,8 +89,7 @@ Measurements with_printable_texts(Measurements measurements) {
     for (StageShare& share : measurement.stages) clean(share.stage);
   }
   for (StabilityMark& mark : measurements.stability) {
-    for (std::string* text : {&mark.method, &mark.hardness, &mark.measure, &mark.worst})
-      clean(*text);
+    for (std::string* text : {&mark.method, &mark.hardness, &mark.measure}) clean(*text);
   }
   return measurements;
 }

@@ -14,6 +14,7 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
+#include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::report {
 
@@ -87,6 +88,7 @@ struct Measurement {
   std::uint64_t false_negatives = 0;
   std::uint64_t late_tois = 0;         ///< toi_lower above the exact time of impact
   std::uint64_t early_upper_tois = 0;  ///< toi_upper below the exact time of impact
+  std::uint64_t beyond_tolerance = 0;  ///< yes, but never as near as the tolerance claims
   std::uint64_t errors = 0;
   std::uint64_t undecided = 0;
   std::uint64_t at_limit = 0;  ///< queries that took max_checks or more, or were given up
@@ -132,7 +134,7 @@ struct StabilityMark {
   std::uint64_t errors = 0;
   std::uint64_t hangs = 0;  ///< of those undecided
   std::uint64_t undecided = 0;
-  std::string worst = {};                     ///< name of the worst fault; empty if there is none
+  std::optional<judge::Fault> worst = {};     ///< nothing if nothing is wrong
   double worst_rate = 0.0;                    ///< how often, of those that it can happen to
   std::optional<Spread> toi_error = {};       ///< as Measurement::toi_error
   double nanoseconds = Measurement::unknown;  ///< processor time a query

@@ -76,6 +76,7 @@ Json json_of(const Measurement& measurement) {
           {"false_negatives", m.false_negatives},
           {"late_tois", m.late_tois},
           {"early_upper_tois", m.early_upper_tois},
+          {"beyond_tolerance", m.beyond_tolerance},
           {"errors", m.errors},
           {"undecided", m.undecided},
           {"at_limit", m.at_limit},
@@ -118,6 +119,8 @@ void read_faults(const Json& json, Measurement& m) {
   json.at("false_negatives").get_to(m.false_negatives);
   json.at("late_tois").get_to(m.late_tois);
   json.at("early_upper_tois").get_to(m.early_upper_tois);
+  // (Earlier files do not count them.)
+  m.beyond_tolerance = json.value("beyond_tolerance", m.beyond_tolerance);
   json.at("errors").get_to(m.errors);
   json.at("undecided").get_to(m.undecided);
   json.at("at_limit").get_to(m.at_limit);
@@ -158,11 +161,17 @@ Json json_of(const StabilityMark& mark) {
           {"errors", mark.errors},
           {"hangs", mark.hangs},
           {"undecided", mark.undecided},
-          {"worst", mark.worst},
+          {"worst", mark.worst ? judge::to_text(*mark.worst) : ""},
           {"worst_rate", mark.worst_rate},
           {"toi_error", json_of(mark.toi_error)},
           {"ns_per_query", io::number_to_json(mark.nanoseconds)},
           {"checks_per_query", io::number_to_json(mark.checks)}};
+}
+
+std::optional<judge::Fault> worst_from(const std::string& text) {
+  const auto fault = judge::fault_from_text(text);
+  if (!fault && !text.empty()) throw std::invalid_argument("no fault is called " + text);
+  return fault;
 }
 
 StabilityMark mark_from(const Json& json) {
@@ -176,7 +185,7 @@ StabilityMark mark_from(const Json& json) {
   json.at("collisions").get_to(mark.collisions);
   json.at("false_positives").get_to(mark.false_positives);
   json.at("false_negatives").get_to(mark.false_negatives);
-  json.at("worst").get_to(mark.worst);
+  mark.worst = worst_from(json.at("worst").get<std::string>());
   json.at("worst_rate").get_to(mark.worst_rate);
   mark.nanoseconds = io::number_from_json(json.at("ns_per_query"));
   // (Earlier files have no more than that.)

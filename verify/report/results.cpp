@@ -208,7 +208,7 @@ class Writer {
     const std::vector<Table> tables = filter_tables(measurements_);
     if (tables.empty()) return;
     text_ += fmt::format("## What Tight-Inclusion misses with each filter\n\n{}\n\n{}\n",
-                         released_filter_sentence(), plainest_miss);
+                         filter_sentence(), plainest_miss);
     write_subsections(tables);
   }
 

@@ -30,34 +30,22 @@ constexpr std::string_view legend =
     "# both, . none\n";
 
 std::string_view name_of(const stability::Outcome& outcome) {
-  return outcome.worst ? judge::to_string(*outcome.worst) : std::string_view();
+  return outcome.worst ? judge::to_text(*outcome.worst) : std::string_view();
 }
 
 /// A level's cell in one character.
 char character_of(const stability::Outcome& outcome) {
   if (!outcome.worst) return '.';
-  switch (*outcome.worst) {
-    case judge::Fault::false_negative:
-      return 'N';
-    case judge::Fault::late_toi:
-    case judge::Fault::early_toi_upper:
-      return 'T';
-    case judge::Fault::error:
-      return 'E';
-    case judge::Fault::beyond_tolerance:
-      return 'B';
-    default:
-      return static_cast<char>('0' + std::min(9, static_cast<int>(10.0 * outcome.rate)));
-  }
+  if (*outcome.worst != judge::Fault::false_positive) return judge::letter_of(*outcome.worst);
+  return static_cast<char>('0' + std::min(9, static_cast<int>(10.0 * outcome.rate)));
 }
 
 /// Errors and hangs of a level in one character.
 char failures_of(const jobs::CertifyResult& judged, std::size_t method) {
   const judge::Judgement& judgement = judged.methods.at(method).judgement;
-  const bool has_errors = judgement.count(judge::Fault::error) != 0;
-  const bool has_hangs = judgement.count(solvers::FailureKind::hang) != 0;
-  if (has_errors) return has_hangs ? '#' : 'E';
-  return has_hangs ? 'H' : '.';
+  const bool has_hangs = judgement.count(judge::Fault::hang) != 0;
+  if (judgement.errors() != 0) return has_hangs ? '#' : judge::letter_of(judge::Fault::crash);
+  return has_hangs ? judge::letter_of(judge::Fault::hang) : '.';
 }
 
 /// The cells of one hardness and kind.
@@ -124,7 +112,6 @@ nlohmann::json json_of(const stability::StabilityCell& cell, std::size_t method)
                {"kind", to_string(cell.kind)},
                {"queries", judged.queries},
                {"collisions", cell.judged.collisions},
-               {"beyond_tolerance", judged.count(judge::Fault::beyond_tolerance)},
                {"false_negative_rate",
                 stability::rate_of(judge::Fault::false_negative, cell.judged, method)},
                {"false_positive_rate",
@@ -153,10 +140,10 @@ StabilityMark mark_of(const stability::StabilityCell& cell, std::size_t method) 
           .late_tois = judged.count(judge::Fault::late_toi),
           .early_upper_tois = judged.count(judge::Fault::early_toi_upper),
           .beyond_tolerance = judged.count(judge::Fault::beyond_tolerance),
-          .errors = judged.count(judge::Fault::error),
-          .hangs = judged.count(solvers::FailureKind::hang),
-          .undecided = judged.undecided,
-          .worst = std::string(name_of(outcome)),
+          .errors = judged.errors(),
+          .hangs = judged.count(judge::Fault::hang),
+          .undecided = judged.undecided(),
+          .worst = outcome.worst,
           .worst_rate = outcome.rate,
           .toi_error = spread_of(judged.toi_errors),
           .nanoseconds = stability::nanoseconds_per_query(result).value_or(Measurement::unknown),
@@ -184,7 +171,7 @@ std::string to_text(const stability::StabilityResult& result) {
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) text += method_text(result, i);
   text += legend;
   for (const stability::StabilityCell& cell : result.cells) {
-    for (const jobs::Mismatch& mismatch : cell.judged.mismatches) {
+    for (const judge::Mismatch& mismatch : cell.judged.mismatches) {
       text += fmt::format("disagreement: {}: {} query {}: certified solver {}, oracle {}\n",
                           cell.judged.name, to_string(cell.kind), mismatch.index, mismatch.recorded,
                           mismatch.truth);

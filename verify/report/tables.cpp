@@ -260,6 +260,15 @@ std::vector<Table> filter_tables(const Measurements& measurements) {
   return tables;
 }
 
+std::string_view filter_sentence() {
+  return "tight_inclusion_released has min(x_max, 1)^3 in its filter where the paper has "
+         "max(x_max, 1)^3, each times 2^-52 and 30 (vertex-face) or 28 (edge-edge). F is linear in "
+         "the coordinates, so that this is too small where they are small or large. "
+         "docs/methods.md says where this filter is from, docs/benchmarks.md where it was seen to "
+         "miss contacts. Contacts at t=1 are exact by construction: a vertex of one primitive has "
+         "the very coordinates of a vertex of the other.";
+}
+
 std::string short_number(double value) {
   if (std::isnan(value)) return none;
   if (std::abs(value) >= 1000.0 && std::abs(value) < 1e9) return fmt::format("{:.0f}", value);

@@ -40,6 +40,9 @@ struct Table {
 /// of them misses something. A column a method: how many of the collisions. Empty without measurements.
 [[nodiscard]] std::vector<Table> filter_tables(const Measurements& measurements);
 
+/// The difference between the filters, for a reader of these tables.
+[[nodiscard]] std::string_view filter_sentence();
+
 /// "12.3", "0.00456", "12300": three digits, more for whole numbers from 1000; "–" for NaN.
 [[nodiscard]] std::string short_number(double value);
 

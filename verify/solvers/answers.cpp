@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "verify/data/dataset_error.hpp"
 #include "verify/io/csv.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/printable.hpp"
 
@@ -45,31 +45,18 @@ using Fields = std::array<std::string, most_columns>;
 
 }  // namespace
 
-std::string_view to_string(fast::Verdict verdict) {
-  switch (verdict) {
-    case fast::Verdict::no:
-      return "no";
-    case fast::Verdict::yes:
-      return "yes";
-    case fast::Verdict::undecided:
-      return "undecided";
-    case fast::Verdict::error:
-      return "error";
-  }
-  throw std::invalid_argument("no verdict");
-}
-
 std::string answers_header() { return std::string(header) + "\n"; }
 
 std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
-                       const fast::Answer& answer, const Failure* failure) {
-  const std::optional<Failure> why =
-      failure != nullptr ? std::optional(*failure) : failure_of(answer);
+                       const fast::Answer& answer, const judge::Failure* failure) {
+  const std::optional<judge::Failure> why =
+      failure != nullptr ? std::optional(*failure) : judge::failure_of(answer);
   fast::Answer said = answer;
-  if (why && why->kind == FailureKind::not_finite) said = {.verdict = verdict_of(why->kind)};
-  const bool says_all = !why || why->kind == FailureKind::undecided;
+  if (why && why->kind == judge::Fault::not_finite)
+    said = {.verdict = judge::verdict_of(why->kind)};
+  const bool says_all = !why || why->kind == judge::Fault::undecided;
   return io::csv_row({std::string(file), std::to_string(index), std::string(to_string(kind)),
-                      std::string(to_string(said.verdict)), io::csv_number(said.toi_lower),
+                      std::string(judge::to_string(said.verdict)), io::csv_number(said.toi_lower),
                       io::csv_number(said.toi_upper), io::csv_number(said.tolerance),
                       says_all ? std::string() : to_text(*why)});
 }
@@ -101,7 +88,7 @@ class AnswersReader {
 
   [[noreturn]] void fail(Column column, const std::string& reason) const {
     const auto number = static_cast<std::uint64_t>(column);
-    throw data::DatasetError(lines_.path(), {.line = line_number_, .column = number}, reason);
+    throw io::DatasetError(lines_.path(), {.line = line_number_, .column = number}, reason);
   }
 
   /// Splits the next record into fields_; false at the end of the file.
@@ -175,7 +162,7 @@ class AnswersReader {
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) {
-      fail(Column::index, "index must be a whole number from 0 on: " + data::quote(text));
+      fail(Column::index, "index must be a whole number from 0 on: " + io::quote(text));
     }
     return value;
   }
@@ -184,17 +171,16 @@ class AnswersReader {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       if (field(Column::kind) == to_string(kind)) return kind;
     }
-    fail(Column::kind,
-         "kind must be vertex-face or edge-edge: " + data::quote(field(Column::kind)));
+    fail(Column::kind, "kind must be vertex-face or edge-edge: " + io::quote(field(Column::kind)));
   }
 
   [[nodiscard]] fast::Verdict read_verdict() const {
     for (const auto verdict :
          {fast::Verdict::no, fast::Verdict::yes, fast::Verdict::undecided, fast::Verdict::error}) {
-      if (field(Column::verdict) == to_string(verdict)) return verdict;
+      if (field(Column::verdict) == judge::to_string(verdict)) return verdict;
     }
     fail(Column::verdict,
-         "verdict must be yes, no, undecided or error: " + data::quote(field(Column::verdict)));
+         "verdict must be yes, no, undecided or error: " + io::quote(field(Column::verdict)));
   }
 
   /// The number in a field, if it is one: infinities and NaN are.
@@ -212,7 +198,7 @@ class AnswersReader {
     const std::optional<double> value = read_number(column);
     const bool counts = verdict == fast::Verdict::yes;
     if (!value || (counts && !std::isfinite(*value))) {
-      fail(column, "must be a finite double or empty: " + data::quote(field(column)));
+      fail(column, "must be a finite double or empty: " + io::quote(field(column)));
     }
     return counts ? *value : fast::Answer::none;
   }
@@ -222,24 +208,23 @@ class AnswersReader {
     if (field(Column::tolerance).empty()) return fast::Answer::none;
     const std::optional<double> value = read_number(Column::tolerance);
     if (!value || std::isnan(*value)) {
-      fail(Column::tolerance,
-           "must be a double or empty: " + data::quote(field(Column::tolerance)));
+      fail(Column::tolerance, "must be a double or empty: " + io::quote(field(Column::tolerance)));
     }
     if (*value < 0.0) fail(Column::tolerance, "tolerance must not be negative");
     return *value;
   }
 
   /// Nothing where the field is empty or not there.
-  [[nodiscard]] std::optional<FailureKind> read_failure(fast::Verdict verdict) const {
+  [[nodiscard]] std::optional<judge::Fault> read_failure(fast::Verdict verdict) const {
     if (columns_ < most_columns || field(Column::failure).empty()) return std::nullopt;
-    const std::optional<Failure> failure = failure_from_text(field(Column::failure));
+    const std::optional<judge::Failure> failure = judge::failure_from_text(field(Column::failure));
     if (!failure) {
       fail(Column::failure,
-           "must be a kind of failure or empty: " + data::quote(field(Column::failure)));
+           "must be a kind of failure or empty: " + io::quote(field(Column::failure)));
     }
-    if (verdict_of(failure->kind) != verdict) {
+    if (judge::verdict_of(failure->kind) != verdict) {
       fail(Column::failure, fmt::format("a failure of kind {} is no answer {}",
-                                        to_string(failure->kind), to_string(verdict)));
+                                        to_string(failure->kind), judge::to_string(verdict)));
     }
     return failure->kind;
   }
@@ -250,7 +235,7 @@ class AnswersReader {
     line_number_ = std::next(first)->line;
     fail(Column::index,
          fmt::format("{} query {} of {} is answered in line {} already", to_string(key.second),
-                     first->index, data::quote(key.first), first->line));
+                     first->index, io::quote(key.first), first->line));
   }
 
   io::LineReader lines_;

@@ -24,12 +24,9 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/solvers/failure.hpp"
+#include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::solvers {
-
-/// "no", "yes", "undecided" or "error".
-[[nodiscard]] std::string_view to_string(fast::Verdict verdict);
 
 /// The first line of the file, with its line end.
 [[nodiscard]] std::string answers_header();
@@ -38,13 +35,14 @@ namespace touchstone::verify::solvers {
 /// \param failure why there is no answer; null: as the answer shows (failure_of), of which what is not
 /// finite becomes an error and "undecided" is not said twice
 [[nodiscard]] std::string answer_row(std::string_view file, std::uint64_t index, Kind kind,
-                                     const fast::Answer& answer, const Failure* failure = nullptr);
+                                     const fast::Answer& answer,
+                                     const judge::Failure* failure = nullptr);
 
 /// An answer of such a file.
 struct RecordedAnswer {
   fast::Answer answer = {};
   /// Its kind, if one was recorded.
-  std::optional<FailureKind> failure = std::nullopt;
+  std::optional<judge::Fault> failure = std::nullopt;
 };
 
 /// Answers read from such a file. Forty bytes an answer.
@@ -83,7 +81,7 @@ class RecordedAnswers {
     double toi_lower, toi_upper, tolerance;
     std::uint32_t line;
     fast::Verdict verdict;
-    std::optional<FailureKind> failure;
+    std::optional<judge::Fault> failure;
     mutable bool asked;
   };
   static_assert(sizeof(Row) == 40);

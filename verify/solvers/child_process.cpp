@@ -337,9 +337,9 @@ ChildEnd ChildProcess::end(CapturedOutput& output) {
   take_output(output);
   ChildEnd result;
   // Where the system reaps the children of this process, nothing is known.
-  result.failure = {.kind = FailureKind::crash};
+  result.failure = {.kind = judge::Fault::crash};
   if (reaped > 0 && WIFEXITED(status)) {
-    result.failure = {.kind = FailureKind::exit, .number = WEXITSTATUS(status)};
+    result.failure = {.kind = judge::Fault::exit, .number = WEXITSTATUS(status)};
   } else if (reaped > 0) {
     result.failure.number = WTERMSIG(status);
   }

@@ -25,7 +25,7 @@
 #include <optional>
 #include <string>
 
-#include "verify/solvers/failure.hpp"
+#include "verify/judge/fault.hpp"
 
 namespace touchstone::verify::solvers {
 
@@ -72,7 +72,7 @@ struct CapturedOutput {
 /// Outcome of a child process.
 struct ChildEnd {
   /// crash or exit.
-  Failure failure = {};
+  judge::Failure failure = {};
   double processor_seconds = 0.0;  ///< of its whole life
 };
 

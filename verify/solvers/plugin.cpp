@@ -13,10 +13,10 @@
 #include <string_view>
 #include <utility>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/base/deadline.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
-#include "verify/jobs/deadline.hpp"
 #include "verify/plugin.h"
 
 namespace touchstone::verify::solvers {
@@ -48,7 +48,7 @@ std::string loader_reason(const std::string& file) {
 Library open_library(const std::filesystem::path& path) {
   const std::string& file = path.native();
   Library library(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL));
-  if (!library) throw data::DatasetError(path, {}, "cannot load: " + loader_reason(file));
+  if (!library) throw io::DatasetError(path, {}, "cannot load: " + loader_reason(file));
   return library;
 }
 
@@ -56,7 +56,7 @@ template <class Function>
 Function* find_function(const Library& library, const std::filesystem::path& path,
                         const char* name) {
   void* const address = ::dlsym(library.get(), name);
-  if (address == nullptr) throw data::DatasetError(path, {}, std::string("defines no ") + name);
+  if (address == nullptr) throw io::DatasetError(path, {}, std::string("defines no ") + name);
   return reinterpret_cast<Function*>(address);
 }
 
@@ -67,19 +67,19 @@ void check_version(const Library& library, const std::filesystem::path& path) {
   const auto version = find_function<decltype(touchstone_plugin_version)>(
       library, path, "touchstone_plugin_version")();
   if (version >= oldest_version && version <= touchstone_interface_version) return;
-  throw data::DatasetError(path, {},
-                           "made for version " + std::to_string(version) +
-                               " of the plugin interface, this program has version " +
-                               std::to_string(touchstone_interface_version));
+  throw io::DatasetError(path, {},
+                         "made for version " + std::to_string(version) +
+                             " of the plugin interface, this program has version " +
+                             std::to_string(touchstone_interface_version));
 }
 
 std::string read_name(const Library& library, const std::filesystem::path& path) {
   const char* const name =
       find_function<decltype(touchstone_plugin_name)>(library, path, "touchstone_plugin_name")();
-  if (name == nullptr) throw data::DatasetError(path, {}, "has no name");
+  if (name == nullptr) throw io::DatasetError(path, {}, "has no name");
   const std::string_view text = name;
   if (text.empty() || !io::is_printable(text)) {
-    throw data::DatasetError(path, {}, "name is not one line of text: " + data::quote(text));
+    throw io::DatasetError(path, {}, "name is not one line of text: " + io::quote(text));
   }
   return std::string(text);
 }
@@ -178,7 +178,7 @@ void load_and_ask(const std::filesystem::path& path, const ChildChannel& channel
 void describe(const std::filesystem::path& path, const ChildChannel& channel) {
   try {
     load_and_ask(path, channel);
-  } catch (const data::DatasetError& error) {
+  } catch (const io::DatasetError& error) {
     tell(channel, refused, error.reason());
   } catch (const std::exception& error) {
     tell(channel, threw, error.what());
@@ -210,9 +210,9 @@ class Loading {
       if (event == Event::message) {
         if (auto name = read(message)) return std::move(*name);
       }
-      if (jobs::is_stopped(options_.stop)) throw io::Interrupted();
+      if (base::is_stopped(options_.stop)) throw io::Interrupted();
       const ChildProcess::Seconds passed = Clock::now() - start;
-      if (passed.count() > options_.load_seconds) fail({.kind = FailureKind::hang});
+      if (passed.count() > options_.load_seconds) fail({.kind = judge::Fault::hang});
     }
   }
 
@@ -224,14 +224,14 @@ class Loading {
     const auto is_about = [&](std::string_view word) { return message.starts_with(word); };
     const std::string text = message.substr(std::min(message.size(), calls.size()));
     if (is_about(named)) return text;
-    if (is_about(refused)) throw data::DatasetError(path_, {}, text);
-    if (is_about(threw)) fail({.kind = FailureKind::exception, .what = text});
+    if (is_about(refused)) throw io::DatasetError(path_, {}, text);
+    if (is_about(threw)) fail({.kind = judge::Fault::exception, .what = text});
     if (is_about(calls)) at_ = text;
     return std::nullopt;
   }
 
-  [[noreturn]] void fail(const Failure& failure) const {
-    throw data::DatasetError(path_, {}, "cannot load: " + at_ + ": " + to_text(failure));
+  [[noreturn]] void fail(const judge::Failure& failure) const {
+    throw io::DatasetError(path_, {}, "cannot load: " + at_ + ": " + to_text(failure));
   }
 
   const std::filesystem::path& path_;

@@ -34,7 +34,7 @@ struct PluginOptions {
 /// that calls it, where it stays as long as the method lives. It throws what the library throws, and
 /// answers Verdict::error for a verdict that is none. Times of impact with any other verdict than yes
 /// are dropped, and so is a tolerance that is none (negative or NaN); infinite times of impact are
-/// not: failure_of() tells of them.
+/// not: judge::failure_of() tells of them.
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
 /// made for a version of the interface that this program does not know, has no printable name, or
 /// ends its process, throws or takes too long on the way; Interrupted if the options' stop turns true;

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "verify/jobs/thread_clock.hpp"
+#include "verify/base/thread_clock.hpp"
 
 namespace touchstone::verify::solvers {
 namespace {
@@ -31,28 +31,28 @@ fast::MethodOptions with_separation(fast::MethodOptions options, const SolveRequ
 /// The time that work takes in this thread.
 template <class Work>
 SolverTime time_of(const Work& work) {
-  const double start = jobs::thread_nanoseconds();
+  const double start = base::thread_nanoseconds();
   const WallClock::time_point wall_start = WallClock::now();
   work();
   const double seconds = std::chrono::duration<double>(WallClock::now() - wall_start).count();
-  return {.processor_nanoseconds = jobs::thread_nanoseconds() - start, .wall_seconds = seconds};
+  return {.processor_nanoseconds = base::thread_nanoseconds() - start, .wall_seconds = seconds};
 }
 
 // ---- In this process ----------------------------------------------------------------------------
 
 /// Solves one by one; a query where the method throws is in error.
-std::vector<QueryFailure> solve_despite_exceptions(const fast::Method& method,
-                                                   const SolveRequest& request,
-                                                   std::span<fast::Answer> answers,
-                                                   const fast::MethodOptions& options) {
-  std::vector<QueryFailure> failures;
+std::vector<judge::QueryFailure> solve_despite_exceptions(const fast::Method& method,
+                                                          const SolveRequest& request,
+                                                          std::span<fast::Answer> answers,
+                                                          const fast::MethodOptions& options) {
+  std::vector<judge::QueryFailure> failures;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     try {
       method.solve(request.kind, request.queries.subspan(i, 1), answers.subspan(i, 1), options);
     } catch (const std::exception& error) {
       answers[i] = {.verdict = fast::Verdict::error};
       failures.push_back(
-          {.position = i, .failure = {.kind = FailureKind::exception, .what = error.what()}});
+          {.position = i, .failure = {.kind = judge::Fault::exception, .what = error.what()}});
     }
   }
   return failures;
@@ -93,9 +93,9 @@ class InChildren final : public Solver {
     SolveReply reply{.time = SolverTime{}};
     std::unique_ptr<SolverProcess> process = take();
     std::size_t first = 0;
-    for (const QueryFailure& lost : lost_among(request)) {
+    for (const judge::QueryFailure& lost : lost_among(request)) {
       ask(*process, request, answers, first, lost.position, reply);
-      answers[lost.position] = {.verdict = verdict_of(lost.failure.kind)};
+      answers[lost.position] = {.verdict = judge::verdict_of(lost.failure.kind)};
       reply.failures.push_back(lost);
       first = lost.position + 1;
     }
@@ -138,9 +138,9 @@ class InChildren final : public Solver {
     time.wall_seconds += run.wall_seconds;
     reply.unplaced_crashes += run.unplaced_crashes;
     reply.stopped = run.answered < last - first;
-    for (QueryFailure& failure : run.failures) {
+    for (judge::QueryFailure& failure : run.failures) {
       failure.position += first;
-      if (failure.failure.kind != FailureKind::exception) {
+      if (failure.failure.kind != judge::Fault::exception) {
         remember(bits_of(request, failure.position), failure.failure);
       }
       reply.failures.push_back(std::move(failure));
@@ -149,14 +149,14 @@ class InChildren final : public Solver {
 
   // ---- Queries that ended a process or took too long
 
-  void remember(const QueryBits& query, const Failure& failure) const {
+  void remember(const QueryBits& query, const judge::Failure& failure) const {
     const std::scoped_lock lock(mutex_);
     lost_.emplace(query, failure);
   }
 
-  [[nodiscard]] std::vector<QueryFailure> lost_among(const SolveRequest& request) const {
+  [[nodiscard]] std::vector<judge::QueryFailure> lost_among(const SolveRequest& request) const {
     const std::scoped_lock lock(mutex_);
-    std::vector<QueryFailure> found;
+    std::vector<judge::QueryFailure> found;
     for (std::size_t i = 0; i < request.queries.size() && !lost_.empty(); ++i) {
       const auto lost = lost_.find(bits_of(request, i));
       if (lost != lost_.end()) found.push_back({.position = i, .failure = lost->second});
@@ -184,7 +184,7 @@ class InChildren final : public Solver {
   SolverProcessOptions process_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<SolverProcess>> idle_;
-  mutable std::map<QueryBits, Failure> lost_;
+  mutable std::map<QueryBits, judge::Failure> lost_;
 };
 
 // ---- Recorded -----------------------------------------------------------------------------------

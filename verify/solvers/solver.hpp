@@ -17,8 +17,9 @@
 #include "exact/query.hpp"
 #include "fast/certified.hpp"
 #include "fast/method.hpp"
+#include "verify/judge/fault.hpp"
+#include "verify/judge/judge.hpp"
 #include "verify/solvers/answers.hpp"
-#include "verify/solvers/failure.hpp"
 #include "verify/solvers/solver_process.hpp"
 
 namespace touchstone::verify::solvers {
@@ -48,8 +49,8 @@ struct SolveReply {
   /// Positions in the span of the queries without an answer, ascending.
   std::vector<std::size_t> missing = {};
   /// Of queries without an answer, ascending, where more is known than the answers show: those
-  /// without a failure here may have one that failure_of() tells of.
-  std::vector<QueryFailure> failures = {};
+  /// without a failure here may have one that judge::failure_of() tells of.
+  std::vector<judge::QueryFailure> failures = {};
   /// Processes that it ended at no particular query: see solver_process.hpp.
   std::uint64_t unplaced_crashes = 0;
   /// Was it stopped? Then the answers are incomplete.
@@ -73,6 +74,7 @@ class Solver {
   /// The promise its answers are judged by: its own unless hold_to() sets another.
   [[nodiscard]] fast::Promise promise() const { return info_.promise; }
   void hold_to(fast::Promise promise) { info_.promise = promise; }
+  [[nodiscard]] judge::Standard standard() const { return judge::standard_of(info_); }
 
   /// Is its processor time known?
   [[nodiscard]] virtual bool is_timed() const { return true; }

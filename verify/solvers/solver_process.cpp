@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 
 namespace touchstone::verify::solvers {
 namespace {
@@ -217,7 +217,7 @@ class SolverProcess::Impl {
       : method_(method), options_(options) {}
 
   SolverRun solve(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
-                  const fast::MethodOptions& method_options, const jobs::Deadline& deadline) {
+                  const fast::MethodOptions& method_options, const base::Deadline& deadline) {
     deadline_ = deadline;
     run_ = {};
     lost_children_ = 0;
@@ -242,13 +242,13 @@ class SolverProcess::Impl {
     bool hang = false;
     std::size_t begin = 0;  ///< of the step that it was at
     std::size_t end = 0;
-    Failure failure = {};
+    judge::Failure failure = {};
     double processor_seconds = 0.0;  ///< of that step
     double wall_seconds = 0.0;
   };
 
   [[nodiscard]] bool is_stopped() const {
-    return verify::jobs::is_stopped(options_.stop) || deadline_.is_over();
+    return verify::base::is_stopped(options_.stop) || deadline_.is_over();
   }
 
   [[nodiscard]] bool has_failed_enough() const {
@@ -293,13 +293,13 @@ class SolverProcess::Impl {
       answers[i] = shared.answers.at(i);
       if (!shared.has_thrown.at(i)) continue;
       add_failure(answers, i, offset,
-                  {.kind = FailureKind::exception, .what = shared.thrown.at(i).get()});
+                  {.kind = judge::Fault::exception, .what = shared.thrown.at(i).get()});
     }
   }
 
   void add_failure(std::span<fast::Answer> answers, std::size_t i, std::size_t offset,
-                   Failure failure) {
-    answers[i] = {.verdict = verdict_of(failure.kind)};
+                   judge::Failure failure) {
+    answers[i] = {.verdict = judge::verdict_of(failure.kind)};
     run_.failures.push_back({.position = offset + i, .failure = std::move(failure)});
   }
 
@@ -372,7 +372,7 @@ class SolverProcess::Impl {
     child_.reset();
     stop.begin = std::clamp(shared.begin.load(), first, shared.last - 1);
     stop.end = std::clamp(shared.end.load(), stop.begin + 1, shared.last);
-    stop.failure = stop.hang ? Failure{.kind = FailureKind::hang} : end.failure;
+    stop.failure = stop.hang ? judge::Failure{.kind = judge::Fault::hang} : end.failure;
     if (shared.step_started_at > 0.0) {
       stop.processor_seconds = std::max(0.0, end.processor_seconds - shared.step_started);
       stop.wall_seconds = std::max(0.0, wall_seconds() - shared.step_started_at);
@@ -414,7 +414,7 @@ class SolverProcess::Impl {
   std::optional<TemporaryFolder> folder_;
   std::unique_ptr<ChildProcess> child_;
   CapturedOutput output_;
-  jobs::Deadline deadline_;
+  base::Deadline deadline_;
   SolverRun run_;
   /// Failures of this call that ended a child.
   std::size_t lost_children_ = 0;
@@ -434,7 +434,7 @@ SolverProcess::~SolverProcess() = default;
 SolverRun SolverProcess::solve(Kind kind, std::span<const Query> queries,
                                std::span<fast::Answer> answers,
                                const fast::MethodOptions& method_options,
-                               const jobs::Deadline& deadline) {
+                               const base::Deadline& deadline) {
   return impl_->solve(kind, queries, answers, method_options, deadline);
 }
 

@@ -22,9 +22,9 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
+#include "verify/judge/fault.hpp"
 #include "verify/solvers/child_process.hpp"
-#include "verify/solvers/failure.hpp"
 
 namespace touchstone::verify::solvers {
 
@@ -46,7 +46,7 @@ struct SolverRun {
   std::size_t answered = 0;
   /// Crashes, exits, exceptions and hangs, by ascending position: the query does it alone too. (What
   /// else goes wrong, the answers show: failure_of.)
-  std::vector<QueryFailure> failures = {};
+  std::vector<judge::QueryFailure> failures = {};
   /// Times it ended its process at queries none of which does it alone. These are answered.
   std::uint64_t unplaced_crashes = 0;
   /// Processor time of the solver, all its threads, without the making of children. A query that
@@ -76,7 +76,7 @@ class SolverProcess {
   [[nodiscard]] SolverRun solve(Kind kind, std::span<const Query> queries,
                                 std::span<fast::Answer> answers,
                                 const fast::MethodOptions& method_options,
-                                const jobs::Deadline& deadline = {});
+                                const base::Deadline& deadline = {});
 
   /// The output of its child processes since the last call, which clears it.
   [[nodiscard]] CapturedOutput take_output();

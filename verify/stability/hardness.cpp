@@ -10,8 +10,8 @@
 #include <string>
 
 #include "fast/certified.hpp"
-#include "verify/fuzz/everyday.hpp"
-#include "verify/fuzz/plainness.hpp"
+#include "verify/generate/decimal.hpp"
+#include "verify/generate/everyday.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/grid.hpp"
 #include "verify/generate/random.hpp"
@@ -285,18 +285,18 @@ class Scene {
 constexpr int decimal_exponent = -1;
 constexpr int usual_digits = 3;
 
-fuzz::TouchTime draw_time(std::size_t index, int level, Random& random) {
+generate::TouchTime draw_time(std::size_t index, int level, Random& random) {
   const bool is_at_an_end =
       index != Index::ends || random.between(1, 100) <= static_cast<std::int64_t>(level);
-  if (!is_at_an_end) return fuzz::TouchTime::between;
-  return random.coin() ? fuzz::TouchTime::at_start : fuzz::TouchTime::at_end;
+  if (!is_at_an_end) return generate::TouchTime::between;
+  return random.coin() ? generate::TouchTime::at_start : generate::TouchTime::at_end;
 }
 
 /// Queries without collision have a clearance of one unit, increased with each attempt until no
 /// contact is possible.
-std::int64_t clearance_of(const fuzz::EverydayScene& scene, double separation_in_units,
+std::int64_t clearance_of(const generate::EverydayScene& scene, double separation_in_units,
                           int attempt) {
-  const std::int64_t growing = fuzz::power_of_ten(scene.digits * attempt / (most_attempts - 2));
+  const std::int64_t growing = generate::power_of_ten(scene.digits * attempt / (most_attempts - 2));
   return (attempt == 0 ? 1 : 4 * growing) +
          static_cast<std::int64_t>(std::ceil(separation_in_units));
 }
@@ -305,21 +305,23 @@ std::int64_t clearance_of(const fuzz::EverydayScene& scene, double separation_in
 Query decimal_query(const HardSort& sort, bool collides, const Separation& separation, int attempt,
                     Random& random) {
   const std::size_t index = index_of(*sort.hardness);
-  fuzz::EverydayScene scene{.digits = index == Index::digits ? sort.level : usual_digits,
-                            .exponent = decimal_exponent,
-                            .time = draw_time(index, sort.level, random)};
+  generate::EverydayScene scene{.digits = index == Index::digits ? sort.level : usual_digits,
+                                .exponent = decimal_exponent,
+                                .time = draw_time(index, sort.level, random)};
   // A power of two does not change contact. The scene is enlarged like others.
   const int larger = enlargement(sort.separation.distance) == 0
                          ? 0
                          : enlargement(sort.separation.distance) - 3 * decimal_exponent;
   const int factor = larger + (index == Index::everyday_scale ? sort.level : 0);
   if (!collides) {
-    const double unit = std::ldexp(fuzz::from_decimal(1, scene.exponent - scene.digits), factor);
+    const double unit =
+        std::ldexp(generate::from_decimal(1, scene.exponent - scene.digits), factor);
     scene.clearance = clearance_of(scene, separation.distance / unit, attempt);
   }
-  Query query = fuzz::everyday_query(sort.kind, scene, random);
-  const double away =
-      index == Index::frame ? std::ldexp(fuzz::from_decimal(1, decimal_exponent), sort.level) : 0.0;
+  Query query = generate::everyday_query(sort.kind, scene, random);
+  const double away = index == Index::frame
+                          ? std::ldexp(generate::from_decimal(1, decimal_exponent), sort.level)
+                          : 0.0;
   for (double& x : query.coordinates) x = std::ldexp(x + away, factor);
   return query;
 }

@@ -21,7 +21,7 @@
 /// symmetry are applied.
 ///
 /// Four kinds of difficulty are about numbers as people type them and exporters print them: scenes
-/// of short decimals (verify/fuzz/everyday.hpp), whose collisions are contacts exactly at t=0 or
+/// of short decimals (verify/generate/everyday.hpp), whose collisions are contacts exactly at t=0 or
 /// t=1, and whose other queries have the least possible clearance. They have size 1/10, times the
 /// level's factor if it has one.
 ///

@@ -5,17 +5,17 @@
 #include <memory>
 #include <stdexcept>
 
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 
 namespace touchstone::verify::stability {
 namespace {
 
 constexpr std::array kinds{Kind::vertex_face, Kind::edge_edge};
 
-/// Worst first.
-constexpr std::array<judge::Fault, judge::fault_count> by_weight{
-    judge::Fault::false_negative, judge::Fault::late_toi,         judge::Fault::early_toi_upper,
-    judge::Fault::error,          judge::Fault::beyond_tolerance, judge::Fault::false_positive};
+/// Worst first; the crash stands for all errors.
+constexpr std::array by_weight{judge::Fault::false_negative,   judge::Fault::late_toi,
+                               judge::Fault::early_toi_upper,  judge::Fault::crash,
+                               judge::Fault::beyond_tolerance, judge::Fault::false_positive};
 
 std::vector<StabilityCell> cells_of(const std::vector<const Hardness*>& sorts) {
   std::vector<StabilityCell> cells;
@@ -58,7 +58,7 @@ StabilityResult measure_stability(const std::vector<const Hardness*>& sorts,
                          .total = {},
                          .cells = cells_of(sorts)};
   result.total.name = "total";
-  const auto stopped = [&] { return jobs::is_stopped(options.stop); };
+  const auto stopped = [&] { return base::is_stopped(options.stop); };
   std::size_t done = 0;
   for (; done < result.cells.size() && !stopped(); ++done) {
     const auto on_progress = [&](double fraction) {
@@ -79,17 +79,17 @@ double rate_of(judge::Fault fault, const jobs::CertifyResult& judged, std::size_
   const std::uint64_t misses = judged.queries - judged.collisions;
   const bool about_misses =
       fault == judge::Fault::false_positive || fault == judge::Fault::beyond_tolerance;
-  const std::uint64_t among = fault == judge::Fault::error ? judged.queries
-                              : about_misses               ? misses
-                                                           : judged.collisions;
-  const std::uint64_t count = judged.methods.at(method).judgement.count(fault);
+  const std::uint64_t among = judge::is_error(fault) ? judged.queries
+                              : about_misses         ? misses
+                                                     : judged.collisions;
+  const std::uint64_t count = judged.methods.at(method).judgement.total(fault);
   return among == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(among);
 }
 
 Outcome outcome_of(const jobs::CertifyResult& judged, std::size_t method) {
   const judge::Judgement& judgement = judged.methods.at(method).judgement;
   const auto* const worst = std::ranges::find_if(
-      by_weight, [&](judge::Fault fault) { return judgement.count(fault) != 0; });
+      by_weight, [&](judge::Fault fault) { return judgement.total(fault) != 0; });
   if (worst == by_weight.end()) return {};
   return {.worst = *worst, .rate = rate_of(*worst, judged, method)};
 }

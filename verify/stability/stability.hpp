@@ -17,7 +17,7 @@
 
 #include "exact/query.hpp"
 #include "verify/jobs/certify.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/solver.hpp"
 #include "verify/stability/hardness.hpp"
 
@@ -67,6 +67,7 @@ struct Outcome {
   /// The worst of it, nothing if nothing is wrong: a false negative is worse than a time of impact that
   /// excludes the true one, that than an error, that than a claim of too much nearness, that than a
   /// false positive.
+  /// An error of any kind is a crash here.
   std::optional<judge::Fault> worst = std::nullopt;
   /// The rate of a fault as a fraction of the queries where it is possible: of those that collide (false
   /// negatives, times of impact), of those that do not (false positives, nearness), or of all.

@@ -14,7 +14,7 @@
 #include "verify/io/printable.hpp"
 #include "verify/jobs/prove.hpp"
 #include "verify/judge/ground_truth.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/registry.hpp"
 #include "verify/view/certificate_facts.hpp"
@@ -103,25 +103,31 @@ nlohmann::json certificate_of(const ViewedQuery& viewed, const exact::Verdict& v
 
 // ---- Solvers ------------------------------------------------------------------------------------
 
-/// An answer held against the truth.
-nlohmann::json answer_facts(const judge::GivenAnswer& given, fast::Promise promise,
-                            bool is_recorded, const judge::GroundTruth& truth) {
-  judge::Judgement judgement;
-  judgement.add(truth, given.answer, given.failure ? &*given.failure : nullptr);
+/// The query with its truth.
+struct Judged {
+  judge::Question question;
+  judge::GroundTruth truth;
+};
+
+/// An answer, and the judgement on it.
+nlohmann::json answer_facts(const judge::GivenAnswer& given, const judge::Standard& standard,
+                            bool is_recorded, const Judged& judged) {
   nlohmann::json faults = nlohmann::json::array();
   bool is_broken = false;
-  for (std::size_t i = 0; i < judge::fault_count; ++i) {
-    const auto fault = static_cast<judge::Fault>(i);
-    if (judgement.count(fault) == 0) continue;
-    faults.push_back(judge::to_string(fault));
-    is_broken = is_broken || judge::breaks(fault, promise);
+  for (const judge::Fault fault :
+       judge::judge(judged.question, judged.truth, given.answer, standard,
+                    given.failure ? &*given.failure : nullptr)) {
+    is_broken = is_broken || judge::breaks(fault, standard.promise);
+    // A failure that is no error has a text of its own below.
+    if (fault == judge::Fault::hang || fault == judge::Fault::undecided) continue;
+    faults.push_back(judge::to_text(fault));
   }
-  const auto failure = given.failure ? given.failure : solvers::failure_of(given.answer);
+  const auto failure = given.failure ? given.failure : judge::failure_of(given.answer);
   return {{"solver", io::printable(given.solver)},
-          {"promise", solvers::to_string(promise)},
+          {"promise", solvers::to_string(standard.promise)},
           {"recorded", is_recorded},
-          {"verdict", solvers::to_string(given.answer.verdict)},
-          {"failure", failure ? solvers::to_text(*failure) : ""},
+          {"verdict", judge::to_string(given.answer.verdict)},
+          {"failure", failure ? judge::to_text(*failure) : ""},
           {"toi_lower", number(given.answer.toi_lower)},
           {"toi_upper", number(given.answer.toi_upper)},
           {"tolerance", number(given.answer.tolerance)},
@@ -142,16 +148,22 @@ judge::GivenAnswer ask(const solvers::Solver& solver, const ViewedQuery& viewed)
   return result;
 }
 
-nlohmann::json answers_of(const ViewedQuery& viewed, const judge::GroundTruth& truth,
+/// The standard of a solver by its name: it promises nothing where it is not known.
+judge::Standard standard_of(const std::string& solver) {
+  const fast::MethodInfo* info = solvers::find_info(solver);
+  return info == nullptr ? judge::Standard{.promise = fast::Promise::none}
+                         : judge::standard_of(*info);
+}
+
+nlohmann::json answers_of(const ViewedQuery& viewed, const Judged& judged,
                           std::span<const solvers::Solver* const> solvers) {
   nlohmann::json answers = nlohmann::json::array();
   for (const judge::GivenAnswer& recorded : viewed.answers) {
-    const fast::MethodInfo* info = solvers::find_info(recorded.solver);
-    const fast::Promise known = info == nullptr ? fast::Promise::none : info->promise;
-    answers.push_back(answer_facts(recorded, recorded.promise.value_or(known), true, truth));
+    const judge::Standard standard = recorded.standard.value_or(standard_of(recorded.solver));
+    answers.push_back(answer_facts(recorded, standard, true, judged));
   }
   for (const solvers::Solver* solver : solvers) {
-    answers.push_back(answer_facts(ask(*solver, viewed), solver->promise(), false, truth));
+    answers.push_back(answer_facts(ask(*solver, viewed), solver->standard(), false, judged));
   }
   return answers;
 }
@@ -182,7 +194,10 @@ nlohmann::json query_facts(const ViewedQuery& viewed,
           {"truth", truth_facts(verdict)},
           {"approach", approach_facts(viewed)},
           {"certificate", certificate_of(viewed, verdict)},
-          {"answers", answers_of(viewed, judge::truth_of(0, verdict), solvers)}};
+          {"answers", answers_of(viewed,
+                                 {.question = {viewed.kind, viewed.query, viewed.separation},
+                                  .truth = judge::truth_of(0, verdict)},
+                                 solvers)}};
 }
 
 }  // namespace touchstone::verify::view

@@ -14,7 +14,7 @@
 
 #include "exact/query.hpp"
 #include "fast/method.hpp"
-#include "verify/judge/judge.hpp"
+#include "verify/judge/judgement.hpp"
 #include "verify/solvers/solver.hpp"
 
 namespace touchstone::verify::view {

@@ -14,9 +14,8 @@
 
 #include "exact/certificate/certificate_text.hpp"
 #include "verify/data/dataset.hpp"
-#include "verify/data/dataset_error.hpp"
-#include "verify/fuzz/finding.hpp"
 #include "verify/io/coordinate_text.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/jobs/prove.hpp"
@@ -50,10 +49,10 @@ class Selection {
   [[nodiscard]] std::vector<ViewedQuery> take(const fs::path& path, std::uint64_t offered) {
     for (const std::uint64_t index : options_.indices) {
       if (index < offered || is_complete()) continue;
-      throw data::DatasetError(path, {},
-                               fmt::format("there is no query {}; it has {}", index, offered));
+      throw io::DatasetError(path, {},
+                             fmt::format("there is no query {}; it has {}", index, offered));
     }
-    if (queries_.empty()) throw data::DatasetError(path, {}, "there is no query in it");
+    if (queries_.empty()) throw io::DatasetError(path, {}, "there is no query in it");
     return std::move(queries_);
   }
 
@@ -127,10 +126,10 @@ fast::Verdict verdict_from(std::string_view text) {
 }
 
 /// The failure of a finding that is one.
-std::optional<solvers::Failure> failure_of(const nlohmann::json& finding) {
-  const auto kind = solvers::failure_kind_from_string(finding.at("what").get<std::string>());
-  if (!kind) return std::nullopt;
-  return solvers::Failure{.kind = *kind};
+std::optional<judge::Failure> failure_of(const nlohmann::json& finding) {
+  const auto kind = judge::fault_from_name(finding.at("what").get<std::string>());
+  if (!kind || !judge::is_failure(*kind)) return std::nullopt;
+  return judge::Failure{.kind = *kind};
 }
 
 /// What a finding of the fuzzer has beyond a query.
@@ -164,9 +163,9 @@ std::vector<ViewedQuery> read_json(const fs::path& path, const QueryFileOptions&
     }
     return selection.take(path, json.size());
   } catch (const std::logic_error& error) {
-    throw data::DatasetError(path, {}, fmt::format("query {}: {}", index, error.what()));
+    throw io::DatasetError(path, {}, fmt::format("query {}: {}", index, error.what()));
   } catch (const nlohmann::json::exception& error) {
-    throw data::DatasetError(path, {}, fmt::format("query {}: {}", index, error.what()));
+    throw io::DatasetError(path, {}, fmt::format("query {}: {}", index, error.what()));
   }
 }
 
@@ -185,12 +184,12 @@ ViewedQuery query_from(std::string stream, std::string label) {
 /// \throws DatasetError if it is not the first line of certificates of queries
 void check_header(const fs::path& path, std::string_view first_line) {
   if (!first_line.empty() && jobs::step_proofs_header().starts_with(first_line)) {
-    throw data::DatasetError(path, {.line = 1},
-                             "these are certificates of steps, which have no query; "
-                             "view --step draws the step between two frames");
+    throw io::DatasetError(path, {.line = 1},
+                           "these are certificates of steps, which have no query; "
+                           "view --step draws the step between two frames");
   }
   if (first_line.empty() || !exact::certificates_header().starts_with(first_line)) {
-    throw data::DatasetError(path, {.line = 1}, "this is no stream of certificates");
+    throw io::DatasetError(path, {.line = 1}, "this is no stream of certificates");
   }
 }
 
@@ -213,7 +212,7 @@ std::vector<ViewedQuery> read_certificates(const fs::path& path, const QueryFile
       try {
         selection.add(query_from(text, jobs::certificate_label(path.string(), index)));
       } catch (const std::invalid_argument& error) {
-        throw data::DatasetError(path, {.line = line->number}, error.what());
+        throw io::DatasetError(path, {.line = line->number}, error.what());
       }
     }
     ++index;
@@ -231,7 +230,7 @@ std::vector<ViewedQuery> read_obj(const fs::path& path, const QueryFileOptions& 
     if (!line->text.starts_with("v ")) continue;
     numbers.append(line->text.substr(2)).append("\n");
     if (numbers.size() > io::LineReader::longest_line) {
-      throw data::DatasetError(path, {}, "a query has eight lines of vertices");
+      throw io::DatasetError(path, {}, "a query has eight lines of vertices");
     }
   }
   try {
@@ -239,7 +238,7 @@ std::vector<ViewedQuery> read_obj(const fs::path& path, const QueryFileOptions& 
              .kind = options.kind ? *options.kind : data::kind_from_path(path),
              .query = parse_points(numbers)}};
   } catch (const std::invalid_argument& error) {
-    throw data::DatasetError(path, {}, error.what());
+    throw io::DatasetError(path, {}, error.what());
   }
 }
 

@@ -128,6 +128,23 @@ TEST_F(Bench, ABrokenPromiseExitsWithOne) {
       << read("out");
 }
 
+/// It is conservative, but claims to be in contact where there is none.
+TEST_F(Bench, APluginThatBreaksItsToleranceExitsWithOne) {
+  const std::string file = write("a_vf.csv", falling_vertex("-3") + falling_vertex("0.5"));
+  EXPECT_EQ(run(file + quick + "--plugin '" + tests::plugin_library("always_yes") + "' --json " +
+                quoted("json")),
+            1)
+      << read("err");
+  const nlohmann::json method = json().at("groups")[0].at("methods")[0];
+  EXPECT_EQ(method.at("beyond_tolerance"), 1);
+  EXPECT_EQ(method.at("broke_promise"), true);
+  EXPECT_TRUE(contains(read("out"), "  beyond tol\n")) << read("out");
+  EXPECT_TRUE(contains(read("out"),
+                       "beyond tolerance: always_yes: " + path("a_vf.csv") +
+                           ": vertex-face query 1: answer yes, tolerance 0, truth no collision\n"))
+      << read("out");
+}
+
 TEST_F(Bench, APluginThatCrashesCostsAnAnswer) {
   std::string crashing = falling_vertex("-3");
   const std::string what = std::to_string(static_cast<int>(tests::Misbehaviour::writes_to_null));

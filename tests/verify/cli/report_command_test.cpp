@@ -81,6 +81,21 @@ TEST_F(Report, MakesTheSamePageFromAnEarlierRunsMeasurements) {
   EXPECT_GT(read("two.html").size(), 100'000U);
 }
 
+/// It is conservative, but claims to be in contact where there is none.
+TEST_F(Report, SeesAPluginBreakItsTolerance) {
+  EXPECT_EQ(
+      run(data() + quick + "--experiment field --plugin " + tests::plugin_library("always_yes") +
+          " --json " + quoted("json") + " --out " + quoted("page.html")),
+      1)
+      << read("err");
+  const nlohmann::json result = json();
+  for (const nlohmann::json& m : result.at("measurements")) {
+    const bool is_plugin = m.at("method") == "always_yes";
+    EXPECT_EQ(m.at("beyond_tolerance"), is_plugin ? 1 : 0);
+    EXPECT_EQ(m.at("keeps_promise"), !is_plugin);
+  }
+}
+
 TEST_F(Report, HasOnesOwnSolverBesideTheOthers) {
   static_cast<void>(data());
   ASSERT_EQ(ToolTest::run({"solve", path("handcrafted"), "--method", "tight_inclusion", "--out",

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/solvers/registry.hpp"
 
 namespace touchstone::verify::cli::solver_options_test {
@@ -162,9 +162,9 @@ TEST(Solvers, WhatIsNotThereIsAnError) {
   both.methods = {"none", "nonsense"};
   EXPECT_THROW(Solvers(files, both), std::invalid_argument);
   plugin.plugins = {"missing.so"};
-  EXPECT_THROW(Solvers(files, plugin), data::DatasetError);
+  EXPECT_THROW(Solvers(files, plugin), io::DatasetError);
   results.results = {"missing.csv"};
-  EXPECT_THROW(Solvers(files, results), data::DatasetError);
+  EXPECT_THROW(Solvers(files, results), io::DatasetError);
 }
 
 TEST(Solvers, AnswersNeverAskedForAreAWarning) {

@@ -44,7 +44,7 @@ class Sources : public ::testing::Test {
               for (auto query = source.next(); query; query = source.next()) ++queries;
               progress(1.0);
             },
-        .fail = [this](const fs::path& path, const data::DatasetError&) { failed.push_back(path); },
+        .fail = [this](const fs::path& path, const io::DatasetError&) { failed.push_back(path); },
         .stopped = [this] { return used.size() + failed.size() >= most; }};
   }
   ~Sources() override { fs::remove_all(folder); }

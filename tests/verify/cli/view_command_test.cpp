@@ -70,7 +70,10 @@ TEST_F(ViewCommand, RowsFindingsAndCertificatesByThoseWhoAreNamed) {
     EXPECT_EQ(query.at("answers")[0].at("solver"), "accd");
     EXPECT_EQ(query.at("answers")[1].at("verdict"), "yes");
   }
-  EXPECT_EQ(page[1].at("answers")[1].at("faults"), nlohmann::json::array({"false positive"}));
+  EXPECT_EQ(page[1].at("answers")[1].at("faults"),
+            nlohmann::json::array({"false positive", "beyond tolerance"}));
+  EXPECT_EQ(page[1].at("answers")[1].at("breaks_promise"), true)
+      << "it claims contact, and they stay 1 apart";
 }
 
 TEST_F(ViewCommand, CompressedCertificates) {

@@ -160,7 +160,7 @@ TEST(CsvDataset, blank_lines_and_headers_may_stand_between_queries) {
       const Survivors kept = survivors(joined(lines, line_end));
       expect_numbered(kept.records, {0, 1, 2, 3});
       EXPECT_EQ(kept.messages, std::vector<std::string>{});
-      EXPECT_EQ(strict_error(joined(lines, line_end)), "no DatasetError");
+      EXPECT_EQ(strict_error(joined(lines, line_end)), "no io::DatasetError");
     }
   }
 }
@@ -170,7 +170,7 @@ TEST(CsvDataset, a_line_that_is_no_header_begins_no_file) {
   const auto error = [&](const std::string& first_line) {
     return strict_error(first_line + "\n" + joined(rows));
   };
-  EXPECT_EQ(error("a,b,c,d,e,f"), "no DatasetError");
+  EXPECT_EQ(error("a,b,c,d,e,f"), "no io::DatasetError");
   EXPECT_EQ(error("a,b,c"), "2: 6 columns, expected 3 as before" + rest_is_left_out);
   EXPECT_EQ(error("queries"), "1: 1 columns, expected 3, 4, 6 or 7" + rest_is_left_out);
   EXPECT_EQ(error("a,b,c,d,e,"), "1: no number in the line" + rest_is_left_out);

@@ -99,12 +99,12 @@ template <class Action>
 [[nodiscard]] std::string error_of(const std::filesystem::path& folder, const Action& action) {
   try {
     action();
-  } catch (const DatasetError& error) {
+  } catch (const io::DatasetError& error) {
     const std::string text = error.what();
     const std::string prefix = folder.empty() ? "" : folder.string() + "/";
     return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
   }
-  return "no DatasetError";
+  return "no io::DatasetError";
 }
 
 /// A stream read with keep_going.
@@ -120,7 +120,7 @@ struct Survivors {
                                               DatasetOptions options = {}) {
   Survivors survivors;
   options.keep_going = true;
-  options.on_skip = [&](const DatasetError& fault) {
+  options.on_skip = [&](const io::DatasetError& fault) {
     survivors.messages.push_back(error_of(folder, [&] { throw fault; }));
   };
   const auto source = open_dataset(path, options);

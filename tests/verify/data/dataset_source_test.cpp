@@ -42,7 +42,7 @@ struct Scene {
     const std::string error = error_of(folder.path(), [&] { (void)read_all(*open_dataset(path)); });
     Survivors kept = read_survivors(path, folder.path());
     EXPECT_EQ(kept.messages.size(), kept.skipped);
-    EXPECT_EQ(error, kept.messages.empty() ? "no DatasetError" : kept.messages.front());
+    EXPECT_EQ(error, kept.messages.empty() ? "no io::DatasetError" : kept.messages.front());
     for (std::string& message : kept.messages) {
       const std::string detour = "s/queries/../";
       if (message.starts_with(detour)) message = message.substr(detour.size());
@@ -156,7 +156,7 @@ TEST(DatasetSource, two_sources_of_labels_must_agree) {
 TEST(DatasetSource, companions_that_cannot_be_opened_throw_even_if_it_keeps_going) {
   for (const Scene& scene : {Scene{.labels = "{}"}, Scene{.tois = "toi\n"}}) {
     const auto path = scene.make();
-    EXPECT_THROW((void)open_dataset(path, {.keep_going = true}), DatasetError);
+    EXPECT_THROW((void)open_dataset(path, {.keep_going = true}), io::DatasetError);
   }
 }
 

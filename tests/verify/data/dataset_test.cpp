@@ -72,8 +72,8 @@ TEST(FindDatasets, names_what_is_not_there_and_folders_without_datasets) {
 /// What is left out below a folder, without the folder.
 std::vector<std::string> left_out_in(const TemporaryFolder& folder) {
   std::vector<std::string> messages;
-  (void)find_datasets(std::vector<fs::path>{folder.path()}, [&](const DatasetError& error) {
-    messages.push_back(error_of(folder.path(), [&] { throw DatasetError(error); }));
+  (void)find_datasets(std::vector<fs::path>{folder.path()}, [&](const io::DatasetError& error) {
+    messages.push_back(error_of(folder.path(), [&] { throw io::DatasetError(error); }));
   });
   return messages;
 }

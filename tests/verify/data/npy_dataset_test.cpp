@@ -94,9 +94,10 @@ TEST(NpyDataset, that_becomes_shorter_gives_what_is_there_and_then_one_error) {
     for (std::size_t i = 0; i < 3000; ++i) writer.write(numbered_query(i));
     writer.close();
     std::vector<std::string> messages;
-    NpyDataset source(path, {.keep_going = keep_going, .on_skip = [&](const DatasetError& fault) {
-                               messages.emplace_back(fault.reason());
-                             }});
+    NpyDataset source(path,
+                      {.keep_going = keep_going, .on_skip = [&](const io::DatasetError& fault) {
+                         messages.emplace_back(fault.reason());
+                       }});
     std::vector<RecordedQuery> records{source.next().value()};
     std::filesystem::resize_file(path, 128 + 192 * 2000);
     const std::string error = error_of(folder.path(), [&] {
@@ -107,7 +108,7 @@ TEST(NpyDataset, that_becomes_shorter_gives_what_is_there_and_then_one_error) {
     expect_numbered(records, there);
     const std::string reason =
         "has become shorter while it was read: query 2000 of 3000 is missing";
-    EXPECT_EQ(error, keep_going ? "no DatasetError" : "a_vf.npy: " + reason);
+    EXPECT_EQ(error, keep_going ? "no io::DatasetError" : "a_vf.npy: " + reason);
     EXPECT_EQ(messages, std::vector<std::string>(keep_going ? 1 : 0, reason));
     EXPECT_EQ(source.skipped(), keep_going ? 1U : 0U);
     EXPECT_FALSE(source.next().has_value()) << "it has ended";

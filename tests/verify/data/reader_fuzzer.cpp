@@ -24,11 +24,11 @@
 #include "exact/query.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/dataset.hpp"
-#include "verify/data/dataset_error.hpp"
 #include "verify/data/ground_truth_files.hpp"
 #include "verify/data/npy_dataset.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/io/coordinate_text.hpp"
+#include "verify/io/dataset_error.hpp"
 #include "verify/mesh/mesh.hpp"
 #include "verify/mesh/obj.hpp"
 #include "verify/mesh/ply.hpp"
@@ -39,7 +39,7 @@ namespace {
 namespace fs = std::filesystem;
 using touchstone::Kind;
 using touchstone::Query;
-using touchstone::verify::data::DatasetError;
+using touchstone::verify::io::DatasetError;
 
 void require(bool holds) {
   if (!holds) std::abort();
@@ -83,7 +83,7 @@ void read_dataset(const fs::path& path, bool keep_going) {
   std::optional<Dataset> source;
   try {
     source.emplace(path, options);
-  } catch (const DatasetError&) {
+  } catch (const io::DatasetError&) {
     return;
   }
   std::uint64_t least = 0;
@@ -100,7 +100,7 @@ void read_dataset(const fs::path& path, bool keep_going) {
   }
   try {
     read_all();
-  } catch (const DatasetError& error) {
+  } catch (const io::DatasetError& error) {
     require(!std::string_view(error.what()).empty());
   }
 }
@@ -152,7 +152,7 @@ void read_labels(const fs::path& path) {
   for (; index < 100; index += 1 + index % 3) {
     try {
       static_cast<void>(labels.at(index));
-    } catch (const DatasetError&) {  // One label may be at fault and the next one not.
+    } catch (const io::DatasetError&) {  // One label may be at fault and the next one not.
     }
   }
   static_cast<void>(labels.beyond(index));
@@ -164,7 +164,7 @@ void read_tois(const fs::path& path) {
   for (; index < 100; index += 1 + index % 3) {
     try {
       static_cast<void>(tois.at(index));
-    } catch (const DatasetError&) {  // As above.
+    } catch (const io::DatasetError&) {  // As above.
     }
   }
   static_cast<void>(tois.beyond(index));
@@ -205,7 +205,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static MemoryFile file;
   try {
     reader.read(file.holding(data, size));
-  } catch (const DatasetError& error) {
+  } catch (const io::DatasetError& error) {
     require(!std::string_view(error.what()).empty());
   }
   return 0;

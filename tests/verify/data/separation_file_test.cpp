@@ -9,7 +9,7 @@
 #include <string>
 
 #include "tests/support/folder_test.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::data::separation_file_test {
 namespace {
@@ -69,7 +69,7 @@ TEST_F(SeparationFile, UnknownAndRepeatedKeysAreErrors) {
   const auto error = [&](const std::string& text) -> std::string {
     try {
       (void)read_separation(write(text));
-    } catch (const DatasetError& fault) {
+    } catch (const io::DatasetError& fault) {
       return fault.reason();
     }
     return "no error";
@@ -91,7 +91,7 @@ TEST_F(SeparationFile, MessagesAndFilesAreBounded) {
   const auto error = [&](const fs::path& file) -> std::string {
     try {
       (void)read_separation(file);
-    } catch (const DatasetError& fault) {
+    } catch (const io::DatasetError& fault) {
       return fault.reason();
     }
     return "no error";
@@ -112,7 +112,7 @@ TEST_F(SeparationFile, WhatIsNoneIsAnErrorThatNamesTheFile) {
     try {
       (void)read_separation(write(bad));
       ADD_FAILURE() << bad;
-    } catch (const DatasetError& error) {
+    } catch (const io::DatasetError& error) {
       EXPECT_EQ(error.path(), path("separation.json"));
     }
   }

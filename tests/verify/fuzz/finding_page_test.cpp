@@ -17,7 +17,7 @@ FuzzReport sample() {
   FuzzReport report{.solver = {.method = "mi|ne", .options = {.tolerance = 0.25, .max_checks = 9}},
                     .result = {}};
   Finding finding;
-  finding.what = FindingKind::false_negative;
+  finding.what = judge::Fault::false_negative;
   finding.method = "mi|ne";
   finding.simplest = {.query = tests::over_triangle(1, 1, 0.1, -2).query,
                       .answer = {.verdict = fast::Verdict::no},
@@ -74,7 +74,6 @@ TEST_F(Pages, are_files_of_a_folder) {
                                                  CallInterface::plugin, "1-false_negative"));
   EXPECT_EQ(text("1-false_negative.cert"), "the certificate\n");
   EXPECT_NE(text("1-false_negative.cpp").find("dlopen"), std::string::npos);
-  EXPECT_NE(text("1-false_negative_test.cpp").find("TEST(Reproduction, "), std::string::npos);
   const nlohmann::json json = nlohmann::json::parse(text("findings.json"));
   EXPECT_EQ(json.at("groups").at(0).at("count"), 17);
   EXPECT_EQ(json.at("groups").at(0).at("scale"), "ends near 1");

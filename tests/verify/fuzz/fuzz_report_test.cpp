@@ -36,7 +36,7 @@ FuzzReport sample() {
   report.result.generators = {
       {.name = "grid", .queries = 3000, .collisions = 1000, .coverage_keys = 20, .findings = 12}};
   Finding finding;
-  finding.what = FindingKind::late_toi;
+  finding.what = judge::Fault::late_toi;
   finding.separation = {.distance = 0.5, .norm = Norm::l2};
   finding.method = "mine";
   finding.original = {.query = tests::over_triangle(1, 1, 1.25, -3).query,
@@ -144,7 +144,7 @@ TEST(FuzzReport, SaysIfLessWasDoneThanAskedFor) {
 TEST(FuzzReport, SaysIfFindingsWereNotSought) {
   FuzzReport report = sample();
   EXPECT_FALSE(contains(to_text(report), "not sought"));
-  report.only = {FindingKind::late_toi};
+  report.only = {judge::Fault::late_toi};
   report.result.other_findings = 53;
   EXPECT_TRUE(contains(to_text(report), "53 of kinds that were not sought"));
   EXPECT_EQ(to_json(report).at("other_findings"), 53);
@@ -203,23 +203,6 @@ TEST(FuzzReport, WritesAFindingAsJson) {
   EXPECT_TRUE(contains(finding.at("command"), "touchstone certify"));
   report.result.findings.front().simplest.certificate.clear();
   EXPECT_TRUE(to_json(report).at("findings").at(0).at("certificate").is_null());
-}
-
-TEST(FindingKind, HasANameEach) {
-  std::set<std::string_view> names;
-  for (std::size_t i = 0; i < finding_kinds; ++i) {
-    const auto kind = static_cast<FindingKind>(i);
-    names.insert(to_string(kind));
-    EXPECT_EQ(finding_kind_from_string(to_string(kind)), kind);
-  }
-  EXPECT_EQ(names.size(), finding_kinds);
-  EXPECT_FALSE(finding_kind_from_string("wrong"));
-}
-
-TEST(FindingKind, NamesFailuresAsTheyAreNamedEverywhere) {
-  for (const solvers::FailureKind kind : solvers::all_failure_kinds) {
-    EXPECT_EQ(to_string(finding_kind_of(kind)), solvers::to_string(kind));
-  }
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ FuzzResult search(const FunctionMethod::Function& function, Promise promise,
 }
 
 /// Expects a finding of that kind, soon, that is what it says.
-void expect_found(FindingKind what, const FuzzResult& result) {
+void expect_found(judge::Fault what, const FuzzResult& result) {
   ASSERT_FALSE(result.findings.empty()) << to_string(what);
   const Finding& finding = result.findings.front();
   EXPECT_EQ(to_string(finding.what), to_string(what)) << finding.original.detail;
@@ -74,7 +74,7 @@ void expect_found(FindingKind what, const FuzzResult& result) {
 TEST(Fuzz, FindsAMethodThatAlwaysSaysNo) {
   const auto result =
       search([](Kind, const Query&) { return Answer{.verdict = Verdict::no}; }, Promise::none);
-  expect_found(FindingKind::false_negative, result);
+  expect_found(judge::Fault::false_negative, result);
   EXPECT_LT(result.queries, 2000U);
 }
 
@@ -85,7 +85,7 @@ TEST(Fuzz, FindsATimeThatIsLateByTheLeast) {
     answer.toi_upper = Answer::none;
     return answer;
   };
-  expect_found(FindingKind::late_toi, search(late, Promise::conservative));
+  expect_found(judge::Fault::late_toi, search(late, Promise::conservative));
 }
 
 TEST(Fuzz, FindsAnUpperBoundThatIsEarly) {
@@ -95,13 +95,13 @@ TEST(Fuzz, FindsAnUpperBoundThatIsEarly) {
     answer.toi_lower = Answer::none;
     return answer;
   };
-  expect_found(FindingKind::early_toi_upper, search(early, Promise::conservative));
+  expect_found(judge::Fault::early_toi_upper, search(early, Promise::conservative));
 }
 
 TEST(Fuzz, FindsFalsePositivesOfWhatPromisesNone) {
   const auto yes = [](Kind, const Query&) { return Answer{.verdict = Verdict::yes}; };
-  expect_found(FindingKind::false_positive, search(yes, Promise::exact));
-  expect_found(FindingKind::false_positive,
+  expect_found(judge::Fault::false_positive, search(yes, Promise::exact));
+  expect_found(judge::Fault::false_positive,
                search(yes, Promise::none, {.promise = Promise::exact}));
   const FuzzResult lenient =
       search(yes, Promise::conservative, {.most_queries = tests::trials(std::uint64_t{2400})});
@@ -116,13 +116,13 @@ TEST(Fuzz, FindsAYesBeyondItsTolerance) {
       return Answer{.verdict = Verdict::yes, .toi_lower = 0.0, .tolerance = tolerance};
     };
   };
-  expect_found(FindingKind::beyond_tolerance,
+  expect_found(judge::Fault::beyond_tolerance,
                search(yes(1e-9), {.name = "function",
                                   .promise = Promise::conservative,
                                   .filter = fast::ErrorModel::derived}));
-  expect_found(FindingKind::beyond_tolerance, search(yes(0.0), Promise::conservative));
+  expect_found(judge::Fault::beyond_tolerance, search(yes(0.0), Promise::conservative));
   expect_found(
-      FindingKind::beyond_tolerance,
+      judge::Fault::beyond_tolerance,
       search(yes(0.0), Promise::none, {.separation = {.distance = 0.25, .norm = Norm::l2}}));
   const std::uint64_t some = tests::trials(std::uint64_t{2400});
   EXPECT_EQ(search(yes(HUGE_VAL), Promise::conservative, {.most_queries = some}).all_findings, 0U);
@@ -139,7 +139,7 @@ TEST(Fuzz, FindsWhatIsWrongInAMirror) {
   const FuzzResult result = search(one_sided, Promise::exact, options);
   EXPECT_GT(result.images, result.queries / 20);
   const auto is_asymmetry = [](const Finding& finding) {
-    return finding.what == FindingKind::asymmetry;
+    return finding.what == judge::Fault::asymmetry;
   };
   const auto found = std::ranges::find_if(result.findings, is_asymmetry);
   ASSERT_NE(found, result.findings.end());
@@ -157,13 +157,13 @@ TEST(Fuzz, FindsNumbersThatAreNone) {
     if (query.at(0, 0, 0) == query.at(1, 0, 0)) answer.toi_lower = -HUGE_VAL;
     return answer;
   };
-  expect_found(FindingKind::not_finite, search(infinite, Promise::conservative));
+  expect_found(judge::Fault::not_finite, search(infinite, Promise::conservative));
   const auto negative = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);
     if (answer.toi_lower > 0.5) answer.tolerance = -1.0;
     return answer;
   };
-  expect_found(FindingKind::not_finite, search(negative, Promise::conservative));
+  expect_found(judge::Fault::not_finite, search(negative, Promise::conservative));
 }
 
 /// A bound that is there with every other collision.
@@ -173,7 +173,7 @@ TEST(Fuzz, FindsABoundThatIsMissing) {
     if (query.at(0, 0, 0) == 1.0 && query.at(1, 0, 0) == 1.0) answer.toi_lower = Answer::none;
     return answer;
   };
-  expect_found(FindingKind::not_finite, search(forgetful, Promise::conservative));
+  expect_found(judge::Fault::not_finite, search(forgetful, Promise::conservative));
   const auto timeless = [](Kind kind, const Query& query) {
     return Answer{.verdict = honest(kind, query).verdict};
   };
@@ -189,23 +189,23 @@ TEST(Fuzz, FindsFailuresOfEverySort) {
       return honest(kind, query);
     };
   };
-  const auto expect_detail = [](FindingKind what, const FuzzResult& result,
+  const auto expect_detail = [](judge::Fault what, const FuzzResult& result,
                                 const std::string& detail) {
     expect_found(what, result);
     ASSERT_FALSE(result.findings.empty());
     EXPECT_EQ(result.findings.front().original.detail, detail);
   };
-  expect_detail(FindingKind::crash, search(with([] { std::abort(); }), Promise::none),
+  expect_detail(judge::Fault::crash, search(with([] { std::abort(); }), Promise::none),
                 "crash: SIGABRT");
-  expect_detail(FindingKind::exit, search(with([] { std::_Exit(3); }), Promise::none),
+  expect_detail(judge::Fault::exit, search(with([] { std::_Exit(3); }), Promise::none),
                 "exit: status 3");
-  expect_detail(FindingKind::exception,
+  expect_detail(judge::Fault::exception,
                 search(with([] { throw std::runtime_error("thrown"); }), Promise::none),
                 "exception: thrown");
   const auto says_error = [](Kind, const Query&) { return Answer{.verdict = Verdict::error}; };
-  expect_found(FindingKind::no_verdict, search(says_error, Promise::none));
+  expect_found(judge::Fault::no_verdict, search(says_error, Promise::none));
   const auto says_undecided = [](Kind, const Query&) { return Answer{}; };
-  expect_found(FindingKind::undecided, search(says_undecided, Promise::exact));
+  expect_found(judge::Fault::undecided, search(says_undecided, Promise::exact));
 }
 
 /// Yes at an infinite time to most that collides, and no to some: as a public solver does.
@@ -218,20 +218,20 @@ TEST(Fuzz, SeeksOnlyTheKindsOfFindingsOfItsOptions) {
   };
   FuzzOptions options{.most_queries = 3000, .most_groups = 1000};
   const FuzzResult all = search(ill, Promise::conservative, options);
-  std::set<FindingKind> kinds;
+  std::set<judge::Fault> kinds;
   for (const Finding& finding : all.findings) kinds.insert(finding.what);
   EXPECT_EQ(kinds.size(), 2U);
   EXPECT_EQ(all.other_findings, 0U);
-  for (const FindingKind only : {FindingKind::false_negative, FindingKind::not_finite}) {
+  for (const judge::Fault only : {judge::Fault::false_negative, judge::Fault::not_finite}) {
     options.only = {only};
     const FuzzResult result = search(ill, Promise::conservative, options);
     EXPECT_GT(result.findings.size(), 2U);
     for (const Finding& finding : result.findings) EXPECT_EQ(finding.what, only);
     EXPECT_GT(result.other_findings, 0U);
   }
-  options.only = {FindingKind::false_negative, FindingKind::not_finite};
+  options.only = {judge::Fault::false_negative, judge::Fault::not_finite};
   EXPECT_EQ(search(ill, Promise::conservative, options).findings.size(), all.findings.size());
-  options.only = {FindingKind::hang};
+  options.only = {judge::Fault::hang};
   const FuzzResult none = search(ill, Promise::conservative, options);
   EXPECT_TRUE(none.findings.empty());
   EXPECT_EQ(none.all_findings, 0U);
@@ -243,7 +243,7 @@ TEST(Fuzz, FindsAHang) {
     if (query.at(0, 1, 1) == query.at(1, 1, 1)) std::this_thread::sleep_for(1h);
     return honest(kind, query);
   };
-  expect_found(FindingKind::hang, search(hanging, Promise::none, {.query_limit_seconds = 0.1}));
+  expect_found(judge::Fault::hang, search(hanging, Promise::none, {.query_limit_seconds = 0.1}));
 }
 
 TEST(Fuzz, FindsNothingWhereNothingIsWrong) {
@@ -355,13 +355,13 @@ TEST(Fuzz, PutsFindingsOfTwoCausesInTwoGroups) {
   const FuzzResult result = search(
       ill, Promise::none, {.most_queries = 2400, .most_groups = 1000, .shrink_seconds = 60.0});
   std::uint64_t count = 0;
-  std::set<FindingKind> kinds;
+  std::set<judge::Fault> kinds;
   for (const FindingGroup& group : result.groups) {
     count += group.count;
     kinds.insert(result.findings.at(group.best).what);
   }
   EXPECT_EQ(count, result.all_findings);
-  EXPECT_EQ(kinds, (std::set{FindingKind::false_negative, FindingKind::crash}));
+  EXPECT_EQ(kinds, (std::set{judge::Fault::false_negative, judge::Fault::crash}));
 }
 
 TEST(Fuzz, AsksOnlyTheKindsOfItsOptions) {
@@ -387,7 +387,7 @@ TEST(Fuzz, MutatesTheCorpus) {
   Query query = tests::over_triangle(1, 1, 1, -1).query;
   query.at(0, 0, 2) = rare;
   options.corpus = {{Kind::vertex_face, query}};
-  expect_found(FindingKind::false_negative, search(wrong, Promise::none, options));
+  expect_found(judge::Fault::false_negative, search(wrong, Promise::none, options));
 }
 
 TEST(Fuzz, StopsWhenTold) {

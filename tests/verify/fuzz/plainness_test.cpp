@@ -36,22 +36,6 @@ Query scaled(const Query& query, int exponent) {
   return result;
 }
 
-TEST(ShortestDecimal, is_what_people_write) {
-  const auto expect = [](double x, std::uint64_t digits, int count, int exponent) {
-    const Decimal decimal = shortest_decimal(x);
-    EXPECT_EQ(decimal.digits, digits) << x;
-    EXPECT_EQ(decimal.count, count) << x;
-    EXPECT_EQ(decimal.exponent, exponent) << x;
-    EXPECT_EQ(from_decimal(decimal.digits, decimal.exponent), x);
-  };
-  expect(0.1, 1, 1, -1);
-  expect(0.25, 25, 2, -2);
-  expect(300.0, 3, 1, 2);
-  expect(0.1 + 0.2, 30000000000000004, 17, -17);
-  expect(std::numeric_limits<double>::denorm_min(), 5, 1, -324);
-  expect(std::numeric_limits<double>::max(), 17976931348623157, 17, 292);
-}
-
 TEST(Plainness, counts_what_it_takes_to_write_numbers) {
   constexpr std::uint64_t rest = 8 + 2 + 1;  // a magnitude, not 0, moves
   const auto length = [](double x) { return alone(x).length; };

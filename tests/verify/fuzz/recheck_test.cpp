@@ -67,7 +67,7 @@ TEST(Recheck, AsksAgainAboutAnyQuery) {
   Query infinite = finding.original.query;
   infinite.coordinates.front() = HUGE_VAL;
   EXPECT_FALSE(recheck.ask(infinite));
-  EXPECT_FALSE(recheck.ask(finding.original.query, jobs::Deadline(0.0)));
+  EXPECT_FALSE(recheck.ask(finding.original.query, base::Deadline(0.0)));
 }
 
 TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
@@ -87,8 +87,8 @@ TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
   finding.original.query = query_at(1.0);
   finding.original.answer = {.verdict = Verdict::yes, .toi_lower = Answer::none, .toi_upper = 0.5};
   finding.missing.lower = true;
-  const std::array<FindingKind, 3> kinds{FindingKind::crash, FindingKind::hang,
-                                         FindingKind::not_finite};
+  const std::array<judge::Fault, 3> kinds{judge::Fault::crash, judge::Fault::hang,
+                                          judge::Fault::not_finite};
   const std::array<double, 3> words{1.0, 2.0, 0.5};
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     finding.what = kinds.at(i);
@@ -123,7 +123,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
 TEST(Simplify, keeps_answer_truth_and_certificate_with_their_query) {
   const FunctionMethod method(late, Promise::conservative);
   Finding finding = find(method);
-  EXPECT_EQ(finding.what, FindingKind::late_toi);
+  EXPECT_EQ(finding.what, judge::Fault::late_toi);
   const FailingCase original = finding.original;
   simplify(method, {}, {}, finding);
   EXPECT_EQ(finding.shrinking, Shrinking::complete);
@@ -141,7 +141,7 @@ TEST(Simplify, says_if_the_time_was_too_short) {
   // A clock that goes on whenever somebody looks.
   for (const double step : {1.0, 0.2, 0.05}) {
     double now = 0.0;
-    const jobs::Deadline deadline(1.0, [&now, step] { return now += step; });
+    const base::Deadline deadline(1.0, [&now, step] { return now += step; });
     Finding finding = found;
     simplify(method, {}, deadline, finding);
     EXPECT_EQ(finding.shrinking, Shrinking::cut_short);
@@ -176,7 +176,7 @@ TEST(Simplify, does_not_ask_again_about_what_crashed) {
     return honest(kind, query);
   });
   Finding finding;
-  finding.what = FindingKind::crash;
+  finding.what = judge::Fault::crash;
   finding.method = "function";
   finding.original.query = crashing;
   finding.simplest = finding.original;
@@ -189,9 +189,9 @@ TEST(Simplify, does_not_ask_again_about_what_crashed) {
 TEST(Simplify, leaves_a_hang_alone_that_takes_longer_than_there_is_time) {
   const FunctionMethod method([](Kind, const Query&) -> Answer { std::abort(); });
   Finding finding;
-  finding.what = FindingKind::hang;
+  finding.what = judge::Fault::hang;
   finding.method = "function";
-  simplify(method, {.query_limit_seconds = 10.0}, jobs::Deadline(5.0, [] { return 0.0; }), finding);
+  simplify(method, {.query_limit_seconds = 10.0}, base::Deadline(5.0, [] { return 0.0; }), finding);
   EXPECT_EQ(finding.shrinking, Shrinking::not_tried);
 }
 

@@ -19,6 +19,7 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/fuzz/plainness.hpp"
+#include "verify/generate/decimal.hpp"
 
 namespace touchstone::verify::fuzz::shrink_test {
 namespace {
@@ -90,7 +91,7 @@ TEST(Shrink, finds_a_number_of_the_digits_that_a_condition_needs) {
   };
   const Query start = with_coordinates({{3, 1e30}, {20, 1.01654321}, {7, -2.0 / 3.0}});
   const Query least = shrink(Kind::edge_edge, start, is_inside);
-  EXPECT_EQ(shortest_decimal(least.coordinates[20]).count, 4);
+  EXPECT_EQ(generate::shortest_decimal(least.coordinates[20]).count, 4);
   expect_plain(Kind::edge_edge, least, {least.coordinates[20]});
 }
 
@@ -128,7 +129,7 @@ TEST(Shrink, stays_at_the_originals_scale) {
     const Query least = shrink(Kind::vertex_face, query, falls);
     EXPECT_TRUE(falls(least));
     EXPECT_LE(std::abs(size_exponent(least) - size_exponent(query)), 3);
-    for (const double x : magnitudes(least)) EXPECT_EQ(shortest_decimal(x).count, 1) << x;
+    for (const double x : magnitudes(least)) EXPECT_EQ(generate::shortest_decimal(x).count, 1) << x;
   }
 }
 

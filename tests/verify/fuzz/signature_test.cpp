@@ -77,7 +77,7 @@ TEST(ScaleRange, is_not_known_of_hangs_and_separations) {
   finding.separation = {.distance = 0.5, .norm = Norm::l2};
   EXPECT_FALSE(scale_range(method, {}, {}, finding).end_above);
   finding.separation = {};
-  finding.what = FindingKind::hang;
+  finding.what = judge::Fault::hang;
   EXPECT_FALSE(scale_range(method, {}, {}, finding).end_above);
 }
 
@@ -85,7 +85,7 @@ TEST(ScaleRange, is_not_known_when_the_time_is_over) {
   const FunctionMethod method(
       [](Kind kind, const Query& query) { return answer_of(fast::certified(kind, query)); });
   const ScaleRange range =
-      scale_range(method, {}, jobs::Deadline(0.0), finding_of(Kind::vertex_face, falling));
+      scale_range(method, {}, base::Deadline(0.0), finding_of(Kind::vertex_face, falling));
   EXPECT_FALSE(range.end_below || range.end_above);
 }
 
@@ -102,7 +102,7 @@ TEST(Signature, of_a_fault_of_scale_is_its_ends) {
   other.scales = {.end_below = -20, .end_above = 20};
   EXPECT_EQ(to_text(signature_of(other).ends), "ends below 2^-10 and above 2^10");
   other.scales = {.end_above = 1};
-  other.what = FindingKind::late_toi;
+  other.what = judge::Fault::late_toi;
   EXPECT_NE(signature_of(other), small);
 }
 
@@ -127,7 +127,7 @@ TEST(Signature, of_a_fault_of_logic_is_kind_shape_and_time) {
 
 TEST(Signature, tells_crashes_apart_by_their_reason) {
   Finding finding = finding_of(Kind::vertex_face, falling);
-  finding.what = FindingKind::crash;
+  finding.what = judge::Fault::crash;
   finding.simplest.detail = "crash: SIGSEGV";
   Finding other = finding;
   EXPECT_EQ(signature_of(other), signature_of(finding));

@@ -18,7 +18,7 @@ namespace {
 
 /// A vertex that falls through a triangle: they touch at t = 1/3.
 Reproduction miss() {
-  return {.what = FindingKind::false_negative,
+  return {.what = judge::Fault::false_negative,
           .kind = Kind::vertex_face,
           .failing = {.query = tests::over_triangle(1, 1, 1, -2).query,
                       .answer = {.verdict = fast::Verdict::no},
@@ -64,24 +64,24 @@ TEST(AsMain, includes_nothing_of_ours_and_is_short) {
 }
 
 TEST(AsMain, ends_with_one_for_what_was_found) {
-  const auto has = [](FindingKind what, const std::string& part) {
+  const auto has = [](judge::Fault what, const std::string& part) {
     Reproduction found = miss();
     found.what = what;
     EXPECT_NE(as_main(found, CallInterface::plugin).find(part), std::string::npos)
         << to_string(what) << '\n'
         << as_main(found, CallInterface::plugin);
   };
-  has(FindingKind::false_negative, "return answer.verdict == 0 ? 1 : 0;");
-  has(FindingKind::false_positive, "return answer.verdict == 1 ? 1 : 0;");
-  has(FindingKind::beyond_tolerance, "return answer.verdict == 1 ? 1 : 0;");
-  has(FindingKind::asymmetry, "return answer.verdict == 0 ? 1 : 0;");
-  has(FindingKind::late_toi,
+  has(judge::Fault::false_negative, "return answer.verdict == 0 ? 1 : 0;");
+  has(judge::Fault::false_positive, "return answer.verdict == 1 ? 1 : 0;");
+  has(judge::Fault::beyond_tolerance, "return answer.verdict == 1 ? 1 : 0;");
+  has(judge::Fault::asymmetry, "return answer.verdict == 0 ? 1 : 0;");
+  has(judge::Fault::late_toi,
       "return answer.verdict == 1 && answer.toi_lower > 0.3333333333333333 ? 1 : 0;");
-  has(FindingKind::early_toi_upper,
+  has(judge::Fault::early_toi_upper,
       "return answer.verdict == 1 && answer.toi_upper < 0.33333333333333337 ? 1 : 0;");
-  has(FindingKind::no_verdict, "return answer.verdict == 3 ? 1 : 0;");
-  has(FindingKind::undecided, "return answer.verdict == 2 ? 1 : 0;");
-  has(FindingKind::crash, "  return 0;\n");
+  has(judge::Fault::no_verdict, "return answer.verdict == 3 ? 1 : 0;");
+  has(judge::Fault::undecided, "return answer.verdict == 2 ? 1 : 0;");
+  has(judge::Fault::crash, "  return 0;\n");
 }
 
 TEST(CallInterface, has_a_name_and_follows_from_the_solver) {

@@ -109,12 +109,5 @@ TEST(ShellWord, IsOneWordWithTheSameBytes) {
   EXPECT_EQ(shell_word("caf\xe9"), "$'caf\\351'");
 }
 
-TEST(CppLiteral, IsALiteralOfTheSameBytes) {
-  EXPECT_EQ(cpp_literal("a b"), "\"a b\"");
-  EXPECT_EQ(cpp_literal("\"\\'"), "\"\\\"\\\\'\"");
-  EXPECT_EQ(cpp_literal("\x1b\u202e1\n"), "\"\\033\\342\\200\\2561\\012\"");
-  EXPECT_EQ(std::string("\033\342\200\2561\012"), "\x1b\u202e1\n");
-}
-
 }  // namespace
 }  // namespace touchstone::verify::io::printable_test

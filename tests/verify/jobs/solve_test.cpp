@@ -41,7 +41,7 @@ TEST(Solve, CountsAndHandsOutTheAnswersInOrder) {
     MemorySource source(Kind::edge_edge, scripted(10000));
     std::uint64_t next = 0;
     const auto on_answer = [&](std::uint64_t index, const Answer& answer,
-                               const solvers::Failure* failure) {
+                               const judge::Failure* failure) {
       ASSERT_EQ(failure, nullptr);
       ASSERT_EQ(index, next + 10);
       ASSERT_EQ(answer.verdict, static_cast<Verdict>(next % 5 % 4));
@@ -55,8 +55,8 @@ TEST(Solve, CountsAndHandsOutTheAnswersInOrder) {
     EXPECT_EQ(result.yes, 2000U);
     EXPECT_EQ(result.undecided, 2000U);
     EXPECT_EQ(result.errors, 2000U);
-    EXPECT_EQ(result.failures[static_cast<std::size_t>(solvers::FailureKind::no_verdict)], 2000U);
-    EXPECT_EQ(result.failures[static_cast<std::size_t>(solvers::FailureKind::undecided)], 2000U);
+    EXPECT_EQ(result.failures[static_cast<std::size_t>(judge::Fault::no_verdict)], 2000U);
+    EXPECT_EQ(result.failures[static_cast<std::size_t>(judge::Fault::undecided)], 2000U);
     EXPECT_EQ(result.skipped, 3U);
     EXPECT_EQ(result.rounded, 5U);
     EXPECT_GT(result.nanoseconds_per_query(), 0.0);
@@ -80,7 +80,7 @@ TEST(Solve, AnErrorOrAStopLosesNothingBeforeIt) {
   const SolveResult stopped =
       solve(source, *solver,
             {.on_answer = [&](std::uint64_t, const Answer&,
-                              const solvers::Failure*) { stop = ++seen > 100; },
+                              const judge::Failure*) { stop = ++seen > 100; },
              .stop = &stop});
   EXPECT_TRUE(stopped.interrupted);
   EXPECT_EQ(stopped.queries, seen);

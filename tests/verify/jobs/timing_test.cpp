@@ -35,8 +35,8 @@ data::QueryGroup falling(std::size_t count) {
 Answer no(Kind, const Query&) { return {.verdict = Verdict::no}; }
 
 Answer slow_no(Kind, const Query&) {
-  const double start = thread_nanoseconds();
-  while (thread_nanoseconds() - start < 1e6) continue;
+  const double start = base::thread_nanoseconds();
+  while (base::thread_nanoseconds() - start < 1e6) continue;
   return {.verdict = Verdict::no};
 }
 
@@ -158,7 +158,7 @@ TEST(TimedSolver, JudgesTheQueriesWhoseTruthIsKnown) {
   const judge::Judgement judgement = timed.judge(truths);
   EXPECT_EQ(judgement.queries, 4U);
   EXPECT_EQ(judgement.count(judge::Fault::false_negative), 2U);
-  EXPECT_EQ(judgement.count(solvers::FailureKind::exception), 1U);
+  EXPECT_EQ(judgement.count(judge::Fault::exception), 1U);
   ASSERT_EQ(judgement.wrong_answers.size(), 3U);
   EXPECT_EQ(judgement.wrong_answers[1].answer, "exception: thrown");
 }

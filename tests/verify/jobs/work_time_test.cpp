@@ -10,8 +10,8 @@ TEST(WorkTime, IsOfTheWorkThatIsDone) {
   const WorkTime time = work_time_of([&] {
     is_done = true;
     // Until the clocks of both have moved.
-    const double start = process_seconds();
-    while (process_seconds() == start) {
+    const double start = base::process_seconds();
+    while (base::process_seconds() == start) {
     }
   });
   EXPECT_TRUE(is_done);

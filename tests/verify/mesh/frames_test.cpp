@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "tests/support/mesh_files.hpp"
-#include "verify/data/dataset_error.hpp"
 #include "verify/data/npy_header.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::mesh::frames_test {
 namespace {
@@ -56,7 +56,7 @@ std::unique_ptr<Frames> open(const std::vector<fs::path>& paths) {
 std::string error_of(const MeshFolder& folder, const std::function<void()>& action) {
   try {
     action();
-  } catch (const data::DatasetError& error) {
+  } catch (const io::DatasetError& error) {
     const std::string text = error.what(), prefix = folder.path().string() + "/";
     return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
   }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tests/support/mesh_files.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::mesh::groups_test {
 namespace {
@@ -16,7 +16,7 @@ using tests::MeshFolder;
 std::string error_of(const MeshFolder& folder, std::string_view text, std::size_t vertices) {
   try {
     (void)read_groups(folder.file("groups.txt", text), vertices);
-  } catch (const data::DatasetError& error) {
+  } catch (const io::DatasetError& error) {
     return std::string(error.what()).substr(folder.path().string().size() + 1);
   }
   return "";

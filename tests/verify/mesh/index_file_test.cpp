@@ -48,7 +48,7 @@ TEST(WriteIndexPairs, WritesMoreThanItsBufferHolds) {
 
 TEST(WriteIndexPairs, SaysWhereItCannot) {
   const MeshFolder folder;
-  EXPECT_THROW(write_index_pairs(folder.path() / "none" / "a.npy", {}), data::DatasetError);
+  EXPECT_THROW(write_index_pairs(folder.path() / "none" / "a.npy", {}), io::DatasetError);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fast/broad_phase.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::mesh::moving_mesh_test {
 namespace {
@@ -127,7 +127,7 @@ TEST_F(Step, RefusesTwoDifferentMeshes) {
     try {
       static_cast<void>(read_step(before, after));
       FAIL() << text;
-    } catch (const data::DatasetError& error) {
+    } catch (const io::DatasetError& error) {
       EXPECT_EQ(error.path(), after);
       EXPECT_EQ(error.reason(), "is not the same mesh as " + before.string());
     }
@@ -137,7 +137,7 @@ TEST_F(Step, RefusesTwoDifferentMeshes) {
 TEST_F(Step, RefusesAFileThatIsNotThere) {
   const fs::path before = write("a0.obj", triangle);
   EXPECT_THROW(static_cast<void>(read_step(before, before.parent_path() / "missing.obj")),
-               data::DatasetError);
+               io::DatasetError);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/judgements.hpp"
+
 namespace touchstone::verify::report::bench_report_test {
 namespace {
 
@@ -27,8 +29,8 @@ jobs::SolverResult careful() {
   careful.times.repetitions = {12.0, 10.0, 30.0};
   careful.singles = jobs::SingleTimes{.queries = 300, .p50 = 40.2, .p99 = 900.0, .max = 12345.0};
   careful.stages = {{"axis", 300}, {"exact", 100}};
-  careful.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.25});
-  careful.judgement.add(miss, {.verdict = Verdict::no});
+  tests::add(careful.judgement, hit, {.verdict = Verdict::yes, .toi_lower = 0.25});
+  tests::add(careful.judgement, miss, {.verdict = Verdict::no});
   return careful;
 }
 
@@ -38,11 +40,11 @@ jobs::SolverResult hasty() {
   hasty.name = "hasty";
   hasty.promise = Promise::conservative;
   hasty.queries = 100;
-  for (int i = 0; i < 23; ++i) hasty.judgement.add(hit, {.verdict = Verdict::no});
-  hasty.judgement.add(miss, {.verdict = Verdict::undecided});
-  hasty.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.75});
-  hasty.judgement.add(hit, {.verdict = Verdict::yes, .toi_upper = 0.25});
-  hasty.judgement.add(hit, {.verdict = Verdict::error});
+  for (int i = 0; i < 23; ++i) tests::add(hasty.judgement, hit, {.verdict = Verdict::no});
+  tests::add(hasty.judgement, miss, {.verdict = Verdict::undecided});
+  tests::add(hasty.judgement, hit, {.verdict = Verdict::yes, .toi_lower = 0.75});
+  tests::add(hasty.judgement, hit, {.verdict = Verdict::yes, .toi_upper = 0.25});
+  tests::add(hasty.judgement, hit, {.verdict = Verdict::error});
   hasty.wrong_places.assign(hasty.judgement.wrong_answers.size(), {"b/edge-edge.csv", 17});
   return hasty;
 }

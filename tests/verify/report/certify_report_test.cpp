@@ -12,6 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/judgements.hpp"
+#include "tests/support/queries.hpp"
+
 namespace touchstone::verify::report::certify_report_test {
 namespace {
 
@@ -35,8 +38,8 @@ std::vector<jobs::CertifyResult> results() {
   wrong.skipped = 4;
   wrong.rounded = 9;
   wrong.microseconds = 34.0;
-  wrong.mismatches = {{jobs::Mismatch::Of::label, 0, "no collision", "collision"},
-                      {jobs::Mismatch::Of::toi, 1, "2.5E-1", "5E-1"}};
+  wrong.mismatches = {{judge::Mismatch::Of::label, 0, "no collision", "collision"},
+                      {judge::Mismatch::Of::toi, 1, "2.5E-1", "5E-1"}};
   wrong.fail("b,c/edge-edge.csv:17:3: denominator is zero");
   return {clean, wrong};
 }
@@ -133,17 +136,17 @@ std::vector<jobs::CertifyResult> judged_results(Promise promise_of_hasty) {
       .name = "careful", .promise = Promise::exact, .timed = true, .judgement = {}};
   jobs::MethodResult hasty{
       .name = "hasty", .promise = promise_of_hasty, .timed = false, .judgement = {}};
-  careful.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.25});
+  tests::add(careful.judgement, hit, {.verdict = Verdict::yes, .toi_lower = 0.25});
   careful.judgement.nanoseconds = 12.5;
-  hasty.judgement.add(hit, {.verdict = Verdict::yes});
+  tests::add(hasty.judgement, hit, {.verdict = Verdict::yes});
   std::vector<jobs::CertifyResult> all = results();
   all[0].methods = {careful, hasty};
-  for (int i = 0; i < 23; ++i) hasty.judgement.add(hit, {.verdict = Verdict::no});
-  hasty.judgement.add(miss, {.verdict = Verdict::yes});
-  hasty.judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.75});
-  hasty.judgement.add(hit, {.verdict = Verdict::yes, .toi_upper = 0.25});
-  hasty.judgement.add(hit, {.verdict = Verdict::undecided});
-  hasty.judgement.add(hit, {.verdict = Verdict::error});
+  for (int i = 0; i < 23; ++i) tests::add(hasty.judgement, hit, {.verdict = Verdict::no});
+  tests::add(hasty.judgement, miss, {.verdict = Verdict::yes});
+  tests::add(hasty.judgement, hit, {.verdict = Verdict::yes, .toi_lower = 0.75});
+  tests::add(hasty.judgement, hit, {.verdict = Verdict::yes, .toi_upper = 0.25});
+  tests::add(hasty.judgement, hit, {.verdict = Verdict::undecided});
+  tests::add(hasty.judgement, hit, {.verdict = Verdict::error});
   hasty.judgement.add_missing(9);
   all[1].methods = {careful, hasty};
   return all;
@@ -191,8 +194,7 @@ TEST(CertifyReport, JsonHasTheMethodsOfTheTotalAndOfEachFile) {
   ASSERT_EQ(json.at("methods").size(), 2U);
   nlohmann::json careful = json.at("methods")[0], hasty = json.at("methods")[1];
   nlohmann::json no_failures;
-  for (const solvers::FailureKind kind : solvers::all_failure_kinds)
-    no_failures[solvers::to_string(kind)] = 0;
+  for (const judge::Fault kind : judge::all_failures) no_failures[judge::to_string(kind)] = 0;
   EXPECT_EQ(
       careful,
       (nlohmann::json{
@@ -264,8 +266,9 @@ TEST(CertifyReport, JsonHasTheSeparationOfFilesAndOfTheTotalIfItIsOne) {
 
 TEST(CertifyReport, TolerancesHaveAColumnWithASeparationOrAFault) {
   std::vector<jobs::CertifyResult> all = separated_results();
-  all[0].methods[0].judgement.add_beyond_tolerance(miss,
-                                                   {.verdict = Verdict::yes, .tolerance = 0.5});
+  const Query apart = tests::over_triangle(1, 1, 1, 1).query;
+  all[0].methods[0].judgement.add({Kind::vertex_face, apart}, miss,
+                                  {.verdict = Verdict::yes, .tolerance = 0.5}, {});
   const auto lines = method_lines(all);
   EXPECT_TRUE(lines[0].ends_with("  beyond tol"));
   EXPECT_EQ(words(lines[1]).back(), "1");

@@ -17,29 +17,6 @@
 namespace touchstone::verify::report::figures_test {
 namespace {
 
-using Places = std::vector<std::size_t>;
-
-std::vector<FigurePoint> points(const std::vector<std::pair<double, double>>& places) {
-  std::vector<FigurePoint> result;
-  result.reserve(places.size());
-  for (const auto& [x, y] : places) result.push_back({x, y, {}, false});
-  return result;
-}
-
-TEST(ParetoFront, HoldsWhatNothingBeats) {
-  const auto field = points({{3, 1}, {1, 5}, {2, 3}, {4, 4}, {2, 4}, {5, 1}});
-  EXPECT_EQ(pareto_front(field), (Places{1, 2, 0}));
-}
-
-TEST(ParetoFront, OfEqualPointsAllAreOnIt) {
-  EXPECT_EQ(pareto_front(points({{1, 1}, {1, 1}, {1, 2}})), (Places{0, 1}));
-}
-
-TEST(ParetoFront, OnePointThatBeatsAllIsAlone) {
-  EXPECT_EQ(pareto_front(points({{9, 9}, {1, 0}, {2, 0}, {1, 1}})), (Places{1}));
-  EXPECT_EQ(pareto_front({}), Places{});
-}
-
 const Figure& figure(const std::vector<Figure>& figures, const std::string& id) {
   const auto found = std::ranges::find(figures, id, &Figure::id);
   if (found == figures.end()) throw std::invalid_argument(id);
@@ -151,21 +128,6 @@ TEST(Figures, MissesStandOverTheScale) {
   EXPECT_EQ(series(misses.panels[0], "tight_inclusion", "curve").points.at(0).y, 0.0);
 }
 
-TEST(Figures, WhatIsInfiniteIsAWordForTheScript) {
-  Measurements measurements = tests::small_report();
-  for (Measurement& m : measurements.all) {
-    if (m.achieved_tolerance) {
-      m.achieved_tolerance->max = std::numeric_limits<double>::infinity();
-    }
-  }
-  for (const nlohmann::json& one : to_json(figures_of(measurements))) {
-    if (one.at("id") != "checks_tolerance") continue;
-    EXPECT_EQ(one.at("panels")[0].at("series")[0].at("points")[0].at("y"), "Infinity");
-    return;
-  }
-  FAIL() << "no such figure";
-}
-
 TEST(Figures, StagesAndStabilityAreCellsAndShares) {
   const std::vector<Figure> figures = figures_of(tests::small_report());
   const FigurePanel& stages = figure(figures, "stages").panels.at(0);
@@ -176,89 +138,6 @@ TEST(Figures, StagesAndStabilityAreCellsAndShares) {
   EXPECT_EQ(series(angle, "msrf", "ee").points.at(0),
             (FigurePoint{-5.0, 0.4, "N", true,
                          "20 queries, 10 collisions, 4 false negatives\n7 ns a query"}));
-}
-
-TEST(Figures, EveryFaultHasALetter) {
-  Measurements measurements;
-  for (const char* const worst : {"", "false positive", "false negative", "late toi",
-                                  "early toi_upper", "error", "beyond tolerance"}) {
-    measurements.stability.push_back(
-        {.method = "m", .hardness = "angle", .measure = {}, .worst = worst});
-  }
-  std::string letters;
-  const std::vector<Figure> figures = figures_of(measurements);
-  for (const FigurePoint& point : figures.at(0).panels.at(0).series.at(0).points) {
-    letters += point.label.empty() ? "." : point.label;
-  }
-  EXPECT_EQ(letters, ".PNTTEB");
-}
-
-TEST(Figures, ErrorsAndHangsAreMarkedBesideTheWorst) {
-  Measurements measurements;
-  const auto add = [&](const std::string& worst, std::uint64_t errors, std::uint64_t hangs) {
-    measurements.stability.push_back({.method = "m",
-                                      .hardness = "digits",
-                                      .measure = {},
-                                      .is_power = false,
-                                      .errors = errors,
-                                      .hangs = hangs,
-                                      .worst = worst});
-  };
-  add("false negative", 1, 0);
-  add("false positive", 0, 2);
-  add("error", 3, 0);
-  add("error", 3, 1);
-  add("", 0, 1);
-  const std::vector<Figure> figures = figures_of(measurements);
-  const FigurePanel& panel = figures.at(0).panels.at(0);
-  EXPECT_FALSE(panel.powers);
-  std::string letters;
-  for (const FigurePoint& point : panel.series.at(0).points) letters += point.label + " ";
-  EXPECT_EQ(letters, "N! P! E E! ! ");
-}
-
-TEST(Figures, StabilityShowsTheNumbersOfThoseThatGiveThem) {
-  Measurements measurements = tests::small_report();
-  StabilityMark counting = measurements.stability.at(0);
-  counting.method = "certified";
-  counting.checks = 2.5;
-  counting.toi_error = Spread{.count = 3, .median = 0.0, .max = 1e-13};
-  measurements.stability.push_back(counting);
-  counting.exponent = -10;
-  counting.toi_error.reset();
-  measurements.stability.push_back(counting);
-  const std::vector<Figure> figures = figures_of(measurements);
-  const Figure& checks = figure(figures, "stability_checks");
-  EXPECT_EQ(checks.form, FigureForm::shades);
-  ASSERT_EQ(checks.panels.at(0).series.size(), 1U) << "msrf does not count";
-  EXPECT_EQ(checks.panels[0].series[0].points.at(0), (FigurePoint{-5.0, 2.5, "", false}));
-  EXPECT_EQ(figure(figures, "stability_time").panels.at(0).series.size(), 2U);
-  const FigureSeries& median = figure(figures, "stability_toi_median").panels.at(0).series.at(0);
-  EXPECT_EQ(median.points.at(0).y, 0.0);
-  EXPECT_TRUE(std::isnan(median.points.at(1).y)) << "not known at this level";
-  EXPECT_EQ(figure(figures, "stability_toi_max").data.rows.at(0),
-            (std::vector<std::string>{"angle", "angle to parallel", "-5", "edge-edge", "certified",
-                                      "1e-13"}));
-}
-
-TEST(Figures, StabilityHasTheRowsOfAMethodSideBySide) {
-  Measurements measurements;
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (const char* const method : {"first", "second"}) {
-      measurements.stability.push_back({.method = method,
-                                        .hardness = "angle",
-                                        .measure = {},
-                                        .exponent = 0,
-                                        .kind = kind,
-                                        .worst = {}});
-    }
-  }
-  const std::vector<Figure> figures = figures_of(measurements);
-  std::string rows;
-  for (const FigureSeries& one : figures.at(0).panels.at(0).series) {
-    rows += one.name + " " + one.role + "; ";
-  }
-  EXPECT_EQ(rows, "first vf; first ee; second vf; second ee; ");
 }
 
 TEST(Figures, WithoutMeasurementsThereAreNone) { EXPECT_TRUE(figures_of({}).empty()); }

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "tests/support/judgements.hpp"
+
 namespace touchstone::verify::report::judgement_report_test {
 namespace {
 
@@ -18,12 +20,12 @@ const judge::GroundTruth hit{.index = 4, .collides = true, .toi = exact::DoubleI
 /// an error.
 judge::Judgement wrong_in_each_way() {
   judge::Judgement judgement;
-  for (int i = 0; i < 22; ++i) judgement.add(hit, {.verdict = Verdict::no});
-  judgement.add(miss, {.verdict = Verdict::yes});
-  judgement.add(hit, {.verdict = Verdict::undecided});
-  judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.75});
-  judgement.add(hit, {.verdict = Verdict::yes, .toi_lower = 0.25, .toi_upper = 0.375});
-  judgement.add(hit, {.verdict = Verdict::error});
+  for (int i = 0; i < 22; ++i) tests::add(judgement, hit, {.verdict = Verdict::no});
+  tests::add(judgement, miss, {.verdict = Verdict::yes});
+  tests::add(judgement, hit, {.verdict = Verdict::undecided});
+  tests::add(judgement, hit, {.verdict = Verdict::yes, .toi_lower = 0.75});
+  tests::add(judgement, hit, {.verdict = Verdict::yes, .toi_lower = 0.25, .toi_upper = 0.375});
+  tests::add(judgement, hit, {.verdict = Verdict::error});
   return judgement;
 }
 
@@ -69,10 +71,10 @@ TEST(JudgementReport, NamesAnswersThatBreakThePromiseOnly) {
 TEST(JudgementReport, CountsFailuresByKind) {
   FailureCounts failures{};
   EXPECT_EQ(to_text(failures), "");
-  failures[static_cast<std::size_t>(solvers::FailureKind::crash)] = 1;
-  failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 23;
+  failures[static_cast<std::size_t>(judge::Fault::crash)] = 1;
+  failures[static_cast<std::size_t>(judge::Fault::hang)] = 23;
   EXPECT_EQ(to_text(failures), "1 crash, 23 hang");
-  EXPECT_EQ(to_json(failures).size(), solvers::failure_kinds);
+  EXPECT_EQ(to_json(failures).size(), judge::all_failures.size());
   EXPECT_EQ(to_json(failures).at("hang"), 23);
   EXPECT_EQ(to_json(failures).at("exit"), 0);
 }

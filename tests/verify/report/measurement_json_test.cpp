@@ -63,7 +63,7 @@ Measurements example() {
                                     .beyond_tolerance = 5,
                                     .errors = 6,
                                     .undecided = 7,
-                                    .worst = "false negative",
+                                    .worst = judge::Fault::false_negative,
                                     .worst_rate = 0.2,
                                     .toi_error = Spread{.count = 8, .median = 0.0, .max = 1e-9},
                                     .nanoseconds = 1e3,

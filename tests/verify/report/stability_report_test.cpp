@@ -57,7 +57,7 @@ TEST(StabilityText, HasALineAHardnessAndACharacterALevel) {
   judge::Judgement late = faults(0, 0);
   late.faults[static_cast<std::size_t>(judge::Fault::late_toi)] = 1;
   judge::Judgement wrong = faults(0, 0);
-  wrong.faults[static_cast<std::size_t>(judge::Fault::error)] = 1;
+  wrong.faults[static_cast<std::size_t>(judge::Fault::crash)] = 1;
   judge::Judgement far = faults(0, 1);
   far.faults[static_cast<std::size_t>(judge::Fault::beyond_tolerance)] = 1;
   const std::string text = to_text(result_of(
@@ -72,10 +72,10 @@ TEST(StabilityText, HasALineAHardnessAndACharacterALevel) {
 /// Behind what is worse.
 TEST(StabilityText, ShowsErrorsAndHangsBesideTheWorst) {
   judge::Judgement both = faults(1, 0);
-  both.faults[static_cast<std::size_t>(judge::Fault::error)] = 1;
-  both.failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 1;
+  both.faults[static_cast<std::size_t>(judge::Fault::crash)] = 1;
+  both.faults[static_cast<std::size_t>(judge::Fault::hang)] = 1;
   judge::Judgement hung = faults(0, 0);
-  hung.failures[static_cast<std::size_t>(solvers::FailureKind::hang)] = 1;
+  hung.faults[static_cast<std::size_t>(judge::Fault::hang)] = 1;
   const std::string text = to_text(result_of({cell("digits", 1, both), cell("digits", 2, hung)}));
   EXPECT_TRUE(contains(text, "digits    1 digits … 15 digits  edge-edge    N.              #H "))
       << text;
@@ -103,7 +103,7 @@ TEST(StabilityText, NamesSeparationAndDisagreements) {
   EXPECT_FALSE(contains(to_text(result), "minimum separation"));
   result.separation = {.distance = 0.5, .norm = Norm::l2};
   result.cells[0].judged.name = "angle 2^-1";
-  result.cells[0].judged.mismatches.push_back({.of = jobs::Mismatch::Of::label,
+  result.cells[0].judged.mismatches.push_back({.of = judge::Mismatch::Of::label,
                                                .index = 4,
                                                .recorded = "collision",
                                                .truth = "no collision"});
@@ -169,11 +169,11 @@ TEST(StabilityJson, IsNullWhereNothingIsKnown) {
 TEST(StabilityMarks, HoldWhatAReportShowsOfACell) {
   judge::Judgement wrong = faults(1, 3);
   wrong.toi_errors.add(0.25);
-  wrong.undecided = 2;
+  wrong.faults[static_cast<std::size_t>(judge::Fault::undecided)] = 2;
   const auto marks =
       marks_of(result_of({cell("scale", -800, judge::Judgement{}), cell("scale", 0, wrong)}));
   ASSERT_EQ(marks.size(), 2U);
-  EXPECT_EQ(marks[0].worst, "");
+  EXPECT_FALSE(marks[0].worst);
   EXPECT_TRUE(std::isnan(marks[0].checks));
   EXPECT_FALSE(marks[0].toi_error.has_value());
   EXPECT_EQ(marks[1].method, "planted");
@@ -181,7 +181,7 @@ TEST(StabilityMarks, HoldWhatAReportShowsOfACell) {
   EXPECT_EQ(marks[1].exponent, 0);
   EXPECT_EQ(marks[1].false_negatives, 1U);
   EXPECT_EQ(marks[1].undecided, 2U);
-  EXPECT_EQ(marks[1].worst, "false negative");
+  EXPECT_EQ(marks[1].worst, judge::Fault::false_negative);
   EXPECT_EQ(marks[1].worst_rate, 0.2);
   EXPECT_EQ(marks[1].toi_error->max, 0.25);
   EXPECT_EQ(marks[1].nanoseconds, 123.4);

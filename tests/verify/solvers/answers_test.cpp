@@ -57,7 +57,7 @@ void expect_same_bits(double a, double b) {
 }
 
 void expect_same(const std::optional<RecordedAnswer>& recorded, const Answer& b,
-                 std::optional<FailureKind> failure = std::nullopt) {
+                 std::optional<judge::Fault> failure = std::nullopt) {
   ASSERT_TRUE(recorded.has_value());
   const Answer& a = recorded->answer;
   EXPECT_EQ(a.verdict, b.verdict);
@@ -88,14 +88,14 @@ TEST(AnswerRow, QuotesNames) {
 }
 
 TEST(AnswerRow, SaysWhyThereIsNoAnswer) {
-  const auto row = [](const Answer& answer, const Failure& failure) {
+  const auto row = [](const Answer& answer, const judge::Failure& failure) {
     return answer_row("a", 0, ee, answer, &failure);
   };
-  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = FailureKind::crash, .number = 11}),
+  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = judge::Fault::crash, .number = 11}),
             "a,0,edge-edge,error,,,,crash: SIGSEGV\n");
-  EXPECT_EQ(row({.verdict = Verdict::undecided}, {.kind = FailureKind::hang}),
+  EXPECT_EQ(row({.verdict = Verdict::undecided}, {.kind = judge::Fault::hang}),
             "a,0,edge-edge,undecided,,,,hang\n");
-  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = FailureKind::exception, .what = "a,b"}),
+  EXPECT_EQ(row({.verdict = Verdict::error}, {.kind = judge::Fault::exception, .what = "a,b"}),
             "a,0,edge-edge,error,,,,\"exception: a,b\"\n");
   // No reader takes an infinite time.
   const double infinity = std::numeric_limits<double>::infinity();
@@ -127,7 +127,7 @@ TEST(Answers, ReadAsTheyWereWritten) {
   ASSERT_EQ(answers.size(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i) {
     expect_same(answers.answer_to("n,\n\"", ee, i), written[i],
-                i == 2 ? std::optional(FailureKind::no_verdict) : std::nullopt);
+                i == 2 ? std::optional(judge::Fault::no_verdict) : std::nullopt);
   }
 }
 
@@ -167,8 +167,8 @@ TEST(LoadAnswers, ReadsWhyThereIsNoAnswer) {
                                                    "a,0,edge-edge,error,,,,crash: SIGSEGV\n"
                                                    "a,1,edge-edge,undecided,,,,hang\n"
                                                    "a,2,edge-edge,no,,,,\n");
-  expect_same(answers.answer_to("a", ee, 0), {.verdict = Verdict::error}, FailureKind::crash);
-  expect_same(answers.answer_to("a", ee, 1), {.verdict = Verdict::undecided}, FailureKind::hang);
+  expect_same(answers.answer_to("a", ee, 0), {.verdict = Verdict::error}, judge::Fault::crash);
+  expect_same(answers.answer_to("a", ee, 1), {.verdict = Verdict::undecided}, judge::Fault::hang);
   expect_same(answers.answer_to("a", ee, 2), {.verdict = Verdict::no});
   EXPECT_EQ(error_in(full_header + "a,0,edge-edge,error,,,,bang\n"),
             "answers.csv:2:8: must be a kind of failure or empty: \"bang\"");

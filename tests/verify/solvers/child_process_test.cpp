@@ -48,17 +48,17 @@ TEST(ChildProcess, MessagesKeepTheirBoundsAndComeBeforeTheEnd) {
     EXPECT_EQ(message, expected);
   }
   EXPECT_EQ(next(child, message, output), Event::ended);
-  EXPECT_EQ(child.end(output).failure, (Failure{.kind = FailureKind::exit, .number = 0}));
+  EXPECT_EQ(child.end(output).failure, (judge::Failure{.kind = judge::Fault::exit, .number = 0}));
 }
 
 TEST(ChildProcess, SaysHowItEnded) {
   const TemporaryFolder folder;
-  const std::vector<std::pair<ChildProcess::Work, Failure>> ends{
+  const std::vector<std::pair<ChildProcess::Work, judge::Failure>> ends{
       {[](const ChildChannel&) { std::raise(SIGSEGV); },
-       {.kind = FailureKind::crash, .number = SIGSEGV}},
-      {[](const ChildChannel&) { throw 7; }, {.kind = FailureKind::exit, .number = 1}},
-      {[](const ChildChannel&) { std::exit(9); }, {.kind = FailureKind::exit, .number = 9}},
-      {[](const ChildChannel&) { ::_exit(4); }, {.kind = FailureKind::exit, .number = 4}}};
+       {.kind = judge::Fault::crash, .number = SIGSEGV}},
+      {[](const ChildChannel&) { throw 7; }, {.kind = judge::Fault::exit, .number = 1}},
+      {[](const ChildChannel&) { std::exit(9); }, {.kind = judge::Fault::exit, .number = 9}},
+      {[](const ChildChannel&) { ::_exit(4); }, {.kind = judge::Fault::exit, .number = 4}}};
   for (const auto& [work, failure] : ends) {
     ChildProcess child(work, {}, folder.path());
     CapturedOutput output;

@@ -317,7 +317,7 @@ TEST(Plugin, AVerdictThatIsNoneIsAnError) {
     SCOPED_TRACE(static_cast<int>(what));
     const Answer answer = ask_misbehaving(what);
     expect_nothing_but(answer, Verdict::error);
-    EXPECT_EQ(failure_of(answer).value().kind, FailureKind::no_verdict);
+    EXPECT_EQ(judge::failure_of(answer).value().kind, judge::Fault::no_verdict);
   }
 }
 
@@ -326,7 +326,7 @@ TEST(Plugin, HandsOnTimesThatAreNotFinite) {
        {Misbehaviour::infinite_toi_lower, Misbehaviour::infinite_toi_upper}) {
     const Answer answer = ask_misbehaving(what);
     EXPECT_EQ(answer.verdict, Verdict::yes);
-    EXPECT_EQ(failure_of(answer).value().kind, FailureKind::not_finite);
+    EXPECT_EQ(judge::failure_of(answer).value().kind, judge::Fault::not_finite);
   }
 }
 
@@ -348,7 +348,7 @@ TEST(Plugin, InAProcessOfItsOwnItsWorstCostsOneQueryEach) {
     expect_nothing_but(answers[i], expected[i]);
   }
   std::string failures;
-  for (const QueryFailure& failure : run.failures) {
+  for (const judge::QueryFailure& failure : run.failures) {
     failures += std::to_string(failure.position) + " " + to_text(failure.failure) + "\n";
   }
   EXPECT_EQ(failures,

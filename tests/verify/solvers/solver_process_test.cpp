@@ -218,12 +218,12 @@ Outcome run(const std::vector<Query>& queries, double limit) {
 }
 
 /// Expects these failures, and the method's own answer elsewhere.
-void expect_failures(const Outcome& outcome, const Failure& failure,
+void expect_failures(const Outcome& outcome, const judge::Failure& failure,
                      const std::vector<std::size_t>& indices) {
   const std::vector<Answer>& answers = outcome.answers;
   EXPECT_EQ(outcome.run.answered, answers.size());
   std::vector<std::size_t> found;
-  for (const QueryFailure& other : outcome.run.failures) {
+  for (const judge::QueryFailure& other : outcome.run.failures) {
     found.push_back(other.position);
     EXPECT_EQ(other.failure, failure) << to_text(other.failure);
   }
@@ -233,7 +233,7 @@ void expect_failures(const Outcome& outcome, const Failure& failure,
   for (std::size_t i = 0; i < answers.size(); ++i) {
     SCOPED_TRACE(i);
     if (special[i]) {
-      ASSERT_EQ(answers[i].verdict, verdict_of(failure.kind));
+      ASSERT_EQ(answers[i].verdict, judge::verdict_of(failure.kind));
       ASSERT_TRUE(std::isnan(answers[i].toi_lower));
       ASSERT_TRUE(std::isnan(answers[i].toi_upper));
       ASSERT_TRUE(std::isnan(answers[i].tolerance));
@@ -249,7 +249,7 @@ void expect_all_answered(const Outcome& outcome) { expect_failures(outcome, {}, 
 constexpr double long_limit = 60.0;
 /// What a hang costs. Queries that do not hang take microseconds, and may wait for a processor five times as long.
 constexpr double hang_limit = 0.5;
-const Failure killed{.kind = FailureKind::crash, .number = SIGKILL};
+const judge::Failure killed{.kind = judge::Fault::crash, .number = SIGKILL};
 
 TEST(SolverProcess, AnswersAsTheMethodDoes) {
   for (const double limit : {0.0, long_limit}) {
@@ -310,13 +310,13 @@ TEST(SolverProcess, AsksOneProcessThatIsNotThisOne) {
 // ---- Failures -----------------------------------------------------------------------------------
 
 TEST(SolverProcess, EveryWayToEndCostsOneQueryAndHasItsName) {
-  const std::vector<std::pair<Act, Failure>> ends{
+  const std::vector<std::pair<Act, judge::Failure>> ends{
       {Act::dies, killed},
-      {Act::segfaults, {.kind = FailureKind::crash, .number = SIGSEGV}},
-      {Act::throws, {.kind = FailureKind::exception, .what = "thrown by a solver"}},
-      {Act::throws_a_number, {.kind = FailureKind::exception, .what = "not a std::exception"}},
-      {Act::exits, {.kind = FailureKind::exit}},
-      {Act::exits_as_usual, {.kind = FailureKind::exit, .number = 3}}};
+      {Act::segfaults, {.kind = judge::Fault::crash, .number = SIGSEGV}},
+      {Act::throws, {.kind = judge::Fault::exception, .what = "thrown by a solver"}},
+      {Act::throws_a_number, {.kind = judge::Fault::exception, .what = "not a std::exception"}},
+      {Act::exits, {.kind = judge::Fault::exit}},
+      {Act::exits_as_usual, {.kind = judge::Fault::exit, .number = 3}}};
   for (const auto& [act, failure] : ends) {
     for (const double limit : {0.0, long_limit}) {
       SCOPED_TRACE(to_text(failure));
@@ -336,9 +336,9 @@ TEST(SolverProcess, LeavesItToTheAnswersWhatTheyShow) {
   plant(queries, Act::is_undecided, {2});
   const Outcome outcome = run(queries);
   EXPECT_TRUE(outcome.run.failures.empty());
-  EXPECT_EQ(failure_of(outcome.answers[0]), std::nullopt);
-  EXPECT_EQ(failure_of(outcome.answers[1]).value().kind, FailureKind::not_finite);
-  EXPECT_EQ(failure_of(outcome.answers[2]).value().kind, FailureKind::undecided);
+  EXPECT_EQ(judge::failure_of(outcome.answers[0]), std::nullopt);
+  EXPECT_EQ(judge::failure_of(outcome.answers[1]).value().kind, judge::Fault::not_finite);
+  EXPECT_EQ(judge::failure_of(outcome.answers[2]).value().kind, judge::Fault::undecided);
 }
 
 TEST(SolverProcess, SurvivesAMethodThatNeverDoes) {
@@ -384,7 +384,7 @@ TEST(SolverProcess, TheLimitCostsOneQuery) {
     std::vector<Query> queries = numbered(30);
     plant(queries, act, slow);
     const Outcome outcome = run(queries, hang_limit);
-    expect_failures(outcome, {.kind = FailureKind::hang}, slow);
+    expect_failures(outcome, {.kind = judge::Fault::hang}, slow);
     EXPECT_EQ(outcome.run.unplaced_crashes, 0U);
   }
 }
@@ -392,7 +392,7 @@ TEST(SolverProcess, TheLimitCostsOneQuery) {
 TEST(SolverProcess, TheLimitHoldsForAChildThatClosesAllItsDescriptors) {
   std::vector<Query> queries = numbered(3);
   plant(queries, Act::closes, {1});
-  expect_failures(run(queries, hang_limit), {.kind = FailureKind::hang}, {1});
+  expect_failures(run(queries, hang_limit), {.kind = judge::Fault::hang}, {1});
 }
 
 TEST(SolverProcess, AStepThatTakesTooLongIsSearchedAndNotCharged) {
@@ -451,7 +451,7 @@ TEST(SolverProcess, StopsAtItsTime) {
   std::vector<Query> queries = numbered(10);
   plant(queries, Act::hangs, {5});
   std::vector<Answer> answers(queries.size());
-  const SolverRun cut = process.solve(Kind::vertex_face, queries, answers, {}, jobs::Deadline(0.1));
+  const SolverRun cut = process.solve(Kind::vertex_face, queries, answers, {}, base::Deadline(0.1));
   EXPECT_LE(cut.answered, 5U);
   EXPECT_TRUE(cut.failures.empty());
   // The next call has all the time.
@@ -505,7 +505,7 @@ TEST(SolverProcess, AFileThatIsTooLargeEndsIt) {
   std::vector<Query> queries = numbered(3);
   plant(queries, Act::writes_a_file, {1});
   expect_failures(run(queries, {.limits = {.file_bytes = 1U << 20U}}),
-                  {.kind = FailureKind::crash, .number = SIGXFSZ}, {1});
+                  {.kind = judge::Fault::crash, .number = SIGXFSZ}, {1});
 }
 
 /// Answers with whether it could write into its working directory, and says where that is.
@@ -681,7 +681,7 @@ TEST(SolverProcess, DoesNotMindSignals) {
   ASSERT_EQ(::setitimer(ITIMER_REAL, &never, nullptr), 0);
   ASSERT_EQ(::sigaction(SIGALRM, &old_action, nullptr), 0);
   EXPECT_GT(signals, 0U);
-  expect_failures(outcome, {.kind = FailureKind::hang}, {4});
+  expect_failures(outcome, {.kind = judge::Fault::hang}, {4});
 }
 
 TEST(SolverProcess, WorksWhereTheSystemReapsChildren) {
@@ -691,7 +691,7 @@ TEST(SolverProcess, WorksWhereTheSystemReapsChildren) {
   const Outcome outcome = run(queries);
   std::signal(SIGCHLD, before);
   // The signal is not known then.
-  expect_failures(outcome, {.kind = FailureKind::crash}, {4});
+  expect_failures(outcome, {.kind = judge::Fault::crash}, {4});
 }
 
 /// Writes down its process and sleeps for ever.

@@ -17,10 +17,10 @@
 
 #include "tests/support/methods.hpp"
 #include "tests/support/queries.hpp"
+#include "verify/base/thread_clock.hpp"
 #include "verify/generate/workload.hpp"
 #include "verify/jobs/bench.hpp"
 #include "verify/jobs/stream.hpp"
-#include "verify/jobs/thread_clock.hpp"
 #include "verify/mesh/moving_mesh.hpp"
 
 // A program of its own: it makes processes, which copy no threads.
@@ -90,8 +90,8 @@ TEST(Solver, InThisAndInChildProcessesGivesTheMethodsAnswers) {
 
 TEST(Solver, TimeIsTheProcessorTimeOfTheMethod) {
   const FunctionMethod burner([](Kind, const Query&) -> Answer {
-    const double start = jobs::thread_nanoseconds();
-    while (jobs::thread_nanoseconds() < start + 2e6) continue;
+    const double start = base::thread_nanoseconds();
+    while (base::thread_nanoseconds() < start + 2e6) continue;
     return {};
   });
   EXPECT_GE(ask(*solver_in_process(burner, {}), 10).nanoseconds(), 20e6);
@@ -160,7 +160,7 @@ TEST(Solver, RecordedAnswersAreLookedUpBySourceKindAndIndex) {
   EXPECT_EQ(outcome.answers[2].verdict, Verdict::error);
   ASSERT_EQ(outcome.reply.failures.size(), 1U);
   EXPECT_EQ(outcome.reply.failures[0].position, 2U);
-  EXPECT_EQ(outcome.reply.failures[0].failure.kind, FailureKind::no_verdict);
+  EXPECT_EQ(outcome.reply.failures[0].failure.kind, judge::Fault::no_verdict);
 }
 
 TEST(Solver, SpansAreShortForSlowAndLongForFastSolvers) {
@@ -332,7 +332,7 @@ TEST(Solver, ACrashInABenchmarkCostsAQuery) {
                                                std::vector<const Solver*>{solver.get()}, options);
   const jobs::SolverResult& said = result.solvers.at(0);
   EXPECT_EQ(said.queries, 8U);
-  EXPECT_EQ(said.judgement.count(FailureKind::crash), 1U);
+  EXPECT_EQ(said.judgement.count(judge::Fault::crash), 1U);
   EXPECT_EQ(said.judgement.count(judge::Fault::error), 1U);
   ASSERT_EQ(said.judgement.wrong_answers.size(), 1U);
   EXPECT_EQ(said.judgement.wrong_answers[0].answer, "crash: SIGSEGV");

@@ -20,6 +20,7 @@
 #include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/fuzz/plainness.hpp"
+#include "verify/generate/decimal.hpp"
 #include "verify/generate/family_builder.hpp"
 #include "verify/generate/random.hpp"
 
@@ -250,7 +251,7 @@ TEST(HardQueries, OfDecimalsHaveTheScale) {
     EXPECT_LE(fuzz::size_exponent(query), level - 1);
     EXPECT_GE(fuzz::size_exponent(query), level - 8);
     for (const double x : fuzz::magnitudes(query)) {
-      EXPECT_LE(fuzz::shortest_decimal(std::ldexp(x, -level)).count, 4) << x;
+      EXPECT_LE(generate::shortest_decimal(std::ldexp(x, -level)).count, 4) << x;
     }
   });
 }
@@ -260,7 +261,7 @@ TEST(HardQueries, OfDecimalsHaveTheDigits) {
     int most = 0;
     for (const double x : fuzz::magnitudes(query)) {
       // A miss may be some sizes away.
-      const fuzz::Decimal decimal = fuzz::shortest_decimal(x);
+      const generate::Decimal decimal = generate::shortest_decimal(x);
       EXPECT_GE(decimal.exponent, -level - 1) << x;
       most = std::max(most, decimal.count);
     }

@@ -71,7 +71,7 @@ TEST(MeasureStability, PlantedMethodsHaveExactlyTheirRates) {
   for (const auto& [method, fault] : {std::pair{&never, judge::Fault::false_negative},
                                       std::pair{&always, judge::Fault::false_positive},
                                       std::pair{&unsure, judge::Fault::false_positive},
-                                      std::pair{&broken, judge::Fault::error}}) {
+                                      std::pair{&broken, judge::Fault::crash}}) {
     const StabilityResult result = measure(*method);
     for (const StabilityCell& cell : result.cells) {
       const Outcome outcome = outcome_of(cell.judged, 0);

@@ -81,13 +81,12 @@ TEST(QueryFacts, AtASeparation) {
 
 TEST(QueryFacts, AnswersAreHeldAgainstTheTruth) {
   ViewedQuery query = falling();
-  query.answers = {
-      {.solver = "mine", .answer = {.verdict = fast::Verdict::no}},
-      {.solver = "certified",
-       .answer = {.verdict = fast::Verdict::yes, .toi_lower = 0.5, .toi_upper = 0.5}},
-      {.solver = "hangs",
-       .answer = {.verdict = fast::Verdict::error},
-       .failure = solvers::Failure{.kind = solvers::FailureKind::crash, .number = 11}}};
+  query.answers = {{.solver = "mine", .answer = {.verdict = fast::Verdict::no}},
+                   {.solver = "certified",
+                    .answer = {.verdict = fast::Verdict::yes, .toi_lower = 0.5, .toi_upper = 0.5}},
+                   {.solver = "hangs",
+                    .answer = {.verdict = fast::Verdict::error},
+                    .failure = judge::Failure{.kind = judge::Fault::crash, .number = 11}}};
   const auto method = solvers::solver_in_process(solvers::find_method("certified"), {});
   const std::array<const solvers::Solver*, 1> asked{method.get()};
   const nlohmann::json answers = query_facts(query, asked).at("answers");

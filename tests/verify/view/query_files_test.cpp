@@ -13,7 +13,7 @@
 #include "tests/support/folder_test.hpp"
 #include "tests/support/queries.hpp"
 #include "verify/data/csv_dataset.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::view::query_files_test {
 namespace {
@@ -38,7 +38,7 @@ class QueryFiles : public tests::FolderTest {
                                    const QueryFileOptions& options = {}) const {
     try {
       static_cast<void>(queries(name, options));
-    } catch (const data::DatasetError& error) {
+    } catch (const io::DatasetError& error) {
       return error.reason();
     }
     return "none";

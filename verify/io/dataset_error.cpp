@@ -1,8 +1,8 @@
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 #include <utility>
 
-namespace touchstone::verify::data {
+namespace touchstone::verify::io {
 namespace {
 
 /// The text, or its beginning and "...".
@@ -43,4 +43,4 @@ std::string quote(std::string_view text) {
   return result + (text.size() > longest ? "...\"" : "\"");
 }
 
-}  // namespace touchstone::verify::data
+}  // namespace touchstone::verify::io

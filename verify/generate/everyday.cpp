@@ -1,4 +1,4 @@
-#include "verify/fuzz/everyday.hpp"
+#include "verify/generate/everyday.hpp"
 
 #include <array>
 #include <cmath>
@@ -7,26 +7,20 @@
 #include <optional>
 #include <utility>
 
-#include "verify/fuzz/draws.hpp"
-#include "verify/fuzz/plainness.hpp"
-#include "verify/fuzz/symmetry.hpp"
+#include "verify/generate/decimal.hpp"
+#include "verify/generate/draws.hpp"
+#include "verify/generate/grid.hpp"
+#include "verify/generate/symmetry.hpp"
 
-namespace touchstone::verify::fuzz {
+namespace touchstone::verify::generate {
 namespace {
 
-using draws::below;
-using draws::one_in;
-using generate::Random;
-
-/// In units.
-using Place = std::array<std::int64_t, 3>;
-using Places = std::array<Place, moving_points>;
-
-Place operator+(const Place& a, const Place& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+/// Points, in units.
+using Layout = std::array<Vector, moving_points>;
 
 /// What the primitives have in common at the end of the contact.
 struct Touch {
-  Places places{};
+  Layout places{};
   /// The points that are one, if two are.
   std::optional<std::array<std::size_t, 2>> shared;
 };
@@ -38,12 +32,12 @@ class Scene {
 
   [[nodiscard]] Touch draw_touch(bool is_inside) {
     Touch touch;
-    for (Place& place : touch.places) place = draw_place();
+    for (Vector& place : touch.places) place = draw_place();
     if (is_inside) {
       touch_in_a_plane(touch.places);
       return touch;
     }
-    switch (below(random_, 3)) {
+    switch (draws::below(random_, 3)) {
       case 0:
         touch_at_a_point(touch);
         break;
@@ -58,12 +52,12 @@ class Scene {
 
   /// Where the points are at the other end: each primitive stays, moves along an axis, or anywhere, and
   /// now and then each point by itself.
-  [[nodiscard]] Places moved(const Touch& touch) {
-    Places result = touch.places;
-    const std::array<Place, 2> motions{draw_motion(), draw_motion()};
+  [[nodiscard]] Layout moved(const Touch& touch) {
+    Layout result = touch.places;
+    const std::array<Vector, 2> motions{draw_motion(), draw_motion()};
     for (std::size_t point = 0; point < moving_points; ++point) {
       result.at(point) = result.at(point) + motions.at(point < second() ? 0 : 1);
-      if (one_in(random_, 3)) result.at(point) = result.at(point) + draw_place();
+      if (draws::one_in(random_, 3)) result.at(point) = result.at(point) + draw_place();
     }
     if (touch.shared && random_.coin())
       result.at((*touch.shared)[0]) = result.at((*touch.shared)[1]);
@@ -71,8 +65,8 @@ class Scene {
   }
 
   /// The first primitive lower or higher by up to a size, the second one where it is.
-  [[nodiscard]] std::array<Places, 2> crossing(const Touch& touch) {
-    std::array<Places, 2> ends{touch.places, touch.places};
+  [[nodiscard]] std::array<Layout, 2> crossing(const Touch& touch) {
+    std::array<Layout, 2> ends{touch.places, touch.places};
     const std::int64_t height = between(size_ / 4 + 1, size_ + 1);
     const std::int64_t down = random_.coin() ? height : -height;
     for (std::size_t point = 0; point < second(); ++point) {
@@ -89,16 +83,16 @@ class Scene {
   std::int64_t between(std::int64_t low, std::int64_t high) { return random_.between(low, high); }
   std::int64_t up_to(std::int64_t most) { return between(1, most); }
 
-  Place draw_place() {
+  Vector draw_place() {
     return {between(-size_, size_), between(-size_, size_), between(-size_, size_)};
   }
 
-  Place draw_motion() {
-    const std::size_t how = below(random_, 4);
+  Vector draw_motion() {
+    const std::size_t how = draws::below(random_, 4);
     if (how == 0) return {};
-    Place motion = draw_place();
+    Vector motion = draw_place();
     if (how == 1) {
-      const std::size_t axis = below(random_, 3);
+      const std::size_t axis = draws::below(random_, 3);
       for (std::size_t other = 0; other < 3; ++other) {
         if (other != axis) motion.at(other) = 0;
       }
@@ -107,28 +101,28 @@ class Scene {
   }
 
   void touch_at_a_point(Touch& touch) {
-    const std::size_t of_first = below(random_, second());
-    const std::size_t of_second = second() + below(random_, moving_points - second());
+    const std::size_t of_first = draws::below(random_, second());
+    const std::size_t of_second = second() + draws::below(random_, moving_points - second());
     touch.places.at(of_first) = touch.places.at(of_second);
     touch.shared = {of_first, of_second};
   }
 
   /// The first point lies between the last two, which lie along x.
-  void touch_on_a_side(Places& places) {
-    const Place middle = places[0];
+  void touch_on_a_side(Layout& places) {
+    const Vector middle = places[0];
     places[2] = places[3] = middle;
     places[2][0] -= up_to(size_);
     places[3][0] += up_to(size_);
   }
 
   /// All at one height, and about the first point, or across each other.
-  void touch_in_a_plane(Places& places) {
+  void touch_in_a_plane(Layout& places) {
     const std::int64_t half = size_ / 2;
     const auto far = [&] { return between(half, size_); };
     const auto near = [&] { return between(-half / 2, half / 2); };
-    const Place middle = places[0];
+    const Vector middle = places[0];
     const auto put = [&](std::size_t point, std::int64_t x, std::int64_t y) {
-      places.at(point) = middle + Place{x, y, 0};
+      places.at(point) = middle + Vector{x, y, 0};
     };
     if (kind_ == Kind::vertex_face) {
       put(1, -far(), -far());
@@ -171,13 +165,13 @@ Query in_another_order(Kind kind, const Query& query, Random& random) {
 }
 
 constexpr int most_digits = 6;
-constexpr int least_exponent = -3, greatest_exponent = 4;
+constexpr int least_power = -3, greatest_power = 4;
 
-std::array<Places, 2> draw_ends(Kind kind, const EverydayScene& options, Random& random) {
-  // Places are sums of up to four draws: the first, two of the shape, and a motion.
+std::array<Layout, 2> draw_ends(Kind kind, const EverydayScene& options, Random& random) {
+  // Layout are sums of up to four draws: the first, two of the shape, and a motion.
   Scene scene(kind, power_of_ten(options.digits) / 4, random);
   const Touch touch = scene.draw_touch(options.time == TouchTime::between);
-  std::array<Places, 2> ends;
+  std::array<Layout, 2> ends;
   if (options.time == TouchTime::between) {
     ends = scene.crossing(touch);
   } else {
@@ -186,18 +180,18 @@ std::array<Places, 2> draw_ends(Kind kind, const EverydayScene& options, Random&
     ends.at(1 - end) = scene.moved(touch);
   }
   if (options.clearance == 0) return ends;
-  const std::size_t axis = below(random, 3);
+  const std::size_t axis = draws::below(random, 3);
   const std::int64_t away = random.coin() ? options.clearance : -options.clearance;
-  for (Places& places : ends) {
+  for (Layout& places : ends) {
     for (std::size_t point = 0; point < scene.second(); ++point) places.at(point).at(axis) += away;
   }
   return ends;
 }
 
 EverydayScene draw_scene(Random& random) {
-  return {.digits = 1 + static_cast<int>(below(random, most_digits)),
-          .exponent = static_cast<int>(random.between(least_exponent, greatest_exponent)),
-          .as_float = one_in(random, 3),
+  return {.digits = 1 + static_cast<int>(draws::below(random, most_digits)),
+          .exponent = static_cast<int>(random.between(least_power, greatest_power)),
+          .as_float = draws::one_in(random, 3),
           .time = random.coin() ? TouchTime::at_start : TouchTime::at_end,
           .clearance = 0};
 }
@@ -205,7 +199,7 @@ EverydayScene draw_scene(Random& random) {
 }  // namespace
 
 Query everyday_query(Kind kind, const EverydayScene& scene, Random& random) {
-  const std::array<Places, 2> ends = draw_ends(kind, scene, random);
+  const std::array<Layout, 2> ends = draw_ends(kind, scene, random);
   const Notation notation{.places = scene.digits - scene.exponent, .as_float = scene.as_float};
   Query query{};
   for (std::size_t end = 0; end < 2; ++end) {
@@ -228,4 +222,4 @@ Query everyday_near_miss(Kind kind, Random& random) {
   return everyday_query(kind, scene, random);
 }
 
-}  // namespace touchstone::verify::fuzz
+}  // namespace touchstone::verify::generate

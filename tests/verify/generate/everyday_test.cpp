@@ -1,4 +1,4 @@
-#include "verify/fuzz/everyday.hpp"
+#include "verify/generate/everyday.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,10 @@
 #include "exact/oracle.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/fuzz/plainness.hpp"
+#include "verify/generate/decimal.hpp"
 
-namespace touchstone::verify::fuzz::everyday_test {
+namespace touchstone::verify::generate::everyday_test {
 namespace {
-
-using generate::Random;
 
 constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
 
@@ -101,7 +100,7 @@ TEST(EverydayQuery, is_of_its_scene) {
       const exact::Verdict verdict = exact::decide(kind, inside);
       ASSERT_TRUE(verdict.collides());
       EXPECT_NEAR(verdict.toi->enclosure().lower, 0.5, 1e-9);
-      for (const double x : magnitudes(inside)) {
+      for (const double x : fuzz::magnitudes(inside)) {
         EXPECT_GE(shortest_decimal(x).exponent, -2) << x;
         EXPECT_LT(x, 100.0);
       }
@@ -113,4 +112,4 @@ TEST(EverydayQuery, is_of_its_scene) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::fuzz::everyday_test
+}  // namespace touchstone::verify::generate::everyday_test

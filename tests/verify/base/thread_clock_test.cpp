@@ -1,11 +1,11 @@
-#include "verify/jobs/thread_clock.hpp"
+#include "verify/base/thread_clock.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <thread>
 
-namespace touchstone::verify::jobs::thread_clock_test {
+namespace touchstone::verify::base::thread_clock_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -41,4 +41,4 @@ TEST(ProcessClock, CountsAllThreads) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::jobs::thread_clock_test
+}  // namespace touchstone::verify::base::thread_clock_test

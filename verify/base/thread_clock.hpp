@@ -5,7 +5,7 @@
 
 #include <ctime>
 
-namespace touchstone::verify::jobs {
+namespace touchstone::verify::base {
 
 /// Processor time of the calling thread so far, in nanoseconds. A call takes some hundred
 /// nanoseconds.
@@ -22,4 +22,4 @@ namespace touchstone::verify::jobs {
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-}  // namespace touchstone::verify::jobs
+}  // namespace touchstone::verify::base

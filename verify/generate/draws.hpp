@@ -11,9 +11,7 @@
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::fuzz::draws {
-
-using generate::Random;
+namespace touchstone::verify::generate::draws {
 
 /// Uniform among 0 … count − 1. \pre count > 0
 [[nodiscard]] inline std::size_t below(Random& random, std::size_t count) {
@@ -60,4 +58,4 @@ inline void multiply(Query& query, const std::array<double, 3>& factors) {
   }
 }
 
-}  // namespace touchstone::verify::fuzz::draws
+}  // namespace touchstone::verify::generate::draws

@@ -1,4 +1,4 @@
-#include "verify/fuzz/symmetry.hpp"
+#include "verify/generate/symmetry.hpp"
 
 #include <fmt/format.h>
 
@@ -6,15 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "verify/fuzz/draws.hpp"
-#include "verify/judge/separation_inference.hpp"
+#include "verify/generate/draws.hpp"
 
-namespace touchstone::verify::fuzz {
+namespace touchstone::verify::generate {
 namespace {
-
-using draws::below;
-using draws::one_in;
-using generate::Random;
 
 constexpr int greatest_exponent = 60;
 
@@ -40,7 +35,7 @@ template <std::size_t Size>
 void shuffle(std::array<std::size_t, Size>& items, std::size_t first, std::size_t last,
              Random& random) {
   for (std::size_t i = first; i + 1 < last; ++i) {
-    std::swap(items.at(i), items.at(i + below(random, last - i)));
+    std::swap(items.at(i), items.at(i + draws::below(random, last - i)));
   }
 }
 
@@ -70,7 +65,7 @@ void multiply(Random& random, Symmetry& symmetry) {
 void shift(const Query& query, Random& random, Symmetry& symmetry) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (random.coin()) continue;
-    const std::size_t end = below(random, 2), point = below(random, moving_points);
+    const std::size_t end = draws::below(random, 2), point = draws::below(random, moving_points);
     const double x = symmetry.factors.at(axis) * query.at(end, point, symmetry.axes.at(axis));
     if (x == 0.0) continue;
     symmetry.shifts.at(axis) =
@@ -107,10 +102,10 @@ Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separati
   if (random.coin()) renumber(kind, random, symmetry);
   if (random.coin()) shuffle(symmetry.axes, 0, 3, random);
   for (double& factor : symmetry.factors) factor = random.coin() ? 1.0 : -1.0;
-  symmetry.reversed = one_in(random, 4);
+  symmetry.reversed = draws::one_in(random, 4);
   const Symmetry isometry = symmetry;
-  if (is_contact(separation) && one_in(random, 3)) multiply(random, symmetry);
-  if (one_in(random, 3)) shift(query, random, symmetry);
+  if (is_contact(separation) && draws::one_in(random, 3)) multiply(random, symmetry);
+  if (draws::one_in(random, 3)) shift(query, random, symmetry);
   return image(symmetry, query) ? symmetry : isometry;
 }
 
@@ -136,4 +131,4 @@ std::string to_text(const Symmetry& symmetry) {
   return text.empty() ? "none" : text;
 }
 
-}  // namespace touchstone::verify::fuzz
+}  // namespace touchstone::verify::generate

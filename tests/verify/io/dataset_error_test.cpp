@@ -1,10 +1,10 @@
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace touchstone::verify::data::dataset_error_test {
+namespace touchstone::verify::io::dataset_error_test {
 namespace {
 
 TEST(DatasetError, says_path_line_column_and_reason_without_the_parts_that_are_zero) {
@@ -61,4 +61,4 @@ TEST(Quote, cuts_long_text_and_hides_what_a_terminal_would_obey) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::data::dataset_error_test
+}  // namespace touchstone::verify::io::dataset_error_test

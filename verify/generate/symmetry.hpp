@@ -19,7 +19,7 @@
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::fuzz {
+namespace touchstone::verify::generate {
 
 /// A map of queries: points renumbered, axes permuted, then each axis multiplied and shifted, then
 /// time reversed.
@@ -39,10 +39,10 @@ struct Symmetry {
 /// A random symmetry with an exact image of this query. Without powers of two if there is a
 /// separation.
 [[nodiscard]] Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separation,
-                                     generate::Random& random);
+                                     Random& random);
 
 /// "points 0213, axes yxz, factors -1 1 0x1p+3, shifts 0 0 1, reversed": the changes; "none" for
 /// the identity.
 [[nodiscard]] std::string to_text(const Symmetry& symmetry);
 
-}  // namespace touchstone::verify::fuzz
+}  // namespace touchstone::verify::generate

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace touchstone::verify::jobs {
+namespace touchstone::verify::base {
 
 /// True if the work must stop. Null: never.
 [[nodiscard]] inline bool is_stopped(const std::atomic<bool>* stop) {
@@ -59,4 +59,4 @@ class Deadline {
   double end_ = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace touchstone::verify::jobs
+}  // namespace touchstone::verify::base

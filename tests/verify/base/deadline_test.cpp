@@ -1,11 +1,11 @@
-#include "verify/jobs/deadline.hpp"
+#include "verify/base/deadline.hpp"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>
 
-namespace touchstone::verify::jobs::deadline_test {
+namespace touchstone::verify::base::deadline_test {
 namespace {
 
 TEST(Deadline, IsNeverOverWithoutALimit) {
@@ -57,4 +57,4 @@ TEST(SteadySeconds, NeverRunBackwards) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::jobs::deadline_test
+}  // namespace touchstone::verify::base::deadline_test

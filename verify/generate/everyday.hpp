@@ -16,7 +16,7 @@
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::fuzz {
+namespace touchstone::verify::generate {
 
 /// When the primitives of a scene touch.
 enum class TouchTime : std::uint8_t {
@@ -38,13 +38,13 @@ struct EverydayScene {
 
 /// A query of such a scene. Without clearance it touches then, and may touch earlier too; of those that
 /// share a point then, half share it all the time.
-[[nodiscard]] Query everyday_query(Kind kind, const EverydayScene& scene, generate::Random& random);
+[[nodiscard]] Query everyday_query(Kind kind, const EverydayScene& scene, Random& random);
 
 /// One that touches at t=0 or at t=1. Coordinates are decimals of at most six digits, or the floats
 /// nearest to them; the greatest is from 1e-4 to 1e4 in magnitude.
-[[nodiscard]] Query everyday_contact(Kind kind, generate::Random& random);
+[[nodiscard]] Query everyday_contact(Kind kind, Random& random);
 
 /// The same, but the first primitive is a unit away on one axis.
-[[nodiscard]] Query everyday_near_miss(Kind kind, generate::Random& random);
+[[nodiscard]] Query everyday_near_miss(Kind kind, Random& random);
 
-}  // namespace touchstone::verify::fuzz
+}  // namespace touchstone::verify::generate

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace touchstone::verify::jobs {
+namespace touchstone::verify::base {
 
 /// The number of cores of an option, at most 1024; 0: all of them.
 [[nodiscard]] inline int cores_for(unsigned threads) {
@@ -16,4 +16,4 @@ namespace touchstone::verify::jobs {
                       : static_cast<int>(std::min(threads, most));
 }
 
-}  // namespace touchstone::verify::jobs
+}  // namespace touchstone::verify::base

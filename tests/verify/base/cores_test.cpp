@@ -1,8 +1,8 @@
-#include "verify/jobs/cores.hpp"
+#include "verify/base/cores.hpp"
 
 #include <gtest/gtest.h>
 
-namespace touchstone::verify::jobs::cores_test {
+namespace touchstone::verify::base::cores_test {
 namespace {
 
 TEST(Cores, AreThoseAskedForWithinReason) {
@@ -12,4 +12,4 @@ TEST(Cores, AreThoseAskedForWithinReason) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::jobs::cores_test
+}  // namespace touchstone::verify::base::cores_test

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchstone::verify::data {
+namespace touchstone::verify::io {
 
 /// A place in a file; 0 means that the error has no such part.
 struct FilePosition {
@@ -54,4 +54,4 @@ class DatasetError : public std::runtime_error {
 /// The text in double quotes for a message: cut after 40 bytes, unprintable bytes as '?'.
 [[nodiscard]] std::string quote(std::string_view text);
 
-}  // namespace touchstone::verify::data
+}  // namespace touchstone::verify::io

@@ -1,4 +1,4 @@
-#include "verify/fuzz/symmetry.hpp"
+#include "verify/generate/symmetry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,10 +16,8 @@
 #include "verify/fuzz/generators.hpp"
 #include "verify/generate/random.hpp"
 
-namespace touchstone::verify::fuzz::symmetry_test {
+namespace touchstone::verify::generate::symmetry_test {
 namespace {
-
-using generate::Random;
 
 constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
 
@@ -133,4 +131,4 @@ TEST(Symmetry, KeepsTheOraclesVerdictAndTime) {
 }
 
 }  // namespace
-}  // namespace touchstone::verify::fuzz::symmetry_test
+}  // namespace touchstone::verify::generate::symmetry_test

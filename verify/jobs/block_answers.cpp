@@ -1,0 +1,79 @@
+#include "verify/jobs/block_answers.hpp"
+
+#include <algorithm>
+
+namespace touchstone::verify::jobs {
+
+BlockAnswers::BlockAnswers(const Block& block, const solvers::Solver& solver,
+                           const Separation& separation, Passes& passes)
+    : block_(block),
+      solver_(solver),
+      separation_(separation),
+      answers_(block.queries.size()),
+      calls_(Passes::units(block.queries.size())) {
+  passes.run(solver.good_span(), [this](std::size_t first, std::size_t count) {
+    Call& call = calls_[first / Passes::unit];
+    call = {.count = count,
+            .reply = solver_.solve_timed(block_.request(first, count, separation_),
+                                         std::span(answers_).subspan(first, count))};
+    return !call.reply.stopped;
+  });
+  for (std::size_t unit = 0; unit < calls_.size(); ++unit) {
+    const bool is_begin = unit == 0 || calls_[unit].count != 0;
+    begins_.push_back(is_begin ? unit * Passes::unit : begins_.back());
+  }
+}
+
+const judge::Failure* BlockAnswers::failure(std::size_t i) const {
+  const std::size_t first = begins_[i / Passes::unit];
+  return judge::failure_at(calls_[first / Passes::unit].reply.failures, i - first);
+}
+
+bool BlockAnswers::is_missing(std::size_t i) const {
+  const std::size_t first = begins_[i / Passes::unit];
+  return std::ranges::binary_search(calls_[first / Passes::unit].reply.missing, i - first);
+}
+
+std::optional<judge::GivenAnswer> BlockAnswers::given(std::size_t i) const {
+  if (is_missing(i)) return std::nullopt;
+  judge::GivenAnswer given{
+      .solver = solver_.name(), .answer = answers_[i], .standard = solver_.standard()};
+  if (const judge::Failure* const failed = failure(i)) given.failure = *failed;
+  return given;
+}
+
+judge::Judgement BlockAnswers::judge(std::span<const judge::GroundTruth> truths) const {
+  judge::Judgement judgement;
+  for (std::size_t i = 0; i < truths.size(); ++i) {
+    if (is_missing(i)) {
+      judgement.add_missing(block_.indices[i]);
+    } else {
+      judgement.add({block_.kind, block_.queries[i], separation_}, truths[i], answers_[i],
+                    solver_.standard(), failure(i));
+    }
+  }
+  judgement.unplaced_crashes = unplaced_crashes(truths.size());
+  judgement.nanoseconds = nanoseconds(truths.size());
+  return judgement;
+}
+
+double BlockAnswers::nanoseconds(std::size_t count) const {
+  double sum = 0.0;
+  for (std::size_t first = 0; first < count; first += calls_[first / Passes::unit].count) {
+    const Call& call = calls_[first / Passes::unit];
+    const std::size_t counted = std::min(call.count, count - first);
+    sum += call.reply.time.value().processor_nanoseconds * static_cast<double>(counted) /
+           static_cast<double>(call.count);
+  }
+  return sum;
+}
+
+std::uint64_t BlockAnswers::unplaced_crashes(std::size_t count) const {
+  std::uint64_t sum = 0;
+  for (const Call& call : std::span(calls_).first(Passes::units(count))) {
+    sum += call.reply.unplaced_crashes;
+  }
+  return sum;
+}
+
+}  // namespace touchstone::verify::jobs

@@ -1,0 +1,161 @@
+#include "verify/judge/fault.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <stdexcept>
+
+#include "verify/io/printable.hpp"
+
+namespace touchstone::verify::judge {
+namespace {
+
+/// All that a fault is called.
+struct Words {
+  std::string_view name;
+  char letter;
+  std::string_view text;
+  std::string_view phrase;
+};
+
+constexpr std::array<Words, fault_count> words{{
+    {"false_negative", 'N', "false negative", "misses a collision"},
+    {"false_positive", 'P', "false positive", "reports a collision that there is not"},
+    {"late_toi", 'T', "late toi", "gives a time of impact that is too late"},
+    {"early_toi_upper", 'T', "early toi_upper",
+     "gives an upper bound of the time of impact that is too early"},
+    {"crash", 'E', "error", "crashes"},
+    {"exit", 'E', "error", "ends the process"},
+    {"exception", 'E', "error", "throws an exception"},
+    {"no_verdict", 'E', "error", "gives no verdict"},
+    {"not_finite", 'E', "error", "gives a number that is none"},
+    {"hang", 'H', "hang", "does not answer in time"},
+    {"undecided", 'U', "undecided", "does not decide"},
+    {"beyond_tolerance", 'B', "beyond tolerance",
+     "reports a collision farther away than its tolerance"},
+    {"asymmetry", 'A', "asymmetry", "answers an exact image of a query in another way"},
+}};
+
+const Words& words_of(Fault fault) { return words.at(static_cast<std::size_t>(fault)); }
+
+std::optional<Fault> found_by(std::string_view Words::*word, std::string_view wanted) {
+  const auto* const found = std::ranges::find(words, wanted, word);
+  return found == words.end() ? std::nullopt
+                              : std::optional(static_cast<Fault>(found - words.begin()));
+}
+
+constexpr std::string_view status_prefix = "status ";
+constexpr std::string_view signal_prefix = "signal ";
+
+std::string signal_text(int number) {
+  const char* const name = ::sigabbrev_np(number);
+  return name == nullptr ? fmt::format("{}{}", signal_prefix, number) : fmt::format("SIG{}", name);
+}
+
+std::string detail(const Failure& failure) {
+  switch (failure.kind) {
+    case Fault::crash:
+      return signal_text(failure.number);
+    case Fault::exit:
+      return fmt::format("{}{}", status_prefix, failure.number);
+    default:
+      return io::printable(failure.what);
+  }
+}
+
+std::optional<int> number_behind(std::string_view prefix, std::string_view text) {
+  if (!text.starts_with(prefix)) return std::nullopt;
+  text.remove_prefix(prefix.size());
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+int signal_from_text(std::string_view text) {
+  for (int number = 1; number < NSIG; ++number) {
+    if (text == signal_text(number)) return number;
+  }
+  return number_behind(signal_prefix, text).value_or(0);
+}
+
+}  // namespace
+
+std::string_view to_string(Fault fault) { return words_of(fault).name; }
+
+std::optional<Fault> fault_from_name(std::string_view name) { return found_by(&Words::name, name); }
+
+std::string_view to_text(Fault fault) { return words_of(fault).text; }
+
+std::optional<Fault> fault_from_text(std::string_view text) { return found_by(&Words::text, text); }
+
+char letter_of(Fault fault) { return words_of(fault).letter; }
+
+std::string_view to_phrase(Fault fault) { return words_of(fault).phrase; }
+
+const Failure* failure_at(std::span<const QueryFailure> failures, std::size_t position) {
+  const auto found = std::ranges::lower_bound(failures, position, {}, &QueryFailure::position);
+  return found != failures.end() && found->position == position ? &found->failure : nullptr;
+}
+
+std::string to_text(const Failure& failure) {
+  const std::string more = detail(failure);
+  const std::string_view kind = to_string(failure.kind);
+  return more.empty() ? std::string(kind) : fmt::format("{}: {}", kind, more);
+}
+
+std::optional<Failure> failure_from_text(std::string_view text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto kind = fault_from_name(text.substr(0, colon));
+  if (!kind || !is_failure(*kind)) return std::nullopt;
+  Failure failure{.kind = *kind};
+  std::string_view more = text.substr(std::min(colon + 1, text.size()));
+  if (more.starts_with(' ')) more.remove_prefix(1);
+  if (*kind == Fault::crash) {
+    failure.number = signal_from_text(more);
+  } else if (*kind == Fault::exit) {
+    failure.number = number_behind(status_prefix, more).value_or(0);
+  } else {
+    failure.what = more;
+  }
+  return failure;
+}
+
+std::optional<Failure> failure_of(const fast::Answer& answer) {
+  using fast::Verdict;
+  if (answer.verdict == Verdict::error) return Failure{.kind = Fault::no_verdict};
+  if (answer.verdict == Verdict::undecided) return Failure{.kind = Fault::undecided};
+  if (answer.verdict != Verdict::yes) return std::nullopt;
+  const auto not_finite = [](std::string_view name, double value) {
+    return Failure{.kind = Fault::not_finite, .what = fmt::format("{} {}", name, value)};
+  };
+  if (std::isinf(answer.toi_lower)) return not_finite("toi_lower", answer.toi_lower);
+  if (std::isinf(answer.toi_upper)) return not_finite("toi_upper", answer.toi_upper);
+  // No comparison holds for a NaN, which marks a missing field.
+  if (answer.tolerance < 0.0) return not_finite("tolerance", answer.tolerance);
+  return std::nullopt;
+}
+
+fast::Verdict verdict_of(Fault failure) {
+  return is_error(failure) ? fast::Verdict::error : fast::Verdict::undecided;
+}
+
+std::string_view to_string(fast::Verdict verdict) {
+  switch (verdict) {
+    case fast::Verdict::no:
+      return "no";
+    case fast::Verdict::yes:
+      return "yes";
+    case fast::Verdict::undecided:
+      return "undecided";
+    case fast::Verdict::error:
+      return "error";
+  }
+  throw std::invalid_argument("no verdict");
+}
+
+}  // namespace touchstone::verify::judge

@@ -1,0 +1,130 @@
+#pragma once
+
+/// \file
+/// Judgements added up: how often a solver's answers to some queries have each fault (judge.hpp), which ones they are,
+/// and how far off the times of impact are.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exact/algebra/number.hpp"
+#include "fast/method.hpp"
+#include "verify/judge/fault.hpp"
+#include "verify/judge/ground_truth.hpp"
+#include "verify/judge/judge.hpp"
+
+namespace touchstone::verify::judge {
+
+/// The errors of toi_lower against the exact time of impact, of many answers, in bounded memory.
+///
+/// A histogram: 64 buckets to a factor of two, so a quantile is known to 1.6%; it is the upper end
+/// of its bucket, never less than the true quantile. Zero and the maximum are exact.
+class ToiErrors {
+ public:
+  /// \pre error ≥ 0
+  void add(double error);
+  ToiErrors& operator+=(const ToiErrors& other);
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+
+  /// The least error that at least `fraction` (0 to 1) of all do not exceed; NaN if there are none.
+  [[nodiscard]] double quantile(double fraction) const;
+
+  /// NaN if there are none.
+  [[nodiscard]] double max() const;
+
+ private:
+  std::map<std::uint32_t, std::uint64_t> buckets_;
+  std::uint64_t count_ = 0;
+  double max_ = 0.0;
+};
+
+/// An answer that is not the truth.
+struct WrongAnswer {
+  Fault fault;
+  std::uint64_t index;
+  std::string answer;
+  std::string truth;
+  fast::Answer given = {};  ///< the answer itself
+  /// Why it is none, where that is known.
+  std::optional<Failure> failure = std::nullopt;
+};
+
+/// "SOLVER: false negative: no, the truth is collision at 0.5".
+[[nodiscard]] std::string to_text(const std::string& solver, const WrongAnswer& wrong);
+
+/// What a solver said to a query.
+struct GivenAnswer {
+  std::string solver;
+  fast::Answer answer = {};
+  std::optional<Failure> failure = std::nullopt;
+  /// What it is judged by; nothing: what is known of a solver of that name.
+  std::optional<Standard> standard = std::nullopt;
+};
+
+/// A query with an answer, or a recorded claim, that is not the truth.
+struct WrongQuery {
+  std::string source;
+  std::uint64_t index = 0;
+  Kind kind = Kind::vertex_face;
+  Query query{};
+  Separation separation = {};
+  std::vector<std::string> faults = {};  ///< what is wrong, a text each
+  std::vector<GivenAnswer> answers = {};
+};
+
+/// The judgement on a method's answers to some queries of one source.
+struct Judgement {
+  /// So many wrong answers of each fault are kept; the counts count them all.
+  static constexpr std::size_t most_kept = 1000;
+
+  std::uint64_t queries = 0;  ///< answered
+  std::uint64_t missing = 0;  ///< not answered (in recorded answers), and not in `queries`
+  std::optional<std::uint64_t> first_missing;       ///< index of the first of these
+  std::array<std::uint64_t, fault_count> faults{};  ///< answers with each fault
+  /// Processes that the method ended at no particular query (solver_process.hpp): errors, but in no count of faults.
+  std::uint64_t unplaced_crashes = 0;
+  std::uint64_t checks = 0;  ///< steps of the method, summed over the queries, where it counts them
+  double nanoseconds = 0.0;  ///< processor time of the method, summed over the queries
+  ToiErrors toi_errors;
+  /// In the order of the queries. A hang or an undecided alone is none.
+  std::vector<WrongAnswer> wrong_answers;
+
+  /// Answers with that fault.
+  [[nodiscard]] std::uint64_t count(Fault fault) const {
+    return faults[static_cast<std::size_t>(fault)];
+  }
+  /// The errors of all kinds, at queries and elsewhere.
+  [[nodiscard]] std::uint64_t errors() const;
+  /// Undecided by itself, or for the limit of time.
+  [[nodiscard]] std::uint64_t undecided() const {
+    return count(Fault::undecided) + count(Fault::hang);
+  }
+  /// How often something of the same text (to_text) is wrong: all errors together, or that fault.
+  [[nodiscard]] std::uint64_t total(Fault fault) const {
+    return is_error(fault) ? errors() : count(fault);
+  }
+
+  /// Mean time of the method; 0 if there are no queries.
+  [[nodiscard]] double nanoseconds_per_query() const;
+
+  /// Judges an answer; the parameters are those of judge().
+  void add(const Question& question, const GroundTruth& truth, const fast::Answer& answer,
+           const Standard& standard, const Failure* failure = nullptr);
+
+  /// Notes that there is no answer to that query.
+  void add_missing(std::uint64_t index);
+
+  /// Adds the counts of the queries that follow, with the wrong answers.
+  Judgement& operator+=(const Judgement& next);
+};
+
+/// Is there no fault that breaks the promise?
+[[nodiscard]] bool keeps(const Judgement& judgement, fast::Promise promise);
+
+}  // namespace touchstone::verify::judge
