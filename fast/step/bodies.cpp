@@ -18,6 +18,11 @@ Bodies::Bodies(std::size_t vertices, const CollisionGroups& groups) {
                                   " is negative");
     }
   }
+  for (const auto& [a, b] : groups.apart) {
+    if (std::min(a, b) >= 0) continue;
+    throw std::invalid_argument("step: a group of two that are apart is negative: " +
+                                std::to_string(std::min(a, b)));
+  }
   if (groups.apart.empty()) return;
   of_vertices_.assign(vertices, 0);
   std::ranges::copy(of_vertices, of_vertices_.begin());

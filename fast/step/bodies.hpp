@@ -17,7 +17,7 @@ namespace touchstone::fast {
 class Bodies {
  public:
   /// \throws std::invalid_argument unless there is a group for each vertex, or for none, and groups
-  /// are not negative.
+  /// are not negative, also those that are apart.
   Bodies(std::size_t vertices, const CollisionGroups& groups);
 
   /// Do all meet all?

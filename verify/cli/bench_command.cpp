@@ -21,6 +21,7 @@
 #include "fast/certified.hpp"
 #include "fast/certified/kernel.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -75,16 +76,11 @@ class BenchRun {
   explicit BenchRun(const Arguments& arguments)
       : arguments_(arguments),
         separation_(arguments.sources.separation.given()),
-        json_(arguments.json_file),
-        solvers_(arguments.solvers, MethodHost::this_process) {
+        solvers_(files_, arguments.solvers, MethodHost::this_process),
+        json_(files_, arguments.json_file) {
+    files_.add_inputs(arguments.step);
     certified_.kernel = arguments.solvers.kernel;
     certified_.separation = separation_;
-    for (const std::vector<fs::path>& inputs : {arguments.solvers.files(), arguments.step}) {
-      for (const fs::path& file : inputs) {
-        if (json_.is(file))
-          throw std::runtime_error(file.string() + ": named for input and output");
-      }
-    }
     report_.options = arguments.bench;
     report_.options.threads = arguments.sources.threads;
     report_.options.stop = &io::interrupted();
@@ -100,7 +96,9 @@ class BenchRun {
     }
     if (json_) json_.write(io::json_document(report::to_json(report_)));
     json_.close();
-    io::print(json_.is_standard_output() ? stderr : stdout, report::to_text(report_));
+    if (!report_.groups.empty() || errors_.empty()) {
+      io::print(files_.summary_stream(), report::to_text(report_));
+    }
     return status();
   }
 
@@ -170,7 +168,7 @@ class BenchRun {
       data::QueryGroup group(path.string(), kind);
       std::optional<Separation> separation;
       for_each_source(
-          sources,
+          sources, files_,
           {.title = "reading " + path.string(),
            .use =
                [&](data::QuerySource& source, const Progress& progress) {
@@ -180,8 +178,7 @@ class BenchRun {
                  skipped_ += source.skipped();
                },
            .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
-           .stopped = [this] { return stopped(); },
-           .is_output = [this](const fs::path& file) { return json_.is(file); }});
+           .stopped = [this] { return stopped(); }});
       const Separation asked = separation.value_or(separation_);
       bench_group(group, solvers_.all(), asked);
     }
@@ -215,14 +212,15 @@ class BenchRun {
 
   [[nodiscard]] Status status() const {
     if (report::has_wrong_answers(report_)) return Status::wrong_answers;
-    if (json_.failed() || !errors_.empty() || skipped_ != 0) return Status::bad_input;
+    if (files_.has_failed() || !errors_.empty() || skipped_ != 0) return Status::bad_input;
     return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
   const Arguments& arguments_;
   Separation separation_;  // of what is not read from files
-  ReportedOutput json_;
+  Files files_;
   Solvers solvers_;
+  Output json_;
   fast::CertifiedOptions certified_;
   report::BenchReport report_;
   std::set<std::string> errors_;

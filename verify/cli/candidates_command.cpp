@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <climits>
 #include <cstdint>
@@ -21,6 +20,7 @@
 #include "fast/broad_phase.hpp"
 #include "fast/mesh.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/npy.hpp"
@@ -45,8 +45,8 @@ struct Arguments {
 };
 
 /// The files that a run writes beside the summary.
-struct Files {
-  explicit Files(const std::string& prefix)
+struct Arrays {
+  explicit Arrays(const std::string& prefix)
       : vertex_face(prefix + "_vf.npy"),
         edge_edge(prefix + "_ee.npy"),
         vertex_face_pairs(prefix + "_vf_pairs.npy"),
@@ -66,22 +66,6 @@ struct Found {
   std::vector<fast::IndexPair> pairs;
   double seconds;
 };
-
-/// \throws std::runtime_error if an input would be overwritten, or an output by another.
-void require_separate_files(const Arguments& arguments, const Files& files,
-                            const OptionalOutput& json) {
-  for (const fs::path& output : files.all()) {
-    if (json.is(output)) throw std::runtime_error(output.string() + ": named for two outputs");
-  }
-  for (const fs::path input : {arguments.before, arguments.after}) {
-    const auto is_input = [&input](const fs::path& output) {
-      return fs::exists(output) && fs::exists(input) && fs::equivalent(input, output);
-    };
-    if (json.is(input) || std::ranges::any_of(files.all(), is_input)) {
-      throw std::runtime_error(input.string() + ": named for input and output");
-    }
-  }
-}
 
 /// So many candidates of a kind fit into the memory that is free now; no limit where the system does
 /// not say.
@@ -163,22 +147,25 @@ std::string table_of(const mesh::MovingMesh& mesh, const std::vector<Found>& all
 
 Status candidates(const Arguments& arguments) {
   if (arguments.prefix.empty()) throw std::invalid_argument("--out has no file name");
-  OptionalOutput json(arguments.json_file);
-  const Files files(arguments.prefix);
-  require_separate_files(arguments, files, json);
+  Files files;
+  for (const std::string& input : {arguments.before, arguments.after}) files.add_input(input);
+  Output json(files, arguments.json_file);
+  const Arrays arrays(arguments.prefix);
+  for (const fs::path& array : arrays.all()) files.add_output(array);
   const mesh::MovingMesh mesh = mesh::read_step(arguments.before, arguments.after);
   const std::vector<Found> all{find(mesh, Kind::vertex_face, arguments.broad_phase),
                                find(mesh, Kind::edge_edge, arguments.broad_phase)};
-  const fs::path folder = files.edges.parent_path();
+  const fs::path folder = arrays.edges.parent_path();
   if (!folder.empty()) fs::create_directories(folder);
-  mesh::write_index_pairs(files.edges, mesh.edges);
-  mesh::write_index_pairs(files.vertex_face_pairs, all[0].pairs);
-  mesh::write_index_pairs(files.edge_edge_pairs, all[1].pairs);
-  write_queries(files.vertex_face, mesh, all[0]);
-  write_queries(files.edge_edge, mesh, all[1]);
+  mesh::write_index_pairs(arrays.edges, mesh.edges);
+  mesh::write_index_pairs(arrays.vertex_face_pairs, all[0].pairs);
+  mesh::write_index_pairs(arrays.edge_edge_pairs, all[1].pairs);
+  write_queries(arrays.vertex_face, mesh, all[0]);
+  write_queries(arrays.edge_edge, mesh, all[1]);
   if (json) json.write(io::json_document(summary(mesh, all)));
   json.close();
-  io::print(json.is_standard_output() ? stderr : stdout, table_of(mesh, all));
+  io::print(files.summary_stream(), table_of(mesh, all));
+  if (files.has_failed()) return Status::bad_input;
   return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 

@@ -1,9 +1,11 @@
 #include "verify/cli/certificates_file.hpp"
 
+#include "verify/cli/options.hpp"
+
 namespace touchstone::verify::cli {
 
-CertificatesFile::CertificatesFile(const std::string& name, std::string_view header)
-    : output_(name) {
+CertificatesFile::CertificatesFile(Files& files, const std::string& name, std::string_view header)
+    : output_(files, name) {
   if (name.ends_with(".zst")) compressor_.emplace();
   write(header);
 }
@@ -19,8 +21,17 @@ void CertificatesFile::write(std::string_view certificates) {
 
 void CertificatesFile::close(std::string_view closing_line) {
   write(closing_line);
-  if (output_ && !output_.failed() && compressor_) put(compressor_->finish());
+  finish();
   output_.close();
+}
+
+void CertificatesFile::close_incomplete() {
+  finish();
+  output_.close_incomplete();
+}
+
+void CertificatesFile::finish() {
+  if (output_ && !output_.failed() && compressor_) put(compressor_->finish());
 }
 
 void CertificatesFile::put(std::string_view bytes) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -16,6 +17,7 @@
 
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -56,37 +58,31 @@ class CertifyRun {
  public:
   explicit CertifyRun(const Arguments& arguments)
       : arguments_(arguments),
-        solvers_(judged_by(arguments)),
-        json_(arguments.json_file),
-        truth_(arguments.truth_file),
-        proof_(arguments.proof_file),
-        view_(arguments.view_file) {
-    require_one_name(arguments.json_file, json_.is(arguments.truth_file));
-    require_one_name(arguments.proof_file,
-                     proof_.is(arguments.json_file) || proof_.is(arguments.truth_file));
-    require_one_name(arguments.view_file, json_.is(arguments.view_file) ||
-                                              truth_.is(arguments.view_file) ||
-                                              proof_.is(arguments.view_file));
-    for (const fs::path& file : arguments.judged.files()) {
-      if (is_output(file)) throw std::runtime_error(file.string() + ": named for input and output");
-    }
+        solvers_(files_, judged_by(arguments)),
+        json_(files_, arguments.json_file),
+        truth_(files_, arguments.truth_file),
+        proof_(files_, arguments.proof_file),
+        view_(files_, arguments.view_file) {
     if (truth_) truth_.write(report::truth_header());
   }
 
   Status run() {
-    for_each_source(arguments_.sources,
+    for_each_source(arguments_.sources, files_,
                     {.title = "certify",
                      .use = [this](data::QuerySource& source,
                                    const Progress& progress) { certify_source(source, progress); },
                      .fail = [this](const fs::path& path,
                                     const data::DatasetError& error) { fail(path, error); },
-                     .stopped = [this] { return stopped(); },
-                     .is_output = [this](const fs::path& path) { return is_output(path); }});
+                     .stopped = [this] { return stopped(); }});
     report_answers();
     solvers_.report_output(arguments_.judged.show_output);
     // Files first: a closed standard output must not cost them.
     truth_.close();
-    proof_.close(sum_.proofs.certificates());
+    if (io::interrupted()) {
+      proof_.close_incomplete();
+    } else {
+      proof_.close(sum_.proofs.certificates());
+    }
     if (json_) json_.write(io::json_document(report::to_json(results_)));
     json_.close();
     view_.write(arguments_.judged.options);
@@ -95,22 +91,23 @@ class CertifyRun {
   }
 
  private:
-  static void require_one_name(const std::string& file, bool is_another) {
-    if (is_another) throw std::runtime_error(file + ": named for two outputs");
-  }
-
-  [[nodiscard]] bool is_output(const fs::path& path) const {
-    return json_.is(path) || truth_.is(path) || proof_.is(path) || view_.is(path);
-  }
-
   void print_summary() const {
-    const bool is_standard_output = json_.is_standard_output() || truth_.is_standard_output() ||
-                                    proof_.is_standard_output() || view_.is_standard_output();
-    std::FILE* const stream = is_standard_output ? stderr : stdout;
+    // The errors are reported already.
+    if (sum_.queries == 0 && sum_.errors != 0) return;
+    std::FILE* const stream = files_.summary_stream();
     io::print(stream, report::to_text(results_));
     if (proof_) io::print(stream, fmt::format("\n{}", jobs::to_text(sum_.proofs)));
     report_beyond_limits(sum_.proofs);
-    io::print(stream, view_.summary());
+    io::print(stream, view_.summary(allowed_false_positives()));
+  }
+
+  [[nodiscard]] std::uint64_t allowed_false_positives() const {
+    std::uint64_t sum = 0;
+    for (const jobs::MethodResult& method : sum_.methods) {
+      if (judge::breaks(judge::Fault::false_positive, method.promise)) continue;
+      sum += method.judgement.count(judge::Fault::false_positive);
+    }
+    return sum;
   }
 
   void certify_source(data::QuerySource& source, const Progress& progress) {
@@ -192,18 +189,18 @@ class CertifyRun {
         std::ranges::any_of(sum_.methods, is_wrong)) {
       return Status::wrong_answers;
     }
-    if (json_.failed() || truth_.failed() || proof_.failed() || view_.failed() ||
-        sum_.errors + sum_.skipped != 0 || !sum_.proofs.beyond_limits.empty() ||
-        std::ranges::any_of(sum_.methods, is_incomplete)) {
+    if (files_.has_failed() || sum_.errors + sum_.skipped != 0 ||
+        !sum_.proofs.beyond_limits.empty() || std::ranges::any_of(sum_.methods, is_incomplete)) {
       return Status::bad_input;
     }
     return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
   const Arguments& arguments_;
+  Files files_;
   Solvers solvers_;
-  ReportedOutput json_;
-  ReportedOutput truth_;
+  Output json_;
+  Output truth_;
   CertificatesFile proof_;
   ViewFile view_;
   std::vector<jobs::CertifyResult> results_;

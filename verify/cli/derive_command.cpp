@@ -7,13 +7,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "filters/derivation/bound_table.hpp"
 #include "filters/derivation/catalogue.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/io/json.hpp"
@@ -106,10 +106,8 @@ Status status_of(const Arguments& arguments, const DeriveResult& result) {
 }
 
 Status derive(const Arguments& arguments) {
-  OptionalOutput header(arguments.header_file), json(arguments.json_file);
-  if (header && json.is(arguments.header_file)) {
-    throw std::invalid_argument(arguments.json_file + ": named for two outputs");
-  }
+  Files files;
+  Output header(files, arguments.header_file), json(files, arguments.json_file);
   DeriveOptions options = to_options(arguments);
   DeriveResult result;
   {
@@ -121,8 +119,8 @@ Status derive(const Arguments& arguments) {
   if (json) json.write(io::json_document(to_json(arguments, result)));
   header.close();
   json.close();
-  io::print(stdout, to_table(result));
-  return status_of(arguments, result);
+  io::print(files.summary_stream(), to_table(result));
+  return files.has_failed() ? Status::bad_input : status_of(arguments, result);
 }
 
 }  // namespace

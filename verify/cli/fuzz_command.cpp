@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -88,10 +89,11 @@ Kind kind_of(const fs::path& file, const Arguments& arguments) {
   }
 }
 
-std::vector<fuzz::CorpusQuery> read_corpus(const Arguments& arguments) {
+std::vector<fuzz::CorpusQuery> read_corpus(const Arguments& arguments, Files& files) {
   std::vector<fuzz::CorpusQuery> corpus;
   if (arguments.corpus.empty()) return corpus;
   for (const fs::path& file : data::find_datasets(arguments.corpus)) {
+    files.add_dataset(file);
     const Kind kind = kind_of(file, arguments);
     const auto source = data::open_dataset(file, {.kind = kind});
     for (auto query = source->next(); query && !io::interrupted(); query = source->next()) {
@@ -121,7 +123,7 @@ fs::path dataset_path(const fs::path& file, Kind kind) {
 /// if there are queries.
 class FoundQueries {
  public:
-  FoundQueries(const Arguments& arguments, const Separation& separation)
+  FoundQueries(Files& files, const Arguments& arguments, const Separation& separation)
       : folder_(fs::path(arguments.out_file).parent_path()), separation_(separation) {
     if (arguments.out_file.empty()) return;
     if (fs::path(arguments.out_file).extension() != ".csv") {
@@ -129,7 +131,9 @@ class FoundQueries {
     }
     require_same_separation(arguments.out_file);
     for (const Kind kind : arguments.kinds()) {
-      files_.at(static_cast<std::size_t>(kind)).emplace(dataset_path(arguments.out_file, kind));
+      const fs::path path = dataset_path(arguments.out_file, kind);
+      files.add_output(path);
+      files_.at(static_cast<std::size_t>(kind)).emplace(path);
     }
   }
 
@@ -193,18 +197,16 @@ class FuzzRun {
  public:
   explicit FuzzRun(const Arguments& arguments)
       : arguments_(arguments),
-        json_(arguments.json_file),
-        view_(arguments.view_file),
-        found_(arguments, arguments.separation.given()),
+        json_(files_, arguments.json_file),
+        view_(files_, arguments.view_file),
+        found_(files_, arguments, arguments.separation.given()),
         bar_("fuzz") {
     if (!arguments.page_folder.empty() && fs::exists(arguments.page_folder) &&
         !fs::is_empty(arguments.page_folder)) {
       throw std::runtime_error(arguments.page_folder.string() +
                                ": is not an empty folder; name a new one");
     }
-    if (json_.is(arguments.view_file)) {
-      throw std::runtime_error(arguments.view_file + ": named for two outputs");
-    }
+    files_.add_inputs(arguments.solver.files());
     load_method();
     options_.seconds = arguments.seconds;
     if (arguments.seconds == 0.0 && arguments.queries == 0) options_.seconds = default_seconds;
@@ -218,7 +220,7 @@ class FuzzRun {
     options_.most_groups = arguments.most_findings;
     options_.shrink_seconds = shrink_seconds;
     options_.only = arguments.sought();
-    options_.corpus = read_corpus(arguments);
+    options_.corpus = read_corpus(arguments, files_);
     options_.kinds = arguments.kinds();
     options_.stop = &io::interrupted();
     options_.on_progress = [this](const fuzz::FuzzProgress& progress) { show(progress); };
@@ -285,9 +287,7 @@ class FuzzRun {
     method_ = plugin_.get();
   }
 
-  [[nodiscard]] std::FILE* out() const {
-    return json_.is_standard_output() || view_.is_standard_output() ? stderr : stdout;
-  }
+  [[nodiscard]] std::FILE* out() const { return files_.summary_stream(); }
 
   void show(const fuzz::FuzzProgress& progress) {
     double fraction = 0.0;
@@ -320,7 +320,7 @@ class FuzzRun {
     if (result.all_findings != 0 || (seeks_ends && result.unplaced_crashes != 0)) {
       return Status::wrong_answers;
     }
-    if (json_.failed() || view_.failed()) return Status::bad_input;
+    if (files_.has_failed()) return Status::bad_input;
     if (result.ended_by == fuzz::FuzzEnd::interrupt) return Status::interrupted;
     if (result.queries != 0) return Status::all_well;
     report_error(fmt::format(
@@ -331,7 +331,8 @@ class FuzzRun {
   }
 
   const Arguments& arguments_;
-  ReportedOutput json_;
+  Files files_;
+  Output json_;
   ViewFile view_;
   FoundQueries found_;
   io::ProgressBar bar_;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/csv_dataset.hpp"
@@ -89,11 +90,14 @@ Written for_each_query(data::QuerySource& source, const Separation& separation,
 }
 
 /// FOLDER/KIND/FAMILY.csv with its times of impact in FOLDER/KIND/toi/FAMILY_toi.csv.
-Written write_csv(data::QuerySource& source, const Separation& separation, const fs::path& folder) {
+Written write_csv(data::QuerySource& source, const Separation& separation, const fs::path& folder,
+                  Files& files) {
   const fs::path file = folder / (source.name() + ".csv");
+  const fs::path toi_file = folder / "toi" / (source.name() + "_toi.csv");
+  for (const fs::path& output : {file, toi_file}) files.add_output(output);
   fs::create_directories(folder / "toi");
   data::CsvWriter queries(file);
-  data::ToiWriter tois(folder / "toi" / (source.name() + "_toi.csv"));
+  data::ToiWriter tois(toi_file);
   Written written = for_each_query(source, separation, file, [&](const data::RecordedQuery& query) {
     queries.write(query.query, query.collides);
     if (query.toi) tois.write(query.index, *query.toi);
@@ -104,8 +108,10 @@ Written write_csv(data::QuerySource& source, const Separation& separation, const
 }
 
 /// FOLDER/KIND/FAMILY.npy, without the truth.
-Written write_npy(data::QuerySource& source, const Separation& separation, const fs::path& folder) {
+Written write_npy(data::QuerySource& source, const Separation& separation, const fs::path& folder,
+                  Files& files) {
   const fs::path file = folder / (source.name() + ".npy");
+  files.add_output(file);
   const fs::path companion = folder / "toi" / (source.name() + "_toi.csv");
   if (fs::exists(companion)) {
     throw std::runtime_error(companion.string() +
@@ -132,7 +138,7 @@ void require_same_separation(const fs::path& folder, const Separation& separatio
                   folder.string(), judge::to_text(recorded), judge::to_text(separation)));
 }
 
-std::vector<Written> write_families(const Arguments& arguments) {
+std::vector<Written> write_families(const Arguments& arguments, Files& files) {
   std::vector<Written> result;
   const Separation separation = arguments.separation.given();
   require_same_separation(arguments.folder, separation);
@@ -148,8 +154,8 @@ std::vector<Written> write_families(const Arguments& arguments) {
       const auto source = generate::open_family(chosen_families[i], kind, arguments.seed,
                                                 arguments.count, separation);
       const fs::path folder = fs::path(arguments.folder) / to_string(kind);
-      result.push_back(arguments.npy ? write_npy(*source, separation, folder)
-                                     : write_csv(*source, separation, folder));
+      result.push_back(arguments.npy ? write_npy(*source, separation, folder, files)
+                                     : write_csv(*source, separation, folder, files));
     }
     progress.update(static_cast<double>(i + 1) / static_cast<double>(chosen_families.size()));
   }
@@ -184,11 +190,12 @@ Status generate(const Arguments& arguments) {
   }
   if (arguments.folder.empty()) throw CLI::RequiredError("--out");
   if (arguments.patch_cells > 0) return generate_patches(arguments);
-  OptionalOutput json_output(arguments.json_file);
+  Files record;
+  Output json_output(record, arguments.json_file);
   nlohmann::json json = nlohmann::json::array();
   std::uint64_t queries = 0, collisions = 0;
   const Separation separation = arguments.separation.given();
-  const std::vector<Written> files = write_families(arguments);
+  const std::vector<Written> files = write_families(arguments, record);
   for (const Written& written : files) {
     queries += written.queries;
     collisions += written.collisions;
@@ -199,13 +206,14 @@ Status generate(const Arguments& arguments) {
   }
   if (json_output) json_output.write(io::json_document(json));
   json_output.close();
-  io::print(stdout,
+  io::print(record.summary_stream(),
             fmt::format(
                 "{} queries, {} of them collisions{}, in {} files below {}\n", queries, collisions,
                 is_contact(separation)
                     ? ""
                     : " at minimum separation " + judge::to_text(separation) + " by construction",
                 files.size(), io::printable(arguments.folder)));
+  if (record.has_failed()) return Status::bad_input;
   return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 

@@ -9,8 +9,9 @@ namespace touchstone::verify::cli {
 namespace {
 
 /// The groups that are needed: none where all meet.
-mesh::Groups groups_for(const GroupArguments& arguments, const mesh::Mesh& mesh) {
+mesh::Groups groups_for(Files& files, const GroupArguments& arguments, const mesh::Mesh& mesh) {
   if (!arguments.file.empty()) {
+    files.add_input(arguments.file);
     return mesh::read_groups(arguments.file, static_cast<std::size_t>(mesh.vertices.rows()));
   }
   if (arguments.apart.empty()) return {};
@@ -24,8 +25,10 @@ mesh::Groups groups_for(const GroupArguments& arguments, const mesh::Mesh& mesh)
 
 }  // namespace
 
-CollidingGroups::CollidingGroups(const GroupArguments& arguments, const mesh::Mesh& mesh)
-    : groups_(groups_for(arguments, mesh)), apart_(mesh::numbers_of(groups_, arguments.apart)) {}
+CollidingGroups::CollidingGroups(Files& files, const GroupArguments& arguments,
+                                 const mesh::Mesh& mesh)
+    : groups_(groups_for(files, arguments, mesh)),
+      apart_(mesh::numbers_of(groups_, arguments.apart)) {}
 
 void add_group_options(CLI::App& command, GroupArguments& arguments) {
   command

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fast/step.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/mesh/mesh.hpp"
 
 namespace touchstone::verify::cli {
@@ -27,8 +28,9 @@ void add_group_options(CLI::App& command, GroupArguments& arguments);
 /// The groups of a mesh that the user asked for, by their numbers.
 class CollidingGroups {
  public:
+  /// \param files gets the file that is read
   /// \throws std::runtime_error, std::invalid_argument or DatasetError if they cannot be used.
-  CollidingGroups(const GroupArguments& arguments, const mesh::Mesh& mesh);
+  CollidingGroups(Files& files, const GroupArguments& arguments, const mesh::Mesh& mesh);
 
   /// Refers to this object.
   [[nodiscard]] fast::CollisionGroups get() const {

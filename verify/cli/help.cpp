@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace touchstone::verify::cli {
 namespace {
@@ -74,7 +76,34 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
+/// So many letters are missing, wrong or too many (Levenshtein's distance).
+std::size_t distance_between(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({replaced, row[j] + 1, row[j - 1] + 1}));
+    }
+  }
+  return row.back();
+}
+
 }  // namespace
+
+std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
+  static constexpr std::size_t farthest = 2;
+  std::string nearest;
+  std::size_t least = std::min(farthest + 1, word.size());
+  for (const std::string& name : names) {
+    const std::size_t distance = distance_between(word, name);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = name;
+  }
+  return nearest;
+}
 
 std::string wrapped(std::string_view text, std::size_t start, std::size_t indent) {
   std::string result, word;

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace touchstone::verify::cli {
 
@@ -28,6 +29,11 @@ void set_help(CLI::App& command, std::string_view examples, std::string_view not
 
 /// Has the program and its subcommands, those that are added later, print their help in this form.
 void use_help_format(CLI::App& app);
+
+/// The name that a word may be meant for: the nearest one, if at most two letters are missing, wrong or
+/// too many; empty if none is that near.
+[[nodiscard]] std::string nearest_name(std::string_view word,
+                                       const std::vector<std::string>& names);
 
 /// The text in lines of at most `help_width` characters, broken between words; the first line is taken to begin at
 /// column `start`, the others are indented by `indent`.

@@ -3,11 +3,14 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "fast/platform/arithmetic_check.hpp"
 #include "verify/cli/commands.hpp"
@@ -34,6 +37,18 @@ void open_standard_streams() {
     [[maybe_unused]] const int opened =
         ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
+}
+
+/// If there is no subcommand of this name, says so, and which one may be meant.
+bool report_unknown(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (std::ranges::find(names, word) != names.end()) return false;
+  const std::string nearest = touchstone::verify::cli::nearest_name(word, names);
+  touchstone::verify::cli::report_error(
+      "no command " + word + "; " +
+      (nearest.empty() ? "touchstone --help lists them" : "did you mean " + nearest + "?"));
+  return true;
 }
 
 int run(int argc, char** argv) {
@@ -65,6 +80,9 @@ int run(int argc, char** argv) {
   touchstone::verify::cli::add_report_command(app, status);
   touchstone::verify::cli::add_view_command(app, status);
   touchstone::verify::cli::add_derive_command(app, status);
+  if (argc > 1 && argv[1][0] != '-' && report_unknown(app, argv[1])) {
+    return static_cast<int>(Status::bad_input);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -96,6 +114,9 @@ int main(int argc, char** argv) {
   } catch (const touchstone::verify::io::Interrupted& interrupt) {
     touchstone::verify::cli::report_error(interrupt.what());
     return static_cast<int>(Status::interrupted);
+  } catch (const std::filesystem::filesystem_error& error) {
+    touchstone::verify::cli::report_error(error.path1().string() + ": " + error.code().message());
+    return static_cast<int>(Status::bad_input);
   } catch (const std::exception& error) {
     touchstone::verify::cli::report_error(error.what());
     return static_cast<int>(Status::bad_input);

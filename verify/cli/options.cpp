@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cstdio>
-#include <exception>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -17,36 +14,6 @@
 #include "verify/judge/separation_inference.hpp"
 
 namespace touchstone::verify::cli {
-namespace {
-
-namespace fs = std::filesystem;
-
-/// More symbolic links than this in a row are a ring, as they are for the system.
-constexpr int most_links = 40;
-
-/// Where a file of this name would come to be: behind symbolic links, also to what is not there yet.
-fs::path behind_links(fs::path path) {
-  std::error_code error;
-  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
-    path = path.parent_path() / fs::read_symlink(path, error);
-  }
-  const fs::path canonical = fs::weakly_canonical(path, error);
-  return error ? path : canonical;
-}
-
-/// Is it a name that the system gives to what is open already?
-bool is_below_system_folder(const fs::path& path) {
-  const fs::path absolute = fs::absolute(path).lexically_normal();
-  const auto first = std::next(absolute.begin());
-  return first != absolute.end() && (*first == "dev" || *first == "proc");
-}
-
-bool is_device(const fs::path& path) {
-  const fs::file_status status = fs::status(path);
-  return (fs::exists(status) && !fs::is_regular_file(status)) || is_below_system_folder(path);
-}
-
-}  // namespace
 
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t greatest) {
   const auto check = [least, greatest](const std::string& text) -> std::string {
@@ -148,67 +115,6 @@ std::string command_line() {
     command += command.empty() ? "touchstone" : " " + io::shell_word(word);
   }
   return command;
-}
-
-OptionalOutput::OptionalOutput(const std::string& name) : name_(name) {
-  if (name.empty()) return;
-  if (is_device(name)) {
-    // Never truncates: standard output may be a file that others have written to.
-    const int descriptor = io::open_for_appending(name);
-    if (descriptor >= 0) device_.reset(::fdopen(descriptor, "a"));
-    if (!device_) throw failure("cannot be opened for writing");
-  } else {
-    file_ = std::make_unique<io::OutputFile>(behind_links(name));
-  }
-}
-
-bool OptionalOutput::is(const fs::path& path) const {
-  return !name_.empty() && !path.empty() && behind_links(name_) == behind_links(path);
-}
-
-bool OptionalOutput::is_standard_output() const {
-  const fs::path path = name_.empty() ? fs::path() : fs::absolute(name_).lexically_normal();
-  return path == "/dev/stdout" || path == "/dev/fd/1" || path == "/proc/self/fd/1";
-}
-
-void OptionalOutput::write(std::string_view text) {
-  if (file_) {
-    file_->write(text);
-  } else if (std::fwrite(text.data(), 1, text.size(), device_.get()) != text.size()) {
-    throw failure("cannot be written");
-  }
-}
-
-void OptionalOutput::close() {
-  if (file_) {
-    file_->close();
-  } else if (device_ && std::fclose(device_.release()) != 0) {
-    throw failure("cannot be written");
-  }
-}
-
-std::runtime_error OptionalOutput::failure(const std::string& what) const {
-  return std::runtime_error(name_ + ": " + what + ": " + std::generic_category().message(errno));
-}
-
-void ReportedOutput::write(std::string_view text) {
-  if (!output_ || failed_) return;
-  try {
-    output_.write(text);
-  } catch (const std::exception& error) {
-    report_error(error.what());
-    failed_ = true;
-  }
-}
-
-void ReportedOutput::close() {
-  if (!output_ || failed_) return;
-  try {
-    output_.close();
-  } catch (const std::exception& error) {
-    report_error(error.what());
-    failed_ = true;
-  }
 }
 
 }  // namespace touchstone::verify::cli

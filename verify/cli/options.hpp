@@ -5,16 +5,11 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <cstdio>
-#include <filesystem>
-#include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "exact/query.hpp"
-#include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::cli {
 
@@ -68,62 +63,5 @@ void report_warning(std::string_view message);
 
 /// The command line of this process, as one types it, the program's name without a path.
 [[nodiscard]] std::string command_line();
-
-/// A file to write to if the user named one. It is opened before the work begins, so that a bad name
-/// costs nothing, and takes its name when it is complete, so that nothing older is lost before.
-/// Devices and pipes, and all below /dev and /proc, are written to as they are; a symbolic link stays
-/// one.
-class OptionalOutput {
- public:
-  /// No file if the name is empty. \throws DatasetError or std::runtime_error if none can be made.
-  explicit OptionalOutput(const std::string& name);
-
-  [[nodiscard]] explicit operator bool() const { return !name_.empty(); }
-
-  /// Is it this process's standard output, by a name of the system's for it?
-  [[nodiscard]] bool is_standard_output() const;
-
-  /// Is it the file at `path`, by whatever name?
-  [[nodiscard]] bool is(const std::filesystem::path& path) const;
-
-  /// \pre a file was named. \throws as the constructor does.
-  void write(std::string_view text);
-
-  /// Completes the file, if there is one. \throws as the constructor does.
-  void close();
-
- private:
-  struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
-  /// With the reason that the system has given. \pre errno is set
-  [[nodiscard]] std::runtime_error failure(const std::string& what) const;
-
-  std::string name_;
-  std::unique_ptr<io::OutputFile> file_;
-  std::unique_ptr<std::FILE, CloseFile> device_;
-};
-
-/// An output whose failure is reported, once, and costs nothing else: the work goes on without it.
-class ReportedOutput {
- public:
-  /// \throws as OptionalOutput does: before the work begins, a failure ends the run.
-  explicit ReportedOutput(const std::string& name) : output_(name) {}
-
-  /// Was a file named?
-  [[nodiscard]] explicit operator bool() const { return static_cast<bool>(output_); }
-  [[nodiscard]] bool is(const std::filesystem::path& path) const { return output_.is(path); }
-  [[nodiscard]] bool is_standard_output() const { return output_.is_standard_output(); }
-  [[nodiscard]] bool failed() const { return failed_; }
-
-  /// Does nothing if no file was named or a step has failed.
-  void write(std::string_view text);
-  void close();
-
- private:
-  OptionalOutput output_;
-  bool failed_ = false;
-};
 
 }  // namespace touchstone::verify::cli

@@ -15,6 +15,7 @@
 #include "exact/algebra/number.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/sources.hpp"
@@ -54,23 +55,22 @@ class ProveRun {
   explicit ProveRun(const Arguments& arguments)
       : arguments_(arguments),
         options_(proof_options(arguments)),
-        out_(named_file(arguments.out_file)),
-        json_(arguments.json_file) {
-    if (json_.is(arguments.out_file)) {
-      throw std::runtime_error(arguments.json_file + ": named for two outputs");
-    }
-  }
+        out_(files_, named_file(arguments.out_file)),
+        json_(files_, arguments.json_file) {}
 
   Status run() {
     for_each_source(
-        arguments_.sources,
+        arguments_.sources, files_,
         {.title = "prove",
          .use = [this](data::QuerySource& source,
                        const Progress& progress) { prove_source(source, progress); },
          .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
-         .stopped = [this] { return stopped(); },
-         .is_output = [this](const fs::path& path) { return out_.is(path) || json_.is(path); }});
-    out_.close(sum_.counts.certificates());
+         .stopped = [this] { return stopped(); }});
+    if (io::interrupted()) {
+      out_.close_incomplete();
+    } else {
+      out_.close(sum_.counts.certificates());
+    }
     if (json_) json_.write(io::json_document(summary()));
     json_.close();
     report_beyond_limits(sum_.counts);
@@ -132,8 +132,8 @@ class ProveRun {
   }
 
   void print_summary() const {
-    std::FILE* const stream =
-        out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
+    if (sum_.counts.certificates() == 0 && reading_errors_ != 0) return;
+    std::FILE* const stream = files_.summary_stream();
     if (const auto separation = judge::common_separation(separations_)) {
       io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
     }
@@ -144,7 +144,7 @@ class ProveRun {
   }
 
   [[nodiscard]] Status status() const {
-    if (out_.failed() || json_.failed() || reading_errors_ + sum_.skipped != 0 ||
+    if (files_.has_failed() || reading_errors_ + sum_.skipped != 0 ||
         !sum_.counts.beyond_limits.empty()) {
       return Status::bad_input;
     }
@@ -153,8 +153,9 @@ class ProveRun {
 
   const Arguments& arguments_;
   exact::ProveOptions options_;
+  Files files_;
   CertificatesFile out_;
-  ReportedOutput json_;
+  Output json_;
   jobs::SourceProof sum_;
   std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -30,7 +31,6 @@
 #include "verify/data/query_group.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/generate/workload.hpp"
-#include "verify/io/input_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -100,20 +100,16 @@ class ReportRun {
  public:
   explicit ReportRun(const Arguments& arguments)
       : arguments_(arguments),
-        page_(arguments.page_file),
-        json_(arguments.json_file),
-        markdown_(arguments.markdown_file),
-        view_(arguments.view_file) {
+        page_(files_, arguments.page_file),
+        json_(files_, arguments.json_file),
+        markdown_(files_, arguments.markdown_file),
+        view_(files_, arguments.view_file) {
     if (!page_ && !json_ && !markdown_ && !view_) {
       throw std::invalid_argument("nothing to write: name --out, --json, --markdown or --view");
     }
-    if (json_.is(arguments.page_file) || markdown_.is(arguments.page_file) ||
-        markdown_.is(arguments.json_file) || view_.is(arguments.page_file) ||
-        view_.is(arguments.json_file) || view_.is(arguments.markdown_file)) {
-      throw std::runtime_error("a file is named for two outputs");
-    }
+    files_.add_inputs(arguments.solvers.files());
     for (const std::string& input : {arguments.from_file, arguments.compare_file}) {
-      if (is_output(input)) throw std::runtime_error(input + ": named for input and output");
+      files_.add_input(input);
     }
     if (!arguments.compare_file.empty()) before_ = read(arguments.compare_file);
   }
@@ -131,20 +127,14 @@ class ReportRun {
     write(measurements);
     report_broken_promises(measurements);
     if (report::has_wrong_answers(measurements)) return Status::wrong_answers;
-    const bool failed = page_.failed() || json_.failed() || markdown_.failed() || view_.failed();
-    if (failed || !errors_.empty() || skipped_ != 0) return Status::bad_input;
+    if (files_.has_failed() || !errors_.empty() || skipped_ != 0) return Status::bad_input;
     return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
  private:
-  [[nodiscard]] bool is_output(const fs::path& file) const {
-    return page_.is(file) || json_.is(file) || markdown_.is(file) || view_.is(file);
-  }
-
   static report::Measurements read(const std::string& file) {
     static constexpr std::size_t most_bytes = std::size_t{1} << 30U;
-    const nlohmann::json json =
-        nlohmann::json::parse(io::read_file(file, most_bytes), nullptr, false);
+    const nlohmann::json json = io::read_json(file, most_bytes);
     try {
       return report::measurements_from_json(json);
     } catch (const std::runtime_error& error) {
@@ -240,7 +230,7 @@ class ReportRun {
     SourceArguments sources = arguments_.sources;
     sources.paths = {path};
     for_each_source(
-        sources,
+        sources, files_,
         {.title = "reading " + path.string(),
          .use =
              [&](data::QuerySource& source, const std::function<void(double)>& progress) {
@@ -250,8 +240,7 @@ class ReportRun {
                skipped_ += source.skipped();
              },
          .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
-         .stopped = [this] { return stopped(); },
-         .is_output = [this](const fs::path& file) { return is_output(file); }});
+         .stopped = [this] { return stopped(); }});
     for (data::QueryGroup& group : of_path) {
       if (!group.queries().empty()) groups.push_back(std::move(group));
     }
@@ -277,8 +266,7 @@ class ReportRun {
     markdown_.close();
     wrong_.add_to(view_);
     view_.write();
-    std::FILE* const out =
-        page_.is_standard_output() || view_.is_standard_output() ? stderr : stdout;
+    std::FILE* const out = files_.summary_stream();
     if (page_ && !page_.failed()) {
       io::print(out,
                 fmt::format("{}\n", io::printable(fs::absolute(arguments_.page_file).string())));
@@ -299,9 +287,10 @@ class ReportRun {
   }
 
   const Arguments& arguments_;
-  ReportedOutput page_;
-  ReportedOutput json_;
-  ReportedOutput markdown_;
+  Files files_;
+  Output page_;
+  Output json_;
+  Output markdown_;
   ViewFile view_;
   WrongAnswers wrong_;
   std::optional<report::Measurements> before_;

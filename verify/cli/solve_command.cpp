@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -53,28 +54,21 @@ class SolveRun {
  public:
   explicit SolveRun(const Arguments& arguments)
       : arguments_(arguments),
-        solvers_(the_solver(arguments)),
+        solvers_(files_, the_solver(arguments)),
         solver_(*solvers_.all().front()),
-        out_(arguments.out_file),
-        json_(arguments.json_file) {
-    if (json_.is(arguments.out_file)) {
-      throw std::runtime_error(arguments.json_file + ": named for two outputs");
-    }
-    for (const fs::path& file : arguments.solver.files()) {
-      if (is_output(file)) throw std::runtime_error(file.string() + ": named for input and output");
-    }
+        out_(files_, arguments.out_file),
+        json_(files_, arguments.json_file) {
     out_.write(solvers::answers_header());
   }
 
   Status run() {
     for_each_source(
-        arguments_.sources,
+        arguments_.sources, files_,
         {.title = "solve",
          .use = [this](data::QuerySource& source,
                        const Progress& progress) { solve_source(source, progress); },
          .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
-         .stopped = [this] { return stopped(); },
-         .is_output = [this](const fs::path& path) { return is_output(path); }});
+         .stopped = [this] { return stopped(); }});
     out_.close();
     if (json_) json_.write(io::json_document(summary()));
     json_.close();
@@ -85,13 +79,9 @@ class SolveRun {
   }
 
  private:
-  [[nodiscard]] bool is_output(const fs::path& path) const {
-    return out_.is(path) || json_.is(path);
-  }
-
   void print_summary() const {
-    std::FILE* const stream =
-        out_.is_standard_output() || json_.is_standard_output() ? stderr : stdout;
+    if (sum_.queries == 0 && reading_errors_ != 0) return;
+    std::FILE* const stream = files_.summary_stream();
     if (const auto separation = the_separation()) {
       io::print(stream, fmt::format("minimum separation {}\n", judge::to_text(*separation)));
     }
@@ -157,17 +147,18 @@ class SolveRun {
   }
 
   [[nodiscard]] Status status() const {
-    if (out_.failed() || json_.failed() || reading_errors_ + sum_.skipped != 0) {
+    if (files_.has_failed() || reading_errors_ + sum_.skipped != 0) {
       return Status::bad_input;
     }
     return io::interrupted() ? Status::interrupted : Status::all_well;
   }
 
   const Arguments& arguments_;
+  Files files_;
   Solvers solvers_;
   const solvers::Solver& solver_;
-  ReportedOutput out_;
-  ReportedOutput json_;
+  Output out_;
+  Output json_;
   jobs::SolveResult sum_;
   std::vector<Separation> separations_;  // of the sources
   std::uint64_t reading_errors_ = 0;

@@ -162,7 +162,8 @@ void report_unplaced_crashes(std::string_view solver, std::uint64_t crashes) {
       fmt::format("{} ended its process {} times, at no particular query", solver, crashes));
 }
 
-Solvers::Solvers(const SolverArguments& arguments, MethodHost host) {
+Solvers::Solvers(Files& files, const SolverArguments& arguments, MethodHost host) {
+  files.add_inputs(arguments.files());
   const solvers::SolverProcessOptions process = arguments.process();
   const bool in_children = host == MethodHost::children_with_limit && arguments.query_limit > 0.0;
   for (const std::string& name : named_methods(arguments)) {

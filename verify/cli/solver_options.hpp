@@ -14,6 +14,7 @@
 
 #include "fast/certified/kernel.hpp"
 #include "fast/method.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/fuzz/fuzz.hpp"
 #include "verify/solvers/answers.hpp"
 #include "verify/solvers/solver.hpp"
@@ -90,9 +91,9 @@ class Solvers {
   /// processes, until interrupted. The method "none" stands for no method. Of several with one name,
   /// the second is called "NAME (2)", and so on.
   /// \throws std::invalid_argument for an unknown method, or "none" beside others; DatasetError if a
-  /// plugin or a file of answers cannot be loaded.
-  explicit Solvers(const SolverArguments& arguments,
-                   MethodHost host = MethodHost::children_with_limit);
+  /// plugin or a file of answers cannot be loaded; as Files does, which gets those that are read.
+  Solvers(Files& files, const SolverArguments& arguments,
+          MethodHost host = MethodHost::children_with_limit);
 
   [[nodiscard]] std::vector<const solvers::Solver*> all() const;
 

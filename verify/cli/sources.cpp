@@ -9,7 +9,6 @@
 
 #include "exact/query.hpp"
 #include "verify/data/dataset.hpp"
-#include "verify/data/ground_truth_files.hpp"
 #include "verify/generate/families.hpp"
 #include "verify/io/terminal.hpp"
 
@@ -52,17 +51,6 @@ void for_each_family(const SourceArguments& arguments, const SourceHandlers& han
   }
 }
 
-/// \throws std::runtime_error if a dataset file or what accompanies it is an output.
-void check_outputs(const fs::path& file, const SourceHandlers& handlers) {
-  std::vector<fs::path> inputs = data::find_ground_truth_files(file);
-  inputs.push_back(file);
-  for (const fs::path& input : inputs) {
-    if (handlers.is_output(input)) {
-      throw std::runtime_error(input.string() + ": named for input and output");
-    }
-  }
-}
-
 /// Names what a search leaves out, not all of it where there is much.
 class LeftOutReport {
  public:
@@ -81,7 +69,8 @@ class LeftOutReport {
 };
 
 /// The dataset files of all paths, each once; empty if stopped.
-std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceHandlers& handlers) {
+std::vector<fs::path> find_files(const SourceArguments& arguments, Files& record,
+                                 const SourceHandlers& handlers) {
   LeftOutReport left_out;
   const data::LeftOut on_left_out = [&](const data::DatasetError& error) { left_out.add(error); };
   std::vector<fs::path> files;
@@ -89,7 +78,7 @@ std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceH
   for (const fs::path& path : arguments.paths) {
     try {
       for (const fs::path& file : data::find_datasets({&path, 1}, on_left_out)) {
-        check_outputs(file, handlers);
+        record.add_dataset(file);
         if (seen.insert(fs::weakly_canonical(file)).second) files.push_back(file);
       }
     } catch (const data::DatasetError& error) {
@@ -101,13 +90,14 @@ std::vector<fs::path> find_files(const SourceArguments& arguments, const SourceH
   return files;
 }
 
-void for_each_file(const SourceArguments& arguments, const SourceHandlers& handlers) {
+void for_each_file(const SourceArguments& arguments, Files& record,
+                   const SourceHandlers& handlers) {
   data::DatasetOptions options;
   if (!arguments.kind.empty()) options.kind = kind_from_string(arguments.kind);
   options.round = arguments.round;
   options.keep_going = arguments.keep_going;
   options.on_skip = [](const data::DatasetError& error) { report_error(error.what()); };
-  const std::vector<fs::path> files = find_files(arguments, handlers);
+  const std::vector<fs::path> files = find_files(arguments, record, handlers);
   TotalProgress progress(handlers.title, files.size());
   for (std::size_t i = 0; i < files.size() && !handlers.stopped(); ++i) {
     try {
@@ -152,16 +142,22 @@ Separation separation_for(const SourceArguments& arguments, const data::QuerySou
   }
 }
 
-void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers) {
+void for_each_source(const SourceArguments& arguments, Files& files,
+                     const SourceHandlers& handlers) {
   try {
     if (arguments.built_in_set()) {
       for_each_family(arguments, handlers);
     } else {
-      for_each_file(arguments, handlers);
+      for_each_file(arguments, files, handlers);
     }
   } catch (const io::Interrupted&) {
     // The command goes on with what it has, as after an interrupt between two queries.
   }
+}
+
+std::unique_ptr<mesh::Frames> open_frames(Files& record, std::span<const fs::path> paths) {
+  record.add_inputs(mesh::frame_files(paths));
+  return mesh::open_frames(paths);
 }
 
 }  // namespace touchstone::verify::cli

@@ -1,18 +1,22 @@
 #pragma once
 
 /// \file
-/// Paths on the command line, or none, as the sources of queries that a command works through.
+/// The inputs of a command: paths on the command line, or none, as sources of queries; frames of a mesh.
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "verify/cli/files.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/data/dataset_error.hpp"
 #include "verify/data/query_source.hpp"
+#include "verify/mesh/frames.hpp"
 
 namespace touchstone::verify::cli {
 
@@ -44,8 +48,6 @@ struct SourceHandlers {
   std::function<void(const std::filesystem::path&, const data::DatasetError&)> fail;
   /// Is the rest to be left alone? Asked before each source and after each failure.
   std::function<bool()> stopped;
-  /// Is a file written to by this command?
-  std::function<bool(const std::filesystem::path&)> is_output;
 };
 
 /// The separation of a source: the user's, or the one recorded with the source.
@@ -56,8 +58,13 @@ struct SourceHandlers {
 /// Opens and hands over the sources one after the other: the families of the built-in set (of
 /// that with a separation, if one is asked for), or the dataset files of all paths, each once.
 /// Queries skipped with keep_going, and what a search of folders leaves out, are reported on
-/// standard error. An interrupt ends it wherever it is. \throws std::runtime_error if an input, or a file of labels or times of
-/// impact beside one, is an output.
-void for_each_source(const SourceArguments& arguments, const SourceHandlers& handlers);
+/// standard error. An interrupt ends it wherever it is.
+/// \param files gets the datasets, with what accompanies them. \throws std::runtime_error as Files does.
+void for_each_source(const SourceArguments& arguments, Files& files,
+                     const SourceHandlers& handlers);
+
+/// Opens the frames of a mesh, as mesh::open_frames does. \param record gets their files
+[[nodiscard]] std::unique_ptr<mesh::Frames> open_frames(
+    Files& record, std::span<const std::filesystem::path> paths);
 
 }  // namespace touchstone::verify::cli

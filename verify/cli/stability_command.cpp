@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
@@ -59,19 +58,6 @@ SolverArguments judged_by(const Arguments& arguments) {
   return judged;
 }
 
-/// \throws std::runtime_error if a file is named twice.
-void check_names(const Arguments& arguments, const ReportedOutput& json,
-                 const ReportedOutput& picture) {
-  if (json.is(arguments.picture_file)) {
-    throw std::runtime_error(arguments.picture_file + ": named for two outputs");
-  }
-  for (const std::filesystem::path& file : arguments.judged.files()) {
-    if (json.is(file) || picture.is(file)) {
-      throw std::runtime_error(file.string() + ": named for input and output");
-    }
-  }
-}
-
 stability::StabilityResult measure(const Arguments& arguments, const Solvers& solvers) {
   io::ProgressBar bar("stability");
   return stability::measure_stability(
@@ -86,10 +72,9 @@ stability::StabilityResult measure(const Arguments& arguments, const Solvers& so
 }
 
 Status run(const Arguments& arguments) {
-  const Solvers solvers(judged_by(arguments));
-  ReportedOutput json(arguments.json_file);
-  ReportedOutput picture(arguments.picture_file);
-  check_names(arguments, json, picture);
+  Files files;
+  const Solvers solvers(files, judged_by(arguments));
+  Output json(files, arguments.json_file), picture(files, arguments.picture_file);
   const stability::StabilityResult result = measure(arguments, solvers);
   for (const jobs::MethodResult& method : result.total.methods) {
     report_unplaced_crashes(method.name, method.judgement.unplaced_crashes);
@@ -100,10 +85,9 @@ Status run(const Arguments& arguments) {
   json.close();
   if (picture) picture.write(report::stability_page(result, command_line()));
   picture.close();
-  const bool is_standard_output = json.is_standard_output() || picture.is_standard_output();
-  io::print(is_standard_output ? stderr : stdout, report::to_text(result));
+  io::print(files.summary_stream(), report::to_text(result));
   if (stability::has_wrong_answers(result)) return Status::wrong_answers;
-  if (json.failed() || picture.failed()) return Status::bad_input;
+  if (files.has_failed()) return Status::bad_input;
   return io::interrupted() ? Status::interrupted : Status::all_well;
 }
 

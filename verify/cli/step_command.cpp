@@ -20,9 +20,11 @@
 #include "fast/step/bodies.hpp"
 #include "verify/cli/certificates_file.hpp"
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
+#include "verify/cli/sources.hpp"
 #include "verify/cli/view_file.hpp"
 #include "verify/io/json.hpp"
 #include "verify/io/printable.hpp"
@@ -52,15 +54,14 @@ struct Arguments {
 class StepRun {
  public:
   explicit StepRun(const Arguments& arguments)
-      : json_(arguments.json_file),
-        csv_(arguments.csv_file),
-        proof_(arguments.proof_file, jobs::step_proofs_header()),
-        view_(arguments.view_file),
+      : json_(files_, arguments.json_file),
+        csv_(files_, arguments.csv_file),
+        proof_(files_, arguments.proof_file, jobs::step_proofs_header()),
+        view_(files_, arguments.view_file),
         options_(arguments.check),
-        frames_(mesh::open_frames(arguments.frames)),
-        groups_(arguments.groups, frames_->mesh()),
+        frames_(open_frames(files_, arguments.frames)),
+        groups_(files_, arguments.groups, frames_->mesh()),
         bodies_(static_cast<std::size_t>(frames_->mesh().vertices.rows()), groups_.get()) {
-    require_separate_files(arguments);
     if (frames_->count() < 2) {
       throw std::runtime_error(arguments.frames.front().string() +
                                ": one frame only; a step needs two");
@@ -105,27 +106,6 @@ class StepRun {
   }
 
  private:
-  /// \throws std::runtime_error if an input would be overwritten, or an output by another.
-  void require_separate_files(const Arguments& arguments) const {
-    if (json_.is(arguments.csv_file) || proof_.is(arguments.csv_file)) {
-      throw std::runtime_error(arguments.csv_file + ": named for two outputs");
-    }
-    if (json_.is(arguments.proof_file)) {
-      throw std::runtime_error(arguments.proof_file + ": named for two outputs");
-    }
-    if (json_.is(arguments.view_file) || csv_.is(arguments.view_file) ||
-        proof_.is(arguments.view_file)) {
-      throw std::runtime_error(arguments.view_file + ": named for two outputs");
-    }
-    std::vector<fs::path> inputs = arguments.frames;
-    inputs.emplace_back(arguments.groups.file);
-    for (const fs::path& input : inputs) {
-      if (json_.is(input) || csv_.is(input) || proof_.is(input) || view_.is(input)) {
-        throw std::runtime_error(input.string() + ": named for input and output");
-      }
-    }
-  }
-
   void check_frame(std::size_t i, const mesh::Vertices& vertices) {
     report::FrameRecord frame{.name = frames_->name(i), .piercings = {}, .time = {}};
     const mesh::Mesh& mesh = frames_->mesh();
@@ -171,24 +151,25 @@ class StepRun {
 
   Status finish() {
     if (proof_) {
-      // Without its closing line the checker takes a stream for cut, as it is.
-      const std::string closing = jobs::step_proofs_closing_line(report_.steps.size());
-      proof_.close(lacks_proof() ? std::string_view() : closing);
+      if (lacks_proof() || report_.interrupted) {
+        proof_.close_incomplete();
+      } else {
+        proof_.close(jobs::step_proofs_closing_line(report_.steps.size()));
+      }
     }
     if (json_) json_.write(io::json_document(report::to_json(report_)));
     json_.close();
     csv_.close();
     view_.write();
-    const bool is_taken = json_.is_standard_output() || csv_.is_standard_output() ||
-                          proof_.is_standard_output() || view_.is_standard_output();
-    io::print(is_taken ? stderr : stdout, report::to_text(report_) + view_.summary());
+    io::print(files_.summary_stream(), report::to_text(report_) + view_.summary());
     if (io::interrupted()) return Status::interrupted;
-    if (lacks_proof() || proof_.failed() || view_.failed()) return Status::bad_input;
+    if (lacks_proof() || files_.has_failed()) return Status::bad_input;
     return report::has_collisions(report_) ? Status::wrong_answers : Status::all_well;
   }
 
-  OptionalOutput json_;
-  OptionalOutput csv_;
+  Files files_;
+  Output json_;
+  Output csv_;
   CertificatesFile proof_;
   ViewFile view_;
   bool shows_contact_ = false;

@@ -13,10 +13,12 @@
 #include <vector>
 
 #include "verify/cli/commands.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/cli/group_options.hpp"
 #include "verify/cli/help.hpp"
 #include "verify/cli/options.hpp"
 #include "verify/cli/solver_options.hpp"
+#include "verify/cli/sources.hpp"
 #include "verify/data/dataset.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/io/terminal.hpp"
@@ -55,36 +57,22 @@ SolverArguments asked_by(const Arguments& arguments) {
 }
 
 /// The step between two frames that the user named, if any.
-std::optional<view::ViewedStep> read_step(const Arguments& arguments) {
+std::optional<view::ViewedStep> read_step(const Arguments& arguments, Files& files) {
   const bool has_groups = !arguments.groups.file.empty() || !arguments.groups.apart.empty();
   if (arguments.step.empty()) {
     if (has_groups) throw std::invalid_argument("--groups and --apart need --step");
     return std::nullopt;
   }
-  const auto frames = mesh::open_frames(arguments.step);
+  const auto frames = open_frames(files, arguments.step);
   if (frames->count() != 2) throw std::invalid_argument("--step needs two frames");
-  const CollidingGroups groups(arguments.groups, frames->mesh());
+  const CollidingGroups groups(files, arguments.groups, frames->mesh());
   mesh::Vertices before = frames->next(), after = frames->next();
   return view::find_collisions(
       fmt::format("{} to {}", frames->name(0), frames->name(1)), frames->mesh(), std::move(before),
       std::move(after), {.separation = arguments.separation.given(), .groups = groups.get()});
 }
 
-/// The files themselves, and of folders the datasets below them.
-std::vector<fs::path> files_of(const std::vector<fs::path>& paths) {
-  std::vector<fs::path> files;
-  for (const fs::path& path : paths) {
-    if (fs::is_directory(path)) {
-      const std::vector<fs::path> found = data::find_datasets({&path, 1});
-      files.insert(files.end(), found.begin(), found.end());
-    } else {
-      files.push_back(path);
-    }
-  }
-  return files;
-}
-
-std::vector<view::ViewedQuery> read(const Arguments& arguments) {
+std::vector<view::ViewedQuery> read(const Arguments& arguments, Files& files) {
   view::QueryFileOptions options = arguments.files;
   if (!arguments.kind.empty()) options.kind = kind_from_string(arguments.kind);
   std::vector<view::ViewedQuery> queries;
@@ -94,7 +82,8 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments) {
                        .kind = *options.kind,
                        .query = view::parse_points(arguments.points)});
   }
-  for (const fs::path& path : files_of(arguments.paths)) {
+  for (const fs::path& path : data::find_datasets(arguments.paths)) {
+    files.add_dataset(path);
     if (queries.size() == arguments.files.most) break;
     options.most = arguments.files.most - queries.size();
     for (view::ViewedQuery& query : view::read_queries(path, options)) {
@@ -107,23 +96,13 @@ std::vector<view::ViewedQuery> read(const Arguments& arguments) {
   return queries;
 }
 
-/// \throws std::runtime_error if a file that is read is the page
-void check_names(const Arguments& arguments, const OptionalOutput& out) {
-  std::vector<fs::path> inputs = arguments.paths;
-  inputs.insert(inputs.end(), arguments.step.begin(), arguments.step.end());
-  inputs.emplace_back(arguments.groups.file);
-  for (const fs::path& file : arguments.solvers.files()) inputs.push_back(file);
-  for (const fs::path& input : inputs) {
-    if (out.is(input)) throw std::runtime_error(input.string() + ": named for input and output");
-  }
-}
-
 /// What the page shows: the first pairs of a step, and the queries of the other inputs.
 std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
-                                           const std::optional<view::ViewedStep>& step) {
+                                           const std::optional<view::ViewedStep>& step,
+                                           Files& files) {
   std::vector<view::ViewedQuery> queries;
   if (step) queries = view::first_queries(*step, arguments.files.most);
-  for (view::ViewedQuery& query : read(arguments)) queries.push_back(std::move(query));
+  for (view::ViewedQuery& query : read(arguments, files)) queries.push_back(std::move(query));
   if (queries.empty() && !step) {
     throw std::invalid_argument("no query: name a file, --points or --step");
   }
@@ -132,11 +111,11 @@ std::vector<view::ViewedQuery> all_queries(const Arguments& arguments,
 
 Status run(const Arguments& arguments) {
   if (arguments.out_file.empty()) throw std::invalid_argument("--out has no file name");
-  OptionalOutput out(arguments.out_file);
-  check_names(arguments, out);
-  const Solvers solvers(asked_by(arguments));
-  const std::optional<view::ViewedStep> step = read_step(arguments);
-  const std::vector<view::ViewedQuery> queries = all_queries(arguments, step);
+  Files files;
+  Output out(files, arguments.out_file);
+  const Solvers solvers(files, asked_by(arguments));
+  const std::optional<view::ViewedStep> step = read_step(arguments, files);
+  const std::vector<view::ViewedQuery> queries = all_queries(arguments, step, files);
   io::ProgressBar bar("view");
   std::vector<nlohmann::json> facts;
   for (const view::ViewedQuery& query : queries) {
@@ -150,7 +129,8 @@ Status run(const Arguments& arguments) {
   out.write(
       view::view_page(facts, command_line(), step ? view::step_facts(*step) : nlohmann::json()));
   out.close();
-  if (!out.is_standard_output()) {
+  if (files.has_failed()) return Status::bad_input;
+  if (files.summary_stream() == stdout) {
     io::print(stdout, fmt::format("{}\n", io::printable(arguments.out_file)));
   }
   return io::interrupted() ? Status::interrupted : Status::all_well;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fast/certified.hpp"
+#include "verify/cli/options.hpp"
 #include "verify/io/printable.hpp"
 #include "verify/judge/separation_inference.hpp"
 #include "verify/solvers/registry.hpp"
@@ -64,7 +65,7 @@ void ViewFile::write(const fast::MethodOptions& options) {
   output_.close();
 }
 
-std::string ViewFile::summary() const {
+std::string ViewFile::summary(std::uint64_t allowed) const {
   if (!output_ || output_.failed()) return {};
   const std::string name = io::printable(name_);
   if (!step_.is_null()) {
@@ -73,6 +74,13 @@ std::string ViewFile::summary() const {
                        total == 0   ? "in which nothing touches"
                        : total == 1 ? "1 pair touches"
                                     : fmt::format("{} pairs touch", total));
+  }
+  if (queries_.empty() && allowed != 0) {
+    return fmt::format(
+        "{}: no wrong answer to look at (false positives, which break no promise: {}; --exact "
+        "shows "
+        "them)\n",
+        name, allowed);
   }
   if (queries_.empty()) return fmt::format("{}: nothing was found to look at\n", name);
   return fmt::format("{}: {}{} to look at\n", name, is_cut_ ? "the first " : "",

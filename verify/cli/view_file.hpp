@@ -4,33 +4,30 @@
 /// The page that a command writes to look at what it found (--view), as `touchstone view` writes pages.
 
 #include <cstddef>
-#include <filesystem>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "fast/method.hpp"
-#include "verify/cli/options.hpp"
+#include "verify/cli/files.hpp"
 #include "verify/view/query_facts.hpp"
 #include "verify/view/step_facts.hpp"
 
 namespace touchstone::verify::cli {
 
 /// A page of the first queries that a command found, if a file is named. A failure is reported, once, as that
-/// of ReportedOutput.
+/// of Output.
 class ViewFile {
  public:
   /// A page holds at most so many queries.
   static constexpr std::size_t most_queries = 100;
 
-  /// \throws as OptionalOutput does.
-  explicit ViewFile(const std::string& name) : name_(name), output_(name) {}
+  /// \throws as Output does.
+  ViewFile(Files& files, const std::string& name) : name_(name), output_(files, name) {}
 
   /// Was a file named?
   [[nodiscard]] explicit operator bool() const { return static_cast<bool>(output_); }
-  [[nodiscard]] bool is(const std::filesystem::path& path) const { return output_.is(path); }
-  [[nodiscard]] bool is_standard_output() const { return output_.is_standard_output(); }
-  [[nodiscard]] bool failed() const { return output_.failed(); }
 
   /// Has it as many queries as a page holds?
   [[nodiscard]] bool is_full() const { return queries_.size() >= most_queries; }
@@ -45,11 +42,12 @@ class ViewFile {
   void write(const fast::MethodOptions& options = {});
 
   /// What the page shows, a line: nothing if no file was named or it could not be written.
-  [[nodiscard]] std::string summary() const;
+  /// \param allowed false positives, which break no promise and are not on the page
+  [[nodiscard]] std::string summary(std::uint64_t allowed = 0) const;
 
  private:
   std::string name_;
-  ReportedOutput output_;
+  Output output_;
   std::vector<view::ViewedQuery> queries_;
   nlohmann::json step_;
   bool is_cut_ = false;

@@ -8,9 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 
 #include "verify/data/dataset_error.hpp"
-#include "verify/io/input_file.hpp"
+#include "verify/io/json.hpp"
 #include "verify/io/output_file.hpp"
 
 namespace touchstone::verify::data {
@@ -45,7 +46,7 @@ nlohmann::json parse(const fs::path& path) {
     if (!seen.insert(key).second) throw DatasetError(path, {}, "repeated key " + quote(key));
     return true;
   };
-  return nlohmann::json::parse(io::read_file(path, most_bytes), check_key);
+  return io::read_json(path, most_bytes, check_key);
 }
 
 }  // namespace
@@ -66,7 +67,9 @@ std::optional<double> distance_from_text(const std::string& text) {
 std::optional<fs::path> find_separation_file(const fs::path& dataset) {
   const fs::path folder = dataset.parent_path();
   for (const fs::path& path : {folder / file_name, folder / ".." / file_name}) {
-    if (fs::exists(path)) return path;
+    // What the system does not say of it is said when it is opened.
+    std::error_code error;
+    if (fs::status(path, error).type() != fs::file_type::not_found) return path;
   }
   return std::nullopt;
 }

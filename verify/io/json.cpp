@@ -2,6 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include "verify/data/dataset_error.hpp"
+#include "verify/io/input_file.hpp"
 
 namespace touchstone::verify::io {
 namespace {
@@ -22,6 +26,22 @@ double number_from_json(const nlohmann::json& json) {
   if (json == infinity_name) return infinity;
   if (json == negative_infinity_name) return -infinity;
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes,
+                         const nlohmann::json::parser_callback_t& accept) {
+  const auto check = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+    if (depth > deepest_json) {
+      throw data::DatasetError(path, {},
+                               "nested more than " + std::to_string(deepest_json) + " deep");
+    }
+    return accept == nullptr || accept(depth, event, value);
+  };
+  try {
+    return nlohmann::json::parse(read_file(path, most_bytes), check);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw data::DatasetError(path, {}, std::string("no JSON: ") + error.what());
+  }
 }
 
 nlohmann::json text_or_null(std::string_view text) {

@@ -1,8 +1,10 @@
 #pragma once
 
 /// \file
-/// JSON as all commands write it, and what JSON has no numbers or texts for.
+/// JSON as all commands read and write it, and what JSON has no numbers or texts for.
 
+#include <cstddef>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -20,6 +22,16 @@ namespace touchstone::verify::io {
 
 /// The text; null if it is empty.
 [[nodiscard]] nlohmann::json text_or_null(std::string_view text);
+
+/// Values may be nested so deep: JSON from outside must not exhaust the stack of what walks through it.
+inline constexpr int deepest_json = 100;
+
+/// The JSON in a file.
+/// \param accept called as nlohmann::json::parse does, once the depth is right
+/// \throws DatasetError if the file cannot be read, has more bytes, is no JSON or nested deeper; whatever
+/// `accept` throws.
+[[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes,
+                                       const nlohmann::json::parser_callback_t& accept = nullptr);
 
 /// JSON as it is written to a file: in ASCII, so that no name in it acts on a terminal. What is no UTF-8
 /// becomes U+FFFD.

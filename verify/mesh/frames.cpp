@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -47,6 +48,12 @@ bool is_before(std::string_view a, std::string_view b) {
     }
   }
   return a.size() < b.size();
+}
+
+/// What the system cannot say is said by the reader of the file.
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
 }
 
 std::vector<fs::path> mesh_files_in(const fs::path& folder) {
@@ -193,10 +200,7 @@ class ArchivedFrames : public Frames {
     if (vertex_count_ > std::numeric_limits<std::int32_t>::max())
       vertices_->fail("more than 2^31-1 vertices");
     const std::vector<fast::Edge> edges = elements<2>("E", "(k, 2)");
-    mesh_ = make_mesh({}, elements<3>("F", "(m, 3)"), edges);
-    for (const auto& [point] : elements<1>("P", "(p,)")) mesh_.points.push_back(point);
-    std::ranges::sort(mesh_.points);
-    mesh_.points.erase(std::unique(mesh_.points.begin(), mesh_.points.end()), mesh_.points.end());
+    mesh_ = make_mesh({}, elements<3>("F", "(m, 3)"), edges, elements<1>("P", "(p,)"));
     mesh_.vertices = read_frame(0);
   }
 
@@ -275,18 +279,20 @@ class ArchivedFrames : public Frames {
 
 }  // namespace
 
-std::unique_ptr<Frames> open_frames(std::span<const fs::path> paths) {
-  if (paths.size() == 1) {
-    const fs::path& path = paths.front();
-    if (fs::is_directory(path)) return std::make_unique<FileFrames>(mesh_files_in(path));
-    if (path.extension() == ".npz") return std::make_unique<ArchivedFrames>(path);
-  }
+std::vector<fs::path> frame_files(std::span<const fs::path> paths) {
+  if (paths.size() == 1 && is_folder(paths.front())) return mesh_files_in(paths.front());
   for (const fs::path& path : paths) {
-    if (path.extension() == ".npz" || fs::is_directory(path)) {
+    if (paths.size() > 1 && (path.extension() == ".npz" || is_folder(path))) {
       throw data::DatasetError(path, {}, "an archive or a folder is named alone");
     }
   }
-  return std::make_unique<FileFrames>(std::vector<fs::path>(paths.begin(), paths.end()));
+  return {paths.begin(), paths.end()};
+}
+
+std::unique_ptr<Frames> open_frames(std::span<const fs::path> paths) {
+  std::vector<fs::path> files = frame_files(paths);
+  if (files.front().extension() == ".npz") return std::make_unique<ArchivedFrames>(files.front());
+  return std::make_unique<FileFrames>(std::move(files));
 }
 
 }  // namespace touchstone::verify::mesh

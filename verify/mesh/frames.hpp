@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "verify/mesh/mesh.hpp"
 
@@ -38,6 +39,11 @@ class Frames {
   /// \throws data::DatasetError if it cannot be read, or its mesh is another.
   [[nodiscard]] virtual Vertices next() = 0;
 };
+
+/// The files that hold the frames: those of the folder where one is named.
+/// \throws data::DatasetError if a folder has no mesh, or a folder or an archive is not named alone.
+[[nodiscard]] std::vector<std::filesystem::path> frame_files(
+    std::span<const std::filesystem::path> paths);
 
 /// Opens mesh files, one folder of them, or one archive. \throws data::DatasetError naming what is in error.
 [[nodiscard]] std::unique_ptr<Frames> open_frames(std::span<const std::filesystem::path> paths);

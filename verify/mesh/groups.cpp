@@ -17,11 +17,13 @@ std::int32_t number_of(const Groups& groups, const std::string& name) {
   if (found != groups.names.end()) {
     return static_cast<std::int32_t>(found - groups.names.begin());
   }
+  static constexpr std::size_t most_named = 20;
   std::string names;
-  for (const std::string& known : groups.names) {
-    if (known.empty()) continue;
-    names += (names.empty() ? "" : ", ") + data::quote(known);
+  for (const std::string& known :
+       std::span(groups.names).first(std::min(most_named, groups.names.size()))) {
+    if (!known.empty()) names += (names.empty() ? "" : ", ") + data::quote(known);
   }
+  if (groups.names.size() > most_named) names += ", …";
   throw std::invalid_argument(fmt::format("no group {}; there are: {}", data::quote(name), names));
 }
 

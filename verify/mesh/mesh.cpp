@@ -27,10 +27,22 @@ std::vector<fast::Edge> all_edges(std::vector<fast::Face> faces,
   return fast::edges_of(faces);
 }
 
+std::vector<std::int32_t> all_points(std::span<const Point> points,
+                                     std::span<const fast::Edge> named_edges) {
+  std::vector<std::int32_t> result;
+  for (const auto& [point] : points) result.push_back(point);
+  for (const auto& [a, b] : named_edges) {
+    if (a == b) result.push_back(a);
+  }
+  std::ranges::sort(result);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
 }  // namespace
 
 Mesh make_mesh(std::span<const std::array<double, 3>> coordinates, std::vector<fast::Face> faces,
-               std::span<const fast::Edge> named_edges) {
+               std::span<const fast::Edge> named_edges, std::span<const Point> points) {
   Mesh mesh;
   mesh.vertices.resize(static_cast<Eigen::Index>(coordinates.size()), 3);
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
@@ -39,6 +51,7 @@ Mesh make_mesh(std::span<const std::array<double, 3>> coordinates, std::vector<f
   }
   mesh.edges = all_edges(faces, named_edges);
   mesh.faces = std::move(faces);
+  mesh.points = all_points(points, named_edges);
   return mesh;
 }
 

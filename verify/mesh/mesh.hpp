@@ -19,6 +19,9 @@ namespace touchstone::verify::mesh {
 /// Positions of vertices, a row each.
 using Vertices = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
+/// A vertex that is a part of a mesh by itself.
+using Point = std::array<std::int32_t, 1>;
+
 /// The groups of vertices that a file names.
 struct Groups {
   std::vector<std::string> names;
@@ -36,18 +39,19 @@ struct Mesh {
   /// Those of the faces and those that the file names by themselves, each once: ordered and
   /// numbered as fast::edges_of does.
   std::vector<fast::Edge> edges;
-  /// The vertices that the file names as points by themselves, ascending, each once.
+  /// The vertices that the file names as points by themselves, or by an edge from a vertex to itself:
+  /// ascending, each once.
   std::vector<std::int32_t> points;
   Groups groups;
 };
 
 /// A mesh from what a file holds: the edges of the faces join those that the file names, in
-/// whatever order and direction. An edge from a vertex to itself is left out.
+/// whatever order and direction. An edge from a vertex to itself is a point.
 /// \param coordinates x, y, z of each vertex in turn
 /// \pre the coordinates are finite, the indices in range.
 [[nodiscard]] Mesh make_mesh(std::span<const std::array<double, 3>> coordinates,
-                             std::vector<fast::Face> faces,
-                             std::span<const fast::Edge> named_edges);
+                             std::vector<fast::Face> faces, std::span<const fast::Edge> named_edges,
+                             std::span<const Point> points = {});
 
 /// Does the file's extension name a format that read_mesh knows?
 [[nodiscard]] bool is_mesh_file(const std::filesystem::path& path);

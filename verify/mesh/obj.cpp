@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "verify/data/dataset_error.hpp"
@@ -37,10 +38,7 @@ class ObjReader {
     require_vertices(faces_, face_places_);
     require_vertices(edges_, edge_places_);
     require_vertices(points_, point_places_);
-    Mesh mesh = make_mesh(vertices_, std::move(faces_), edges_);
-    for (const auto& [vertex] : points_) mesh.points.push_back(vertex);
-    std::ranges::sort(mesh.points);
-    mesh.points.erase(std::unique(mesh.points.begin(), mesh.points.end()), mesh.points.end());
+    Mesh mesh = make_mesh(vertices_, std::move(faces_), edges_, points_);
     if (!group_names_.empty()) mesh.groups = groups(mesh.faces);
     return mesh;
   }
@@ -78,11 +76,15 @@ class ObjReader {
 
   /// What stands before the first group is in one without a name.
   void begin_group(std::string_view name) {
-    if (group_names_.empty()) group_names_.emplace_back();
+    if (group_names_.empty()) {
+      group_names_.emplace_back();
+      group_numbers_.emplace();
+    }
     const std::string trimmed(io::trimmed(name));
-    const auto found = std::ranges::find(group_names_, trimmed);
-    group_ = static_cast<std::int32_t>(found - group_names_.begin());
-    if (found == group_names_.end()) group_names_.push_back(trimmed);
+    const auto [found, is_new] =
+        group_numbers_.try_emplace(trimmed, static_cast<std::int32_t>(group_names_.size()));
+    if (is_new) group_names_.push_back(trimmed);
+    group_ = found->second;
   }
 
   [[nodiscard]] Place place() const { return {.line = line_, .group = group_}; }
@@ -192,11 +194,12 @@ class ObjReader {
   std::vector<Place> face_places_;
   std::vector<fast::Edge> edges_;
   std::vector<Place> edge_places_;
-  std::vector<std::array<std::int32_t, 1>> points_;
+  std::vector<Point> points_;
   std::vector<Place> point_places_;
   std::int32_t group_ = 0;
   std::vector<std::string> group_names_;
-  std::vector<std::int32_t> group_of_line_;  // of each vertex
+  std::unordered_map<std::string, std::int32_t> group_numbers_;  // of the names
+  std::vector<std::int32_t> group_of_line_;                      // of each vertex
 };
 
 }  // namespace

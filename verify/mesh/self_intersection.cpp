@@ -102,6 +102,8 @@ class Search {
     const fast::Step step(before, after, elements,
                           {.groups = {.of_vertices = groups, .apart = apart}});
     step.candidates([&](const fast::StepCandidates& candidates) {
+      // A face that names one vertex three times makes this one a point, which the moving ones are too.
+      if (candidates.kind != fast::PairKind::vertex_face) return;
       std::vector<Piercing> pairs;
       for (const auto& [vertex, face] : candidates.pairs) {
         pairs.push_back({.edge = vertex - resting, .face = face});

@@ -81,7 +81,8 @@ class AnswersReader {
 
   RecordedAnswers read() {
     if (!next_record() || !is_header())
-      fail(Column::whole_line, fmt::format("first line must be {}", header));
+      fail(Column::whole_line,
+           fmt::format("first line must be {}[,failure]", header_without_failure));
     columns_ = split_.count;
     while (next_record()) add_row();
     for (auto& [key, rows] : answers_.rows_) {

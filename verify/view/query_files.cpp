@@ -151,7 +151,7 @@ void add_finding(const nlohmann::json& json, ViewedQuery& query) {
 std::vector<ViewedQuery> read_json(const fs::path& path, const QueryFileOptions& options) {
   std::uint64_t index = 0;
   try {
-    nlohmann::json json = nlohmann::json::parse(io::read_file(path, file_limit));
+    nlohmann::json json = io::read_json(path, file_limit);
     if (json.is_object()) {
       json = json.contains("findings") ? nlohmann::json(json.at("findings"))
                                        : nlohmann::json::array({json});
@@ -163,8 +163,6 @@ std::vector<ViewedQuery> read_json(const fs::path& path, const QueryFileOptions&
                                     options.kind));
     }
     return selection.take(path, json.size());
-  } catch (const nlohmann::json::parse_error& error) {
-    throw data::DatasetError(path, {}, error.what());
   } catch (const std::logic_error& error) {
     throw data::DatasetError(path, {}, fmt::format("query {}: {}", index, error.what()));
   } catch (const nlohmann::json::exception& error) {

@@ -75,6 +75,64 @@ std::ptrdiff_t lines_of(const std::string& help) {
   return std::ranges::count(help, '\n');
 }
 
+/// What a command says of bad input.
+TEST_F(Tool, RefusesBadInputWithItsReason) {
+  fs::create_directories(folder() / "frames");
+  for (const char* const name : {"frames/1.obj", "frames/2.obj"}) {
+    std::ofstream(path(name)) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  }
+  const std::string frames = path("frames"), frame = path("frames/1.obj");
+  fs::create_symlink("loop", path("loop"));
+  std::ofstream(path("deep.json")) << std::string(100'000, '[') << std::string(100'000, ']');
+  std::ofstream(path("answers.csv")) << "nonsense\n";
+  struct Case {
+    std::vector<std::string> words;
+    std::string message;
+  };
+  std::vector<Case> cases{
+      {{"certfy"}, "no command certfy; did you mean certify?"},
+      {{"nonsense"}, "no command nonsense; touchstone --help lists them"},
+      {{"view", path("deep.json"), "--out", path("x.html")}, "nested more than 100 deep"},
+      {{"certify", path("loop")}, "loop: cannot read: Too many levels of symbolic links"},
+      {{"certify", "--truth", path("loop")}, "loop: cannot be written: Too many levels"},
+      {{"certify", "--results", path("answers.csv"), "--count", "1"},
+       "first line must be file,index,kind,verdict,toi_lower,toi_upper,tolerance[,failure]"}};
+  for (const char* const option : {"--csv", "--json", "--prove", "--view"}) {
+    cases.push_back({{"step", frames, option, frame}, frame + ": named for input and output"});
+  }
+  for (const auto& [words, message] : cases) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.status, 2) << message;
+    EXPECT_TRUE(contains(outcome.err, message)) << outcome.err << "instead of " << message;
+    EXPECT_EQ(outcome.out, "") << message;
+  }
+  EXPECT_TRUE(read_file(frame).starts_with("v 0 0 0")) << "a frame is overwritten";
+}
+
+TEST_F(Tool, SaysNoTableOfWhatIsNotThere) {
+  for (const char* const command : {"certify", "bench"}) {
+    const Outcome outcome = run({command, path("missing.csv"), "--method", "certified"});
+    EXPECT_EQ(outcome.status, 2) << command;
+    EXPECT_EQ(outcome.out, "") << command;
+    EXPECT_TRUE(contains(outcome.err, "missing.csv: does not exist")) << outcome.err;
+  }
+}
+
+TEST_F(Tool, TruthGoesToStandardOutputWhereADashIsNamed) {
+  const Outcome outcome = run({"certify", "--count", "1", "--method", "none", "--truth", "-"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.starts_with("file,index,kind,collides,toi_lower,toi_upper\n"))
+      << outcome.out;
+  EXPECT_FALSE(fs::exists("-"));
+}
+
+TEST_F(Tool, SaysThatFalsePositivesAreNotShown) {
+  const Outcome outcome =
+      run({"certify", "--count", "2", "--method", "tight_inclusion", "--view", path("found.html")});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "no wrong answer to look at (false positives")) << outcome.out;
+}
+
 TEST_F(Tool, HelpBeginsWithAnExampleAndFitsAScreen) {
   const std::string overview = run({"--help"}).out;
   EXPECT_LE(lines_of(overview), 26) << overview;

@@ -63,7 +63,8 @@ TEST(Solvers, AreThoseNamedInOrder) {
   for (const auto& method : solvers::methods()) arguments.methods.emplace_back(method->name());
   for (const double limit : {0.0, 1.0}) {
     arguments.query_limit = limit;
-    const Solvers solvers(arguments);
+    Files files;
+    const Solvers solvers(files, arguments);
     const auto all = solvers.all();
     ASSERT_EQ(all.size(), solvers::methods().size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -72,7 +73,8 @@ TEST(Solvers, AreThoseNamedInOrder) {
     }
   }
   arguments.exact = true;
-  const Solvers held(arguments);
+  Files files;
+  const Solvers held(files, arguments);
   for (const solvers::Solver* solver : held.all()) {
     EXPECT_EQ(solver->promise(), fast::Promise::exact);
   }
@@ -82,7 +84,8 @@ TEST(Solvers, OfOneNameAreToldApart) {
   const std::string name(solvers::methods().front()->name());
   SolverArguments arguments;
   arguments.methods = {name, name, name};
-  const Solvers solvers(arguments);
+  Files files;
+  const Solvers solvers(files, arguments);
   ASSERT_EQ(solvers.all().size(), 3U);
   EXPECT_EQ(solvers.all()[0]->name(), name);
   EXPECT_EQ(solvers.all()[1]->name(), name + " (2)");
@@ -99,7 +102,8 @@ TEST(Solvers, MayAllAnswerInThisProcessAndTheCertifiedOneWithAKernel) {
        {static_cast<const fast::CertifiedKernel*>(nullptr),
         fast::find_certified_kernel(fast::InstructionSet::scalar)}) {
     arguments.kernel = kernel;
-    const Solvers solvers(arguments, MethodHost::this_process);
+    Files files;
+    const Solvers solvers(files, arguments, MethodHost::this_process);
     for (const solvers::Solver* solver : solvers.all()) {
       const solvers::SolveReply reply = solver->solve({.queries = queries}, answers);
       EXPECT_FALSE(reply.time.has_value()) << "that of a child process";
@@ -142,23 +146,25 @@ TEST(SolverOptions, WithoutASolverAreRefused) {
 }
 
 TEST(Solvers, NoneIsNoSolver) {
+  Files files;
   SolverArguments arguments;
-  EXPECT_TRUE(Solvers(arguments).all().empty());
+  EXPECT_TRUE(Solvers(files, arguments).all().empty());
   arguments.methods = {"none"};
   EXPECT_FALSE(arguments.empty());
-  EXPECT_TRUE(Solvers(arguments).all().empty());
+  EXPECT_TRUE(Solvers(files, arguments).all().empty());
 }
 
 TEST(Solvers, WhatIsNotThereIsAnError) {
+  Files files;
   SolverArguments unknown, both, plugin, results;
   unknown.methods = {"nonsense"};
-  EXPECT_THROW(Solvers{unknown}, std::invalid_argument);
+  EXPECT_THROW(Solvers(files, unknown), std::invalid_argument);
   both.methods = {"none", "nonsense"};
-  EXPECT_THROW(Solvers{both}, std::invalid_argument);
+  EXPECT_THROW(Solvers(files, both), std::invalid_argument);
   plugin.plugins = {"missing.so"};
-  EXPECT_THROW(Solvers{plugin}, data::DatasetError);
+  EXPECT_THROW(Solvers(files, plugin), data::DatasetError);
   results.results = {"missing.csv"};
-  EXPECT_THROW(Solvers{results}, data::DatasetError);
+  EXPECT_THROW(Solvers(files, results), data::DatasetError);
 }
 
 TEST(Solvers, AnswersNeverAskedForAreAWarning) {
@@ -171,7 +177,8 @@ TEST(Solvers, AnswersNeverAskedForAreAWarning) {
       << solvers::answer_row("b", 0, Kind::edge_edge, {.verdict = fast::Verdict::no});
   SolverArguments arguments;
   arguments.results = {path};
-  const Solvers solvers(arguments);
+  Files files;
+  const Solvers solvers(files, arguments);
   fs::remove(path);
   const std::vector<Query> queries(1);
   const std::string a = "a", b = "b";

@@ -45,8 +45,7 @@ class Sources : public ::testing::Test {
               progress(1.0);
             },
         .fail = [this](const fs::path& path, const data::DatasetError&) { failed.push_back(path); },
-        .stopped = [this] { return used.size() + failed.size() >= most; },
-        .is_output = [this](const fs::path& path) { return path == output; }};
+        .stopped = [this] { return used.size() + failed.size() >= most; }};
   }
   ~Sources() override { fs::remove_all(folder); }
 
@@ -61,19 +60,19 @@ class Sources : public ::testing::Test {
   std::vector<fs::path> failed;
   std::uint64_t queries = 0;
   std::size_t most = 1000;
-  fs::path output;
+  Files files;
 };
 
 TEST_F(Sources, WithASeparationTheBuiltInSetHasItsFamiliesToo) {
   SourceArguments arguments;
   arguments.count = 1;
   arguments.separation.distance = 0.5;
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   EXPECT_EQ(used.back(),
             std::pair(std::string(generate::separation_families().back().name), Kind::edge_edge));
   arguments.separation.distance = 0x1p-1070;
   used.clear();
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   EXPECT_EQ(used.back().first, generate::families().back().name) << "they cannot double that";
 }
 
@@ -86,13 +85,13 @@ TEST_F(Sources, WhatIsRecordedIsAskedUnlessTheUserSaysOtherwise) {
     asked.push_back(separation_for(arguments, source));
   };
   constexpr Separation recorded{.distance = 0.5, .norm = Norm::l2};
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   EXPECT_EQ(asked, (std::vector<Separation>{recorded, recorded}));
   arguments.separation = {.distance = 0.5, .norm = Norm::l2};
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   EXPECT_TRUE(failed.empty());
   arguments.separation = {.distance = std::nullopt, .norm = Norm::linf};
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   EXPECT_EQ(failed.size(), 2U);
   EXPECT_EQ(asked.size(), 4U);
 }
@@ -100,7 +99,7 @@ TEST_F(Sources, WhatIsRecordedIsAskedUnlessTheUserSaysOtherwise) {
 TEST_F(Sources, WithoutPathsAreTheBuiltInSet) {
   SourceArguments arguments;
   arguments.count = 2;
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   std::vector<std::pair<std::string, Kind>> expected;
   for (const generate::Family& family : generate::families()) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
@@ -115,7 +114,7 @@ TEST_F(Sources, FilesComeOnceAndInOrder) {
   SourceArguments arguments;
   const fs::path b = folder / "b_ee.csv";
   arguments.paths = {b, folder};
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   ASSERT_EQ(used.size(), 2U);
   EXPECT_EQ(used[0], std::pair(b.string(), Kind::edge_edge));
   EXPECT_EQ(used[1], std::pair((folder / "a_vf.csv").string(), Kind::vertex_face));
@@ -126,7 +125,7 @@ TEST_F(Sources, WhatCannotBeOpenedFailsAndTheRestGoesOn) {
   write("kindless.csv");
   SourceArguments arguments;
   arguments.paths = {folder / "missing", folder};
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   EXPECT_EQ(failed, (std::vector<fs::path>{folder / "missing", folder / "kindless.csv"}));
   EXPECT_EQ(used.size(), 2U);
 }
@@ -136,7 +135,7 @@ TEST_F(Sources, WhatASearchLeavesOutIsNamedUpToALimit) {
   SourceArguments arguments;
   arguments.paths = {folder};
   ::testing::internal::CaptureStderr();
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   const std::string errors = ::testing::internal::GetCapturedStderr();
   for (char letter = 'a'; letter <= 'h'; ++letter) {
     const std::string path = (folder / (std::string(1, letter) + ".txt")).string();
@@ -151,20 +150,20 @@ TEST_F(Sources, WhatASearchLeavesOutIsNamedUpToALimit) {
 TEST_F(Sources, AStopLeavesTheRestAlone) {
   most = 1;
   SourceArguments arguments;
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   EXPECT_EQ(used.size(), 1U);
   used.clear();
   arguments.paths = {folder / "missing", folder};
-  for_each_source(arguments, handlers);
+  for_each_source(arguments, files, handlers);
   EXPECT_TRUE(used.empty());
   EXPECT_EQ(failed.size(), 1U);
 }
 
 TEST_F(Sources, AnInputMustBeNoOutput) {
-  output = folder / "b_ee.csv";
+  files.add_output(folder / "b_ee.csv");
   SourceArguments arguments;
   arguments.paths = {folder};
-  EXPECT_THROW(for_each_source(arguments, handlers), std::runtime_error);
+  EXPECT_THROW(for_each_source(arguments, files, handlers), std::runtime_error);
   EXPECT_TRUE(used.empty()) << "before anything is done";
 }
 

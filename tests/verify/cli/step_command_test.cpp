@@ -129,6 +129,27 @@ TEST_F(StepCommand, JudgesTheStepThatIsTaken) {
   EXPECT_EQ(step({before, after, "--alpha", "1.5"}).status, 2);
 }
 
+// A face of one vertex is a point of the mesh, an edge from a vertex to itself is one too.
+TEST_F(StepCommand, FacesAndEdgesOfOneVertexArePoints) {
+  const std::string face = write("face.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 1\nl 1 2\n");
+  EXPECT_EQ(step({face, face}).status, 0);
+  for (const std::string point : {"l 4 4", "p 4", "f 4 4 4"}) {
+    const auto at = [&](const std::string& name, const std::string& z) {
+      return write(name,
+                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.25 0.25 " + z + "\nf 1 2 3\n" + point + "\n");
+    };
+    expect_toi(result({at("0.obj", "1"), at("1.obj", "-3")}, 1)["steps"][0], 0.25);
+  }
+}
+
+// The names are looked up, not searched for.
+TEST_F(StepCommand, ReadsManyGroups) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 100'000; ++i) text += "g n" + std::to_string(i) + "\n";
+  const std::string mesh = write("groups.obj", text + "f 1 2 3\n");
+  EXPECT_EQ(step({mesh, mesh, "--apart", "n99999", "n99999"}).status, 0);
+}
+
 TEST_F(StepCommand, LeavesOutGroupsThatAreApart) {
   const std::string before = above("0.obj", "1"), after = above("1.obj", "-3");
   EXPECT_EQ(step({before, after, "--apart", "floor", "falling"}).status, 0);
@@ -202,7 +223,7 @@ TEST_F(StepCommand, ProvesItsStepsToTheChecker) {
   EXPECT_EQ(accepted.status, 0) << accepted.out;
   EXPECT_TRUE(contains(accepted.out,
                        "0.obj 1.obj\n6 vertices, 6 edges, 2 faces\nseparation "
-                       "0x0p+0 linf\nclaim no_contact 1\n"))
+                       "0\nclaim no_contact 1\n"))
       << accepted.out;
   // A proof is of its step: of no other.
   const std::string text = read_file(proof);
@@ -214,6 +235,20 @@ TEST_F(StepCommand, ProvesItsStepsToTheChecker) {
   ASSERT_EQ(step({first, third, "--t-max", "0.25", "--prove", proof}).status, 0);
   EXPECT_TRUE(contains(checked({proof}).out, "claim no_contact 1/4\n"));
   EXPECT_EQ(checked({proof, scene}).status, 1);
+}
+
+// Interrupted before its first step, a proof would be one of nothing.
+TEST_F(StepCommand, AnInterruptedProofReplacesNone) {
+  std::string points;
+  for (int i = 0; i < 200'000; ++i)
+    points += "v " + std::to_string(i) + " 0 0\np " + std::to_string(i + 1) + "\n";
+  const std::string frame = write("points.obj", points),
+                    proof = write("steps.cert", "an older proof");
+  const Outcome outcome =
+      run_interrupted({"step", frame, frame, frame, "--free", "--prove", proof});
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_EQ(read_file(proof), "an older proof");
+  EXPECT_FALSE(contains(read_file(proof + ".incomplete"), "\nsteps "));
 }
 
 TEST_F(StepCommand, ProvesAtASeparationAndBetweenGroups) {

@@ -337,7 +337,7 @@ TEST(RecordedAnswers, MayBeAskedFromSeveralThreads) {
 
 TEST(LoadAnswers, NeedsItsHeader) {
   const std::string reason =
-      "first line must be file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure";
+      "first line must be file,index,kind,verdict,toi_lower,toi_upper,tolerance[,failure]";
   EXPECT_EQ(error_in(""), "answers.csv: " + reason);
   EXPECT_EQ(error_in("a,0,vertex-face,no,,,\n"), "answers.csv:1: " + reason);
   EXPECT_EQ(error_in("index,file,kind,verdict,toi_lower,toi_upper,tolerance\n"),
