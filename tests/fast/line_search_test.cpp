@@ -238,17 +238,11 @@ TEST(LineSearch, OfPairsIsThatOfAllOfThem) {
 }
 
 TEST(LineSearch, PlantedFaultsAreFound) {
-  int planted = 0;
-  for (LimitStep* const limit_of : {&line_search_too_far, &line_search_too_near}) {
-    if (limit_of == nullptr) continue;  // not planted in this build
-    ++planted;
-    EXPECT_NE(first_fault(*limit_of, 40, nullptr), "");
+  for (const auto& fault : tests::planted_faults().line_search) {
+    const bool is_found = !first_fault(*fault.part, 40, nullptr).empty() ||
+                          compare_pairs(*fault.part, 40).different > 0;
+    EXPECT_TRUE(is_found) << fault.name;
   }
-  if (LimitStep* const limit_of = &line_search_of_few; limit_of != nullptr) {
-    ++planted;
-    EXPECT_GT(compare_pairs(*limit_of, 40).different, 0);
-  }
-  EXPECT_GE(planted, tests::least_planted(1));
 }
 
 TEST(LineSearch, IsTheSameForAllNumbersOfThreads) {

@@ -66,7 +66,7 @@ using MakeCertified = std::unique_ptr<fast::Method>(const fast::CertifiedOptions
 /// All that this build plants, in the order of faults.txt.
 struct PlantedFaults {
   Faults<MakeBounds> float_bounds;
-  Faults<const fast::SearchKernel> search, division;
+  Faults<const fast::SearchKernel> search, search_of_bodies, division;
   Faults<ExactDistance> exact_distance;
   Faults<FilteredDistance> filtered_distance;
   Faults<FindActive> active_set;

@@ -197,14 +197,10 @@ std::string first_fault(MakeBounds& make) {
 
 TEST(FloatBounds, AreAroundThePlacesAtTheEndOfAPart) { EXPECT_EQ(first_fault(bounds_of), ""); }
 
-TEST(FloatBounds, FaultsInThemAreFound) {
-  int planted = 0;
-  for (MakeBounds* const bounds : {&bounds_rounded_to_nearest, &bounds_without_error}) {
-    if (bounds == nullptr) continue;  // not planted in this build
-    ++planted;
-    EXPECT_NE(first_fault(*bounds), "") << planted;
+TEST(FloatBounds, PlantedFaultsAreFound) {
+  for (const auto& fault : tests::planted_faults().float_bounds) {
+    EXPECT_NE(first_fault(*fault.part), "") << fault.name;
   }
-  EXPECT_GE(planted, tests::least_planted(2));
 }
 
 TEST(FloatBounds, OfAPartAreNotWiderThanRoundingNeeds) {
