@@ -167,7 +167,8 @@ std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, No
 }
 
 /// The first fault in random scenes.
-std::string first_fault(LimitStep& limit_of, int rounds, std::map<LineSearchStatus, int>* seen) {
+std::string first_fault(tests::LimitStep& limit_of, int rounds,
+                        std::map<LineSearchStatus, int>* seen) {
   Random random(2300);
   for (int round = 0; round < rounds; ++round) {
     for (const tests::Shape& shape : tests::shapes()) {
@@ -213,7 +214,7 @@ struct Compared {
   int limited = 0;
 };
 
-Compared compare_pairs(LimitStep& limit_of, int rounds) {
+Compared compare_pairs(tests::LimitStep& limit_of, int rounds) {
   Random random(2301);
   Compared result;
   for (int round = 0; round < rounds; ++round) {

@@ -9,6 +9,7 @@
 #include <istream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -52,7 +53,8 @@ template <class Part>
 using Faults = std::vector<Fault<Part>>;
 
 // What the parts are: functions and constants.
-using MakeBounds = std::vector<fast::VertexBounds>(const fast::MovingVertices&, double end);
+using MakeBounds = std::vector<fast::VertexBounds>(const fast::MovingVertices&, double end,
+                                                   double distance);
 using ExactDistance = fast::Distance(Kind, const Query&, double, Norm);
 using FilteredDistance = std::optional<fast::Distance>(Kind, const Query&, double, Norm);
 using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, double, Norm);
@@ -60,6 +62,8 @@ using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::L
 using Check = checker::Report(std::istream&, const checker::Options&);
 using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,
                                                        double toi_tolerance, double t_max);
+using DecideRescaled = void(const fast::KernelInput&, const fast::CertifiedKernel&,
+                            std::span<const Query>, fast::KernelOutput&);
 using MakeTightInclusion = std::unique_ptr<fast::Method>(const fast::TightInclusionOptions&);
 using MakeCertified = std::unique_ptr<fast::Method>(const fast::CertifiedOptions&);
 
@@ -75,6 +79,7 @@ struct PlantedFaults {
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;
   Faults<const fast::CertifiedKernel> certified_kernel;
+  Faults<DecideRescaled> rescaling;
   Faults<DecideExactly> exact_stage;
   Faults<MakeCertified> certified;
   /// Without a fault: it counts its work (limb_products.hpp).
