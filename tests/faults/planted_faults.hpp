@@ -2,10 +2,8 @@
 
 /// \file
 /// The planted faults of faults.txt: copies of parts of the project with one fault each, for the tests of the parts and for
-/// the fuzzer (hunt.hpp). A build plants those marked `always`, or all of them (TOUCHSTONE_ALL_FAULTS); under the sanitizers
-/// none.
+/// the fuzzer (hunt.hpp). TOUCHSTONE_FAULTS says which of them a build plants.
 
-#include <algorithm>
 #include <istream>
 #include <memory>
 #include <optional>
@@ -87,12 +85,5 @@ struct PlantedFaults {
 };
 
 [[nodiscard]] const PlantedFaults& planted_faults();
-
-/// The fault of that name; null where this build does not plant it.
-template <class Part>
-[[nodiscard]] Part* find_fault(const Faults<Part>& faults, std::string_view name) {
-  const auto found = std::ranges::find(faults, name, &FaultInfo::name);
-  return found == faults.end() ? nullptr : found->part;
-}
 
 }  // namespace touchstone::tests
