@@ -7,7 +7,6 @@
 #include <istream>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -60,8 +59,6 @@ using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::L
 using Check = checker::Report(std::istream&, const checker::Options&);
 using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,
                                                        double toi_tolerance, double t_max);
-using DecideRescaled = void(const fast::KernelInput&, const fast::CertifiedKernel&,
-                            std::span<const Query>, fast::KernelOutput&);
 using MakeTightInclusion = std::unique_ptr<fast::Method>(const fast::TightInclusionOptions&);
 using MakeCertified = std::unique_ptr<fast::Method>(const fast::CertifiedOptions&);
 
@@ -77,7 +74,6 @@ struct PlantedFaults {
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;
   Faults<const fast::CertifiedKernel> certified_kernel;
-  Faults<DecideRescaled> rescaling;
   Faults<DecideExactly> exact_stage;
   Faults<MakeCertified> certified;
   /// Without a fault: it counts its work (limb_products.hpp).
