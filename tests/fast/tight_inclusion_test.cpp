@@ -778,14 +778,17 @@ TEST(Published, TheReleaseDeniesSomeContactsAtScalesFarFromOne) {
 /// How many families find a fault, by a miss or a late time, among 100 queries of each kind?
 std::size_t families_that_find(const Method& method) {
   std::set<std::string_view> result;
-  for_each_family_query(
-      100, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
-        Answer answer;
-        method.solve(kind, std::span(&known.query, 1), std::span(&answer, 1),
-                     {.max_checks = some_checks});
-        const TightInclusionResult found{.verdict = answer.verdict, .toi = answer.toi_lower};
-        if (is_missed(known, found) || is_late(known, found)) result.insert(family.name);
-      });
+  for_each_family_query(100,
+                        [&](const verify::generate::Family& family, Kind kind, const auto& known) {
+                          Answer answer;
+                          method.solve(kind, std::span(&known.query, 1), std::span(&answer, 1),
+                                       {.max_checks = some_checks});
+                          TightInclusionResult found;
+                          found.verdict = answer.verdict;
+                          found.toi = answer.toi_lower;
+                          if (is_missed(known, found) || is_late(known, found))
+                            result.insert(family.name);
+                        });
   return result.size();
 }
 

@@ -14,7 +14,7 @@ for symbol in $symbols; do
   renamed="$renamed --redefine-sym $symbol=_ZN10touchstone${#module}${module}${#name}${name}E${symbol#"$pattern"}"
 done
 # shellcheck disable=SC2086
-ld -r --force-group-allocation $wanted -o "$output" "$@"
+ld -r --no-gnu-unique --force-group-allocation $wanted -o "$output" "$@"
 # shellcheck disable=SC2086
 objcopy $kept "$output"
 # shellcheck disable=SC2086
