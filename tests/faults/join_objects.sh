@@ -14,7 +14,11 @@ for symbol in $symbols; do
   renamed="$renamed --redefine-sym $symbol=_ZN10touchstone${#module}${module}${#name}${name}E${symbol#"$pattern"}"
 done
 # shellcheck disable=SC2086
-ld -r --no-gnu-unique --force-group-allocation $wanted -o "$output" "$@"
+ld -r --force-group-allocation $wanted -o "$output" "$@"
+# (objcopy makes a unique symbol, of an inline variable, local only once it is weak.)
+for symbol in $(nm "$output" | awk '$2 == "u" { print $3 }'); do
+  objcopy --weaken-symbol="$symbol" "$output"
+done
 # shellcheck disable=SC2086
 objcopy $kept "$output"
 # shellcheck disable=SC2086

@@ -68,7 +68,7 @@ function plant(   sources, count, i, path, names) {
       ")::value_type::Part " name "; }\n"
     norm = words ~ /,l2,/ ? "Norm::l2" : words ~ /,linf,/ ? "Norm::linf" : ""
     rows = rows "  all." part ".push_back({{" literal(name) ", " literal(what) ", " \
-      (norm ? "{0x1p-10, " norm "}" : "{}") ", " literal(harmless) ", " literal(rare) "}, &" names[1] "::" name "});\n"
+      (norm ? "{0x1p-10, " norm "}" : "{}") ", " literal(harmless) ", " literal(rare) ", " (words ~ /,fuzzer,/ ? "true" : "false") "}, &" names[1] "::" name "});\n"
   }
   delete altered
   name = harmless = rare = ""

@@ -37,6 +37,9 @@ struct FaultInfo {
   /// Which queries show it, where they are so rare that neither hunter is expected to meet one; else empty.
   std::string_view rare = {};
 
+  /// Does the fuzzer alone have to find it, and not the tests of the part?
+  bool is_for_fuzzer = false;
+
   [[nodiscard]] bool is_to_be_found() const { return harmless.empty() && rare.empty(); }
 };
 

@@ -194,7 +194,7 @@ TEST(CertifiedKernels, FamiliesFindNoFaultWhereThereIsNone) {
 
 TEST(CertifiedKernels, FamiliesFindPlantedFaults) {
   for (const auto& fault : tests::planted_faults().certified_kernel) {
-    if (fault.separation.distance > 0.0 || !fault.is_to_be_found()) continue;
+    if (fault.separation.distance > 0.0 || !fault.is_to_be_found() || fault.is_for_fuzzer) continue;
     const std::vector<std::string> found = families_that_find(*fault.part);
     std::printf("%s: found by %zu families\n", fault.name.data(), found.size());
     EXPECT_FALSE(found.empty()) << fault.name;
