@@ -334,19 +334,12 @@ bool is_found(const DistanceOf& distance_of) {
 }
 
 TEST(Distance, PlantedFaultsAreFound) {
-  int planted = 0;
-  for (auto* const stage : {&distance_to_lines, &distance_to_planes, &distance_with_short_axes,
-                            &distance_without_sides}) {
-    if (stage == nullptr) continue;  // not planted in this build
-    ++planted;
-    EXPECT_TRUE(is_found(*stage)) << planted;
+  for (const auto& fault : tests::planted_faults().exact_distance) {
+    EXPECT_TRUE(is_found(*fault.part)) << fault.name;
   }
-  for (auto* const stage : {&distance_without_radius, &distance_without_rounding}) {
-    if (stage == nullptr) continue;
-    ++planted;
-    EXPECT_TRUE(is_found(*stage)) << planted;
+  for (const auto& fault : tests::planted_faults().filtered_distance) {
+    EXPECT_TRUE(is_found(*fault.part)) << fault.name;
   }
-  EXPECT_GE(planted, tests::least_planted(2));
   EXPECT_FALSE(is_found(filtered_distance));
 }
 

@@ -167,7 +167,8 @@ std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, No
 }
 
 /// The first fault in random scenes.
-std::string first_fault(LimitStep& limit_of, int rounds, std::map<LineSearchStatus, int>* seen) {
+std::string first_fault(tests::LimitStep& limit_of, int rounds,
+                        std::map<LineSearchStatus, int>* seen) {
   Random random(2300);
   for (int round = 0; round < rounds; ++round) {
     for (const tests::Shape& shape : tests::shapes()) {
@@ -213,7 +214,7 @@ struct Compared {
   int limited = 0;
 };
 
-Compared compare_pairs(LimitStep& limit_of, int rounds) {
+Compared compare_pairs(tests::LimitStep& limit_of, int rounds) {
   Random random(2301);
   Compared result;
   for (int round = 0; round < rounds; ++round) {
@@ -238,17 +239,11 @@ TEST(LineSearch, OfPairsIsThatOfAllOfThem) {
 }
 
 TEST(LineSearch, PlantedFaultsAreFound) {
-  int planted = 0;
-  for (LimitStep* const limit_of : {&line_search_too_far, &line_search_too_near}) {
-    if (limit_of == nullptr) continue;  // not planted in this build
-    ++planted;
-    EXPECT_NE(first_fault(*limit_of, 40, nullptr), "");
+  for (const auto& fault : tests::planted_faults().line_search) {
+    const bool is_found = !first_fault(*fault.part, 40, nullptr).empty() ||
+                          compare_pairs(*fault.part, 40).different > 0;
+    EXPECT_TRUE(is_found) << fault.name;
   }
-  if (LimitStep* const limit_of = &line_search_of_few; limit_of != nullptr) {
-    ++planted;
-    EXPECT_GT(compare_pairs(*limit_of, 40).different, 0);
-  }
-  EXPECT_GE(planted, tests::least_planted(1));
 }
 
 TEST(LineSearch, IsTheSameForAllNumbersOfThreads) {

@@ -745,27 +745,19 @@ TEST(PairKind, HasAName) {
 
 // ---- Faults -------------------------------------------------------------------------------------
 
-TEST(Step, FaultsInTheFusedStageAreFound) {
-  const std::map<std::string, const SearchKernel*> faults{
-      {"touching is apart", &search_of_open_boxes},
-      {"apart at one end", &search_apart_at_one_end},
-      {"apart either way round", &search_apart_either_way},
-      {"a lane is forgotten", &search_without_lane},
-      {"lanes that are none", &search_with_empty_lanes},
-      {"groups behind", &search_without_own_node},
-      {"shared vertices", &search_of_neighbours},
-      {"groups that do not meet", &search_of_all_bodies},
-      {"a mixed primitive is left out", &search_without_mixed_bodies}};
-  int planted = 0;
-  for (const auto& [name, search] : faults) {
-    if (search == nullptr) continue;  // not planted in this build
-    ++planted;
+TEST(Step, PlantedFaultsInTheFusedStageAreFound) {
+  const auto expect_found = [](const auto& planted) {
     Random random(191);
-    std::string what = first_fault(random, {.search = search}, 40);
-    if (what.empty()) what = fault(soup(random, 40, 0.3), {.search = search});
-    EXPECT_NE(what, "") << name;
+    std::string what = first_fault(random, {.search = planted.part}, 40);
+    if (what.empty()) what = fault(soup(random, 40, 0.3), {.search = planted.part});
+    EXPECT_NE(what, "") << planted.name;
+  };
+  for (const auto& planted : tests::planted_faults().search) {
+    // Pairs that these two let through are decided in the next stage; search_test.cpp finds them.
+    if (planted.name == "search_without_axis" || planted.name == "search_too_sure") continue;
+    expect_found(planted);
   }
-  EXPECT_GE(planted, tests::least_planted(3));
+  for (const auto& planted : tests::planted_faults().search_of_bodies) expect_found(planted);
 }
 
 #ifndef TOUCHSTONE_SANITIZED

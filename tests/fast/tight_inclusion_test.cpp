@@ -13,16 +13,18 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
-#include <map>
 #include <queue>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
 #include "exact/algebra/number.hpp"
 #include "exact/oracle.hpp"
+#include "tests/faults/planted_faults.hpp"
 #include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
@@ -773,94 +775,35 @@ TEST(Published, TheReleaseDeniesSomeContactsAtScalesFarFromOne) {
 
 // ---- Planted faults -----------------------------------------------------------------------------
 
-/// The released filter: γ = min(x_max, 1) (docs/methods.md, section 2, the defect of the release).
-std::array<double, 3> filter_with_min(Kind kind, const Query& query) {
-  BoxProblem problem;
-  return error_filter(kind, best_box_kernel().load(query, problem).x_max, 0.0,
-                      ErrorModel::released);
-}
-
-/// A kernel that forgets the corner (t1,u1,v1).
-BoxTest test_seven_corners(const BoxProblem& problem, const Box& box) {
-  BoxTest result{.rejected = false, .inside = true, .width = 0.0};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const CornerValues f = best_box_kernel().corners(problem, box, axis);
-    const auto [least, greatest] = std::minmax_element(f.begin(), f.end() - 1);
-    const double filter = problem.filter[axis];
-    if (*least > filter || *greatest < -filter) return {true, false, 0.0};
-    result.inside = result.inside && *greatest <= filter && *least >= -filter;
-    result.width = std::max(result.width, *greatest - *least);
-  }
-  return result;
-}
-
-/// A kernel to which the upper half of the first split of u is lost.
-BoxTest test_without_an_interval(const BoxProblem& problem, const Box& box) {
-  if (box.ends[2] == 0.5 && box.ends[3] == 1.0) return {true, false, 0.0};
-  return best_box_kernel().test(problem, box);
-}
-
-BoxKernel faulty_kernel(BoxTest (*test)(const BoxProblem&, const Box&)) {
-  BoxKernel kernel = best_box_kernel();
-  kernel.test = test;
-  return kernel;
-}
-
-enum class Fault : std::uint8_t { gamma_min, no_filter, seven_corners, lost_interval };
-
-TightInclusionResult solve_with(Fault fault, Kind kind, const Query& query) {
-  static const BoxKernel seven_corners = faulty_kernel(test_seven_corners);
-  static const BoxKernel lost_interval = faulty_kernel(test_without_an_interval);
-  TightInclusionOptions options;
-  options.max_checks = some_checks;
-  switch (fault) {
-    case Fault::gamma_min:
-      options.scene_filter = filter_with_min(kind, query);
-      break;
-    case Fault::no_filter:
-      options.scene_filter = {{0.0, 0.0, 0.0}};
-      break;
-    case Fault::seven_corners:
-      options.kernel = &seven_corners;
-      break;
-    case Fault::lost_interval:
-      options.kernel = &lost_interval;
-      break;
-  }
-  return tight_inclusion(kind, query, options);
-}
-
-/// Which families catch a fault, by a miss or a late time, among `count` queries of each kind.
-std::set<std::string> families_that_catch(Fault fault, std::uint64_t count) {
-  std::set<std::string> result;
-  for_each_family_query(count,
+/// How many families find a fault, by a miss or a late time, among 100 queries of each kind?
+std::size_t families_that_find(const Method& method) {
+  std::set<std::string_view> result;
+  for_each_family_query(100,
                         [&](const verify::generate::Family& family, Kind kind, const auto& known) {
-                          const auto answer = solve_with(fault, kind, known.query);
-                          if (is_missed(known, answer) || is_late(known, answer))
-                            result.emplace(family.name);
+                          Answer answer;
+                          method.solve(kind, std::span(&known.query, 1), std::span(&answer, 1),
+                                       {.max_checks = some_checks});
+                          TightInclusionResult found;
+                          found.verdict = answer.verdict;
+                          found.toi = answer.toi_lower;
+                          if (is_missed(known, found) || is_late(known, found))
+                            result.insert(family.name);
                         });
-  return result;
+  return result.size();
 }
 
-TEST(PlantedFault, IsCaughtByTheFamilies) {
-  const std::map<Fault, const char*> faults{{Fault::gamma_min, "γ with min"},
-                                            {Fault::no_filter, "filter 0"},
-                                            {Fault::seven_corners, "seven corners"},
-                                            {Fault::lost_interval, "interval lost"}};
-  std::map<std::string, std::set<Fault>> table;
-  for (const auto& [fault, name] : faults) {
-    const auto families = families_that_catch(fault, 100);
-    EXPECT_GE(families.size(), 3U) << name;
-    for (const std::string& family : families) table[family].insert(fault);
+TEST(TightInclusion, FamiliesFindPlantedFaults) {
+  const auto expect_found = [](const tests::FaultInfo& fault, const Method& method) {
+    if (fault.separation.distance > 0.0 || !fault.is_to_be_found() || fault.is_for_fuzzer) return;
+    const std::size_t found = families_that_find(method);
+    std::printf("%s: found by %zu families\n", fault.name.data(), found);
+    EXPECT_GT(found, 0U) << fault.name;
+  };
+  for (const auto& fault : tests::planted_faults().box_kernel) {
+    expect_found(fault, *tight_inclusion_method({.kernel = fault.part}));
   }
-  std::printf("| family | γ with min | filter 0 | seven corners | interval lost |\n");
-  std::printf("|---|---|---|---|---|\n");
-  for (const auto& [family, caught] : table) {
-    std::printf("| %s |", family.c_str());
-    for (const auto& fault : faults) {
-      std::printf(" %s |", caught.contains(fault.first) ? "caught" : "");
-    }
-    std::printf("\n");
+  for (const auto& fault : tests::planted_faults().tight_inclusion) {
+    expect_found(fault, *fault.part({}));
   }
 }
 

@@ -139,8 +139,8 @@ std::vector<VertexBounds> bounds_of(const MovingVertices& vertices, double end, 
 }
 
 /// Are bounds at both ends of [0, time] apart only if the exact places there are, by more than the distance?
-bool are_around_places(MakeBounds& make, const Eigen::MatrixX3d& start, const Eigen::MatrixX3d& end,
-                       double time, double distance) {
+bool are_around_places(tests::MakeBounds& make, const Eigen::MatrixX3d& start,
+                       const Eigen::MatrixX3d& end, double time, double distance) {
   const std::vector<VertexBounds> bounds = make(MovingVertices(start, end), time, distance);
   struct Place {
     Rational x;
@@ -164,7 +164,7 @@ bool are_around_places(MakeBounds& make, const Eigen::MatrixX3d& start, const Ei
 }
 
 /// What is wrong with such bounds, or nothing.
-std::string first_fault(MakeBounds& make) {
+std::string first_fault(tests::MakeBounds& make) {
   Random random(6);
   for (const double time : {1.0, 0.5, 0x1p-3, 0x1p-20, 0x1p-40, 0x1p-52}) {
     for (const int exponent : {-1074, -1040, -150, -1, 0, 60, 200, 1000, 1023}) {
@@ -209,15 +209,10 @@ std::string first_fault(MakeBounds& make) {
 
 TEST(FloatBounds, AreAroundThePlacesAtTheEndOfAPart) { EXPECT_EQ(first_fault(bounds_of), ""); }
 
-TEST(FloatBounds, FaultsInThemAreFound) {
-  int planted = 0;
-  for (MakeBounds* const bounds : {&bounds_without_error, &bounds_widened_inwards,
-                                   &bounds_widened_on_one_side, &bounds_in_disorder}) {
-    if (bounds == nullptr) continue;  // not planted in this build
-    ++planted;
-    EXPECT_NE(first_fault(*bounds), "") << planted;
+TEST(FloatBounds, PlantedFaultsAreFound) {
+  for (const auto& fault : tests::planted_faults().float_bounds) {
+    EXPECT_NE(first_fault(*fault.part), "") << fault.name;
   }
-  EXPECT_GE(planted, tests::least_planted(3));
 }
 
 TEST(FloatBounds, OfAPartAreNotWiderThanRoundingNeeds) {

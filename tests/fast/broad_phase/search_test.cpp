@@ -472,14 +472,10 @@ TEST(Division, MakesTheSameGroupsWithAllKernels) {
   }
 }
 
-TEST(Division, FaultsInItAreFound) {
-  int planted = 0;
-  for (const SearchKernel* const kernel : {&division_by_another_rank, &division_on_another_axis}) {
-    if (kernel == nullptr) continue;  // not planted in this build
-    ++planted;
-    EXPECT_NE(first_wrong_division(*kernel), "") << planted;
+TEST(Division, PlantedFaultsAreFound) {
+  for (const auto& fault : tests::planted_faults().division) {
+    EXPECT_NE(first_wrong_division(*fault.part), "") << fault.name;
   }
-  EXPECT_GE(planted, tests::least_planted(1));
 }
 
 TEST(SearchKernels, AreFoundByTheirInstructions) {
@@ -490,24 +486,10 @@ TEST(SearchKernels, AreFoundByTheirInstructions) {
   }
 }
 
-TEST(Search, FaultsInItAreFound) {
-  const std::map<std::string, const SearchKernel*> faults{
-      {"touching is apart", &search_of_open_boxes},
-      {"apart at one end", &search_apart_at_one_end},
-      {"apart either way round", &search_apart_either_way},
-      {"an axis is forgotten", &search_without_axis},
-      {"a lane is forgotten", &search_without_lane},
-      {"lanes that are none", &search_with_empty_lanes},
-      {"groups behind", &search_without_own_node},
-      {"shared vertices", &search_of_neighbours},
-      {"sure too early", &search_too_sure}};
-  int planted = 0;
-  for (const auto& [name, kernel] : faults) {
-    if (kernel == nullptr) continue;  // not planted in this build
-    ++planted;
-    EXPECT_NE(first_fault(*kernel), "") << name;
+TEST(Search, PlantedFaultsAreFound) {
+  for (const auto& fault : tests::planted_faults().search) {
+    EXPECT_NE(first_fault(*fault.part), "") << fault.name;
   }
-  EXPECT_GE(planted, tests::least_planted(2));
 }
 
 }  // namespace

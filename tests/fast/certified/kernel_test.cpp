@@ -192,24 +192,13 @@ TEST(CertifiedKernels, FamiliesFindNoFaultWhereThereIsNone) {
   }
 }
 
-TEST(CertifiedKernels, FamiliesFindAFaultInEachStage) {
-  const std::map<std::string, const CertifiedKernel*> faults{{"axis", &fault_in_axis},
-                                                             {"direction", &fault_in_direction},
-                                                             {"determinant", &fault_in_determinant},
-                                                             {"bound", &fault_in_bound},
-                                                             {"rejection", &fault_in_rejection},
-                                                             {"agreement", &fault_in_agreement},
-                                                             {"zero", &fault_in_zero},
-                                                             {"refinement", &fault_in_refinement}};
-  int planted = 0;
-  for (const auto& [fault, kernel] : faults) {
-    if (kernel == nullptr) continue;  // not planted in this build
-    ++planted;
-    const std::vector<std::string> found = families_that_find(*kernel);
-    std::printf("fault in %s: found by %zu families\n", fault.c_str(), found.size());
-    EXPECT_FALSE(found.empty()) << fault;
+TEST(CertifiedKernels, FamiliesFindPlantedFaults) {
+  for (const auto& fault : tests::planted_faults().certified_kernel) {
+    if (fault.separation.distance > 0.0 || !fault.is_to_be_found() || fault.is_for_fuzzer) continue;
+    const std::vector<std::string> found = families_that_find(*fault.part);
+    std::printf("%s: found by %zu families\n", fault.name.data(), found.size());
+    EXPECT_FALSE(found.empty()) << fault.name;
   }
-  EXPECT_GE(planted, tests::least_planted(5));
 }
 
 // ---- With a separation --------------------------------------------------------------------------
@@ -249,22 +238,13 @@ TEST(CertifiedKernels, DistancesFindNoFaultWhereThereIsNone) {
   EXPECT_EQ(distances_that_find(best_certified_kernel()), 0);
 }
 
-TEST(CertifiedKernels, DistancesFindAFaultInEachStage) {
-  const std::map<std::string, const CertifiedKernel*> faults{
-      {"axis with a distance", &fault_in_axis_distance},
-      {"widening", &fault_in_widening},
-      {"shift", &fault_in_shift},
-      {"step", &fault_in_step},
-      {"witness", &fault_in_witness}};
-  int planted = 0;
-  for (const auto& [fault, kernel] : faults) {
-    if (kernel == nullptr) continue;  // not planted in this build
-    ++planted;
-    const int found = distances_that_find(*kernel);
-    std::printf("fault in %s: found at %d distances\n", fault.c_str(), found);
-    EXPECT_GT(found, 0) << fault;
+TEST(CertifiedKernels, DistancesFindPlantedFaults) {
+  for (const auto& fault : tests::planted_faults().certified_kernel) {
+    if (fault.separation.distance == 0.0) continue;
+    const int found = distances_that_find(*fault.part);
+    std::printf("%s: found at %d distances\n", fault.name.data(), found);
+    EXPECT_GT(found, 0) << fault.name;
   }
-  EXPECT_GE(planted, tests::least_planted(1));
 }
 
 }  // namespace

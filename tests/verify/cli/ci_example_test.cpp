@@ -42,12 +42,12 @@ TEST_F(CiExample, IsContentWithAPluginThatMissesNothing) {
   EXPECT_FALSE(exists("findings/fuzz/1-false_negative.md"));
 }
 
-/// The mutant with min for max in its filter: see tests/mutants.
+/// The plugin with min for max in its filter.
 TEST_F(CiExample, FailsOnFalseNegativesAndKeepsThem) {
   const std::string root = tests::source_folder();
   write("plugin/CMakeLists.txt",
         fmt::format("cmake_minimum_required(VERSION 3.25)\nproject(bad LANGUAGES CXX)\n"
-                    "add_library(bad MODULE {}/tests/mutants/plugin/min_for_max.cpp)\n"
+                    "add_library(bad MODULE {}/tests/faults/min_for_max.cpp)\n"
                     "target_include_directories(bad PRIVATE ${{TOUCHSTONE_INCLUDE}})\n"
                     "set_target_properties(bad PROPERTIES PREFIX \"\")\n",
                     root));

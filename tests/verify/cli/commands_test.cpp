@@ -149,16 +149,6 @@ TEST_F(Tool, HelpBeginsWithAnExampleAndFitsAScreen) {
   }
 }
 
-TEST_F(Tool, EachSubcommandIsAVerbOfTheProject) {
-  const std::string script = read_file(fs::path(tests::source_folder()) / "run");
-  for (const std::string& name : subcommands_in(run({"--help"}).out)) {
-    EXPECT_TRUE(contains(script, "\n  " + name + " ")) << "./run " << name << " is not explained";
-    EXPECT_TRUE(contains(script, " " + name + " |") || contains(script, "| " + name + ")") ||
-                contains(script, "\n  " + name + ")"))
-        << name;
-  }
-}
-
 TEST_F(Tool, WithoutASubcommandItListsThem) {
   const Outcome bare = run({});
   EXPECT_EQ(bare.status, 2);

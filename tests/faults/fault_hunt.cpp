@@ -1,6 +1,6 @@
 /// \file
-/// The table of mutants: each hunted by the fuzzer, with the time and the queries it took. Exit status 1 if one is
-/// not found that should be, or one that should be harmless is.
+/// The table of planted faults in solvers: each hunted by the fuzzer, with the time and the queries it took. Exit status 1 if
+/// one is not found that should be, or one that should be harmless is.
 
 #include <fmt/format.h>
 
@@ -17,8 +17,7 @@
 #include <vector>
 
 #include "exact/oracle.hpp"
-#include "tests/mutants/hunt.hpp"
-#include "tests/mutants/mutants.hpp"
+#include "tests/faults/hunt.hpp"
 #include "verify/data/csv_dataset.hpp"
 #include "verify/data/separation_file.hpp"
 #include "verify/fuzz/reproduce.hpp"
@@ -26,32 +25,33 @@
 namespace touchstone::tests {
 namespace {
 
-std::string outcome(const Mutant& mutant, const Hunt& hunt) {
+std::string outcome(const FaultySolver& solver, const Hunt& hunt) {
   if (hunt.finding) {
     return fmt::format("{} by {}{}", verify::fuzz::to_string(hunt.finding->what),
                        hunt.finding->generator,
-                       mutant.harmless.empty() ? "" : " (SHOULD BE HARMLESS)");
+                       solver.fault.harmless.empty() ? "" : " (SHOULD BE HARMLESS)");
   }
-  if (!mutant.rare.empty()) return "not found (rare)";
-  return mutant.harmless.empty() ? "NOT FOUND" : "harmless";
+  if (!solver.fault.rare.empty()) return "not found (rare)";
+  return solver.fault.harmless.empty() ? "NOT FOUND" : "harmless";
 }
 
 /// Is it as it should be?
-bool print(const Mutant& mutant, const Hunt& hunt) {
-  fmt::print("{:<30} {:<16} {:>8.2f} {:>10}  {:<46} {}\n", mutant.name, mutant.of, hunt.seconds,
-             hunt.queries, outcome(mutant, hunt), mutant.fault);
-  const std::string_view why = mutant.harmless.empty() ? mutant.rare : mutant.harmless;
+bool print(const FaultySolver& solver, const Hunt& hunt) {
+  fmt::print("{:<30} {:<16} {:>8.2f} {:>10}  {:<46} {}\n", solver.fault.name, solver.of,
+             hunt.seconds, hunt.queries, outcome(solver, hunt), solver.fault.what);
+  const std::string_view why =
+      solver.fault.harmless.empty() ? solver.fault.rare : solver.fault.harmless;
   if (!hunt.finding && !why.empty()) fmt::print("    {}\n", why);
   (void)std::fflush(stdout);
-  if (hunt.finding) return mutant.harmless.empty();
+  if (hunt.finding) return solver.fault.harmless.empty();
   return !why.empty();
 }
 
 /// Findings as datasets: a folder for each separation, in it a file for each kind.
 class Corpus {
  public:
-  void add(const Mutant& mutant, const verify::fuzz::Finding& finding) {
-    const Query query = simplest(mutant, finding);
+  void add(const FaultySolver& solver, const verify::fuzz::Finding& finding) {
+    const Query query = simplest(solver, finding);
     const exact::Verdict truth = exact::decide(finding.kind, query, finding.separation);
     auto& queries = queries_[{name_of(finding.separation), finding.kind}];
     const Labelled labelled{query, truth.collides()};
@@ -92,23 +92,23 @@ class Corpus {
 
 int run(const std::vector<std::string>& names, const HuntOptions& options,
         const std::filesystem::path& folder) {
-  std::vector<const Mutant*> chosen;
-  chosen.reserve(mutants().size() + names.size());
-  for (const std::string& name : names) chosen.push_back(&find_mutant(name));
+  std::vector<const FaultySolver*> chosen;
+  chosen.reserve(faulty_solvers().size() + names.size());
+  for (const std::string& name : names) chosen.push_back(&find_faulty_solver(name));
   if (names.empty()) {
-    for (const Mutant& mutant : mutants()) chosen.push_back(&mutant);
+    for (const FaultySolver& solver : faulty_solvers()) chosen.push_back(&solver);
   }
-  fmt::print("{:<30} {:<16} {:>8} {:>10}  {:<46} {}\n", "mutant", "of", "seconds", "queries",
-             "found as", "fault");
+  fmt::print("{:<30} {:<16} {:>8} {:>10}  {:<46} {}\n", "fault", "of", "seconds", "queries",
+             "found as", "what");
   std::size_t wrong = 0;
   Corpus corpus;
-  for (const Mutant* const mutant : chosen) {
-    const Hunt found = hunt(*mutant, options);
-    if (!print(*mutant, found)) ++wrong;
-    if (found.finding && !folder.empty()) corpus.add(*mutant, *found.finding);
+  for (const FaultySolver* const solver : chosen) {
+    const Hunt found = hunt(*solver, options);
+    if (!print(*solver, found)) ++wrong;
+    if (found.finding && !folder.empty()) corpus.add(*solver, *found.finding);
   }
   if (!folder.empty()) corpus.write(folder);
-  fmt::print("{} mutants, {} not as they should be\n", chosen.size(), wrong);
+  fmt::print("{} faults, {} not as they should be\n", chosen.size(), wrong);
   return wrong == 0 ? 0 : 1;
 }
 
@@ -119,17 +119,17 @@ int main(int argc, char** argv) {
   touchstone::tests::HuntOptions options;
   std::vector<std::string> names;
   std::filesystem::path folder;
-  CLI::App app("Hunts solvers with planted faults: tests/mutants/mutants.hpp");
-  app.footer("Example: mutant_hunt --seconds 10 filter_10 axis_of_start");
-  app.add_option("NAME", names, "mutants; without a name all");
-  app.add_option("--seconds", options.seconds, "for each mutant (60)")->check(CLI::PositiveNumber);
+  CLI::App app("Hunts the faults that are planted in solvers: tests/faults/faults.txt");
+  app.footer("Example: fault_hunt --seconds 10 filter_10 axis_of_start");
+  app.add_option("NAME", names, "faults; without a name all that this build plants");
+  app.add_option("--seconds", options.seconds, "for each fault (60)")->check(CLI::PositiveNumber);
   app.add_option("--seed", options.seed, "of the fuzzer (1)");
   app.add_option("--corpus", folder, "write the findings, as simple as they get, as datasets here");
   CLI11_PARSE(app, argc, argv);
   try {
     return touchstone::tests::run(names, options, folder);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "mutant_hunt: {}\n", error.what());
+    fmt::print(stderr, "fault_hunt: {}\n", error.what());
     return 2;
   }
 }

@@ -1,0 +1,112 @@
+#include "tests/faults/hunt.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "tests/support/built_files.hpp"
+#include "verify/fuzz/fuzz.hpp"
+#include "verify/fuzz/plainness.hpp"
+#include "verify/generate/decimal.hpp"
+#include "verify/solvers/plugin.hpp"
+#include "verify/solvers/registry.hpp"
+
+namespace touchstone::tests::hunt_test {
+namespace {
+
+TEST(FaultHunt, IsOfFaultsWithNamesOfTheirOwnAndThePromisesOfTheirMethods) {
+  std::set<std::string_view> names;
+  for (const FaultySolver& solver : faulty_solvers()) {
+    EXPECT_TRUE(names.insert(solver.fault.name).second) << solver.fault.name;
+    EXPECT_EQ(solver.make()->promise(), verify::solvers::find_method(solver.of).promise())
+        << solver.fault.name;
+    EXPECT_EQ(&find_faulty_solver(solver.fault.name), &solver);
+  }
+  EXPECT_GE(names.size(), 15U);
+  EXPECT_THROW((void)find_faulty_solver("none"), std::invalid_argument);
+}
+
+TEST(FaultHunt, FindsEachFault) {
+  for (const FaultySolver& solver : faulty_solvers()) {
+    if (!solver.fault.is_to_be_found()) continue;
+    const Hunt found = hunt(solver, {.seconds = 0.0, .queries = 100'000});
+    ASSERT_TRUE(found.finding) << solver.fault.name;
+    EXPECT_EQ(found.finding->method, solver.fault.name);
+  }
+}
+
+TEST(FaultHunt, FindsNothingWhereAFaultIsHarmless) {
+  for (const FaultySolver& solver : faulty_solvers()) {
+    if (solver.fault.harmless.empty()) continue;
+    const Hunt found = hunt(solver, {.seconds = 0.0, .queries = 10'000});
+    EXPECT_FALSE(found.finding) << solver.fault.name;
+    EXPECT_EQ(found.queries, 10'000U);
+  }
+}
+
+TEST(FaultHunt, EndsInASimpleQuery) {
+  const FaultySolver& solver = find_faulty_solver("root_at_start_missing");
+  const Hunt found = hunt(solver, {.seconds = 0.0, .queries = 100'000});
+  ASSERT_TRUE(found.finding);
+  const Query query = simplest(solver, *found.finding);
+  EXPECT_EQ(verify::fuzz::degeneracy(found.finding->kind, query), 0U);
+  EXPECT_LE(verify::fuzz::magnitudes(query).size(), 2U);
+  for (const double x : verify::fuzz::magnitudes(query)) {
+    EXPECT_EQ(verify::generate::shortest_decimal(x).count, 1) << x;
+  }
+}
+
+bool is_everyday(double x) { return x == 0.0 || (std::abs(x) >= 1e-4 && std::abs(x) <= 1e4); }
+
+/// The public Tight-Inclusion's filter and order of operations: soon, by a query that its users could have
+/// met, and what is shown of it is one of few short numbers.
+TEST(ReleasedFilter, IsFoundByAQueryOfEverydaySize) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    bool found = false;
+    const auto look_at = [&found](const verify::fuzz::Finding& finding) {
+      const Query& query = finding.original.query;
+      if (!std::ranges::all_of(query.coordinates, is_everyday)) return;
+      found = true;
+      const auto all = verify::fuzz::magnitudes(finding.simplest.query);
+      EXPECT_LE(all.size(), 4U);
+      for (const double x : all) {
+        EXPECT_TRUE(x >= 1e-3 && x <= 1e3) << x;
+        EXPECT_LE(verify::generate::shortest_decimal(x).count, 4) << x;
+      }
+    };
+    (void)verify::fuzz::fuzz(verify::solvers::find_method("tight_inclusion_released"),
+                             {.most_queries = 3000,
+                              .seed = seed,
+                              .method = {.max_checks = 10'000},
+                              .shrink_seconds = 60.0,
+                              .only = {verify::judge::Fault::false_negative},
+                              .on_finding = look_at});
+    EXPECT_TRUE(found) << "seed " << seed;
+  }
+}
+
+/// In seconds, by the command line as anyone runs it.
+TEST(Plugin, WithMinForMaxInItsFilterIsFound) {
+  const std::string command = std::string("\"") + tests::touchstone_program() +
+                              "\" fuzz --plugin \"" + tests::plugin_library("min_for_max") +
+                              "\" --seconds 10 --most-findings 1";
+  const int status = std::system((command + " > /dev/null").c_str());  // NOLINT(cert-env33-c)
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  const auto plugin = verify::solvers::load_plugin(tests::plugin_library("min_for_max"));
+  const verify::fuzz::FuzzResult result =
+      verify::fuzz::fuzz(*plugin, {.most_queries = 20'000, .seed = 1, .most_groups = 1});
+  ASSERT_FALSE(result.findings.empty());
+  EXPECT_TRUE(result.findings.front().original.collides);
+}
+
+}  // namespace
+}  // namespace touchstone::tests::hunt_test
