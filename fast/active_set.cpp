@@ -18,7 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// F at the contact, in units of the greatest coordinate so that nothing overflows: F = r − u p − v q.
+/// F at the contact, in units of 2^-500 of the greatest coordinate, so that nothing overflows, nor underflows at the least
+/// times: F = r − u p − v q.
 struct Contact {
   Vector3d p, q;
   Vector3d f;     ///< F
@@ -28,7 +29,10 @@ struct Contact {
 
 Contact contact_of(Kind kind, const Query& query, const StepCollision& collision) {
   using exact_stage::AffineVectors;
-  const auto [start, end] = exact_stage::scaled_vectors(kind, query);
+  auto [start, end] = exact_stage::scaled_vectors(kind, query);
+  for (AffineVectors* const one : {&start, &end}) {
+    for (Vector3d* const vector : {&one->r, &one->p, &one->q}) *vector *= 0x1p500;
+  }
   const double t = collision.toi_upper, u = collision.u, v = collision.v;
   const AffineVectors now{(1.0 - t) * start.r + t * end.r, (1.0 - t) * start.p + t * end.p,
                           (1.0 - t) * start.q + t * end.q};

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,10 +32,21 @@ struct alignas(64) MovingVertex {
   std::array<double, 4> end;    ///< x, y, z and 0
 };
 
+/// A coordinate in double, where it is the same number. Subnormal floats too: where the caller's floating-point state takes
+/// subnormals for 0, a conversion would lose them.
+[[nodiscard]] constexpr double to_double(double x) { return x; }
+[[nodiscard]] constexpr double to_double(float x) {
+  constexpr std::uint32_t exponent = 0x7F80'0000, significand = 0x007F'FFFF;
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  if ((bits & exponent) != 0) return static_cast<double>(x);
+  const double magnitude = static_cast<double>(bits & significand) * 0x1p-149;
+  return bits > significand ? -magnitude : magnitude;
+}
+
 /// The vertices of a step.
 class MovingVertices {
  public:
-  /// From two matrices of any floating-point type and storage order, a row for each vertex. Copies
+  /// From two matrices of float or double in any storage order, a row for each vertex. Copies
   /// them, which costs about as much as reading as many candidates.
   /// \throws std::invalid_argument unless both are n×3.
   template <class Start, class End>
@@ -47,8 +59,8 @@ class MovingVertices {
     for (Eigen::Index i = 0; i < start.rows(); ++i) {
       MovingVertex& vertex = vertices_[static_cast<std::size_t>(i)];
       for (Eigen::Index k = 0; k < 3; ++k) {
-        vertex.start[static_cast<std::size_t>(k)] = static_cast<double>(start(i, k));
-        vertex.end[static_cast<std::size_t>(k)] = static_cast<double>(end(i, k));
+        vertex.start[static_cast<std::size_t>(k)] = to_double(start(i, k));
+        vertex.end[static_cast<std::size_t>(k)] = to_double(end(i, k));
       }
     }
   }

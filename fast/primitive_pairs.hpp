@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "fast/certified.hpp"
+#include "fast/mesh.hpp"
 
 namespace touchstone::fast {
 
@@ -29,13 +30,12 @@ struct Point {
     if (vector.size() != 3) throw std::invalid_argument("a point must have three coordinates");
     const auto values = vector.derived().eval();
     for (std::size_t i = 0; i < 3; ++i) {
-      coordinates[i] = static_cast<double>(values.coeff(static_cast<Eigen::Index>(i)));
+      coordinates[i] = to_double(values.coeff(static_cast<Eigen::Index>(i)));
     }
   }
   Point(const double* x) : coordinates{x[0], x[1], x[2]} {}  // NOLINT(google-explicit-constructor)
   Point(const float* x)                                      // NOLINT(google-explicit-constructor)
-      : coordinates{static_cast<double>(x[0]), static_cast<double>(x[1]),
-                    static_cast<double>(x[2])} {}
+      : coordinates{to_double(x[0]), to_double(x[1]), to_double(x[2])} {}
 
   std::array<double, 3> coordinates;
 };

@@ -134,7 +134,7 @@ struct StepCandidates {
 
 class Step {
  public:
-  /// From the vertices before and after: matrices of any floating-point type and storage order, a
+  /// From the vertices before and after: matrices of float or double in any storage order, a
   /// row for each vertex, which are copied. Refers to the elements, not to the groups.
   /// \pre If edges are given, those of all faces are among them.
   /// \throws std::invalid_argument unless both are n×3, or for options that make no sense;

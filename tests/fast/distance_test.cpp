@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -293,21 +292,6 @@ TEST(Distance, OfAllInstructionSetsIsTheSameAndAsARuleFiltered) {
       }
     }
   }
-}
-
-TEST(Distance, RefusesWhatMakesNoSense) {
-  Query query = tests::over_triangle(1, 1, 1, 0).query;
-  EXPECT_THROW((void)distance(Kind::vertex_face, query, -0.5), std::invalid_argument);
-  EXPECT_THROW((void)distance(Kind::vertex_face, query, std::nan("")), std::invalid_argument);
-  std::vector<Distance> two(2);
-  EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, two),
-               std::invalid_argument);
-  EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, {two.data(), 1}, -1),
-               std::invalid_argument);
-  query.coordinates[5] = infinity;
-  EXPECT_THROW((void)distance(Kind::vertex_face, query, 0.5), std::domain_error);
-  EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, std::span(two).first(1)),
-               std::domain_error);
 }
 
 // ---- Faults -------------------------------------------------------------------------------------
