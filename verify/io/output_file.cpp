@@ -116,14 +116,14 @@ bool OutputFile::lock() const {
   return !is_unlinked || has_name(descriptor_, temporary_);
 }
 
-void OutputFile::close() {
+void OutputFile::close_as(const std::filesystem::path& path) {
   flush();
   // The lock is held through a second descriptor until the file has its name.
   const int lock = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
   if (lock < 0) fail();
   // Some file systems report a full disk or quota only here.
   const bool is_closed = ::close(std::exchange(descriptor_, lock)) == 0;
-  if (!is_closed || ::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
+  if (!is_closed || ::rename(temporary_.c_str(), path.c_str()) != 0) fail();
   temporary_.clear();
   ::close(std::exchange(descriptor_, -1));
 }
