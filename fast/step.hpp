@@ -19,11 +19,11 @@
 /// two edges leads. So the elements around a vertex may fold onto each other, and collapse.
 /// (An edge that meets a face at t=0 may do so until t=1, and nothing touches.)
 ///
-/// **How.** Boxes in float at both ends of the step, rounded outwards, in trees (fast/broad_phase/).
-/// A search finds the pairs that no axis separates at both ends the same way round. An axis that
-/// does so excludes a contact. So the broad phase does the work of the certified solver's first
-/// stage, for sixteen pairs at a time, before any pair is written. The certified solver decides the
-/// others in blocks as they are found. No list of candidates is kept: memory is that of the mesh and
+/// **How.** Boxes in float at both ends of the step, in trees (fast/broad_phase/). A search finds the
+/// pairs that no axis separates at both ends the same way round. An axis that does so excludes a
+/// contact. So the broad phase does the work of the certified solver's first stage, for sixteen pairs
+/// at a time, before any pair is written. The certified solver decides the others in blocks as they
+/// are found. No list of candidates is kept: memory is that of the mesh and
 /// of what touches. As soon as an impact is known, `earliest` searches up to that time alone.
 ///
 /// Answers are as exact as the certified solver's (fast/certified.hpp), and the same for any number
@@ -189,7 +189,8 @@ class Step {
   ///
   /// which lie on no straight line to x1 in general. It has the same mesh and options, but for
   /// t_max, which is 1: all of it counts. It does not refer to this step.
-  /// \throws std::invalid_argument unless 0 ≤ α ≤ 1; std::domain_error if a place overflows.
+  /// \throws std::invalid_argument unless 0 ≤ α ≤ 1; std::domain_error, which names the vertex, if
+  /// fl(x1 − x0) overflows, for any α.
   [[nodiscard]] Step scaled(double alpha) const;
 
   /// A step size as large as can be: a double α in [0,1] such that scaled(α) is free and, unless
@@ -200,6 +201,7 @@ class Step {
   /// them: rounding may let a contact of a step be missed by one with a larger α, so that α is not
   /// always the largest at which a step is free, nor is every smaller one free. It takes some dozens
   /// of calls of is_free.
+  /// \throws std::domain_error as `scaled`.
   [[nodiscard]] std::optional<double> free_step_size() const;
 
   // ---- Pairs ----

@@ -129,6 +129,7 @@ TOUCHSTONE_API int32_t touchstone_step_collisions(TouchstoneStep* step,
 
 /// A step size as large as can be: the step from x0 to fl(x0 + alpha (x1 − x0)) was decided to be free, and that of the
 /// next double not to be. Writes −1 if not even a step of size 0 is free.
+/// Status 2 if x1 − x0 of a coordinate is greater than any double; the message names the vertex.
 TOUCHSTONE_API int32_t touchstone_step_free_step_size(const TouchstoneStep* step, double* alpha);
 
 #ifdef __cplusplus

@@ -1,35 +1,38 @@
 #pragma once
 
 /// \file
-/// A block of queries through all stages: the kernel, and the exact stage for what it leaves.
+/// A block of queries through all stages: the kernel, the kernel again on rescaled queries
+/// (rescaling.hpp), and the exact stage for the queries that remain undecided.
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "exact/query.hpp"
 #include "fast/certified.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/certified/rescaling.hpp"
 
 namespace touchstone::fast {
 
 /// \throws std::invalid_argument for options out of range.
 void require_valid(const CertifiedOptions& options);
 
-/// What the exact stage says.
+/// The result of the exact stage.
 [[nodiscard]] CertifiedResult decided_exactly(Kind kind, const Query& query,
                                               const CertifiedOptions& options);
 
-/// The result of a hit, if it is as narrow as wanted and on one side of t_max.
+/// The result of a hit, if its enclosure is narrow enough and on one side of t_max.
 [[nodiscard]] std::optional<CertifiedResult> result_of(const KernelHit& hit,
                                                        const CertifiedOptions& options);
 
-/// A time such that a contact after it has an enclosure whose ends are both above toi_upper.
+/// A time such that every contact after it has an enclosure with both ends above toi_upper.
 [[nodiscard]] double limit_after(double toi_upper, double tolerance);
 
-/// Runs the kernel on a block whose queries are named, with contacts after t_limit of no interest,
-/// and hands on the results of queries that may have a contact: report(index, result). Under strict
-/// floating point. \param query_of(index) a query of the block
+/// Runs the kernel on a block, ignoring contacts after t_limit, and passes on the results of
+/// queries that may have a contact: report(index, result). \pre strict floating point. \param
+/// query_of(index) a query of the block
 template <class QueryOf, class Report>
 const KernelOutput& decide_block(KernelInput block, double t_limit, const CertifiedOptions& options,
                                  const QueryOf& query_of, const Report& report) {
@@ -40,6 +43,12 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
   const CertifiedKernel& kernel =
       options.kernel != nullptr ? *options.kernel : best_certified_kernel();
   kernel.decide(block, output);
+  thread_local std::vector<Query> undecided;
+  undecided.clear();
+  for (std::size_t i = 0; i < output.undecided.count; ++i) {
+    undecided.push_back(query_of(output.undecided.items[i]));
+  }
+  decide_rescaled(block, kernel, undecided, output);
   const auto report_exactly = [&](std::size_t index) {
     report(index, decided_exactly(block.kind, query_of(index), options));
   };

@@ -1,5 +1,6 @@
 #include "fast/certified/exact/general_contact_decision.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "fast/certified/exact/real_root.hpp"
@@ -11,7 +12,7 @@ using BigMotion = Motion<BigInteger>;
 using Normal = MovingNormal<BigInteger>;
 using Contact = ContactOf<BigInteger>;
 
-/// What a motion's decision needs in many places.
+/// Common data of a motion's decision.
 struct Problem {
   const BigMotion& motion;
   Normal normal;
@@ -27,14 +28,14 @@ Impact impact_at(Instant& instant, const Contact& contact, const BitInterval& ti
   return impact;
 }
 
-/// Contact at a time when D = 0.
+/// Contact at a time with D = 0.
 std::optional<Contact> contact_at(const Problem& problem, Instant& instant) {
   return contact_in_plane(problem.motion, problem.normal,
                           [&](const Form<BigInteger, 2>& form) { return instant.sign_of(form); });
 }
 
-/// Replaces `best` if the instant, a time after 0 when D = 0, is one of contact and earlier.
-/// Returns whether later instants need not be looked at.
+/// Replaces `best` if the instant, a time > 0 with D = 0, is an earlier contact. Returns true if
+/// later instants need no examination.
 bool consider(const Problem& problem, Instant& instant, std::uint64_t& latest,
               std::optional<Impact>& best) {
   if (instant.is_above(latest)) return true;
@@ -58,9 +59,24 @@ std::vector<Polynomial> events(const Problem& problem) {
   return result;
 }
 
+/// Does a vertex miss another, of which this is seen without a root? If r is 0 at a time t, then
+/// (1−t) r(0) = −t r(1): these are parallel.
+bool is_vertex_beside_vertex(const BigMotion& motion) {
+  const auto is_no_vector = [](const MovingVector<BigInteger>& vector) {
+    return std::ranges::all_of(vector, [](const auto& form) { return is_zero(form); });
+  };
+  if (!is_no_vector(motion.p) || !is_no_vector(motion.q)) return false;
+  const auto& r = motion.r;
+  const auto are_parallel = [&r](std::size_t i, std::size_t k) {
+    return r[i].front() * r[k].back() == r[k].front() * r[i].back();
+  };
+  return !are_parallel(0, 1) || !are_parallel(1, 2) || !are_parallel(2, 0);
+}
+
 }  // namespace
 
 std::optional<Impact> first_impact(const BigMotion& motion, std::uint64_t latest) {
+  if (is_vertex_beside_vertex(motion)) return std::nullopt;
   Problem problem{motion, normal(motion), {}};
   problem.determinant = determinant(motion, problem.normal);
   if (problem.determinant.front().sign() == 0) {
