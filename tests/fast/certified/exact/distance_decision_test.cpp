@@ -122,24 +122,6 @@ TEST(SeparatedDecision, NearestParametersAreThoseOfTheCorner) {
   EXPECT_EQ(edges->v, 0.25);
 }
 
-TEST(SeparatedDecision, APowerOfTwoChangesNothing) {
-  Random random(5);
-  for (int i = 0; i < 200; ++i) {
-    const PosedQuery posed{kinds[random.bits() % 2], tests::integer_query(random, 4)};
-    const Norm norm = norms[random.bits() % 2];
-    const auto expected = decide(posed, {1.5, norm});
-    for (const double scale : {2.0 * denorm_min, 0x1p1000}) {
-      PosedQuery scaled = posed;
-      for (double& x : scaled.query.coordinates) x *= scale;
-      const auto impact = decide(scaled, {1.5 * scale, norm});
-      ASSERT_EQ(impact.has_value(), expected.has_value()) << posed;
-      if (!impact) continue;
-      EXPECT_EQ(impact->toi_lower, expected->toi_lower) << posed;
-      EXPECT_EQ(impact->toi_upper, expected->toi_upper) << posed;
-    }
-  }
-}
-
 TEST(SeparatedDecision, DistancesOfTheWholeRangeCount) {
   constexpr double largest = std::numeric_limits<double>::max();
   for (const Kind kind : kinds) {
@@ -174,37 +156,6 @@ TEST(SeparatedDecision, SubnormalTimesAreEnclosedByOneSpacing) {
         }
       }
     }
-  }
-}
-
-// ---- Relations ----------------------------------------------------------------------------------
-
-/// Is what `nearer` found also found, and not later, by `farther`?
-void expect_not_later(const std::optional<ExactImpact>& farther,
-                      const std::optional<ExactImpact>& nearer) {
-  if (!nearer) return;
-  ASSERT_TRUE(farther.has_value());
-  EXPECT_LE(farther->toi_upper, nearer->toi_upper);
-}
-
-TEST(SeparatedDecision, GreaterDistancesAndTheLargerBallAreReachedNotLater) {
-  Random random(6);
-  constexpr std::array<double, 5> rising{0.0, 1e-100, 1e-9, 0.25, 1.0};
-  for (int i = 0; i < 100; ++i) {
-    const PosedQuery posed =
-        tests::random_query(random, kinds[static_cast<std::size_t>(i) % 2],
-                            tests::all_families[random.bits() % tests::all_families.size()]);
-    std::array<std::optional<ExactImpact>, 2> before;
-    for (const double distance : rising) {
-      std::array<std::optional<ExactImpact>, 2> now;
-      for (std::size_t k = 0; k < 2; ++k) {
-        now[k] = decide(posed, {distance, norms[k]});
-        expect_not_later(now[k], before[k]);
-      }
-      expect_not_later(now[0], now[1]);
-      before = now;
-    }
-    ASSERT_FALSE(HasFailure()) << posed;
   }
 }
 

@@ -97,48 +97,6 @@ TEST(Separated, EveryStageIsReached) {
   }
 }
 
-// ---- Relations ----------------------------------------------------------------------------------
-
-TEST(Separated, GreaterDistancesAreReachedEarlier) {
-  for (const Kind kind : kinds) {
-    Random random(29);
-    std::vector<Query> queries(500);
-    for (Query& query : queries) query = tests::near_contact_query(random, kind);
-    for (const Norm norm : norms) {
-      std::vector<CertifiedResult> nearer(queries.size()), farther(queries.size());
-      solve(kind, queries, nearer);
-      for (const double distance : {1e-100, 1e-16, 1e-12, 1e-8, 1e-4, 1e-2, 1.0}) {
-        solve(kind, queries, farther, {.separation = {.distance = distance, .norm = norm}});
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-          if (nearer[i].verdict != Verdict::yes) continue;
-          ASSERT_EQ(farther[i].verdict, Verdict::yes) << distance;
-          // Enclosures of times in this order.
-          EXPECT_LE(farther[i].toi_lower, nearer[i].toi_upper) << distance;
-        }
-        nearer = farther;
-      }
-    }
-  }
-}
-
-TEST(Separated, MovingAllByAPowerOfTwoChangesNothing) {
-  for (const Kind kind : kinds) {
-    Random random(31);
-    std::vector<Query> queries(200), scaled(200);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      queries[i] = scaled[i] = tests::near_contact_query(random, kind);
-      for (double& x : scaled[i].coordinates) x = std::ldexp(x, 40);
-    }
-    for (const Norm norm : norms) {
-      std::vector<CertifiedResult> plain(queries.size()), large(queries.size());
-      solve(kind, queries, plain, {.separation = {0x1p-10, norm}});
-      solve(kind, scaled, large, {.separation = {0x1p30, norm}});
-      for (std::size_t i = 0; i < queries.size(); ++i)
-        EXPECT_EQ(plain[i].verdict, large[i].verdict);
-    }
-  }
-}
-
 TEST(Separated, WhatIsNoNumberIsAnErrorOfItsQueryAlone) {
   for (const Norm norm : norms) {
     for (std::size_t place = 0; place < 24; ++place) {
