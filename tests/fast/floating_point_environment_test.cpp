@@ -84,6 +84,10 @@ using Bits = std::vector<std::uint64_t>;
 void put(Bits& bits, double x) { bits.push_back(std::bit_cast<std::uint64_t>(x)); }
 void put(Bits& bits, std::int32_t x) { bits.push_back(static_cast<std::uint64_t>(x)); }
 void put(Bits& bits, std::size_t x) { bits.push_back(x); }
+void put(Bits& bits, const Distance& x) {
+  put(bits, x.lower);
+  put(bits, x.upper);
+}
 template <class Enumeration>
 requires std::is_enum_v<Enumeration>
 void put(Bits& bits, Enumeration x) { bits.push_back(static_cast<std::uint64_t>(x)); }
@@ -94,7 +98,6 @@ requires(sizeof...(Several) > 1) void put(Bits& bits, const Several&... several)
 void put(Bits& bits, const CertifiedResult& x) {
   put(bits, x.verdict, x.stage, x.toi_lower, x.toi_upper, x.u, x.v);
 }
-void put(Bits& bits, const Distance& x) { put(bits, x.lower, x.upper); }
 void put(Bits& bits, const StepCollision& x) {
   put(bits, x.kind, x.pair[0], x.pair[1], x.toi_lower, x.toi_upper, x.u, x.v);
 }
@@ -103,9 +106,9 @@ void put(Bits& bits, const std::vector<IndexPair>& pairs) {
 }
 
 /// Hits and misses by a hair, degenerate ones, and subnormals, which a caller that flushes them would lose.
-std::vector<Query> queries(Kind kind) {
+std::vector<Query> queries(Kind kind, std::size_t count = 300) {
   Random random(29);
-  std::vector<Query> result(300);
+  std::vector<Query> result(count);
   for (std::size_t i = 0; i < result.size(); ++i) {
     result[i] =
         i % 3 == 0 ? tests::integer_query(random, 2) : tests::near_contact_query(random, kind);
@@ -117,8 +120,8 @@ std::vector<Query> queries(Kind kind) {
 
 /// Calls ask(kind, query, separation) for them at contact and at separations in both norms.
 template <class Ask>
-std::function<Bits()> of_queries(const Ask& ask) {
-  return [ask, faces = queries(Kind::vertex_face), edges = queries(Kind::edge_edge)] {
+std::function<Bits()> of_queries(const Ask& ask, std::size_t count) {
+  return [ask, faces = queries(Kind::vertex_face, count), edges = queries(Kind::edge_edge, count)] {
     Bits bits;
     for (std::size_t i = 0; i < faces.size(); ++i) {
       for (const Separation& separation :
@@ -256,9 +259,9 @@ struct Answers {
 };
 
 std::vector<Answers> all_answers() {
-  return {{"oracle", of_queries(ask_oracle)},
-          {"prover", of_queries(ask_prover)},
-          {"exact_stage", of_queries(ask_exact_stage)},
+  return {{"oracle", of_queries(ask_oracle, 40)},
+          {"prover", of_queries(ask_prover, 15)},
+          {"exact_stage", of_queries(ask_exact_stage, 300)},
           {"batches", of_batches()},
           {"steps", of_steps()},
           {"floats", of_floats()},

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <ostream>
 #include <string>
 #include <string_view>
 
@@ -56,10 +55,6 @@ struct Baseline {
   Wrong handcrafted, simulation;
   fast::MethodOptions on_public_data = {};
   std::uint64_t stride = 1;
-
-  friend std::ostream& operator<<(std::ostream& out, const Baseline& one) {
-    return out << one.name;
-  }
 };
 
 constexpr Verdict yes = Verdict::yes, no = Verdict::no;
