@@ -150,7 +150,7 @@ Range coordinate_at(double time, double from, double to) {
   // The bound of the error holds up to 2^1022.
   const bool is_large = size > 0x1p1000;
   const double scale = is_large ? 0x1p-30 : 1.0, unit = is_large ? 0x1p30 : 1.0;
-  const double position =
+  const auto position =
       filters::Position::evaluate<double>({from * scale, to * scale}, {1.0 - time, time});
   const double error = filters::position_double(size * scale);
   return {(position - 2.0 * error) * unit, (position + 2.0 * error) * unit};

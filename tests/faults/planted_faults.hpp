@@ -56,11 +56,6 @@ extern const CertifiedKernel TOUCHSTONE_PLANTED kernel_with_factors, kernel_with
     fault_in_agreement, fault_in_zero, fault_in_refinement, fault_in_axis_distance,
     fault_in_widening, fault_in_shift, fault_in_step, fault_in_witness;
 
-// Queries of unusual size.
-using DecideRescaled = void(const KernelInput&, const CertifiedKernel&, std::span<const Query>,
-                            KernelOutput&);
-extern DecideRescaled TOUCHSTONE_PLANTED rescaling_without_distance, rescaling_with_rounding;
-
 // Its exact stage, which is two functions: without a distance and with one.
 using DecideContact = std::optional<ExactImpact>(Kind, const Query&, double, double);
 extern DecideContact TOUCHSTONE_PLANTED exact_without_last_bound, exact_without_parallel_case,
