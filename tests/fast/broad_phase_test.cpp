@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cfenv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,10 +23,6 @@
 #include "tests/support/random.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/trials.hpp"
-
-#ifdef __SSE2__
-#include <xmmintrin.h>
-#endif
 
 namespace touchstone::fast::broad_phase_test {
 namespace {
@@ -382,45 +377,6 @@ TEST(BroadPhase, PermutingVerticesAndFacesPermutesTheCandidates) {
   }
 }
 
-/// What the environment does to sums and to subnormals.
-std::vector<std::pair<std::string, std::function<void()>>> environments() {
-  std::vector<std::pair<std::string, std::function<void()>>> result{
-      {"upward", [] { std::fesetround(FE_UPWARD); }},
-      {"downward", [] { std::fesetround(FE_DOWNWARD); }},
-      {"towards zero", [] { std::fesetround(FE_TOWARDZERO); }}};
-#ifdef __SSE2__
-  result.emplace_back("flush", [] { _mm_setcsr(_mm_getcsr() | 0x8040U); });
-#endif
-  return result;
-}
-
-TEST(BroadPhase, IsIndependentOfTheFloatingPointEnvironment) {
-  Random random(18);
-  for (const Shape& shape : shapes()) {
-    for (const double separation : {0.0, 0.1, 3 * tiniest}) {
-      const Scene scene = shape.make(random, 120);
-      const MovingVertices vertices = scene.vertices();
-      const std::vector<Edge> edges = scene.edges();
-      const BroadPhaseOptions options{.min_separation = separation};
-      const Pairs vertex_face = vertex_face_candidates(vertices, scene.faces, options);
-      const Pairs edge_edge = edge_edge_candidates(vertices, edges, options);
-      for (const auto& [name, set] : environments()) {
-        std::fenv_t callers;
-        std::fegetenv(&callers);
-        set();
-        const int mode = std::fegetround();
-        const Pairs other_vertex_face = vertex_face_candidates(vertices, scene.faces, options);
-        const Pairs other_edge_edge = edge_edge_candidates(vertices, edges, options);
-        const int mode_after = std::fegetround();
-        std::fesetenv(&callers);
-        EXPECT_EQ(mode_after, mode);
-        EXPECT_EQ(other_vertex_face, vertex_face) << shape.name << ' ' << name;
-        EXPECT_EQ(other_edge_edge, edge_edge) << shape.name << ' ' << name;
-      }
-    }
-  }
-}
-
 TEST(BroadPhase, OfNothingIsNothing) {
   const Scene scene{.start = Places(0, 3), .end = Places(0, 3), .faces = {}};
   EXPECT_EQ(found_vertex_face(scene), Pairs{});
@@ -520,15 +476,6 @@ TEST(BroadPhase, CountsCandidatesThatDoNotFitIntoMemory) {
   EXPECT_EXIT(search(), ::testing::ExitedWithCode(0), "");
 }
 #endif
-
-TEST(BroadPhase, RefusesOptionsThatMakeNoSense) {
-  const Scene scene = vertex_beside_triangle(0);
-  for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW((void)found_vertex_face(scene, {.min_separation = bad}), std::invalid_argument);
-    EXPECT_THROW((void)found_edge_edge(scene, {.min_separation = bad}), std::invalid_argument);
-  }
-  EXPECT_THROW((void)found_vertex_face(scene, {.max_threads = -1}), std::invalid_argument);
-}
 
 TEST(EdgesOf, GoByTheirLargerVertexThenByTheSmaller) {
   const std::vector<Face> faces{{3, 1, 0}, {1, 3, 4}, {2, 0, 1}};

@@ -1,6 +1,5 @@
 /// \file
-/// The certified solver against the oracle: verdicts and every promise of the result, on all that
-/// the project can generate, on public data, at all magnitudes, under every floating-point state.
+/// The certified solver by hand, in batches and as a method. (Against the oracle: deciders_test.cpp.)
 
 #include "fast/certified.hpp"
 
@@ -8,11 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cfenv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -21,15 +17,8 @@
 
 #include "fast/certified/kernel.hpp"
 #include "tests/support/certified.hpp"
-#include "tests/support/public_data.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/random.hpp"
-#include "verify/data/dataset.hpp"
-#include "verify/generate/families.hpp"
-
-#ifdef __SSE2__
-#include <xmmintrin.h>
-#endif
 
 namespace touchstone::fast::certified_test {
 namespace {
@@ -44,24 +33,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 CertifiedResult solve(const PosedQuery& posed, const CertifiedOptions& options = {}) {
   return certified(posed.kind, posed.query, options);
-}
-
-/// Fails unless each query's result is what the oracle says.
-void expect_truth(Kind kind, const std::vector<Query>& queries,
-                  const CertifiedOptions& options = {}) {
-  std::vector<CertifiedResult> results(queries.size());
-  solve(kind, queries, results, options);
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    const auto wrong = fault(kind, queries[i], results[i], options);
-    ASSERT_FALSE(wrong) << *wrong << " [" << name(results[i].stage) << "] "
-                        << PosedQuery{kind, queries[i]};
-  }
-}
-
-/// How many random queries a test takes, or a thousand times as many in the soak.
-std::size_t scaled(std::size_t count) {
-  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
-  return soak ? 1000 * count : count;
 }
 
 // ---- By hand ------------------------------------------------------------------------------------
@@ -109,7 +80,9 @@ TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
     EXPECT_EQ(certified(Kind::vertex_face, hit).verdict, Verdict::yes) << inside;
     EXPECT_EQ(certified(Kind::vertex_face, miss).stage, Stage::bisection) << inside;
     EXPECT_EQ(certified(Kind::vertex_face, miss).verdict, Verdict::no) << inside;
-    expect_truth(Kind::vertex_face, {hit, miss});
+    for (const Query& query : {hit, miss}) {
+      EXPECT_FALSE(fault(Kind::vertex_face, query, certified(Kind::vertex_face, query))) << inside;
+    }
   }
   EXPECT_EQ(certified(Kind::vertex_face, beside_edge(0x1p-50)).stage, Stage::exact);
 }
@@ -200,137 +173,6 @@ TEST(Certified, WhatIsNoNumberIsAnErrorOfItsQueryAlone) {
   }
 }
 
-TEST(Certified, RefusesOptionsOutOfRange) {
-  const PosedQuery posed = over_triangle(1, 1, 1, -1);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double tolerance : {-1e-300, nan, infinity}) {
-    EXPECT_THROW(solve(posed, {.toi_tolerance = tolerance}), std::invalid_argument);
-  }
-  for (const double t_max : {-1e-300, std::nextafter(1.0, 2.0), nan}) {
-    EXPECT_THROW(solve(posed, {.t_max = t_max}), std::invalid_argument);
-  }
-  EXPECT_THROW(solve(posed, {.max_threads = -1}), std::invalid_argument);
-  std::vector<CertifiedResult> results(2);
-  EXPECT_THROW(solve(posed.kind, std::span(&posed.query, 1), results), std::invalid_argument);
-}
-
-// ---- Against the oracle -------------------------------------------------------------------------
-
-TEST(Certified, IsRightOnAllFamilies) {
-  for (const verify::generate::Family& family : verify::generate::families()) {
-    for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-      if (!verify::generate::supports(family, kind)) continue;
-      SCOPED_TRACE(family.name);
-      std::vector<Query> queries;
-      for (std::uint64_t i = 0; i < 150; ++i) {
-        queries.push_back(verify::generate::make_query(family, kind, 4, i).query);
-      }
-      expect_truth(kind, queries);
-    }
-  }
-}
-
-TEST(Certified, IsRightOnRandomAndNearContactQueries) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    Random random(11);
-    constexpr std::size_t portion = 500;
-    for (std::size_t done = 0; done < scaled(5000); done += portion) {
-      std::vector<Query> queries(portion);
-      for (std::size_t i = 0; i < portion; ++i) {
-        constexpr std::array families{tests::Family::tiny_integers, tests::Family::small_integers,
-                                      tests::Family::full_significands,
-                                      tests::Family::near_contact};
-        queries[i] = tests::random_query(random, kind, families.at(i % families.size())).query;
-      }
-      expect_truth(kind, queries);
-    }
-  }
-}
-
-TEST(Certified, IsRightAtAllMagnitudes) {
-  constexpr std::array exponents{-1080, -1074, -1030, -500, -340, -120, -60,
-                                 60,    99,    120,   340,  1000, 1018};
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    Random random(13);
-    for (const int exponent : exponents) {
-      SCOPED_TRACE(exponent);
-      std::vector<Query> queries(100);
-      for (std::size_t i = 0; i < queries.size(); ++i) {
-        queries[i] =
-            i % 2 == 0 ? tests::near_contact_query(random, kind) : tests::integer_query(random, 2);
-        for (double& x : queries[i].coordinates) x = std::ldexp(x, exponent);
-      }
-      expect_truth(kind, queries);
-    }
-  }
-}
-
-TEST(Certified, IsRightOnMixedMagnitudes) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    Random random(17);
-    std::vector<Query> queries(300);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      if (i % 3 == 0) {
-        for (double& x : queries[i].coordinates) x = random.finite_double();
-        continue;
-      }
-      // One axis, or one point, far out of scale.
-      queries[i] = tests::near_contact_query(random, kind);
-      const int exponent = random.between(-900, 900);
-      const auto chosen = static_cast<std::size_t>(random.between(0, 2));
-      for (std::size_t k = 0; k < 24; ++k) {
-        const bool scale = i % 3 == 1 ? k % 3 == chosen : k / 3 % 4 == chosen;
-        if (scale)
-          queries[i].coordinates.at(k) = std::ldexp(queries[i].coordinates.at(k), exponent);
-      }
-    }
-    expect_truth(kind, queries);
-  }
-}
-
-TEST(Certified, IsRightFarFromTheOrigin) {
-  // Small primitives at a distance: differences cancel, and round.
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    Random random(19);
-    std::vector<Query> queries(400);
-    for (Query& query : queries) {
-      query = tests::near_contact_query(random, kind);
-      const double distance = std::ldexp(random.uniform(1.0, 2.0), random.between(0, 52));
-      for (double& x : query.coordinates) x += distance;
-    }
-    expect_truth(kind, queries);
-  }
-}
-
-TEST(Certified, IsRightForEveryToleranceAndTMax) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    Random random(23);
-    std::vector<Query> queries(100);
-    for (Query& query : queries) query = tests::near_contact_query(random, kind);
-    for (const double tolerance : {0.0, 1e-16, 1e-14, 1e-9, 0.25, 3.0}) {
-      expect_truth(kind, queries, {.toi_tolerance = tolerance});
-    }
-    for (const double t_max : {0.0, 0.125, 0.5, 0.9}) expect_truth(kind, queries, {.t_max = t_max});
-  }
-}
-
-TEST(Certified, IsRightOnPublicData) {
-  const auto files = tests::public_datasets();
-  if (files.empty()) GTEST_SKIP() << "public data missing";
-  std::size_t count = 0;
-  for (const auto& file : files) {
-    SCOPED_TRACE(file);
-    const auto source = verify::data::open_dataset(file);
-    std::vector<Query> queries;
-    while (const auto recorded = source->next()) queries.push_back(recorded->query);
-    count += queries.size();
-    expect_truth(source->kind(), queries);
-  }
-  EXPECT_GE(count, 9891U);
-}
-
-// ---- Floating-point state -----------------------------------------------------------------------
-
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 void expect_same(std::span<const CertifiedResult> a, std::span<const CertifiedResult> b) {
@@ -342,59 +184,6 @@ void expect_same(std::span<const CertifiedResult> a, std::span<const CertifiedRe
     EXPECT_TRUE(same(a[i].u, b[i].u) && same(a[i].v, b[i].v)) << i;
   }
 }
-
-std::vector<Query> queries_for_states(Kind kind) {
-  Random random(29);
-  std::vector<Query> queries(600);
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    queries[i] =
-        i % 3 == 0 ? tests::integer_query(random, 2) : tests::near_contact_query(random, kind);
-    // Subnormals, which a flushing caller would lose.
-    if (i % 5 == 0) {
-      for (double& x : queries[i].coordinates) x = std::ldexp(x, -1060);
-    }
-  }
-  return queries;
-}
-
-TEST(Certified, TheRoundingModeDoesNotMatter) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const std::vector<Query> queries = queries_for_states(kind);
-    for (const int threads : {1, 3}) {
-      const CertifiedOptions options{.max_threads = threads};
-      std::vector<CertifiedResult> plain(queries.size()), other(queries.size());
-      solve(kind, queries, plain, options);
-      for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-        std::fesetround(mode);
-        solve(kind, queries, other, options);
-        const int after = std::fegetround();
-        std::fesetround(FE_TONEAREST);
-        EXPECT_EQ(after, mode);
-        expect_same(plain, other);
-      }
-    }
-  }
-}
-
-#ifdef __SSE2__
-TEST(Certified, FlushingSubnormalsDoesNotMatter) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const std::vector<Query> queries = queries_for_states(kind);
-    std::vector<CertifiedResult> plain(queries.size()), other(queries.size());
-    solve(kind, queries, plain);
-    const unsigned before = _mm_getcsr();
-    // Flush to zero and subnormals are zeros, alone and together, upwards too, with a flag raised.
-    for (const unsigned state : {0x8000U, 0x0040U, 0x8040U, 0xC040U, 0x8041U}) {
-      _mm_setcsr(0x1F80U | state);
-      solve(kind, queries, other);
-      const unsigned after = _mm_getcsr();
-      _mm_setcsr(before);
-      EXPECT_EQ(after, 0x1F80U | state) << "the caller's state";
-      expect_same(plain, other);
-    }
-  }
-}
-#endif
 
 // ---- Meshes -------------------------------------------------------------------------------------
 
@@ -563,7 +352,9 @@ TEST(CertifiedMethod, AnswersWhatTheSolverFinds) {
   const std::unique_ptr<Method> method = certified_method();
   EXPECT_EQ(method->name(), "certified");
   EXPECT_EQ(method->promise(), Promise::exact);
-  const std::vector<Query> queries = queries_for_states(Kind::edge_edge);
+  Random random(29);
+  std::vector<Query> queries(600);
+  for (Query& query : queries) query = tests::near_contact_query(random, Kind::edge_edge);
   std::vector<CertifiedResult> results(queries.size());
   solve(Kind::edge_edge, queries, results);
   std::vector<Answer> answers(queries.size());

@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -196,41 +195,6 @@ TEST(Distance, IsTheSameOfTwoPointsAndOfDegenerateFacesAndEdges) {
   }
 }
 
-TEST(Distance, FollowsPowersOfTwoExchangeTranslationAndReflection) {
-  Random random(2004);
-  for (int round = 0; round < tests::trials(1000); ++round) {
-    const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
-    const Query query = tests::random_query(random, kind, tests::Family::full_significands).query;
-    const double t = random.uniform(0, 1);
-    for (const Norm norm : norms) {
-      const Distance expected = distance(kind, query, t, norm);
-      for (const int exponent : {-900, -30, 7, 1000}) {
-        Query other = query;
-        for (double& x : other.coordinates) x = std::ldexp(x, exponent);
-        EXPECT_EQ(distance(kind, other, t, norm), (Distance{std::ldexp(expected.lower, exponent),
-                                                            std::ldexp(expected.upper, exponent)}));
-      }
-      Query turned = query, exchanged = query;
-      for (std::size_t end = 0; end < 2; ++end) {
-        for (std::size_t i = 0; i < moving_points; ++i) {
-          turned.point(end, i) << -query.at(end, i, 2), query.at(end, i, 0), query.at(end, i, 1);
-          const std::size_t to = kind == Kind::edge_edge ? (i + 2) % 4 : i == 0 ? 0 : 1 + i % 3;
-          exchanged.point(end, to) = query.point(end, i);
-        }
-      }
-      EXPECT_EQ(distance(kind, turned, t, norm), expected);
-      EXPECT_EQ(distance(kind, exchanged, t, norm), expected);
-      // Coordinates of few bits, so that a translation rounds nothing.
-      Query coarse = query, translated = query;
-      for (std::size_t i = 0; i < coarse.coordinates.size(); ++i) {
-        coarse.coordinates[i] = std::ldexp(std::round(std::ldexp(query.coordinates[i], 20)), -20);
-        translated.coordinates[i] = coarse.coordinates[i] + 1024.0;
-      }
-      EXPECT_EQ(distance(kind, translated, t, norm), distance(kind, coarse, t, norm));
-    }
-  }
-}
-
 TEST(Distance, IsFilteredAsARule) {
   Random random(2005);
   for (const Norm norm : norms) {
@@ -293,21 +257,6 @@ TEST(Distance, OfAllInstructionSetsIsTheSameAndAsARuleFiltered) {
       }
     }
   }
-}
-
-TEST(Distance, RefusesWhatMakesNoSense) {
-  Query query = tests::over_triangle(1, 1, 1, 0).query;
-  EXPECT_THROW((void)distance(Kind::vertex_face, query, -0.5), std::invalid_argument);
-  EXPECT_THROW((void)distance(Kind::vertex_face, query, std::nan("")), std::invalid_argument);
-  std::vector<Distance> two(2);
-  EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, two),
-               std::invalid_argument);
-  EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, {two.data(), 1}, -1),
-               std::invalid_argument);
-  query.coordinates[5] = infinity;
-  EXPECT_THROW((void)distance(Kind::vertex_face, query, 0.5), std::domain_error);
-  EXPECT_THROW(distances(Kind::vertex_face, {&query, 1}, 0.0, Norm::l2, std::span(two).first(1)),
-               std::domain_error);
 }
 
 // ---- Faults -------------------------------------------------------------------------------------

@@ -3,19 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
-#include <string>
 #include <vector>
 
-#include "tests/support/certified.hpp"
-#include "tests/support/random.hpp"
-#include "tests/support/trials.hpp"
+#include "fast/certified.hpp"
 
 namespace touchstone::fast::primitive_pairs_test {
 namespace {
 
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
-using tests::Random;
 
 constexpr double third = 1.0 / 3.0;
 
@@ -96,7 +92,6 @@ TEST(PrimitivePairs, MayBeGivenInAnyShape) {
 TEST(PrimitivePairs, RefuseAnythingElse) {
   const Vector3d o(0, 0, 0);
   EXPECT_THROW((void)point_point(Eigen::VectorXd(2), o, o, o), std::invalid_argument);
-  EXPECT_THROW((void)point_point(o, o, o, o, {.t_max = 2.0}), std::invalid_argument);
   EXPECT_EQ(point_point(Vector3d(std::nan(""), 0, 0), o, o, o).verdict, Verdict::error);
 }
 
@@ -106,30 +101,6 @@ TEST(PrimitivePairs, TakeTheSolversOptions) {
   expect_enclosed(point_point(Vector3d(3, 0, 0), o, Vector3d(-3, 0, 0), o, near), third);
   const CertifiedOptions early{.t_max = 0.25};
   EXPECT_EQ(point_point(Vector3d(3, 0, 0), o, Vector3d(-3, 0, 0), o, early).verdict, Verdict::no);
-}
-
-TEST(PrimitivePairs, AgreeWithTheOracle) {
-  Random random(181);
-  int touching = 0;
-  for (int i = 0; i < tests::trials(400); ++i) {
-    Query query;
-    for (double& x : query.coordinates) x = random.between(0, 3);
-    const auto p = [&](std::size_t end, std::size_t k) { return query.point(end, k); };
-    const auto expect_right = [&](Kind kind, const CertifiedResult& result) {
-      EXPECT_EQ(tests::fault(kind, query, result).value_or(""), "");
-      touching += result.verdict == Verdict::yes ? 1 : 0;
-    };
-    expect_right(Kind::vertex_face, point_triangle(p(0, 0), p(0, 1), p(0, 2), p(0, 3),  //
-                                                   p(1, 0), p(1, 1), p(1, 2), p(1, 3)));
-    expect_right(Kind::edge_edge, edge_edge(p(0, 0), p(0, 1), p(0, 2), p(0, 3),  //
-                                            p(1, 0), p(1, 1), p(1, 2), p(1, 3)));
-    for (const std::size_t end : {0U, 1U}) p(end, 3) = p(end, 1);
-    expect_right(Kind::vertex_face, point_edge(p(0, 0), p(0, 1), p(0, 2),  //
-                                               p(1, 0), p(1, 1), p(1, 2)));
-    for (const std::size_t end : {0U, 1U}) p(end, 2) = p(end, 3) = p(end, 1);
-    expect_right(Kind::vertex_face, point_point(p(0, 0), p(0, 1), p(1, 0), p(1, 1)));
-  }
-  EXPECT_GT(touching, tests::trials(40));
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "filters/expressions.hpp"
 
 #include <gtest/gtest.h>
-#include <mpfi.h>
 
 #include <limits>
 
@@ -60,59 +59,6 @@ TYPED_TEST(EveryExpression, HasGroupsWhoseWeightsAddUpToOne) {
       EXPECT_EQ(sum, 1);
     }
   });
-}
-
-/// A closed interval between doubles, rounded outwards by MPFI.
-class Interval {
- public:
-  explicit Interval(double x) {
-    mpfi_init2(value_, 53);
-    mpfi_set_d(value_, x);
-  }
-  Interval(const Interval& other) {
-    mpfi_init2(value_, 53);
-    mpfi_set(value_, other.value_);
-  }
-  Interval& operator=(const Interval& other) {
-    if (this != &other) mpfi_set(value_, other.value_);
-    return *this;
-  }
-  ~Interval() { mpfi_clear(value_); }
-
-  friend Interval operator+(const Interval& a, const Interval& b) { return of(mpfi_add, a, b); }
-  friend Interval operator-(const Interval& a, const Interval& b) { return of(mpfi_sub, a, b); }
-  friend Interval operator*(const Interval& a, const Interval& b) { return of(mpfi_mul, a, b); }
-
-  [[nodiscard]] double lower() const { return mpfr_get_d(&value_->left, MPFR_RNDD); }
-  [[nodiscard]] double upper() const { return mpfr_get_d(&value_->right, MPFR_RNDU); }
-
- private:
-  template <class Function>
-  static Interval of(const Function& function, const Interval& a, const Interval& b) {
-    Interval result(0);
-    function(result.value_, a.value_, b.value_);
-    return result;
-  }
-
-  mpfi_t value_;
-};
-
-TYPED_TEST(EveryExpression, IsEnclosedByIntervals) {
-  std::mt19937_64 random(2);
-  int wide = 0;
-  for (int i = 0; i < 200; ++i) {
-    Inputs inputs = random_inputs(random, TypeParam::coordinates);
-    inputs.weights = random_weights<TypeParam>(random, 53);
-    const auto interval = evaluate_with<TypeParam>(inputs, [](double x) { return Interval(x); });
-    const mpq_class truth = exact_value<TypeParam>(inputs);
-    EXPECT_LE(mpq_class(interval.lower()), truth);
-    EXPECT_GE(mpq_class(interval.upper()), truth);
-    const double computed = computed_value<TypeParam, double>(inputs);
-    EXPECT_LE(interval.lower(), computed);
-    EXPECT_GE(interval.upper(), computed);
-    wide += interval.lower() < interval.upper() ? 1 : 0;
-  }
-  EXPECT_GT(wide, 150) << "the inputs are to be such that something is rounded";
 }
 
 using DoubleLanes [[gnu::vector_size(16)]] = double;

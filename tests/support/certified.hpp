@@ -12,6 +12,7 @@
 #include "exact/algebra/number.hpp"
 #include "exact/oracle.hpp"
 #include "fast/certified.hpp"
+#include "fast/certified/exact/exact_stage.hpp"
 
 namespace touchstone::tests {
 
@@ -37,11 +38,10 @@ namespace touchstone::tests {
   return std::nullopt;
 }
 
-/// What is wrong with a result, or nothing.
-[[nodiscard]] inline std::optional<std::string> fault(Kind kind, const Query& query,
+/// What is wrong with a result about a query whose truth is known, or nothing.
+[[nodiscard]] inline std::optional<std::string> fault(Kind kind, const exact::Verdict& truth,
                                                       const fast::CertifiedResult& result,
-                                                      const fast::CertifiedOptions& options = {}) {
-  const exact::Verdict truth = exact::decide(kind, query, options.separation);
+                                                      const fast::CertifiedOptions& options) {
   bool collides = truth.collides();
   if (collides && options.t_max < 1.0) collides = compare(*truth.toi, options.t_max) <= 0;
   if (result.verdict != (collides ? fast::Verdict::yes : fast::Verdict::no)) {
@@ -53,6 +53,25 @@ namespace touchstone::tests {
                          (kind == Kind::edge_edge || exact::Rational(u) + exact::Rational(v) <= 1);
   if (!in_domain) return "(u,v) is not in the domain";
   return enclosure_fault(*truth.toi, result.toi_lower, result.toi_upper, options.toi_tolerance);
+}
+
+/// What is wrong with a result, or nothing.
+[[nodiscard]] inline std::optional<std::string> fault(Kind kind, const Query& query,
+                                                      const fast::CertifiedResult& result,
+                                                      const fast::CertifiedOptions& options = {}) {
+  return fault(kind, exact::decide(kind, query, options.separation), result, options);
+}
+
+/// What the exact stage says, as a result.
+[[nodiscard]] inline fast::CertifiedResult exact_result(
+    Kind kind, const Query& query, const fast::CertifiedOptions& options = {}) {
+  const auto& [tolerance, t_max, separation, threads, kernel] = options;
+  const auto impact = is_contact(separation)
+                          ? fast::decide_exactly(kind, query, tolerance, t_max)
+                          : fast::decide_exactly(kind, query, separation, tolerance, t_max);
+  if (!impact) return {.verdict = fast::Verdict::no, .stage = fast::Stage::exact};
+  return {fast::Verdict::yes, fast::Stage::exact, impact->toi_lower,
+          impact->toi_upper,  impact->u,          impact->v};
 }
 
 }  // namespace touchstone::tests

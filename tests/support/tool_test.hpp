@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -127,6 +128,26 @@ class ToolTest : public FolderTest {
 
   [[nodiscard]] nlohmann::json json(const std::string& name) const {
     return nlohmann::json::parse(read(name));
+  }
+};
+
+/// Tests that give the shell a subcommand's arguments as one text. Output goes to "out" and "err", JSON to "json".
+template <const char* subcommand>
+class ShellTest : public ToolTest {
+ protected:
+  /// Runs the subcommand, after shell words such as a limit of time; its exit status.
+  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = before + " '" + touchstone_program() + "' " + subcommand + " " +
+                                arguments + " >" + quoted("out") + " 2>" + quoted("err");
+    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  [[nodiscard]] nlohmann::json json() const { return ToolTest::json("json"); }
+  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
+  /// Writes a file and returns its path in quotes.
+  std::string write(const std::string& name, const std::string& text) const {
+    return "'" + ToolTest::write(name, text) + "'";
   }
 };
 

@@ -674,46 +674,6 @@ std::optional<int> refined_sign(const Polynomial& q, Bracket bracket, int greate
   return std::nullopt;
 }
 
-TEST(AgainstMpfi, SignsOfRandomPolynomials) {
-  Random random(54);
-  int signs = 0;
-  for (int round = 0; round < 1200; ++round) {
-    const Polynomial p = random_polynomial(random, random.between(1, 6), 20),
-                     q = random_polynomial(random, random.between(0, 6), 20);
-    for (auto& [number, bracket] : bracketed_roots(p)) {
-      const std::optional<int> expected = refined_sign(q, bracket, 1024);
-      ASSERT_TRUE(expected.has_value());
-      EXPECT_EQ(number.sign_of(q), *expected) << p << q;
-      EXPECT_EQ(number.is_root_of(q), *expected == 0);
-      ++signs;
-    }
-  }
-  EXPECT_GT(signs, 300);
-}
-
-TEST(AgainstMpfi, SignsAtSharedRootsAreZero) {
-  Random random(55);
-  int zeros = 0, others = 0;
-  for (int round = 0; round < 400; ++round) {
-    const Polynomial shared = random_polynomial(random, random.between(1, 3), 12);
-    const Polynomial p = shared * random_polynomial(random, random.between(1, 3), 12),
-                     q = shared * random_polynomial(random, random.between(0, 3), 12);
-    for (auto& [number, bracket] : bracketed_roots(p)) {
-      bracket.bisect(64);
-      // The bracket has one root of p: it is the shared factor's where that changes sign.
-      const bool is_shared =
-          point_sign(shared, bracket.x.lower) != point_sign(shared, bracket.x.upper);
-      const std::optional<int> expected = is_shared ? 0 : refined_sign(q, bracket, 1024);
-      ASSERT_TRUE(expected.has_value());
-      EXPECT_EQ(number.sign_of(q), *expected) << p << q;
-      EXPECT_EQ(number.is_root_of(q), is_shared) << p << q;
-      (is_shared ? zeros : others) += 1;
-    }
-  }
-  EXPECT_GT(zeros, 100);
-  EXPECT_GT(others, 50);
-}
-
 TEST(AgainstMpfi, SignsNextToARootThatIsAlmostShared) {
   Random random(56);
   const Polynomial scale = polynomial({Integer(1) << 200});

@@ -144,6 +144,22 @@ TEST(Polynomial, HasADerivative) {
   EXPECT_TRUE(derivative(polynomial({7})).is_zero());
 }
 
+/// Arithmetic is that of the values.
+TEST(Polynomial, AddsMultipliesAndDerivesAsValuesDo) {
+  Random random(20);
+  for (int round = 0; round < 500; ++round) {
+    const auto draw = [&] { return random_polynomial(random, random.between(0, 6), 60); };
+    const Polynomial p = draw(), q = draw();
+    const Rational x = random_rational(random, 20);
+    EXPECT_EQ(value(p + q, x), value(p, x) + value(q, x));
+    EXPECT_EQ(value(p - q, x), value(p, x) - value(q, x));
+    EXPECT_EQ(value(-p, x), -value(p, x));
+    EXPECT_EQ(value(p * q, x), value(p, x) * value(q, x));
+    EXPECT_EQ(derivative(p + q), derivative(p) + derivative(q));
+    EXPECT_EQ(derivative(p * q), derivative(p) * q + p * derivative(q));
+  }
+}
+
 TEST(DyadicCell, HasItsEnds) {
   EXPECT_EQ(DyadicCell{}.lower(), 0);
   EXPECT_EQ(DyadicCell{}.upper(), 1);

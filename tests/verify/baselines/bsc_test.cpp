@@ -33,11 +33,6 @@ bool throws(const PosedQuery& posed) {
   }
 }
 
-TEST(Bsc, AnswersThePrintedQueriesAsSeen) {
-  EXPECT_TRUE(says_yes(bsc(), tests::printed_query("inflection")));           // a miss
-  EXPECT_FALSE(says_yes(bsc(), tests::printed_query("sliding-degenerate")));  // a hit
-}
-
 TEST(Bsc, ThrowsAtAnInflectionAndRestoresTheRounding) {
   EXPECT_TRUE(throws(tests::printed_query("inflection")));
   EXPECT_EQ(tests::one_and_a_little(), 1.0);
@@ -121,29 +116,6 @@ TEST(Bsc, IsExactAtEveryScaleBelow) {
       EXPECT_EQ(throws(posed), throws(scaled(posed, -400)));
     }
   }
-}
-
-TEST(Bsc, OnThePublicHandcraftedQueries) {
-  const auto faces = tests::score_on_handcrafted(bsc(), Kind::vertex_face);
-  if (faces.hits == 0) GTEST_SKIP() << "public data missing";
-  const auto edges = tests::score_on_handcrafted(bsc(), Kind::edge_edge);
-  EXPECT_EQ(faces.false_negatives, 3);
-  EXPECT_EQ(edges.false_negatives, 2);
-  EXPECT_EQ(faces.false_positives, 28);
-  EXPECT_EQ(edges.false_positives, 4);
-}
-
-TEST(BscMethod, HasNoTimeNoSeparationAndNoPromise) {
-  EXPECT_EQ(bsc().name(), "bsc");
-  EXPECT_EQ(bsc().promise(), fast::Promise::none);
-  const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
-  const fast::MethodOptions options{.separation = {.distance = 1.5, .norm = Norm::l2},
-                                    .t_max = 0.25};
-  EXPECT_EQ(verdict_of(bsc(), hit, options), fast::Verdict::yes);
-  EXPECT_EQ(verdict_of(bsc(), near, options), fast::Verdict::no);
-  PosedQuery bad = hit;
-  bad.query.coordinates[7] = fast::Answer::none;
-  EXPECT_EQ(verdict_of(bsc(), bad), fast::Verdict::error);
 }
 
 }  // namespace

@@ -21,19 +21,6 @@ const std::unique_ptr<fast::Method> method = baselines::fprf_method();
 constexpr fast::MethodOptions wide{.separation = {.distance = 1e-3, .norm = Norm::l2}};
 constexpr int hits = 2000;
 
-TEST(Fprf, AnswersThePrintedQueriesAsItWasSeenTo) {
-  EXPECT_EQ(method->name(), "fprf");
-  EXPECT_EQ(method->promise(), fast::Promise::none);
-  const fast::Answer hourglass = answer_to(*method, tests::printed_hourglass());
-  EXPECT_EQ(hourglass.verdict, fast::Verdict::yes);
-  EXPECT_NEAR(hourglass.toi_lower, 0.5, 1e-6) << "where the normal vanishes; contact is at 0.9";
-  EXPECT_EQ(answer_to(*method, tests::printed_inflection()).verdict, fast::Verdict::no);
-  const fast::Answer coplanar = answer_to(*method, tests::printed_coplanar());
-  EXPECT_EQ(coplanar.verdict, fast::Verdict::yes);
-  EXPECT_NEAR(coplanar.toi_lower, 0.241379, 1e-6);
-  EXPECT_TRUE(std::isnan(coplanar.toi_upper));
-}
-
 TEST(Fprf, MissesDeformingTrianglesWhateverItsSeparation) {
   const int missed =
       missed_centre_hits(*method, Kind::vertex_face, Motion::independent, wide, hits);
@@ -77,13 +64,6 @@ TEST(Fprf, SeparatesInteriorsOnly) {
   }
 }
 
-TEST(Fprf, CountsImpactsUpToTheGivenTime) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.75}).verdict,
-            fast::Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.25}).verdict,
-            fast::Verdict::no);
-}
-
 TEST(Fprf, AgreesWithTheTruthElsewhere) {
   // Clear misses: none of the families' queries that a direction separates by far is a hit.
   EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, fast::Verdict::no);
@@ -99,20 +79,6 @@ TEST(Fprf, AgreesWithTheTruthElsewhere) {
   EXPECT_GT(score.false_negatives, 0);
   EXPECT_LT(score.false_negatives + score.false_positives, (score.hits + score.misses) / 4);
   EXPECT_EQ(score.errors + score.undecided, 0);
-}
-
-TEST(Fprf, MissesContactsOfThePublicData) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const Score handcrafted = tests::score_on_public_data(*method, {}, "handcrafted", kind, 1);
-    if (handcrafted.hits == 0) GTEST_SKIP() << "public data missing";
-    EXPECT_GT(handcrafted.false_negatives, 0);
-    EXPECT_LT(handcrafted.false_negatives, handcrafted.hits / 2);
-    EXPECT_GT(handcrafted.false_positives, 0);
-    EXPECT_LT(handcrafted.false_positives, 50);
-    const Score simulation = tests::score_on_public_data(*method, {}, "simulation", kind, 1);
-    EXPECT_GT(simulation.false_negatives, 0);
-    EXPECT_EQ(simulation.false_positives, 0);
-  }
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <memory>
-#include <string>
 
 #include "tests/support/baselines.hpp"
 
@@ -14,49 +13,13 @@ namespace {
 using tests::answer_to;
 using tests::over_edge;
 using tests::over_triangle;
-using tests::Score;
 
 const std::unique_ptr<fast::Method> method = baselines::irf_method();
-
-/// Enough for nearly all queries, few enough for a test.
-constexpr fast::MethodOptions quick{.max_checks = 2000};
-
-void expect_no_miss(const Score& score) {
-  EXPECT_GT(score.hits, 0);
-  EXPECT_EQ(score.false_negatives, 0);
-  EXPECT_EQ(score.errors, 0);
-  EXPECT_GT(score.denied, score.misses / 4);
-}
-
-TEST(Irf, DecidesThePrintedQueries) {
-  EXPECT_EQ(method->name(), "irf");
-  EXPECT_EQ(method->promise(), fast::Promise::conservative);
-  EXPECT_EQ(answer_to(*method, tests::printed_hourglass()).verdict, fast::Verdict::yes);
-  EXPECT_EQ(answer_to(*method, tests::printed_inflection()).verdict, fast::Verdict::no);
-  EXPECT_EQ(answer_to(*method, tests::printed_coplanar()).verdict, fast::Verdict::yes);
-}
-
-TEST(Irf, MissesNothingInTheFamilies) {
-  expect_no_miss(tests::score_on_families(*method, quick, 4));
-}
-
-TEST(Irf, MissesNothingAtRandom) { expect_no_miss(tests::score_on_random(*method, quick, 60)); }
 
 TEST(Irf, MissesNoCentreHits) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const auto motion : {tests::Motion::independent, tests::Motion::translation}) {
       EXPECT_EQ(tests::missed_centre_hits(*method, kind, motion, {}, 40), 0);
-    }
-  }
-}
-
-TEST(Irf, MissesNothingOnThePublicData) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (const std::string folder : {"handcrafted", "simulation"}) {
-      const Score score = tests::score_on_public_data(*method, quick, folder, kind, 16);
-      if (score.hits == 0) GTEST_SKIP() << "public data missing";
-      EXPECT_EQ(score.false_negatives, 0) << folder;
-      EXPECT_LT(score.undecided, score.hits + score.misses) << folder;
     }
   }
 }
@@ -100,19 +63,6 @@ TEST(Irf, StopsAtMaxChecks) {
   EXPECT_EQ(few.checks, 10U);
   const fast::Answer all = answer_to(*method, over_triangle(1, 1, 1, -3), {.max_checks = 0});
   EXPECT_EQ(all.verdict, fast::Verdict::yes);
-}
-
-TEST(Irf, CountsImpactsUpToTheGivenTime) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.5}).verdict,
-            fast::Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.49}).verdict,
-            fast::Verdict::no);
-}
-
-TEST(Irf, KnowsNoSeparation) {
-  EXPECT_EQ(
-      answer_to(*method, over_triangle(1, 1, 1, 0.25), {.separation = {.distance = 0.5}}).verdict,
-      fast::Verdict::no);
 }
 
 TEST(Irf, TakesWhatIsAtRest) {

@@ -110,13 +110,6 @@ TEST(Msrf, QuickTestsRuleOutZerosToo) {
   EXPECT_TRUE(ruled_out({0, 0, 1, 0, 0, 0, 0}));
 }
 
-TEST(Msrf, CountsImpactsUpToTheGivenTime) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.75}).verdict,
-            fast::Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.25}).verdict,
-            fast::Verdict::no);
-}
-
 TEST(Msrf, AgreesWithTheTruthElsewhere) {
   const fast::Answer face = answer_to(*method, over_triangle(1, 1, 1, -3));
   EXPECT_EQ(face.verdict, fast::Verdict::yes);
@@ -133,19 +126,6 @@ TEST(Msrf, AgreesWithTheTruthElsewhere) {
   EXPECT_GT(score.false_negatives, 0);
   EXPECT_LT(score.false_negatives + score.false_positives, (score.hits + score.misses) / 4);
   EXPECT_EQ(score.errors + score.undecided, 0);
-}
-
-TEST(Msrf, MissesContactsOfThePublicData) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const Score simulation = tests::score_on_public_data(*method, {}, "simulation", kind, 1);
-    if (simulation.hits == 0) GTEST_SKIP() << "public data missing";
-    EXPECT_GT(simulation.false_negatives, 0);
-    EXPECT_LT(simulation.false_negatives, simulation.hits / 5);
-    EXPECT_GT(simulation.false_positives, 0);
-    const Score handcrafted = tests::score_on_public_data(*method, {}, "handcrafted", kind, 1);
-    EXPECT_GT(handcrafted.false_positives, 0);
-    EXPECT_LT(handcrafted.false_negatives, handcrafted.hits / 10);
-  }
 }
 
 }  // namespace

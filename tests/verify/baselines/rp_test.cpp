@@ -28,12 +28,6 @@ const fast::Method& rp() {
   return *method;
 }
 
-TEST(Rp, AnswersThePrintedQueriesAsSeen) {
-  EXPECT_TRUE(says_yes(rp(), tests::printed_query("hourglass")));
-  EXPECT_FALSE(says_yes(rp(), tests::printed_query("inflection")));
-  EXPECT_TRUE(says_yes(rp(), tests::printed_query("sliding-degenerate")));
-}
-
 TEST(Rp, SaysYesExactlyToOddNumbersOfRoots) {
   Random random(1);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
@@ -125,29 +119,6 @@ TEST(Rp, CallsWhatIsOutOfItsRangeACollision) {
   EXPECT_THROW(static_cast<void>(rp_collides(miss.kind, miss.query)), std::overflow_error);
   EXPECT_EQ(tests::one_and_a_little(), 1.0);
   EXPECT_TRUE(says_yes(rp(), miss));
-}
-
-TEST(Rp, OnThePublicHandcraftedQueries) {
-  const auto faces = tests::score_on_handcrafted(rp(), Kind::vertex_face);
-  if (faces.hits == 0) GTEST_SKIP() << "public data missing";
-  const auto edges = tests::score_on_handcrafted(rp(), Kind::edge_edge);
-  EXPECT_EQ(faces.false_negatives, 0);
-  EXPECT_EQ(edges.false_negatives, 0);
-  EXPECT_EQ(faces.false_positives, 1);
-  EXPECT_EQ(edges.false_positives, 1);
-}
-
-TEST(RpMethod, HasNoTimeNoSeparationAndNoPromise) {
-  EXPECT_EQ(rp().name(), "rp");
-  EXPECT_EQ(rp().promise(), fast::Promise::none);
-  const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
-  const fast::MethodOptions options{.separation = {.distance = 1.5, .norm = Norm::l2},
-                                    .t_max = 0.25};
-  EXPECT_EQ(verdict_of(rp(), hit, options), fast::Verdict::yes);
-  EXPECT_EQ(verdict_of(rp(), near, options), fast::Verdict::no);
-  PosedQuery bad = hit;
-  bad.query.coordinates[7] = fast::Answer::none;
-  EXPECT_EQ(verdict_of(rp(), bad), fast::Verdict::error);
 }
 
 }  // namespace

@@ -25,12 +25,6 @@ const fast::Method& rrp() {
   return *method;
 }
 
-TEST(Rrp, AnswersThePrintedQueries) {
-  EXPECT_TRUE(says_yes(rrp(), tests::printed_query("hourglass")));
-  EXPECT_FALSE(says_yes(rrp(), tests::printed_query("inflection")));
-  EXPECT_TRUE(says_yes(rrp(), tests::printed_query("sliding-degenerate")));
-}
-
 TEST(Rrp, SaysYesExactlyToOddNumbersOfRoots) {
   Random random(1);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
@@ -97,28 +91,6 @@ TEST(Rrp, FindsContactsThatItsRayStartsOn) {
   EXPECT_TRUE(says_yes(rrp(), tests::over_edge(1, 2, 1, -1)));
   EXPECT_FALSE(says_yes(rrp(), tests::over_triangle(3, 3, 1, -1)));
   EXPECT_FALSE(says_yes(rrp(), tests::over_edge(5, 2, 1, -1)));
-}
-
-TEST(Rrp, OnThePublicHandcraftedQueries) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const auto score = tests::score_on_handcrafted(rrp(), kind);
-    if (score.hits == 0) GTEST_SKIP() << "public data missing";
-    EXPECT_EQ(score.false_negatives, 0);
-    EXPECT_EQ(score.false_positives, 0);
-  }
-}
-
-TEST(RrpMethod, HasNoTimeNoSeparationAndNoPromise) {
-  EXPECT_EQ(rrp().name(), "rrp");
-  EXPECT_EQ(rrp().promise(), fast::Promise::none);
-  const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
-  const fast::MethodOptions options{.separation = {.distance = 1.5, .norm = Norm::l2},
-                                    .t_max = 0.25};
-  EXPECT_EQ(verdict_of(rrp(), hit, options), fast::Verdict::yes);
-  EXPECT_EQ(verdict_of(rrp(), near, options), fast::Verdict::no);
-  PosedQuery bad = hit;
-  bad.query.coordinates[7] = fast::Answer::none;
-  EXPECT_EQ(verdict_of(rrp(), bad), fast::Verdict::error);
 }
 
 }  // namespace

@@ -28,12 +28,6 @@ const fast::Method& tccd() {
   return *method;
 }
 
-TEST(Tccd, AnswersThePrintedQueriesAsSeen) {
-  EXPECT_TRUE(says_yes(tccd(), tests::printed_query("hourglass")));
-  EXPECT_FALSE(says_yes(tccd(), tests::printed_query("inflection")));
-  EXPECT_TRUE(says_yes(tccd(), tests::printed_query("sliding-degenerate")));
-}
-
 TEST(Tccd, IsRightInGeneralPosition) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     const auto score =
@@ -162,16 +156,6 @@ TEST(Tccd, MissesAGrazingContactAtACornerOfBothEdges) {
   EXPECT_FALSE(says_yes(tccd(), face));
 }
 
-TEST(Tccd, OnThePublicHandcraftedQueries) {
-  const auto faces = tests::score_on_handcrafted(tccd(), Kind::vertex_face);
-  if (faces.hits == 0) GTEST_SKIP() << "public data missing";
-  const auto edges = tests::score_on_handcrafted(tccd(), Kind::edge_edge);
-  EXPECT_EQ(faces.false_negatives, 0);
-  EXPECT_EQ(edges.false_negatives, 0);
-  EXPECT_EQ(faces.false_positives, 288);
-  EXPECT_EQ(edges.false_positives, 192);
-}
-
 TEST(Tccd, MissesContactsOfASimulationWhichScalingFinds) {
   const auto folder = tests::simulation_folder();
   if (folder.empty()) GTEST_SKIP() << "public data missing";
@@ -191,19 +175,6 @@ TEST(Tccd, MissesContactsOfASimulationWhichScalingFinds) {
   EXPECT_EQ(missed(Kind::edge_edge, 0), 171);
   EXPECT_EQ(missed(Kind::vertex_face, 4), 0);
   EXPECT_EQ(missed(Kind::edge_edge, 4), 3);
-}
-
-TEST(TccdMethod, HasNoTimeNoSeparationAndNoPromise) {
-  EXPECT_EQ(tccd().name(), "tccd");
-  EXPECT_EQ(tccd().promise(), fast::Promise::none);
-  const PosedQuery hit = tests::over_triangle(1, 1, 1, -1), near = tests::over_triangle(1, 1, 2, 1);
-  const fast::MethodOptions options{.separation = {.distance = 1.5, .norm = Norm::l2},
-                                    .t_max = 0.25};
-  EXPECT_EQ(verdict_of(tccd(), hit, options), fast::Verdict::yes);
-  EXPECT_EQ(verdict_of(tccd(), near, options), fast::Verdict::no);
-  PosedQuery bad = hit;
-  bad.query.coordinates[7] = fast::Answer::none;
-  EXPECT_EQ(verdict_of(tccd(), bad), fast::Verdict::error);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <memory>
-#include <string>
 
 #include "tests/support/baselines.hpp"
 
@@ -14,51 +13,8 @@ namespace {
 using tests::answer_to;
 using tests::over_edge;
 using tests::over_triangle;
-using tests::Score;
 
 const std::unique_ptr<fast::Method> method = baselines::uirf_method();
-
-/// Enough for nearly all queries, few enough for a test.
-constexpr fast::MethodOptions quick{.max_checks = 2000};
-
-void expect_no_miss(const Score& score) {
-  EXPECT_GT(score.hits, 0);
-  EXPECT_EQ(score.false_negatives, 0);
-  EXPECT_EQ(score.late, 0);
-  EXPECT_EQ(score.errors, 0);
-  EXPECT_GT(score.denied, score.misses / 4);
-}
-
-TEST(Uirf, DecidesThePrintedQueries) {
-  EXPECT_EQ(method->name(), "uirf");
-  EXPECT_EQ(method->promise(), fast::Promise::conservative);
-  const fast::Answer hourglass = answer_to(*method, tests::printed_hourglass());
-  EXPECT_EQ(hourglass.verdict, fast::Verdict::yes);
-  EXPECT_EQ(answer_to(*method, tests::printed_inflection()).verdict, fast::Verdict::no);
-  // Coplanar all the time: every small interval is a candidate.
-  const fast::Answer coplanar = answer_to(*method, tests::printed_coplanar(), {.tolerance = 1e-4});
-  EXPECT_EQ(coplanar.verdict, fast::Verdict::yes);
-  EXPECT_NEAR(coplanar.toi_lower, 0.07 / 0.29, 1e-3);
-  EXPECT_GT(coplanar.checks, 1000U);
-}
-
-TEST(Uirf, MissesNothingInTheFamilies) {
-  expect_no_miss(tests::score_on_families(*method, quick, 4));
-}
-
-TEST(Uirf, MissesNothingAtRandom) { expect_no_miss(tests::score_on_random(*method, quick, 60)); }
-
-TEST(Uirf, MissesNothingOnThePublicData) {
-  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    for (const std::string folder : {"handcrafted", "simulation"}) {
-      const Score score = tests::score_on_public_data(*method, quick, folder, kind, 16);
-      if (score.hits == 0) GTEST_SKIP() << "public data missing";
-      EXPECT_EQ(score.false_negatives, 0) << folder;
-      EXPECT_EQ(score.late, 0) << folder;
-      EXPECT_LT(score.undecided, score.hits + score.misses) << folder;
-    }
-  }
-}
 
 TEST(Uirf, GivesTimesThatAreNotLate) {
   tests::Random random(4);
@@ -104,19 +60,6 @@ TEST(Uirf, StopsAtMaxChecks) {
   const fast::Answer all = answer_to(*method, plane, {.tolerance = 1e-3, .max_checks = 0});
   EXPECT_EQ(all.verdict, fast::Verdict::no);
   EXPECT_EQ(all.checks, 2047U) << "all intervals of 2^-10 are candidates";
-}
-
-TEST(Uirf, CountsImpactsUpToTheGivenTime) {
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.5}).verdict,
-            fast::Verdict::yes);
-  EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 1, -1), {.t_max = 0.49}).verdict,
-            fast::Verdict::no);
-}
-
-TEST(Uirf, KnowsNoSeparation) {
-  EXPECT_EQ(
-      answer_to(*method, over_triangle(1, 1, 1, 0.25), {.separation = {.distance = 0.5}}).verdict,
-      fast::Verdict::no);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,7 +8,7 @@
 #include <string>
 
 #include "tests/support/built_files.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 #include "tests/verify/solvers/plugins/misbehaviour.hpp"
 
 // `touchstone bench` as users meet it: by running the tool.
@@ -18,28 +17,12 @@ namespace touchstone::verify::cli::bench_command_test {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::contains;
 using tests::read_file;
 
-class Bench : public tests::FolderTest {
- protected:
-  /// Runs the tool, after shell words such as a limit of time; its exit status.
-  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" + tests::touchstone_program() + "' bench " +
-                                arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
-    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
+constexpr char subcommand[] = "bench";
 
-  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
-
-  /// Writes a file and returns its path in quotes.
-  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
-    fs::create_directories(fs::path(path(name)).parent_path());
-    std::ofstream(path(name), std::ios::binary) << text;
-    return quoted(name);
-  }
-  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
-};
+using Bench = tests::ShellTest<subcommand>;
 
 /// A vertex over a resting triangle that falls to a height, as rows without labels.
 std::string falling_vertex(const std::string& end_height) {
@@ -51,10 +34,6 @@ std::string falling_vertex(const std::string& end_height) {
 
 /// Few and short: tests ask what is done, not how fast.
 const std::string quick = " --repetitions 2 --seconds 0.01 ";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST_F(Bench, TimesAndJudgesTheGivenQueries) {
   const std::string folder = quoted("data");

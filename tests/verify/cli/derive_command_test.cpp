@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -8,7 +7,7 @@
 #include <string>
 
 #include "tests/support/built_files.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 
 // `touchstone derive` as users meet it: by running the tool.
 
@@ -18,18 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 using tests::read_file;
 
-class Derive : public tests::FolderTest {
- protected:
-  /// Runs the tool, after shell words such as variables; its exit status.
-  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" + tests::touchstone_program() + "' derive " +
-                                arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
-    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
+constexpr char subcommand[] = "derive";
 
-  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
-};
+using Derive = tests::ShellTest<subcommand>;
 
 TEST_F(Derive, EmitsTheHeaderThatIsInTheTree) {
   ASSERT_EQ(run("--model rigorous --emit '" + path("bounds.hpp") + "'"), 0) << read("err");

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -19,19 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 using tests::contains;
 
-class Report : public tests::ToolTest {
+constexpr char subcommand[] = "report";
+
+class Report : public tests::ShellTest<subcommand> {
  protected:
-  /// Runs the tool, after shell words such as a limit of time; its exit status.
-  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" + tests::touchstone_program() + "' report " +
-                                arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
-    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
-  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
-
   /// Two queries of a vertex over a resting triangle: one falls through it, one to half its height.
   [[nodiscard]] std::string data() const {
     const auto rows = [](const std::string& height) {

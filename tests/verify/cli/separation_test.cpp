@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,7 +9,7 @@
 #include <vector>
 
 #include "tests/support/built_files.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 
 // --min-separation and --norm as users meet them: by running the tool.
 
@@ -18,32 +17,14 @@ namespace touchstone::verify::cli::separation_test {
 namespace {
 
 namespace fs = std::filesystem;
+using tests::contains;
 
-class SeparationOptions : public tests::FolderTest {
+constexpr char subcommand[] = "";
+
+class SeparationOptions : public tests::ShellTest<subcommand> {
  protected:
-  /// Runs the tool; its exit status. Output goes to "out" and "err".
-  [[nodiscard]] int run(const std::string& arguments) const {
-    const std::string command = "'" + tests::touchstone_program() + "' " + arguments + " >'" +
-                                path("out") + "' 2>'" + path("err") + "'";
-    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
-  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
-  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
   [[nodiscard]] std::string to_json() const { return " --json " + quoted("json"); }
-
-  /// Writes a file and returns its path in quotes.
-  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
-    fs::create_directories(fs::path(path(name)).parent_path());
-    std::ofstream(path(name), std::ios::binary) << text;
-    return quoted(name);
-  }
 };
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// A vertex over (or at the corner of) the resting triangle (0,0,0), (-4,0,0), (0,-4,0), from one
 /// place to another, "x,1,y,1,z,1" each, with a label or none.

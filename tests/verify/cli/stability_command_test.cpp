@@ -1,37 +1,23 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/support/built_files.hpp"
-#include "tests/support/folder_test.hpp"
+#include "tests/support/tool_test.hpp"
 
 // `touchstone stability` as users meet it: by running the tool.
 
 namespace touchstone::verify::cli::stability_command_test {
 namespace {
 
-class Stability : public tests::FolderTest {
- protected:
-  /// Runs the tool, after shell words such as a limit of time; its exit status.
-  [[nodiscard]] int run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " '" + tests::touchstone_program() + "' stability " +
-                                arguments + " >'" + path("out") + "' 2>'" + path("err") + "'";
-    const int status = std::system(command.c_str());  // NOLINT(cert-env33-c): a test's own command
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
+using tests::contains;
+constexpr char subcommand[] = "stability";
 
-  [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(read("json")); }
-  [[nodiscard]] std::string quoted(const std::string& name) const { return "'" + path(name) + "'"; }
-};
+using Stability = tests::ShellTest<subcommand>;
 
 const std::string quick = " --count 2 --hardness angle ";
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST_F(Stability, WritesTableJsonAndPicture) {
   ASSERT_EQ(run(quick + "--method certified --seed 9 --json " + quoted("json") + " --picture " +

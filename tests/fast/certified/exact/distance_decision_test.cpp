@@ -19,12 +19,8 @@
 #include "tests/fast/certified/decisions.hpp"
 #include "tests/faults/limb_products.hpp"
 #include "tests/faults/planted_faults.hpp"
-#include "tests/support/public_data.hpp"
+#include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
-#include "verify/data/dataset.hpp"
-#include "verify/generate/families.hpp"
-
-namespace touchstone::fast {}  // namespace touchstone::fast
 
 namespace touchstone::fast::exact_stage::distance_decision_test {
 namespace {
@@ -35,7 +31,6 @@ using tests::Random;
 
 constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
 constexpr std::array<Norm, 2> norms{Norm::linf, Norm::l2};
-constexpr std::array<double, 5> distances{1e-2, 1e-8, 1e-16, 1e-30, 1e-100};
 constexpr double denorm_min = std::numeric_limits<double>::denorm_min();
 
 double below(double x) { return std::nextafter(x, 0.0); }
@@ -45,88 +40,11 @@ std::optional<ExactImpact> decide(const PosedQuery& posed, const Separation& sep
   return decide_exactly(posed.kind, posed.query, separation, 0.0, t_max);
 }
 
-/// Is the impact at `toi`, between neighbouring doubles, and in the domain?
-void expect_impact(const PosedQuery& posed, const ExactImpact& impact,
-                   const exact::AlgebraicNumber& toi) {
-  EXPECT_TRUE(toi <= Rational(impact.toi_upper)) << posed;
-  if (toi == Rational(0)) {
-    EXPECT_TRUE(impact.toi_lower == 0.0 && impact.toi_upper == 0.0) << posed;
-  } else {
-    EXPECT_TRUE(toi > Rational(impact.toi_lower)) << posed;
-    EXPECT_EQ(impact.toi_lower, below(impact.toi_upper)) << posed;
-  }
-  const Rational u(impact.u), v(impact.v);
-  EXPECT_TRUE(u >= 0 && v >= 0) << posed;
-  EXPECT_TRUE(posed.kind == Kind::vertex_face ? u + v <= 1 : u <= 1 && v <= 1) << posed;
-}
-
-/// Verdict and enclosure against the oracle.
-void expect_truth(const PosedQuery& posed, const Separation& separation) {
-  const exact::Verdict truth = exact::decide(posed.kind, posed.query, separation);
-  const auto impact = decide(posed, separation);
-  ASSERT_EQ(impact.has_value(), truth.collides())
-      << posed << ' ' << to_string(separation.norm) << ' ' << separation.distance;
-  if (impact) expect_impact(posed, *impact, *truth.toi);
-}
-
-void expect_truth(const PosedQuery& posed) {
-  for (const Norm norm : norms) {
-    for (const double distance : distances) expect_truth(posed, {distance, norm});
-  }
-}
-
-/// Draws a norm and a distance.
-Separation draw(Random& random) {
-  return {distances[random.bits() % distances.size()], norms[random.bits() % norms.size()]};
-}
-
-TEST(SeparatedDecision, AgreesWithTheOracleOnRandomQueries) {
-  Random random(1);
-  for (int i = 0; i < 12; ++i) {
-    for (const tests::Family family : tests::all_families) {
-      expect_truth(tests::random_query(random, kinds[static_cast<std::size_t>(i) % 2], family));
-    }
-    if (HasFailure()) return;
-  }
-}
-
-TEST(SeparatedDecision, AgreesWithTheOracleOnAllFamilies) {
-  Random random(2);
-  for (const verify::generate::Family& family : verify::generate::families()) {
-    for (const Kind kind : kinds) {
-      if (!verify::generate::supports(family, kind)) continue;
-      for (std::uint64_t i = 0; i < 2; ++i) {
-        SCOPED_TRACE(std::string(family.name) + ' ' + std::to_string(i));
-        expect_truth({kind, verify::generate::make_query(family, kind, 3, i).query}, draw(random));
-        if (HasFailure()) return;
-      }
-    }
-  }
-}
-
-TEST(SeparatedDecision, AgreesWithTheOracleOnPublicQueries) {
-  constexpr std::uint64_t stride = 40;
-  const auto files = tests::public_datasets();
-  if (files.empty()) GTEST_SKIP() << "public data missing";
-  Random random(3);
-  for (const auto& file : files) {
-    SCOPED_TRACE(file);
-    const auto source = verify::data::open_dataset(file);
-    while (const auto recorded = source->next()) {
-      if (recorded->index % stride != 0) continue;
-      expect_truth({source->kind(), recorded->query}, draw(random));
-    }
-  }
-}
-
-TEST(SeparatedDecision, AgreesWithTheOracleOnSmallIntegersAtDistancesOfTheirSize) {
-  Random random(4);
-  constexpr std::array<double, 4> sizes{0.5, 1.0, 0.8, 3.0};
-  for (int i = 0; i < 600; ++i) {
-    const PosedQuery posed{kinds[random.bits() % 2], tests::integer_query(random, 4)};
-    expect_truth(posed, {sizes[random.bits() % sizes.size()], norms[random.bits() % 2]});
-    if (HasFailure()) return;
-  }
+/// Within the separation for the first time, between neighbouring doubles.
+void expect_truth(const PosedQuery& posed, const CertifiedResult& result,
+                  const Separation& separation) {
+  const CertifiedOptions options{.toi_tolerance = 0.0, .separation = separation};
+  EXPECT_EQ(tests::fault(posed.kind, posed.query, result, options).value_or(""), "") << posed;
 }
 
 // ---- Known by construction ----------------------------------------------------------------------
@@ -204,24 +122,6 @@ TEST(SeparatedDecision, NearestParametersAreThoseOfTheCorner) {
   EXPECT_EQ(edges->v, 0.25);
 }
 
-TEST(SeparatedDecision, APowerOfTwoChangesNothing) {
-  Random random(5);
-  for (int i = 0; i < 200; ++i) {
-    const PosedQuery posed{kinds[random.bits() % 2], tests::integer_query(random, 4)};
-    const Norm norm = norms[random.bits() % 2];
-    const auto expected = decide(posed, {1.5, norm});
-    for (const double scale : {2.0 * denorm_min, 0x1p1000}) {
-      PosedQuery scaled = posed;
-      for (double& x : scaled.query.coordinates) x *= scale;
-      const auto impact = decide(scaled, {1.5 * scale, norm});
-      ASSERT_EQ(impact.has_value(), expected.has_value()) << posed;
-      if (!impact) continue;
-      EXPECT_EQ(impact->toi_lower, expected->toi_lower) << posed;
-      EXPECT_EQ(impact->toi_upper, expected->toi_upper) << posed;
-    }
-  }
-}
-
 TEST(SeparatedDecision, DistancesOfTheWholeRangeCount) {
   constexpr double largest = std::numeric_limits<double>::max();
   for (const Kind kind : kinds) {
@@ -248,47 +148,14 @@ TEST(SeparatedDecision, SubnormalTimesAreEnclosedByOneSpacing) {
       for (const int k : {1, 3, 1000}) {
         const PosedQuery posed = over(kind, 1.0 + k * 0x1p-52, -0x1p1000);
         const Separation one{1.0, norm};
-        const exact::Verdict truth = exact::decide(kind, posed.query, one);
-        ASSERT_TRUE(truth.collides());
         for (const double tolerance : {0.0, 1e-12, 0.1}) {
-          const auto impact = decide_exactly(kind, posed.query, one, tolerance, 1.0);
-          ASSERT_TRUE(impact.has_value());
-          ASSERT_LT(impact->toi_upper, std::numeric_limits<double>::min());
-          expect_impact(posed, *impact, *truth.toi);
+          const CertifiedResult result = tests::exact_result(
+              kind, posed.query, {.toi_tolerance = tolerance, .separation = one});
+          ASSERT_LT(result.toi_upper, std::numeric_limits<double>::min());
+          expect_truth(posed, result, one);
         }
       }
     }
-  }
-}
-
-// ---- Relations ----------------------------------------------------------------------------------
-
-/// Is what `nearer` found also found, and not later, by `farther`?
-void expect_not_later(const std::optional<ExactImpact>& farther,
-                      const std::optional<ExactImpact>& nearer) {
-  if (!nearer) return;
-  ASSERT_TRUE(farther.has_value());
-  EXPECT_LE(farther->toi_upper, nearer->toi_upper);
-}
-
-TEST(SeparatedDecision, GreaterDistancesAndTheLargerBallAreReachedNotLater) {
-  Random random(6);
-  constexpr std::array<double, 5> rising{0.0, 1e-100, 1e-9, 0.25, 1.0};
-  for (int i = 0; i < 100; ++i) {
-    const PosedQuery posed =
-        tests::random_query(random, kinds[static_cast<std::size_t>(i) % 2],
-                            tests::all_families[random.bits() % tests::all_families.size()]);
-    std::array<std::optional<ExactImpact>, 2> before;
-    for (const double distance : rising) {
-      std::array<std::optional<ExactImpact>, 2> now;
-      for (std::size_t k = 0; k < 2; ++k) {
-        now[k] = decide(posed, {distance, norms[k]});
-        expect_not_later(now[k], before[k]);
-      }
-      expect_not_later(now[0], now[1]);
-      before = now;
-    }
-    ASSERT_FALSE(HasFailure()) << posed;
   }
 }
 
@@ -318,11 +185,10 @@ PosedQuery dipping_query() {
 TEST(SeparatedDecision, DipsBeforeASeparatorsEndCount) {
   const PosedQuery dipping = dipping_query();
   const Separation separation{2.0, Norm::linf};
-  const auto truth = exact::decide(dipping.kind, dipping.query, separation);
-  ASSERT_TRUE(truth.collides());
-  const auto impact = decide(dipping, separation);
-  ASSERT_TRUE(impact.has_value());
-  expect_impact(dipping, *impact, *truth.toi);
+  const CertifiedOptions options{.toi_tolerance = 0.0, .separation = separation};
+  const CertifiedResult result = tests::exact_result(dipping.kind, dipping.query, options);
+  EXPECT_EQ(result.verdict, Verdict::yes);
+  expect_truth(dipping, result, separation);
 }
 
 // ---- Work ---------------------------------------------------------------------------------------

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cfenv>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -17,6 +15,7 @@
 
 #include "exact/oracle.hpp"
 #include "tests/faults/planted_faults.hpp"
+#include "tests/support/certified.hpp"
 #include "tests/support/queries.hpp"
 #include "tests/support/trials.hpp"
 #include "verify/generate/families.hpp"
@@ -32,79 +31,10 @@ using tests::Random;
 constexpr std::array<Kind, 2> kinds{Kind::vertex_face, Kind::edge_edge};
 constexpr std::array<double, 4> tolerances{0.0, 1e-12, 0.1, 1e300};
 
-double below(double x) { return std::nextafter(x, 0.0); }
-
-/// Is the enclosure as promised?
-void expect_enclosure(const PosedQuery& posed, const exact::AlgebraicNumber& toi,
-                      const ExactImpact& impact, double tolerance) {
-  const Rational lower(impact.toi_lower), upper(impact.toi_upper);
-  if (toi == Rational(0)) {
-    EXPECT_TRUE(impact.toi_lower == 0.0 && impact.toi_upper == 0.0) << posed;
-    return;
-  }
-  EXPECT_TRUE(toi > lower && toi <= upper) << posed << impact.toi_lower << ' ' << impact.toi_upper;
-  const Rational spacing = upper - Rational(below(impact.toi_upper));
-  EXPECT_LE(Rational(upper - lower), std::max(spacing, Rational(Rational(tolerance) * upper)))
-      << posed;
-  if (tolerance == 0.0) {
-    EXPECT_EQ(impact.toi_lower, below(impact.toi_upper)) << posed;
-  }
-}
-
-/// Is (u,v) in the domain, and F(toi,u,v) near 0 on every axis, relative to its coordinates? By
-/// toi_upper F has moved on: corners are differences of coordinates, at most 4 of these apart.
-void expect_contact(const PosedQuery& posed, const ExactImpact& impact) {
-  const Rational u(impact.u), v(impact.v);
-  EXPECT_TRUE(u >= 0 && v >= 0) << posed;
-  const bool face = posed.kind == Kind::vertex_face;
-  EXPECT_TRUE(face ? u + v <= 1 : u <= 1 && v <= 1) << posed << impact.u << ' ' << impact.v;
-  const auto f =
-      contact_function<Rational>(posed.kind, posed.query, Rational(impact.toi_upper), u, v);
-  const Rational moved = 4 * (Rational(impact.toi_upper) - Rational(impact.toi_lower));
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Rational largest = 0;
-    for (std::size_t i = 0; i < query_points; ++i) {
-      largest = std::max(
-          largest,
-          Rational(abs(Rational(posed.query.at(i / moving_points, i % moving_points, axis)))));
-    }
-    EXPECT_LE(abs(f[axis]), largest * (exact::power_of_two(-43) + moved)) << posed;
-  }
-}
-
-/// Verdict, enclosure, contact, and t_max around the time of impact, all against the oracle.
 void expect_truth(const PosedQuery& posed, double tolerance) {
-  const exact::Verdict truth = exact::decide(posed.kind, posed.query);
-  const auto impact = decide_exactly(posed.kind, posed.query, tolerance, 1.0);
-  ASSERT_EQ(impact.has_value(), truth.collides()) << posed;
-  if (!impact) return;
-  expect_enclosure(posed, *truth.toi, *impact, tolerance);
-  if (tolerance <= 1e-12) expect_contact(posed, *impact);
-  const auto collides_until = [&](double t_max) {
-    return decide_exactly(posed.kind, posed.query, tolerance, t_max).has_value();
-  };
-  EXPECT_TRUE(collides_until(impact->toi_upper)) << posed;
-  if (impact->toi_upper == 0.0) return;
-  EXPECT_FALSE(collides_until(impact->toi_lower)) << posed;
-  const exact::DoubleInterval cell = truth.toi->enclosure();
-  EXPECT_TRUE(collides_until(cell.upper)) << posed;
-  EXPECT_FALSE(collides_until(below(cell.upper))) << posed;
-}
-
-TEST(ExactStage, AgreesWithTheOracleOnAllFamilies) {
-  constexpr std::uint64_t count = tests::trials(200U);
-  std::size_t turn = 0;
-  for (const verify::generate::Family& family : verify::generate::families()) {
-    for (const Kind kind : kinds) {
-      if (!verify::generate::supports(family, kind)) continue;
-      for (std::uint64_t i = 0; i < count; ++i) {
-        SCOPED_TRACE(std::string(family.name) + ' ' + std::to_string(i));
-        expect_truth({kind, verify::generate::make_query(family, kind, 1, i).query},
-                     tolerances[turn++ % tolerances.size()]);
-        if (HasFailure()) return;
-      }
-    }
-  }
+  const CertifiedOptions options{.toi_tolerance = tolerance};
+  const CertifiedResult result = tests::exact_result(posed.kind, posed.query, options);
+  EXPECT_EQ(tests::fault(posed.kind, posed.query, result, options).value_or(""), "") << posed;
 }
 
 TEST(ExactStage, KnowsTheTruthOfTheFamiliesByConstruction) {
@@ -120,85 +50,6 @@ TEST(ExactStage, KnowsTheTruthOfTheFamiliesByConstruction) {
         EXPECT_TRUE(*known.toi > Rational(impact->toi_lower) || impact->toi_upper == 0.0);
       }
     }
-  }
-}
-
-void expect_truth_of_integers(int bound, std::uint64_t seed, int count) {
-  Random random(seed);
-  for (int i = 0; i < count; ++i) {
-    const PosedQuery posed{kinds[static_cast<std::size_t>(i) % 2],
-                           tests::integer_query(random, bound)};
-    expect_truth(posed, tolerances[static_cast<std::size_t>(i) % tolerances.size()]);
-    if (testing::Test::HasFailure()) return;
-  }
-}
-
-TEST(ExactStage, AgreesWithTheOracleOnTinyIntegers) {
-  expect_truth_of_integers(1, 3, tests::trials(10000));
-}
-
-TEST(ExactStage, AgreesWithTheOracleOnSmallIntegers) {
-  expect_truth_of_integers(2, 4, tests::trials(20000));
-}
-
-TEST(ExactStage, AgreesWithTheOracleOnFullSignificands) {
-  Random random(5);
-  for (int i = 0; i < tests::trials(1500); ++i) {
-    const Kind kind = kinds[static_cast<std::size_t>(i) % 2];
-    for (const auto family : {tests::Family::full_significands, tests::Family::near_contact}) {
-      expect_truth(tests::random_query(random, kind, family),
-                   tolerances[static_cast<std::size_t>(i) % tolerances.size()]);
-    }
-    if (HasFailure()) return;
-  }
-}
-
-TEST(ExactStage, AgreesWithTheOracleOnSmallIntegersPerturbedInTheLastPlace) {
-  Random random(6);
-  for (int i = 0; i < tests::trials(2000); ++i) {
-    PosedQuery posed{kinds[static_cast<std::size_t>(i) % 2], tests::integer_query(random, 2)};
-    for (double& x : posed.query.coordinates) {
-      if (random.between(0, 3) == 0) x = std::nextafter(x, random.coin() ? 4.0 : -4.0);
-    }
-    expect_truth(posed, tolerances[static_cast<std::size_t>(i) % tolerances.size()]);
-    if (HasFailure()) return;
-  }
-}
-
-TEST(ExactStage, AgreesWithTheOracleOnMagnitudesOfTheWholeRange) {
-  Random random(7);
-  for (int i = 0; i < 40; ++i) {
-    PosedQuery posed{kinds[static_cast<std::size_t>(i) % 2], {}};
-    for (double& x : posed.query.coordinates) x = random.finite_double();
-    expect_truth(posed, 0.0);
-    if (HasFailure()) return;
-  }
-}
-
-TEST(ExactStage, AgreesWithTheOracleOnDegeneraciesOfMixedMagnitudes) {
-  Random random(8);
-  constexpr std::array<double, 6> values{0.0, 1.0, 5e-324, 1e308, -1e308, 0x1p-600};
-  for (int i = 0; i < tests::trials(200); ++i) {
-    PosedQuery posed{kinds[static_cast<std::size_t>(i) % 2], {}};
-    for (double& x : posed.query.coordinates) {
-      x = values[random.bits() % values.size()];
-      if (random.coin()) x = random.between(-1, 1);
-    }
-    tests::degenerate(random, posed.query);
-    const bool finite =
-        std::ranges::all_of(posed.query.coordinates, [](double x) { return std::isfinite(x); });
-    if (finite) expect_truth(posed, tolerances[static_cast<std::size_t>(i) % 2]);
-    if (HasFailure()) return;
-  }
-}
-
-TEST(ExactStage, AgreesWithTheOracleOnSubnormals) {
-  Random random(9);
-  for (int i = 0; i < tests::trials(1000); ++i) {
-    PosedQuery posed{kinds[static_cast<std::size_t>(i) % 2], tests::integer_query(random, 3)};
-    for (double& x : posed.query.coordinates) x *= std::numeric_limits<double>::denorm_min();
-    expect_truth(posed, 0.0);
-    if (HasFailure()) return;
   }
 }
 
@@ -229,53 +80,6 @@ TEST(ExactStage, AnIrrationalTimeOfImpactIsBetweenNeighbours) {
   EXPECT_NEAR(impact->toi_upper, toi, 1e-15);
   expect_truth(posed, 0.0);
 }
-
-/// The result in another rounding mode.
-std::optional<ExactImpact> decide_rounding(int mode, const PosedQuery& posed) {
-  const int before = std::fegetround();
-  std::fesetround(mode);
-  const auto result = decide_exactly(posed.kind, posed.query, 0.0, 1.0);
-  std::fesetround(before);
-  return result;
-}
-
-TEST(ExactStage, DoesNotDependOnTheRoundingMode) {
-  Random random(10);
-  for (int i = 0; i < 3000; ++i) {
-    const auto family = tests::all_families[static_cast<std::size_t>(i) % 4];
-    const PosedQuery posed =
-        tests::random_query(random, kinds[static_cast<std::size_t>(i) % 2], family);
-    const auto expected = decide_exactly(posed.kind, posed.query, 0.0, 1.0);
-    for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-      const auto result = decide_rounding(mode, posed);
-      ASSERT_EQ(result.has_value(), expected.has_value()) << posed;
-      if (!result) continue;
-      EXPECT_EQ(result->toi_lower, expected->toi_lower) << posed;
-      EXPECT_EQ(result->toi_upper, expected->toi_upper) << posed;
-      expect_contact(posed, *result);
-    }
-  }
-}
-
-#ifdef __SSE2__
-TEST(ExactStage, DoesNotDependOnFlushedSubnormals) {
-  Random random(11);
-  constexpr unsigned flush_and_zero = 0x8040;
-  for (int i = 0; i < 500; ++i) {
-    PosedQuery posed{kinds[static_cast<std::size_t>(i) % 2], tests::integer_query(random, 3)};
-    for (double& x : posed.query.coordinates) x *= std::numeric_limits<double>::denorm_min();
-    const auto expected = decide_exactly(posed.kind, posed.query, 0.0, 1.0);
-    const unsigned before = __builtin_ia32_stmxcsr();
-    __builtin_ia32_ldmxcsr(before | flush_and_zero);
-    const auto result = decide_exactly(posed.kind, posed.query, 0.0, 1.0);
-    __builtin_ia32_ldmxcsr(before);
-    ASSERT_EQ(result.has_value(), expected.has_value()) << posed;
-    if (!result) continue;
-    EXPECT_EQ(result->toi_lower, expected->toi_lower) << posed;
-    EXPECT_EQ(result->toi_upper, expected->toi_upper) << posed;
-  }
-}
-#endif
 
 // ---- Planted faults -----------------------------------------------------------------------------
 

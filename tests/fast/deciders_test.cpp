@@ -1,0 +1,342 @@
+/// \file
+/// The deciders of the certified solver against the oracle: each of them on each family of queries, at contact and at
+/// separations of all magnitudes in both norms, for all tolerances and times.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fast/certified.hpp"
+#include "fast/primitive_pairs.hpp"
+#include "tests/support/certified.hpp"
+#include "tests/support/public_data.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/trials.hpp"
+#include "verify/data/dataset.hpp"
+#include "verify/generate/families.hpp"
+
+namespace touchstone::fast::deciders_test {
+namespace {
+
+using exact::Rational;
+using tests::PosedQuery;
+using tests::Random;
+
+constexpr double tiniest = std::numeric_limits<double>::denorm_min();
+
+// ---- Deciders -----------------------------------------------------------------------------------
+
+struct Decider {
+  std::string_view name;
+  void (*solve)(Kind, std::span<const Query>, std::span<CertifiedResult>, const CertifiedOptions&);
+  bool knows_the_place;  ///< F is 0 at its (u,v), but for rounding
+
+  [[nodiscard]] CertifiedResult operator()(const PosedQuery& posed,
+                                           const CertifiedOptions& options) const {
+    CertifiedResult result;
+    solve(posed.kind, std::span(&posed.query, 1), std::span(&result, 1), options);
+    return result;
+  }
+};
+
+void solve_exactly(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
+                   const CertifiedOptions& options) {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    results[i] = tests::exact_result(kind, queries[i], options);
+  }
+}
+
+void solve_points(Kind kind, std::span<const Query> queries, std::span<CertifiedResult> results,
+                  const CertifiedOptions& options) {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const auto p = [&](std::size_t end, std::size_t k) { return queries[i].point(end, k); };
+    const auto solve = kind == Kind::vertex_face ? &point_triangle : &edge_edge;
+    results[i] =
+        solve(p(0, 0), p(0, 1), p(0, 2), p(0, 3), p(1, 0), p(1, 1), p(1, 2), p(1, 3), options);
+  }
+}
+
+constexpr std::array<Decider, 3> deciders{{{"certified", &solve, false},
+                                           {"exact stage", &solve_exactly, true},
+                                           {"points", &solve_points, false}}};
+
+// ---- Families of queries ------------------------------------------------------------------------
+
+struct QueryFamily {
+  std::string name;
+  std::size_t count;  ///< for each kind, but of public data all; 0: they are missing
+  std::function<Query(Random&, Kind, std::size_t)> draw;
+
+  friend std::ostream& operator<<(std::ostream& out, const QueryFamily& one) {
+    return out << one.name;
+  }
+};
+
+Query scaled(Query query, int exponent) {
+  for (double& x : query.coordinates) x = std::ldexp(x, exponent);
+  return query;
+}
+
+/// A hit or a miss by a hair, with the coordinates that `is_chosen(axis, point)` far out of scale.
+template <class IsChosen>
+Query out_of_scale(Random& random, Kind kind, const IsChosen& is_chosen) {
+  Query query = tests::near_contact_query(random, kind);
+  const int exponent = random.between(-900, 900);
+  for (std::size_t k = 0; k < query.coordinates.size(); ++k) {
+    if (is_chosen(k % 3, k / 3 % 4)) {
+      query.coordinates.at(k) = std::ldexp(query.coordinates.at(k), exponent);
+    }
+  }
+  return query;
+}
+
+Query of_all_magnitudes(Random& random, Kind kind, std::size_t i) {
+  constexpr std::array exponents{-1080, -1074, -1030, -500, -340, -120, -60,
+                                 60,    99,    120,   340,  1000, 1018};
+  return scaled(
+      i % 2 == 0 ? tests::near_contact_query(random, kind) : tests::integer_query(random, 2),
+      exponents.at(i / 2 % exponents.size()));
+}
+
+Query of_mixed_values(Random& random) {
+  constexpr std::array<double, 6> values{0.0, 1.0, tiniest, 1e308, -1e308, 0x1p-600};
+  for (;;) {
+    Query query{};
+    for (double& x : query.coordinates) {
+      x = random.coin() ? random.between(-1, 1) : values.at(random.bits() % values.size());
+    }
+    tests::degenerate(random, query);
+    if (is_finite(query)) return query;
+  }
+}
+
+Query perturbed(Random& random) {
+  Query query = tests::integer_query(random, 2);
+  for (double& x : query.coordinates) {
+    if (random.between(0, 3) == 0) x = std::nextafter(x, random.coin() ? 4.0 : -4.0);
+  }
+  return query;
+}
+
+/// Small primitives at a distance: differences cancel, and round.
+Query far_from_the_origin(Random& random, Kind kind) {
+  Query query = tests::near_contact_query(random, kind);
+  const double offset = std::ldexp(random.uniform(1.0, 2.0), random.between(0, 52));
+  for (double& x : query.coordinates) x += offset;
+  return query;
+}
+
+/// Each of the families of verify/generate in turn.
+Query built_in(Kind kind, std::size_t i) {
+  const auto families = verify::generate::families();
+  std::size_t number = i % families.size();
+  while (!verify::generate::supports(families[number], kind))
+    number = (number + 1) % families.size();
+  return verify::generate::make_query(families[number], kind, 4, i / families.size()).query;
+}
+
+const std::vector<Query>& public_queries(Kind kind) {
+  static const auto read = [](Kind wanted) {
+    std::vector<Query> queries;
+    for (const auto& file : tests::public_datasets()) {
+      const auto source = verify::data::open_dataset(file);
+      while (source->kind() == wanted) {
+        const auto recorded = source->next();
+        if (!recorded) break;
+        queries.push_back(recorded->query);
+      }
+    }
+    return queries;
+  };
+  static const std::array both{read(Kind::vertex_face), read(Kind::edge_edge)};
+  return both.at(kind == Kind::vertex_face ? 0 : 1);
+}
+
+std::vector<QueryFamily> query_families() {
+  const auto of = [](tests::Family family) {
+    return [family](Random& random, Kind kind, std::size_t) {
+      return tests::random_query(random, kind, family).query;
+    };
+  };
+  return {
+      {"tiny_integers", 4000, of(tests::Family::tiny_integers)},
+      {"small_integers", 6000, of(tests::Family::small_integers)},
+      {"integers", 600, [](Random& r, Kind, std::size_t) { return tests::integer_query(r, 4); }},
+      {"perturbed_integers", 1000, [](Random& r, Kind, std::size_t) { return perturbed(r); }},
+      {"full_significands", 1500, of(tests::Family::full_significands)},
+      {"near_contact", 1500, of(tests::Family::near_contact)},
+      {"all_magnitudes", 1300, of_all_magnitudes},
+      {"one_axis_out_of_scale", 100,
+       [](Random& r, Kind kind, std::size_t i) {
+         return out_of_scale(r, kind, [i](std::size_t axis, std::size_t) { return axis == i % 3; });
+       }},
+      {"one_point_out_of_scale", 100,
+       [](Random& r, Kind kind, std::size_t i) {
+         return out_of_scale(r, kind, [i](std::size_t, std::size_t k) { return k == i % 4; });
+       }},
+      {"finite_doubles", 50,
+       [](Random& r, Kind, std::size_t) {
+         Query query{};
+         for (double& x : query.coordinates) x = r.finite_double();
+         return query;
+       }},
+      {"mixed_values", 200, [](Random& r, Kind, std::size_t) { return of_mixed_values(r); }},
+      {"subnormals", 500,
+       [](Random& r, Kind, std::size_t) { return scaled(tests::integer_query(r, 3), -1074); }},
+      {"far_from_the_origin", 400,
+       [](Random& r, Kind kind, std::size_t) { return far_from_the_origin(r, kind); }},
+      {"built_in", 100 * verify::generate::families().size(),
+       [](Random&, Kind kind, std::size_t i) { return built_in(kind, i); }},
+      {"public_data", tests::public_datasets().size(),
+       [](Random&, Kind kind, std::size_t i) { return public_queries(kind).at(i); }}};
+}
+
+// ---- The suite ----------------------------------------------------------------------------------
+
+/// A thousand times as many in the soak.
+std::size_t scaled(std::size_t count) {
+  const bool soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
+  return tests::trials(soak ? 1000 * count : count);
+}
+
+/// Tolerances and times that queries have in turn.
+constexpr std::array<CertifiedOptions, 12> options_in_turn{{{},
+                                                            {.toi_tolerance = 0.0},
+                                                            {.toi_tolerance = 1e-16},
+                                                            {.t_max = 0.5},
+                                                            {.toi_tolerance = 1e-14},
+                                                            {.toi_tolerance = 1e-9},
+                                                            {.toi_tolerance = 0.25, .t_max = 0.9},
+                                                            {.toi_tolerance = 0.1},
+                                                            {.toi_tolerance = 3.0},
+                                                            {.t_max = 0.125},
+                                                            {.toi_tolerance = 1e300},
+                                                            {.t_max = 0.0}}};
+
+/// From beyond the query's size to far below rounding, and at the ends of the range.
+Separation draw_separation(Random& random, const Query& query) {
+  constexpr std::array<double, 12> fixed{
+      1e-2, 1e-8, 1e-16, 1e-30,   1e-100, 0.5,
+      0.8,  1.0,  3.0,   tiniest, 1e-40,  std::numeric_limits<double>::max()};
+  const Norm norm = random.coin() ? Norm::linf : Norm::l2;
+  const double drawn = fixed.at(random.bits() % fixed.size());
+  if (random.coin()) return {.distance = drawn, .norm = norm};
+  double size = 0.0;
+  for (const double x : query.coordinates) size = std::max(size, std::abs(x));
+  const double distance = std::ldexp(size * random.uniform(0.25, 1.0), -random.between(0, 110));
+  return {.distance = std::max(distance, tiniest), .norm = norm};
+}
+
+/// Is F near 0 on every axis at toi_upper and (u,v), relative to its coordinates? By then F has moved on: corners are
+/// differences of coordinates, at most 4 of these apart.
+void expect_contact_at_place(const PosedQuery& posed, const CertifiedResult& result) {
+  const Rational upper(result.toi_upper);
+  const auto f = contact_function<Rational>(posed.kind, posed.query, upper, Rational(result.u),
+                                            Rational(result.v));
+  const Rational moved = 4 * (upper - Rational(result.toi_lower));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double largest = 0.0;
+    for (std::size_t i = axis; i < posed.query.coordinates.size(); i += 3) {
+      largest = std::max(largest, std::abs(posed.query.coordinates.at(i)));
+    }
+    EXPECT_LE(abs(f[axis]), Rational(largest) * (exact::power_of_two(-43) + moved)) << posed;
+  }
+}
+
+/// Is the result what the oracle says? And does a contact count up to its time exactly?
+void expect_truth(const Decider& decider, const PosedQuery& posed, const exact::Verdict& truth,
+                  const CertifiedResult& result, const CertifiedOptions& options) {
+  const auto wrong = tests::fault(posed.kind, truth, result, options);
+  ASSERT_FALSE(wrong) << decider.name << ": " << *wrong << " [" << name(result.stage) << "] at "
+                      << options.separation.distance << " in " << to_string(options.separation.norm)
+                      << ": " << posed;
+  if (result.verdict != Verdict::yes || options.t_max < 1.0) return;
+  const auto collides_until = [&](double t_max) {
+    CertifiedOptions until = options;
+    until.t_max = t_max;
+    return decider(posed, until).verdict == Verdict::yes;
+  };
+  const double least_time = truth.toi->enclosure().upper;
+  EXPECT_TRUE(collides_until(least_time)) << decider.name << ' ' << posed;
+  if (least_time > 0.0) {
+    EXPECT_FALSE(collides_until(std::nextafter(least_time, 0.0))) << decider.name << ' ' << posed;
+  }
+  const bool is_narrow = is_contact(options.separation) && options.toi_tolerance <= 1e-12;
+  if (decider.knows_the_place && is_narrow) expect_contact_at_place(posed, result);
+}
+
+class Deciders : public testing::TestWithParam<QueryFamily> {
+ protected:
+  void SetUp() override {
+    if (GetParam().count == 0) GTEST_SKIP() << "public data missing";
+  }
+
+  /// All queries of the family, or one in `stride`.
+  static std::vector<Query> draw(Kind kind, std::size_t stride) {
+    const auto& [name, count, draw_one] = GetParam();
+    const std::size_t all = name == "public_data" ? public_queries(kind).size() : scaled(count);
+    Random random(11);
+    std::vector<Query> queries;
+    for (std::size_t i = 0; i < all; i += stride) queries.push_back(draw_one(random, kind, i));
+    return queries;
+  }
+};
+
+TEST_P(Deciders, AreRightAboutContact) {
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const std::vector<Query> queries = draw(kind, 1);
+    for (std::size_t turn = 0; turn < options_in_turn.size(); ++turn) {
+      const CertifiedOptions& options = options_in_turn.at(turn);
+      std::vector<Query> share;
+      std::vector<exact::Verdict> truths;
+      for (std::size_t i = turn; i < queries.size(); i += options_in_turn.size()) {
+        share.push_back(queries[i]);
+        truths.push_back(exact::decide(kind, queries[i]));
+      }
+      std::vector<CertifiedResult> results(share.size());
+      for (const Decider& decider : deciders) {
+        decider.solve(kind, share, results, options);
+        for (std::size_t i = 0; i < share.size(); ++i) {
+          expect_truth(decider, {kind, share[i]}, truths[i], results[i], options);
+          if (HasFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+TEST_P(Deciders, AreRightAtSeparations) {
+  Random random(12);
+  for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
+    const std::vector<Query> queries = draw(kind, 5);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      CertifiedOptions options = options_in_turn.at(i % options_in_turn.size());
+      options.separation = draw_separation(random, queries[i]);
+      const PosedQuery posed{kind, queries[i]};
+      const exact::Verdict truth = exact::decide(kind, queries[i], options.separation);
+      for (const Decider& decider : deciders) {
+        expect_truth(decider, posed, truth, decider(posed, options), options);
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(On, Deciders, testing::ValuesIn(query_families()),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace touchstone::fast::deciders_test

@@ -1,0 +1,298 @@
+/// \file
+/// Whatever the caller's floating-point state is, answers have the bits that they have in the usual one, and the caller's
+/// state stays.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cfenv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "exact/certificate.hpp"
+#include "exact/certificate/certificate_text.hpp"
+#include "exact/oracle.hpp"
+#include "fast/active_set.hpp"
+#include "fast/broad_phase.hpp"
+#include "fast/certified.hpp"
+#include "fast/certified/exact/exact_stage.hpp"
+#include "fast/distance.hpp"
+#include "fast/line_search.hpp"
+#include "fast/primitive_pairs.hpp"
+#include "fast/step.hpp"
+#include "tests/support/queries.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/scenes.hpp"
+
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+namespace touchstone::fast::floating_point_environment_test {
+namespace {
+
+using tests::Random;
+
+// ---- States -------------------------------------------------------------------------------------
+
+struct State {
+  std::string name;
+  std::function<void()> set;
+
+  friend std::ostream& operator<<(std::ostream& out, const State& one) { return out << one.name; }
+};
+
+std::vector<State> states() {
+  std::vector<State> result{{"upward", [] { std::fesetround(FE_UPWARD); }},
+                            {"downward", [] { std::fesetround(FE_DOWNWARD); }},
+                            {"towards_zero", [] { std::fesetround(FE_TOWARDZERO); }}};
+#ifdef __SSE2__
+  const auto add = [&](const char* name, unsigned bits) {
+    result.push_back({name, [bits] { _mm_setcsr(0x1F80U | bits); }});
+  };
+  add("flush_to_zero", 0x8000);
+  add("subnormals_are_zero", 0x0040);
+  add("both", 0x8040);
+  add("both_upward", 0xC040);
+  add("both_with_a_flag_raised", 0x8041);
+#endif
+  return result;
+}
+
+/// The state of this thread: all that is to stay.
+unsigned current_state() {
+#ifdef __SSE2__
+  return _mm_getcsr();
+#else
+  return static_cast<unsigned>(std::fegetround());
+#endif
+}
+
+// ---- Answers ------------------------------------------------------------------------------------
+
+using Bits = std::vector<std::uint64_t>;
+
+void put(Bits& bits, double x) { bits.push_back(std::bit_cast<std::uint64_t>(x)); }
+void put(Bits& bits, std::int32_t x) { bits.push_back(static_cast<std::uint64_t>(x)); }
+void put(Bits& bits, std::size_t x) { bits.push_back(x); }
+void put(Bits& bits, const Distance& x) {
+  put(bits, x.lower);
+  put(bits, x.upper);
+}
+template <class Enumeration>
+requires std::is_enum_v<Enumeration>
+void put(Bits& bits, Enumeration x) { bits.push_back(static_cast<std::uint64_t>(x)); }
+template <class... Several>
+requires(sizeof...(Several) > 1) void put(Bits& bits, const Several&... several) {
+  (put(bits, several), ...);
+}
+void put(Bits& bits, const CertifiedResult& x) {
+  put(bits, x.verdict, x.stage, x.toi_lower, x.toi_upper, x.u, x.v);
+}
+void put(Bits& bits, const StepCollision& x) {
+  put(bits, x.kind, x.pair[0], x.pair[1], x.toi_lower, x.toi_upper, x.u, x.v);
+}
+void put(Bits& bits, const std::vector<IndexPair>& pairs) {
+  for (const IndexPair& pair : pairs) put(bits, pair[0], pair[1]);
+}
+
+/// Hits and misses by a hair, degenerate ones, and subnormals, which a caller that flushes them would lose.
+std::vector<Query> queries(Kind kind, std::size_t count = 300) {
+  Random random(29);
+  std::vector<Query> result(count);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] =
+        i % 3 == 0 ? tests::integer_query(random, 2) : tests::near_contact_query(random, kind);
+    if (i % 5 != 0) continue;
+    for (double& x : result[i].coordinates) x = std::ldexp(x, -1060);
+  }
+  return result;
+}
+
+/// Calls ask(kind, query, separation) for them at contact and at separations in both norms.
+template <class Ask>
+std::function<Bits()> of_queries(const Ask& ask, std::size_t count) {
+  return [ask, faces = queries(Kind::vertex_face, count), edges = queries(Kind::edge_edge, count)] {
+    Bits bits;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      for (const Separation& separation :
+           {Separation{}, Separation{.distance = 1e-3, .norm = Norm::linf},
+            Separation{.distance = i % 2 == 0 ? 1e-3 : 0x1p-1070, .norm = Norm::l2}}) {
+        ask(bits, Kind::vertex_face, faces[i], separation);
+        ask(bits, Kind::edge_edge, edges[i], separation);
+      }
+    }
+    return bits;
+  };
+}
+
+void ask_oracle(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
+  const exact::Verdict verdict = exact::decide(kind, query, separation);
+  put(bits, std::size_t{verdict.collides()});
+  if (!verdict.collides()) return;
+  const exact::DoubleInterval toi = verdict.toi->enclosure();
+  put(bits, toi.lower, toi.upper);
+}
+
+void ask_prover(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
+  const auto verdict = exact::decide(kind, query, separation);
+  const std::string text = exact::certificate_stream(exact::prove(kind, query, verdict));
+  put(bits, std::hash<std::string>()(text));
+}
+
+void ask_exact_stage(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
+  const auto impact = decide_exactly(kind, query, separation, 0.0, 1.0);
+  put(bits, std::size_t{impact.has_value()});
+  if (impact) put(bits, impact->toi_lower, impact->toi_upper);
+}
+
+std::function<Bits()> of_batches() {
+  return [faces = queries(Kind::vertex_face), edges = queries(Kind::edge_edge)] {
+    Bits bits;
+    for (const int threads : {1, 3}) {
+      std::vector<CertifiedResult> results(faces.size());
+      for (const double distance : {0.0, 1e-3}) {
+        const CertifiedOptions options{.separation = {.distance = distance, .norm = Norm::l2},
+                                       .max_threads = threads};
+        solve(Kind::vertex_face, faces, results, options);
+        for (const CertifiedResult& result : results) put(bits, result);
+        solve(Kind::edge_edge, edges, results, options);
+        for (const CertifiedResult& result : results) put(bits, result);
+      }
+      std::vector<Distance> apart(faces.size());
+      for (const Norm norm : {Norm::l2, Norm::linf}) {
+        distances(Kind::vertex_face, faces, 0.5, norm, apart, threads);
+        for (const Distance& one : apart) put(bits, one);
+      }
+    }
+    return bits;
+  };
+}
+
+/// All that a step tells, of vertices in double or of the same in float.
+void ask_step(Bits& bits, const Step& step) {
+  for (const StepCollision& one : step.collisions()) put(bits, one);
+  if (const auto impact = step.earliest()) put(bits, impact->toi_lower, impact->toi_upper);
+  put(bits, std::size_t{step.is_free()}, step.free_step_size().value_or(-1.0));
+  if (const auto least = least_distance(step)) put(bits, least->distance);
+  for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
+    const auto limit = line_search_limit(step, 0.5, {.start_distance = start});
+    put(bits, limit.status, limit.step_size, limit.distance);
+  }
+  for (const ActiveContact& one : active_set(step, 0x1p-130)) {
+    put(bits, static_cast<const StepCollision&>(one));
+    for (const Eigen::Vector3d& x : {one.first, one.second, one.normal}) {
+      put(bits, x[0], x[1], x[2]);
+    }
+  }
+}
+
+std::function<Bits()> of_steps() {
+  Random random(30);
+  std::vector<tests::Scene> scenes;
+  for (const tests::Shape& shape : tests::shapes()) {
+    for (int i = 0; i < 4; ++i) scenes.push_back(tests::random_scene(random, shape, 9));
+  }
+  return [scenes] {
+    Bits bits;
+    for (const tests::Scene& scene : scenes) ask_step(bits, scene.step());
+    return bits;
+  };
+}
+
+/// Of subnormal floats, which are no subnormals in double.
+std::function<Bits()> of_floats() {
+  Random random(31);
+  std::vector<std::pair<tests::Scene, std::array<Eigen::MatrixX3f, 2>>> scenes;
+  for (int i = 0; i < 30; ++i) {
+    tests::Scene scene = tests::random_scene(random, tests::shapes()[2], 9);
+    scenes.push_back({scene,
+                      {Eigen::MatrixX3f((scene.start * 0x1p-135).cast<float>()),
+                       Eigen::MatrixX3f((scene.end * 0x1p-135).cast<float>())}});
+  }
+  return [scenes] {
+    Bits bits;
+    for (const auto& [scene, places] : scenes) {
+      const auto& [start, end] = places;
+      ask_step(bits, Step(start, end, scene.elements()));
+      put(bits, edge_edge(start.row(0), start.row(1), start.row(2), start.row(3), end.row(0),
+                          end.row(1), end.row(2), end.row(3)));
+    }
+    return bits;
+  };
+}
+
+std::function<Bits()> of_broad_phase() {
+  Random random(18);
+  std::vector<tests::Scene> scenes;
+  for (const tests::Shape& shape : tests::shapes()) {
+    scenes.push_back(tests::random_scene(random, shape, 60));
+  }
+  return [scenes] {
+    Bits bits;
+    for (const tests::Scene& scene : scenes) {
+      const MovingVertices vertices(scene.start, scene.end);
+      for (const double separation : {0.0, 0.1, 0x1.8p-1073}) {
+        const BroadPhaseOptions options{.min_separation = separation};
+        put(bits, vertex_face_candidates(vertices, scene.faces, options));
+        put(bits, edge_edge_candidates(vertices, scene.edges, options));
+      }
+    }
+    return bits;
+  };
+}
+
+struct Answers {
+  std::string name;
+  std::function<Bits()> ask;
+
+  friend std::ostream& operator<<(std::ostream& out, const Answers& one) { return out << one.name; }
+};
+
+std::vector<Answers> all_answers() {
+  return {{"oracle", of_queries(ask_oracle, 40)},
+          {"prover", of_queries(ask_prover, 15)},
+          {"exact_stage", of_queries(ask_exact_stage, 300)},
+          {"batches", of_batches()},
+          {"steps", of_steps()},
+          {"floats", of_floats()},
+          {"broad_phase", of_broad_phase()}};
+}
+
+class FloatingPointEnvironment : public testing::TestWithParam<std::tuple<Answers, State>> {};
+
+TEST_P(FloatingPointEnvironment, DoesNotMatterAndStays) {
+  const auto& [answers, state] = GetParam();
+  const Bits usual = answers.ask();
+  EXPECT_FALSE(usual.empty());
+  std::fenv_t callers;
+  std::fegetenv(&callers);
+  state.set();
+  const unsigned before = current_state();
+  const Bits other = answers.ask();
+  const unsigned after = current_state();
+  std::fesetenv(&callers);
+  EXPECT_TRUE(other == usual);
+  constexpr unsigned flags = 0x3F;  // which arithmetic of the caller's own may raise
+  EXPECT_EQ(after & ~flags, before & ~flags);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, FloatingPointEnvironment,
+                         testing::Combine(testing::ValuesIn(all_answers()),
+                                          testing::ValuesIn(states())),
+                         [](const auto& info) {
+                           return std::get<0>(info.param).name + "_with_" +
+                                  std::get<1>(info.param).name;
+                         });
+
+}  // namespace
+}  // namespace touchstone::fast::floating_point_environment_test

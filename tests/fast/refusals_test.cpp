@@ -1,0 +1,167 @@
+/// \file
+/// Numbers out of range: every function that takes one refuses it.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fast/active_set.hpp"
+#include "fast/broad_phase.hpp"
+#include "fast/certified.hpp"
+#include "fast/distance.hpp"
+#include "fast/line_search.hpp"
+#include "fast/primitive_pairs.hpp"
+#include "fast/step.hpp"
+#include "tests/support/queries.hpp"
+
+namespace touchstone::fast::refusals_test {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// What is no distance or tolerance, no time or share of a step, no number of threads.
+const std::vector<double> no_distance{-1.0, -1e-300, infinity, nan},
+    no_time{-0.5, -1e-300, 1.5, nan}, no_count{-1.0};
+
+struct Refusal {
+  std::string name;
+  std::vector<double> bad;
+  std::function<void(double)> call;
+
+  friend std::ostream& operator<<(std::ostream& out, const Refusal& one) { return out << one.name; }
+};
+
+/// A vertex that falls onto a triangle, as all functions take it.
+const tests::PosedQuery posed = tests::over_triangle(1, 1, 1, -1);
+
+Step step(const StepOptions& options = {}) {
+  Eigen::MatrixX3d before(4, 3), after(4, 3);
+  before << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1;
+  after = before;
+  after(3, 2) = -1;
+  static const std::vector<Face> faces{{0, 1, 2}};
+  static const std::vector<std::int32_t> points{3};
+  return {before, after, {.edges = {}, .faces = faces, .points = points}, options};
+}
+
+void solve_one(const CertifiedOptions& options) {
+  CertifiedResult result;
+  solve(posed.kind, std::span(&posed.query, 1), std::span(&result, 1), options);
+}
+
+/// All that takes the options of the certified solver, with one of them changed.
+template <class Change>
+std::vector<Refusal> of_solver(const std::string& name, const std::vector<double>& bad,
+                               const Change& change) {
+  const auto with = [change](const auto& use) {
+    return [=](double x) { use(change(CertifiedOptions{}, x)); };
+  };
+  return {{name + "_of_certified", bad,
+           with([](const auto& o) { (void)certified(posed.kind, posed.query, o); })},
+          {name + "_of_solve", bad, with(solve_one)},
+          {name + "_of_collisions", bad, with([](const auto& o) {
+             (void)collisions(posed.kind, std::span(&posed.query, 1), o);
+           })},
+          {name + "_of_points", bad, with([](const auto& o) {
+             const Eigen::Vector3d at(1, 2, 3);
+             (void)point_point(at, at, at, at, o);
+           })},
+          {name + "_of_step", bad, with([](const auto& o) {
+             (void)step({.separation = o.separation,
+                         .toi_tolerance = o.toi_tolerance,
+                         .t_max = o.t_max,
+                         .max_threads = o.max_threads});
+           })}};
+}
+
+std::vector<Refusal> refusals() {
+  std::vector<Refusal> all{
+      {"separation_of_another_step", no_distance,
+       [](double x) { (void)step().with_separation({.distance = x}); }},
+      {"eta_of_active_set", no_distance, [](double x) { (void)active_set(step(), x); }},
+      {"separation_of_broad_phase", no_distance,
+       [](double x) {
+         (void)edge_edge_candidates(step().vertices(), step().edges(), {.min_separation = x});
+       }},
+      {"threads_of_broad_phase", no_count,
+       [](double x) {
+         (void)edge_edge_candidates(step().vertices(), step().edges(),
+                                    {.max_threads = static_cast<int>(x)});
+       }},
+      {"time_of_contact", no_time,
+       [](double x) {
+         (void)contact_at(step(), PairKind::vertex_face, {3, 0}, x);
+       }},
+      {"time_of_distance", no_time, [](double x) { (void)distance(posed.kind, posed.query, x); }},
+      {"time_of_least_distance", no_time, [](double x) { (void)least_distance(step(), x); }},
+      {"threads_of_distances", no_count,
+       [](double x) {
+         Distance result;
+         distances(posed.kind, std::span(&posed.query, 1), 0.0, Norm::l2, std::span(&result, 1),
+                   static_cast<int>(x));
+       }},
+      {"size_of_scaled_step", no_time, [](double x) { (void)step().scaled(x); }},
+      {"share_of_line_search", {0.0, -0.5, 1.0, 1.0 - 0x1p-52, nan}, [](double x) {
+         (void)line_search_limit(step(), x);
+       }}};
+  const auto add = [&](std::vector<Refusal> some) {
+    all.insert(all.end(), some.begin(), some.end());
+  };
+  add(of_solver("separation", no_distance, [](CertifiedOptions options, double x) {
+    options.separation.distance = x;
+    return options;
+  }));
+  add(of_solver("tolerance", no_distance, [](CertifiedOptions options, double x) {
+    options.toi_tolerance = x;
+    return options;
+  }));
+  add(of_solver("t_max", no_time, [](CertifiedOptions options, double x) {
+    options.t_max = x;
+    return options;
+  }));
+  add(of_solver("threads", no_count, [](CertifiedOptions options, double x) {
+    options.max_threads = static_cast<int>(x);
+    return options;
+  }));
+  return all;
+}
+
+class Refused : public testing::TestWithParam<Refusal> {};
+
+TEST_P(Refused, OutOfRange) {
+  for (const double bad : GetParam().bad) {
+    EXPECT_THROW(GetParam().call(bad), std::invalid_argument) << bad;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Is, Refused, testing::ValuesIn(refusals()),
+                         [](const auto& info) { return info.param.name; });
+
+/// Spans of results that do not fit the queries.
+TEST(Refusals, OfSpansOfOtherLengths) {
+  std::vector<CertifiedResult> results(2);
+  EXPECT_THROW(solve(posed.kind, std::span(&posed.query, 1), results), std::invalid_argument);
+  std::vector<Distance> apart(2);
+  EXPECT_THROW(distances(posed.kind, std::span(&posed.query, 1), 0.0, Norm::l2, apart),
+               std::invalid_argument);
+}
+
+TEST(Refusals, OfDistancesOfWhatIsNotFinite) {
+  Query query = posed.query;
+  query.coordinates[5] = infinity;
+  Distance apart;
+  EXPECT_THROW((void)distance(posed.kind, query, 0.5), std::domain_error);
+  EXPECT_THROW(distances(posed.kind, std::span(&query, 1), 0.0, Norm::l2, std::span(&apart, 1)),
+               std::domain_error);
+}
+
+}  // namespace
+}  // namespace touchstone::fast::refusals_test

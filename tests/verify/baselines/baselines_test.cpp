@@ -1,0 +1,215 @@
+/// \file
+/// The published methods side by side: what each answers to the printed queries and to plain ones, which options it heeds, and
+/// how many of the public queries it misses and makes up. (Each one's known defects: the file of its name.)
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "tests/support/verdict_scores.hpp"
+#include "verify/baselines/accd.hpp"
+#include "verify/baselines/bsc.hpp"
+#include "verify/baselines/fprf.hpp"
+#include "verify/baselines/irf.hpp"
+#include "verify/baselines/msrf.hpp"
+#include "verify/baselines/rp.hpp"
+#include "verify/baselines/rrp.hpp"
+#include "verify/baselines/tccd.hpp"
+#include "verify/baselines/uirf.hpp"
+
+namespace touchstone::baselines::baselines_test {
+namespace {
+
+using fast::Promise;
+using fast::Verdict;
+using tests::answer_to;
+using tests::over_edge;
+using tests::over_triangle;
+using tests::PosedQuery;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// An answer to a printed query: a verdict, and between which times its toi_lower is.
+struct Said {
+  Verdict verdict;
+  double from = -infinity, to = infinity;
+};
+
+/// Misses and made-up collisions on the public data of a folder.
+struct Wrong {
+  int missed_faces, invented_faces, missed_edges, invented_edges;
+};
+
+struct Baseline {
+  std::string_view name;
+  std::unique_ptr<fast::Method> (*make)();
+  Promise promise;
+  Said hourglass, inflection, coplanar;
+  bool counts_up_to_t_max;
+  Wrong handcrafted, simulation;
+  fast::MethodOptions on_public_data = {};
+  std::uint64_t stride = 1;
+};
+
+constexpr Verdict yes = Verdict::yes, no = Verdict::no;
+constexpr fast::MethodOptions short_search{.max_checks = 2000};
+constexpr double coplanar_toi = 0.07 / 0.29;
+
+const std::array<Baseline, 9> all_baselines{
+    {{"accd",
+      accd_method,
+      Promise::none,
+      {yes, 0, 0.9},
+      {yes},
+      {yes, 0, coplanar_toi},
+      true,
+      {0, 0, 0, 0},
+      {0, 0, 0, 0},
+      {.max_checks = 10000}},
+     {"bsc", bsc_method, Promise::none, {yes}, {yes}, {no}, false, {3, 28, 2, 4}, {0, 0, 0, 0}},
+     {"fprf",
+      fprf_method,
+      Promise::none,
+      {yes, 0.499999, 0.500001},
+      {no},
+      {yes, coplanar_toi - 1e-6, coplanar_toi + 1e-6},
+      true,
+      {0, 0, 0, 0},
+      {0, 0, 0, 0}},
+     {"irf",
+      irf_method,
+      Promise::conservative,
+      {yes},
+      {no},
+      {yes},
+      true,
+      {0, 0, 0, 0},
+      {0, 0, 0, 0},
+      short_search,
+      16},
+     {"msrf", msrf_method, Promise::none, {no}, {no}, {no}, true, {0, 0, 0, 0}, {0, 0, 0, 0}},
+     {"rp", rp_method, Promise::none, {yes}, {no}, {yes}, false, {0, 1, 0, 1}, {0, 0, 0, 0}},
+     {"rrp", rrp_method, Promise::none, {yes}, {no}, {yes}, false, {0, 0, 0, 0}, {0, 0, 0, 0}},
+     {"tccd",
+      tccd_method,
+      Promise::none,
+      {yes},
+      {no},
+      {yes},
+      false,
+      {0, 288, 0, 192},
+      {0, 0, 0, 0}},
+     {"uirf",
+      uirf_method,
+      Promise::conservative,
+      {yes},
+      {no},
+      {yes, coplanar_toi - 1e-3, coplanar_toi + 1e-3},
+      true,
+      {0, 0, 0, 0},
+      {0, 0, 0, 0},
+      short_search,
+      16}}};
+
+class Baselines : public testing::TestWithParam<const Baseline*> {
+ protected:
+  const Baseline& baseline = *GetParam();
+  std::unique_ptr<fast::Method> method = baseline.make();
+
+  Verdict verdict(const PosedQuery& posed, const fast::MethodOptions& options = {}) const {
+    return answer_to(*method, posed, options).verdict;
+  }
+
+  void expect_said(const char* family, const Said& said) const {
+    const fast::Answer answer =
+        answer_to(*method, tests::printed_query(family), {.tolerance = 1e-4});
+    EXPECT_EQ(answer.verdict, said.verdict) << family;
+    EXPECT_TRUE(said.to == infinity ||
+                (said.from <= answer.toi_lower && answer.toi_lower < said.to))
+        << family << ' ' << answer.toi_lower;
+  }
+
+  void expect_wrong(const std::string& folder, const Wrong& wrong) const {
+    const auto score = [&](Kind kind) {
+      const tests::Score of_kind = tests::score_on_public_data(*method, baseline.on_public_data,
+                                                               folder, kind, baseline.stride);
+      if (baseline.promise != Promise::none) {
+        EXPECT_EQ(of_kind.false_negatives + of_kind.late, 0) << folder;
+      }
+      return of_kind;
+    };
+    const tests::Score faces = score(Kind::vertex_face), edges = score(Kind::edge_edge);
+    if (faces.hits == 0) GTEST_SKIP() << "public data missing";
+    const std::array found{faces.false_negatives, faces.false_positives, edges.false_negatives,
+                           edges.false_positives};
+    EXPECT_EQ(found, (std::array{wrong.missed_faces, wrong.invented_faces, wrong.missed_edges,
+                                 wrong.invented_edges}))
+        << folder;
+    EXPECT_EQ(faces.errors + edges.errors, 0) << folder;
+  }
+};
+
+TEST_P(Baselines, AnswerThePrintedQueriesAsTheyWereSeenTo) {
+  EXPECT_EQ(method->name(), baseline.name);
+  EXPECT_EQ(method->promise(), baseline.promise);
+  expect_said("hourglass", baseline.hourglass);
+  expect_said("inflection", baseline.inflection);
+  expect_said("sliding-degenerate", baseline.coplanar);
+}
+
+TEST_P(Baselines, TellHitsFromWideMisses) {
+  for (const PosedQuery& hit : {over_triangle(1, 1, 1, -3), over_edge(1, 2, 1, -3)}) {
+    const fast::Answer answer = answer_to(*method, hit);
+    EXPECT_EQ(answer.verdict, yes) << hit;
+    EXPECT_TRUE(std::isnan(answer.toi_lower) || std::abs(answer.toi_lower - 0.25) < 0.03)
+        << hit << ' ' << answer.toi_lower;
+    PosedQuery bad = hit;
+    bad.query.coordinates[7] = fast::Answer::none;
+    EXPECT_EQ(verdict(bad), Verdict::error);
+  }
+  for (const PosedQuery& miss : {over_triangle(1, 1, 3, 1), over_edge(5, 2, 1, -1)}) {
+    EXPECT_EQ(verdict(miss), no) << miss;
+  }
+}
+
+TEST_P(Baselines, HeedTheOptionsThatTheyKnow) {
+  const PosedQuery hit = over_triangle(1, 1, 1, -1), near = over_triangle(1, 1, 2, 1);
+  EXPECT_EQ(verdict(hit, {.t_max = 0.75}), yes);
+  EXPECT_EQ(verdict(hit, {.t_max = 0.25}), baseline.counts_up_to_t_max ? no : yes);
+  const bool knows = method->info().measures_in(Norm::l2);
+  EXPECT_EQ(verdict(near, {.separation = {.distance = 1.5, .norm = Norm::l2}}), knows ? yes : no);
+}
+
+TEST_P(Baselines, AreWrongOnThePublicDataAsOftenAsKnown) {
+  expect_wrong("handcrafted", baseline.handcrafted);
+  expect_wrong("simulation", baseline.simulation);
+}
+
+/// What promises something misses nothing that can be generated.
+TEST_P(Baselines, KeepTheirPromise) {
+  if (baseline.promise == Promise::none) GTEST_SKIP() << "it promises nothing";
+  for (const tests::Score& score : {tests::score_on_families(*method, short_search, 4),
+                                    tests::score_on_random(*method, short_search, 60)}) {
+    EXPECT_GT(score.hits, 0);
+    EXPECT_EQ(score.false_negatives + score.late + score.errors, 0);
+    EXPECT_GT(score.denied, score.misses / 4);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Are, Baselines, testing::ValuesIn([] {
+                           std::array<const Baseline*, all_baselines.size()> each{};
+                           for (std::size_t i = 0; i < each.size(); ++i) {
+                             each.at(i) = &all_baselines.at(i);
+                           }
+                           return each;
+                         }()),
+                         [](const auto& info) { return std::string(info.param->name); });
+
+}  // namespace
+}  // namespace touchstone::baselines::baselines_test
