@@ -64,7 +64,7 @@ TEST(Solvers, AreThoseNamedInOrder) {
   for (const double limit : {0.0, 1.0}) {
     arguments.query_limit = limit;
     Files files;
-  const Solvers solvers(files, arguments);
+    const Solvers solvers(files, arguments);
     const auto all = solvers.all();
     ASSERT_EQ(all.size(), solvers::methods().size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -103,7 +103,7 @@ TEST(Solvers, MayAllAnswerInThisProcessAndTheCertifiedOneWithAKernel) {
         fast::find_certified_kernel(fast::InstructionSet::scalar)}) {
     arguments.kernel = kernel;
     Files files;
-  const Solvers solvers(files, arguments, MethodHost::this_process);
+    const Solvers solvers(files, arguments, MethodHost::this_process);
     for (const solvers::Solver* solver : solvers.all()) {
       const solvers::SolveReply reply = solver->solve({.queries = queries}, answers);
       EXPECT_FALSE(reply.time.has_value()) << "that of a child process";
