@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Makes the numbers of the documents: `./run results`.
+"""Writes the measured parts of the documents: `./run results`.
 
-docs/data holds what the tool measured, as JSON: of each file the commands, the day, and their results. All numbers of
-docs/results.md, docs/results.svg and the marked parts of README.md and docs/benchmarks.md come from there. A marked part
-stands between <!-- made by ./run results: NAME --> and <!-- end -->; the function NAME below writes it.
+docs/data contains the measurements as JSON, each file with its commands, their date and their results. They are the source
+of docs/results.md, docs/results.svg and the marked parts of README.md and docs/benchmarks.md. A marked part is between
+<!-- made by ./run results: NAME --> and <!-- end -->; the function NAME below writes it.
 """
 
 import argparse
@@ -24,8 +24,8 @@ STEPS = {"cloth-ball": ["", *(f" --min-separation {d} --norm {norm}" for d in ("
 
 SCENES = ["two-heads", "chain-of-rings", "twisting-mat", "dimpled-ball", "torus-on-cone", "body-on-plane", "draped-cloth",
           "spike", "wedge", "cliff-edge", "internal-edges", "crack", "hole"]
-# Collision detection that a scene is simulated with, and what else is changed.
-# (The program of the simulator with constraints is a dense one: two scenes have too many contacts for it.)
+# The options of each simulation. (The quadratic program of the simulator with constraints is dense: two scenes have too many
+# contacts for it.)
 SIMULATIONS = [*SCENES, *(f"{scene} --simulator constraint" for scene in SCENES
                           if scene not in ("twisting-mat", "draped-cloth")),
                *(f"torus-on-cone --method tight_inclusion --tolerance 1e-{digits}" for digits in (1, 2, 3, 4, 6)),
@@ -58,19 +58,19 @@ COMMANDS = {
     "simulations": [f"simulate {simulation}" for simulation in SIMULATIONS],
 }
 
-# What no document shows.
+# Fields that no document shows.
 DROPPED = {"wrong_answers", "failures", "mismatches", "files", "worst_input", "single"}
 
 
 class Problem(Exception):
-    """What a user can mend."""
+    """A problem that the user can fix."""
 
 
 # ---- Measuring -------------------------------------------------------------------------------------------------------
 
 
 def run(command, statuses=(0,), **options):
-    """What the command prints, if it ends with one of these exit statuses."""
+    """The output of the command, which must end with one of these exit statuses."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
     if done.returncode not in statuses:
         raise Problem(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stderr}")
@@ -88,13 +88,13 @@ def compact(value):
 
 
 def processor_time(work):
-    """What the work gives, and the processor time of its programs in seconds."""
+    """The result of the work, and the processor time of its programs in seconds."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     return work(), resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
 
 
 def check_certificates(checker, proofs):
-    """How many touchstone-check accepts, and its processor time."""
+    """The number of certificates that touchstone-check accepts, and its processor time."""
     text = proofs.with_suffix("")
     run(["zstd", "-q", "-d", "-f", proofs, "-o", text])
     printed, seconds = processor_time(lambda: run([checker, text]))
@@ -106,7 +106,7 @@ def prove_step(command, options, folder):
     out, proofs = folder / "step.json", folder / "step.cert.zst"
     words = [path for word in command.split()
              for path in (sorted(glob.glob(word, root_dir=options.data)) if "*" in word else [word])]
-    # Its exit status is 1 if something touches.
+    # Its exit status is 1 if there is a collision.
     _, seconds = processor_time(lambda: run([options.tool, *words, "--json", out, "--prove", proofs], (0, 1), cwd=options.data))
     result = json.loads(out.read_text())
     step = result["steps"][0]
@@ -122,7 +122,7 @@ def simulate(command, options, folder):
     frames, out, judged = folder / "frames", folder / "run.json", folder / "steps.json"
     words = command.split()[1:] + (["--steps", "3"] if options.quick else [])
     run([options.tool.with_name("touchstone-simulate"), *words, "--out", frames, "--json", out])
-    # Its exit status is 1 if something touches.
+    # Its exit status is 1 if there is a collision.
     run([options.tool, "step", frames, "--json", judged], (0, 1))
     steps_ = json.loads(judged.read_text())["steps"]
     touching = sum(not step["free"] for step in steps_)
@@ -130,7 +130,7 @@ def simulate(command, options, folder):
 
 
 def record(options):
-    """Simulates the scenes whose queries are reported on, but those that an earlier run has recorded by the same command."""
+    """Simulates the scenes of the report, except those that an earlier run has recorded by the same command."""
     for command in RECORDINGS:
         words = command.split()[1:] + (["--steps", "3"] if options.quick else [])
         done = options.recorded.with_name(f"{options.recorded.name}-runs") / f"{words[0]}.json"
@@ -146,7 +146,7 @@ def record(options):
 
 
 def measure_one(name, command, options, folder):
-    """Runs a command of the tool; the command with its result."""
+    """Runs a command of the tool; returns the command with its result."""
     if name == "simulations":
         return simulate(command, options, folder)
     if name == "step_proofs":
@@ -170,7 +170,7 @@ def measure_one(name, command, options, folder):
 
 
 def measure(name, options, folder):
-    """Writes docs/data/NAME.json anew, with a line a run, or a line a measurement."""
+    """Writes docs/data/NAME.json anew, with a line for each run or each measurement."""
     rows = [measure_one(name, command, options, folder) for command in COMMANDS[name]]
     key, data = "runs", {"date": datetime.datetime.now(datetime.timezone.utc).date().isoformat()}
     if name == "results":  # as `touchstone report --from` reads it
@@ -189,7 +189,7 @@ def measure(name, options, folder):
 
 
 def rounded(x):
-    """Two digits that count: 0.97, 1.0, 12, 1,300."""
+    """Two significant digits: 0.97, 1.0, 12, 1,300."""
     digits = 1 - int(f"{x:.1e}".split("e")[1])
     return f"{round(x, digits):,.{max(digits, 0)}f}"
 
@@ -270,7 +270,7 @@ def patches(data):
 
 
 def scene_of(run):
-    """The step that a run of bench --step measured, and its separation."""
+    """The step of a run of bench --step, and its separation."""
     separation = re.search(r"--min-separation (\S+) --norm (\S+)", run["command"])
     d = f"{separation[1]} {'L2' if separation[2] == 'l2' else 'L∞'}" if separation else 0
     return re.search(r"simulation/([^/]*)", run["command"])[1], d
@@ -349,7 +349,7 @@ def step_proofs(data):
 
 
 def simulations(data, of):
-    """The runs whose command `of` holds for, each with its result."""
+    """The runs whose command satisfies `of`, each with its result."""
     return [(one["command"].removeprefix("./run simulate "), one["result"]) for one in data["runs"] if of(one["command"])]
 
 
@@ -371,7 +371,7 @@ def scenes(data):
 
 
 def chart(title, names, unit, values):
-    """Bars, as Markdown shows them."""
+    """A bar chart in Markdown."""
     return ["", "```mermaid", "xychart-beta", f'    title "{title}"', f'    x-axis [{", ".join(names)}]',
             f'    y-axis "{unit}"', f'    bar [{", ".join(values)}]', "```"]
 
@@ -426,7 +426,7 @@ PARTS = {"README.md": [(printed, "certify"), (results, "results")],
 
 
 def with_parts(document, text, root):
-    """The text of a document with its marked parts made anew."""
+    """The text of a document with regenerated marked parts."""
     parts = {part.__name__: (part, data) for part, data in PARTS[document]}
     mark = re.compile(r"(<!-- made by \./run results: (\w+) -->)\n.*?<!-- end -->", re.DOTALL)
     found = [name for _, name in mark.findall(text)]
@@ -442,7 +442,7 @@ def with_parts(document, text, root):
 
 
 def picture(page, folder):
-    """The figure of time against error, as the link below it on the report's page gives it."""
+    """The figure of time against error, from its link on the report's page."""
     page.write_text(page.read_text().replace("</body>", """<script>
 const link = document.querySelector("#speed_false_positives a.svg");
 link.addEventListener("click", (event) => event.preventDefault());
@@ -452,12 +452,12 @@ link.click();
                "--virtual-time-budget=10000", f"--user-data-dir={folder}/profile", "--dump-dom", page.as_uri()])
     link = re.search(r'href="data:image/svg\+xml,([^"]*)"', dom)
     if not link:
-        raise Problem("the page of the report gives no picture")
+        raise Problem("the page of the report has no picture")
     return urllib.parse.unquote(link[1])
 
 
 def documents(options, folder):
-    """All documents by name, as they are to be."""
+    """The correct texts of all documents, by name."""
     made = {document: with_parts(document, (options.root / document).read_text(), options.root) for document in PARTS}
     page, text = folder / "page.html", folder / "results.md"
     run([options.tool, "report", "--from", options.root / "docs/data/results.json", "--out", page, "--markdown", text])
@@ -465,7 +465,7 @@ def documents(options, folder):
 
 
 def differences(root, made):
-    """The first line of each document that is not what it is to be."""
+    """The first wrong line of each document."""
     for document, text in made.items():
         file = root / document
         old, new = (file.read_text() if file.exists() else "").split("\n"), text.split("\n")
@@ -479,9 +479,9 @@ def main():
     here = pathlib.Path(__file__).resolve().parent.parent
     parser = argparse.ArgumentParser(prog="./run results", description="Measures, and writes the documents' numbers.")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"measure only: {' '.join(COMMANDS)} (default: all)")
-    parser.add_argument("--check", action="store_true", help="measure and write nothing: do data and documents agree?")
-    parser.add_argument("--write", action="store_true", help="measure nothing: write the documents from docs/data")
-    parser.add_argument("--quick", action="store_true", help="measure times briefly, to try it out")
+    parser.add_argument("--check", action="store_true", help="only check that data and documents agree")
+    parser.add_argument("--write", action="store_true", help="write the documents from docs/data, without measuring")
+    parser.add_argument("--quick", action="store_true", help="measure times briefly, for a test of this program")
     parser.add_argument("--data", type=pathlib.Path, default=here / "../shared/datasets", help="the public data")
     parser.add_argument("--tool", type=pathlib.Path, default=here / "build/release/touchstone")
     parser.add_argument("--root", type=pathlib.Path, default=here, help="the folder of the documents")

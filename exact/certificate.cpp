@@ -15,8 +15,8 @@ namespace {
 
 // ---- Times --------------------------------------------------------------------------------------
 
-/// The same number, known as rational if it is: it is then a multiple of 1/l, l the leading
-/// coefficient of a polynomial of which it is a root.
+/// The same number, represented as rational if it is. It is then a multiple of 1/l, where l is the
+/// leading coefficient of a polynomial of which it is a root.
 AlgebraicNumber recognised(const AlgebraicNumber& number) {
   if (number.rational()) return number;
   AlgebraicNumber near = number;
@@ -62,8 +62,8 @@ struct Double {
   }
 };
 
-/// The greatest double that is not above x ≥ 0. In integers, because a floating-point environment
-/// may flush what is small to zero.
+/// The greatest double that is not above x ≥ 0. Computed in integers, because a floating-point
+/// environment may flush subnormals to zero.
 Double double_below(const Rational& x) {
   const long unit = sgn(x) == 0 ? least_unit : double_unit(x);
   const Rational scaled = x * power_of_two(-unit);
@@ -100,7 +100,7 @@ RationalInterval toi_interval(AlgebraicNumber& toi, const std::optional<Rational
 
 // ---- Contacts -----------------------------------------------------------------------------------
 
-/// Does the polynomial change sign across the interval, and has every other one a sign on it?
+/// True if the polynomial changes sign across the interval and every other one has a sign on it.
 bool proves(const Polynomial& g, const std::vector<Polynomial>& nonzero,
             const RationalInterval& interval) {
   if (sign_at(g, interval.lower) * sign_at(g, interval.upper) >= 0) return false;

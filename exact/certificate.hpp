@@ -3,20 +3,20 @@
 /// \file
 /// Verdicts with their proof, for a checker that does not trust the oracle.
 ///
-/// A certificate states a query, a separation, a claim, and what proves the claim:
+/// A certificate states a query, a separation, a claim and the proof of the claim:
 ///   - no collision: pieces of [0,1], each with a feature whose direction separates throughout;
 ///   - collision: a contact;
 ///   - time of impact in (lower, upper]: a contact there, and pieces of [0,lower].
 ///
-/// **A contact** is a time t* and a place with its sign conditions. The time is a rational number, or
-/// a root of an integer polynomial g in an interval at whose ends g has opposite signs. Then g
-/// divides every polynomial of the conditions that is zero at t*, and every other one has one sign on
-/// the whole interval: whichever root of g there it is, the conditions hold at it. Hence g is the
+/// **A contact** is a time t* and a place with its sign conditions. The time is a rational number,
+/// or a root of an integer polynomial g in an interval at whose ends g has opposite signs. Then g
+/// divides every polynomial of the conditions that is zero at t*, and every other one has one sign
+/// on the whole interval: the conditions hold at every root of g in the interval. Hence g is the
 /// greatest common divisor of the polynomials that vanish, and the interval is so small that the
 /// others do not.
 ///
-/// exact/CERTIFICATES.md defines the format and the directions and conditions of features and places;
-/// exact/certificate/certificate_text.hpp writes it. docs/theory.md, section 5.
+/// exact/CERTIFICATES.md defines the format, the directions of features and the conditions of
+/// places; exact/certificate/certificate_text.hpp writes it. docs/theory.md, section 5.
 
 #include <array>
 #include <cstddef>
@@ -114,7 +114,7 @@ struct RootTime {
   Polynomial polynomial;
 };
 
-/// When and where the primitives touch.
+/// The time and the place of a contact.
 struct ContactProof {
   std::variant<Rational, RootTime> time;
   ContactPlace place;
@@ -133,16 +133,17 @@ struct Certificate {
   Claim claim = Claim::no_collision;
   /// For a time of impact: lower < toi ≤ upper, or both are 0 and so is the toi.
   RationalInterval toi;
-  /// Of [0,1] or, for a time of impact, of [0, toi.lower]; empty for a collision and for a toi of 0.
+  /// They cover [0,1] or, for a time of impact, [0, toi.lower]. Empty for a collision and for a toi
+  /// of 0.
   std::vector<Piece> pieces;
-  /// For a collision and a time of impact.
+  /// Present for a collision and a time of impact.
   std::optional<ContactProof> contact;
 };
 
-/// A certificate has at most so many pieces.
+/// The maximum number of pieces of a certificate.
 inline constexpr std::size_t piece_limit = 4096;
 
-/// Numerator and denominator of a number in a certificate have at most so many bits.
+/// The maximum number of bits of the numerator and the denominator of a number in a certificate.
 inline constexpr std::size_t number_limit = 16384;
 
 /// A certificate would exceed the limits of the format.
@@ -154,20 +155,20 @@ class CertificateLimitError : public std::runtime_error {
 struct ProveOptions {
   /// The claim about a query that collides: `collision` or `time_of_impact`.
   Claim collision_claim = Claim::time_of_impact;
-  /// The interval of a time of impact is at most so wide, > 0; without a width its ends are
-  /// neighbouring doubles, the upper one the toi itself where that is a double.
+  /// The maximum width, > 0, of the interval of a time of impact. Without it the ends are
+  /// neighbouring doubles; the upper one is the toi itself if that is a double.
   std::optional<Rational> width = std::nullopt;
 };
 
-/// The proof of the oracle's verdict on a query. There always is one, and it is the same on every
-/// machine and in every floating-point environment. Thread-safe.
+/// The proof of the oracle's verdict on a query. It always exists, and is the same on every machine
+/// and in every floating-point environment. Thread-safe.
 /// \param verdict decide(kind, query, verdict.separation)
 /// \throws std::invalid_argument if a coordinate is NaN or infinite, the separation is not valid, the
 /// width is not positive, or the claim asked for is `no_collision`.
 /// \throws std::logic_error if the verdict is not the query's.
 /// \throws CertificateLimitError if the certificate would exceed number_limit or piece_limit.
-/// exact/certificate/separation_intervals.hpp proves when the break points of pieces do not; the
-/// interval of a contact needs no more bits than they.
+/// exact/certificate/separation_intervals.hpp states for which queries the break points stay within
+/// it; the interval of a contact needs no more bits.
 [[nodiscard]] Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
                                 const ProveOptions& options = {});
 

@@ -17,8 +17,8 @@
 
 namespace touchstone::exact {
 
-/// Where the primitives touch: u = u_numerator(toi) / denominator(toi), likewise v, each a
-/// polynomial in t of degree at most 2. If they touch in more than one point, it is one of them.
+/// The place of contact: u = u_numerator(toi) / denominator(toi), likewise v, each a polynomial in
+/// t of degree at most 2. If the primitives have several common points, it is one of them.
 struct Contact {
   Polynomial u_numerator;
   Polynomial v_numerator;

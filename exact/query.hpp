@@ -17,7 +17,7 @@
 /// of the domain: the *corners* w_i(t), three for vertex_face, four (a parallelogram, in cyclic
 /// order) for edge_edge. Hence a query collides iff 0 ∈ conv{w_i(t)} for some t ∈ [0,1].
 ///
-/// This header is all of exact/ that fast code may see: it needs Eigen and nothing else.
+/// This is the only header of exact/ that fast/ includes. It needs Eigen alone.
 
 #include <Eigen/Core>
 
@@ -35,18 +35,19 @@
 
 namespace touchstone {
 
-/// Which two primitives a query holds.
+/// The two primitives of a query.
 enum class Kind : std::uint8_t { vertex_face, edge_edge };
 
 /// Number of points that move, and number of points in a query (start and end of each).
 inline constexpr std::size_t moving_points = 4;
 inline constexpr std::size_t query_points = 2 * moving_points;
 
-/// Eight points as 24 contiguous doubles, in the order of the benchmark datasets:
-/// at t=0 then at t=1; vertex_face: v, f0, f1, f2; edge_edge: ea0, ea1, eb0, eb1; x, y, z each.
+/// Eight points as 24 contiguous doubles, in the order of the public data: at t=0 then at t=1;
+/// vertex_face: v, f0, f1, f2; edge_edge: ea0, ea1, eb0, eb1; x, y, z each.
 ///
 /// The layout is the file layout of a float64 array of shape (N, 8, 3), so such an array in memory
-/// is a `std::span<const Query>` without a copy. The kind is not part of it: a batch has one kind.
+/// is a `std::span<const Query>` without a copy. The kind is not stored in it, because all queries
+/// of a batch have the same kind.
 struct Query {
   std::array<double, 3 * query_points> coordinates;
 
@@ -83,7 +84,7 @@ struct QueryBatch {
   std::span<const Query> queries;
 };
 
-/// Are all numbers, or all coordinates, finite?
+/// True if all numbers, or all coordinates, are finite.
 [[nodiscard]] inline bool is_finite(std::span<const double> numbers) {
   return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
 }
@@ -137,7 +138,8 @@ template <class Scalar>
   return value;
 }
 
-/// Norm of a distance: the greatest component of the difference, or Euclid's norm.
+/// Norm of a distance: the greatest absolute component of the difference (linf), or the Euclidean
+/// norm (l2).
 enum class Norm : std::uint8_t { linf, l2 };
 
 /// Minimum separation. A query *collides at distance d* iff ‖F(t,u,v)‖ ≤ d for some t ∈ [0,1]
@@ -150,13 +152,13 @@ struct Separation {
   friend bool operator==(const Separation&, const Separation&) = default;
 };
 
-/// Is the distance finite and not negative?
+/// True if the distance is finite and not negative.
 [[nodiscard]] inline bool is_valid(const Separation& separation) {
   return separation.distance >= 0.0 && separation.distance <= std::numeric_limits<double>::max();
 }
 
-/// Is the distance 0, so that the norm does not matter? Decided by its bits, because a floating-point
-/// environment may take a subnormal distance for 0.
+/// True if the distance is 0, so that the norm does not matter. The bits decide, because a
+/// floating-point environment may treat a subnormal distance as 0.
 [[nodiscard]] inline bool is_contact(const Separation& separation) {
   return std::bit_cast<std::uint64_t>(separation.distance) << 1U == 0;
 }

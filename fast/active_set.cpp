@@ -23,7 +23,7 @@ struct Contact {
   Vector3d p, q;
   Vector3d f;     ///< F
   Vector3d rate;  ///< F'
-  double error;   ///< of F, about: by rounding, and since the time is not known better
+  double error;   ///< estimated error of F, from rounding and the enclosure of the time
 };
 
 Contact contact_of(Kind kind, const Query& query, const StepCollision& collision) {
@@ -53,7 +53,7 @@ Vector3d normal_along(const Contact& contact, const Vector3d& product) {
   return (is_apart ? height < 0.0 : speed > 0.0) ? Vector3d(-n) : n;
 }
 
-/// The normal of a pair without one.
+/// The normal of a degenerate pair.
 Vector3d normal_of_degenerate(const Contact& contact) {
   const Vector3d& longer = contact.p.stableNorm() >= contact.q.stableNorm() ? contact.p : contact.q;
   const Vector3d along = longer.stableNormalized();

@@ -20,13 +20,13 @@ namespace {
 
 // ---- Queries ------------------------------------------------------------------------------------
 
-/// Where the queries of a batch are.
+/// The queries of a batch, in one of two forms.
 struct Batch {
   Kind kind = Kind::vertex_face;
   std::size_t size = 0;
-  std::span<const Query> queries;            ///< either these
-  const MovingVertices* vertices = nullptr;  ///< or these,
-  Candidates candidates;                     ///< with these
+  std::span<const Query> queries;            ///< either queries
+  const MovingVertices* vertices = nullptr;  ///< or vertices
+  Candidates candidates;                     ///< with candidates
 
   [[nodiscard]] KernelInput block(std::size_t first) const {
     KernelInput input{.kind = kind, .count = std::min(kernel_block, size - first)};
@@ -61,7 +61,7 @@ Batch batch_of(const MovingVertices& vertices, const Candidates& candidates) {
 
 // ---- A block ------------------------------------------------------------------------------------
 
-/// Decides the block that begins at `first`, with contacts after t_limit of no interest, and hands on the
+/// Decides the block that begins at `first`, ignoring contacts after t_limit, and passes on the
 /// results of queries that may have a contact: report(number, result).
 template <class Report>
 const KernelOutput& decide(const Batch& batch, std::size_t first, double t_limit,
@@ -72,7 +72,7 @@ const KernelOutput& decide(const Batch& batch, std::size_t first, double t_limit
       [&](std::size_t index, const CertifiedResult& result) { report(first + index, result); });
 }
 
-/// Calls body(first) for each block, under strict floating point, in as many threads as allowed.
+/// Calls body(first) for each block, under strict floating point, in the allowed number of threads.
 template <class Body>
 void for_each_block(std::size_t size, int max_threads, const Body& body) {
   const std::size_t blocks = (size + kernel_block - 1) / kernel_block;
@@ -92,8 +92,8 @@ void for_each_block(std::size_t size, int max_threads, const Body& body) {
   });
 }
 
-/// Calls mark(index, stage) for every query of the block without contact that a later stage than the first
-/// has decided.
+/// Calls mark(index, stage) for every query of the block without contact that a stage after the
+/// first has decided.
 template <class Mark>
 void mark_stages(const KernelOutput& output, const Mark& mark) {
   const auto mark_all = [&](const KernelOutput::List<std::uint32_t>& list, Stage stage) {
@@ -153,7 +153,7 @@ std::vector<Collision> collisions(const Batch& batch, const CertifiedOptions& op
 
 // ---- Earliest -----------------------------------------------------------------------------------
 
-/// Lowers the number to x if that is less.
+/// Lowers the number to x if x is less.
 void lower_to(std::atomic<double>& number, double x) {
   double known = number.load();
   while (x < known && !number.compare_exchange_weak(known, x)) {
@@ -231,7 +231,7 @@ std::optional<EarliestImpact> earliest(const MovingVertices& vertices, const Can
 
 namespace {
 
-/// How many stages a query goes through that this one decides.
+/// The number of stages of a query that this one decides.
 constexpr std::uint32_t stages_up_to(Stage stage) { return static_cast<std::uint32_t>(stage) + 1; }
 
 std::vector<std::string_view> stage_names() {

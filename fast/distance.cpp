@@ -61,19 +61,19 @@ void answer(Kind kind, std::span<const Query> queries, double t, Norm norm,
 
 // ---- The least of a step ------------------------------------------------------------------------
 
-/// Is one distance surely less than another? Doubles, and the open intervals between neighbouring doubles, do
-/// not overlap: what is in one that is before another in this order is less.
+/// True if one distance is certainly less than another. Doubles and the open intervals between
+/// neighbouring doubles are disjoint, so their order is the order of the distances in them.
 bool is_less(const Distance& a, const Distance& b) {
   return std::tie(a.lower, a.upper) < std::tie(b.lower, b.upper);
 }
 
-/// Finds the least distance by looking at all pairs whose boxes are within a radius, beginning with 0. As
-/// soon as a pair is known, no other matters than those whose boxes are as near as it is.
+/// Finds the least distance by examining all pairs whose boxes are within a radius, beginning with
+/// 0. Once the distance of a pair is known, only pairs with boxes within that distance remain.
 ///
-/// Boxes, and the quick test of nearness, are of places rounded to doubles, unless these are the start. A
-/// coordinate is off by the bound of filters::Position, 2u of its magnitude, and by the rounding of 1 − t,
-/// u of it at most. So distances are off by three bounds in L∞ at most, and by less than six in L2.
-/// `slack_` is eight, which also covers its own rounding.
+/// Boxes and the proximity test use positions rounded to doubles, except at the start. The error of
+/// a coordinate is the bound of filters::Position, 2u of its magnitude, plus at most u of it for
+/// the rounding of 1 − t. So the error of a distance is at most three bounds in L∞ and less than
+/// six in L2. `slack_` is eight, which also covers its own rounding.
 class LeastDistanceSearch {
  public:
   LeastDistanceSearch(const Step& step, double t, Norm norm) : step_(step), t_(t), norm_(norm) {
@@ -93,7 +93,7 @@ class LeastDistanceSearch {
 
   [[nodiscard]] std::optional<LeastDistance> run() {
     const Step resting = step_.with_places(places(), {});
-    // All boxes are within this.
+    // An upper bound of the distance between boxes.
     const double most = 2.0 * scale_ * greatest_;
     for (double radius = 0.0;;) {
       search(resting, radius);
@@ -114,7 +114,7 @@ class LeastDistanceSearch {
   static constexpr double far_from_overflow = 0x1p1000;
   static constexpr double most_for_kernel = 0x1p1000;
 
-  /// Where the vertices are, about, times the scale.
+  /// The approximate positions of the vertices, times the scale.
   [[nodiscard]] MovingVertices places() const {
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
     const MovingVertices& vertices = step_.vertices();
@@ -132,7 +132,7 @@ class LeastDistanceSearch {
     return {rows, rows};
   }
 
-  /// Looks at all pairs whose places' boxes are within that radius, and lists the nearest.
+  /// Examines all pairs whose boxes are within that radius, and lists the nearest.
   void search(const Step& resting, double radius) {
     pairs_.clear();
     const Step near = resting.with_separation({.distance = radius + slack_});
@@ -170,7 +170,7 @@ class LeastDistanceSearch {
   std::mutex mutex_;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   Distance least_{infinity, infinity};
-  std::vector<PairDistance> pairs_;       ///< that have it, of those looked at
+  std::vector<PairDistance> pairs_;       ///< the examined pairs with the least distance
   std::atomic<double> known_ = infinity;  ///< an upper bound of the least
 };
 

@@ -1,22 +1,22 @@
 #pragma once
 
-/// \file
-/// How far apart two primitives are at a time, and the primitives of a scene: between neighbouring doubles.
+/// \file The distance of two primitives at a time, and the least distance in a scene, enclosed by
+/// neighbouring doubles.
 ///
-/// Places at a time are (1−t) x0 + t x1 exactly. The distance is that of closed primitives: 0 iff they
-/// have a common point.
+/// Positions at a time t are exactly (1−t) x0 + t x1. Primitives are closed sets: the distance is 0
+/// iff they have a common point.
 ///
-/// **What an answer is.** The greatest double that is not above the distance, and the least that is
-/// not below it. So it is exact where the distance is a double, as 0 is, and else as narrow as
-/// doubles allow, at every scale: a positive distance has a positive lower end, but for those below
-/// the least double. Nothing else goes into it: not how it was found, the instruction set or the
-/// number of threads.
+/// **The answer** is the greatest double that is not above the distance and the least double that
+/// is not below it. It is exact if the distance is a double, such as 0, and otherwise as narrow as
+/// doubles allow, at every scale. A positive distance has a positive lower end unless it is below
+/// the least double. The result is the same on every machine and for any number of threads.
 ///
-/// **How.** fast/distance/polygon_features.hpp says which expressions are the distance. They are
-/// evaluated in numbers of 106 bits that carry their error bounds (filters/ball.hpp), which settles
-/// nearly all; the others are decided in integers. Many queries in L2 are evaluated on lanes
-/// (fast/distance/filter_on_lanes.hpp). The least distance of a step first asks which pairs are no farther
-/// apart than the nearest that is known, also on lanes (fast/distance/nearness.hpp).
+/// **Method.** fast/distance/polygon_features.hpp states the expressions for the distance. They are
+/// evaluated in numbers of 106 bits with error bounds (filters/ball.hpp), which decide nearly all
+/// queries; integers decide the others. Batches in L2 are evaluated on SIMD lanes
+/// (fast/distance/filter_on_lanes.hpp). For the least distance of a step, a test on lanes first
+/// excludes pairs that are farther apart than the nearest known pair (fast/distance/nearness.hpp).
+/// All functions are thread-safe.
 
 #include <optional>
 #include <span>
@@ -28,8 +28,8 @@
 
 namespace touchstone::fast {
 
-/// A distance, not negative, between doubles that are equal or neighbours. The upper one is infinity
-/// for distances beyond the greatest double.
+/// A distance ≥ 0, enclosed by doubles that are equal or neighbours. The upper one is infinity for
+/// distances beyond the greatest double.
 struct Distance {
   double lower = 0.0;
   double upper = 0.0;
@@ -41,8 +41,8 @@ struct Distance {
 /// \throws std::invalid_argument unless 0 ≤ t ≤ 1; std::domain_error if a coordinate is not finite.
 [[nodiscard]] Distance distance(Kind kind, const Query& query, double t, Norm norm = Norm::l2);
 
-/// The distances of queries in distances[i].
-/// \param max_threads 0: as many as there are cores.
+/// Writes the distance of query i into distances[i].
+/// \param max_threads 0: one for each core.
 /// \throws as above; std::invalid_argument for spans of different lengths or a negative number of
 /// threads.
 void distances(Kind kind, std::span<const Query> queries, double t, Norm norm,
@@ -60,15 +60,15 @@ struct PairDistance {
 /// The least distance of a step's pairs.
 struct LeastDistance {
   Distance distance;
-  /// All pairs with this distance, in order. If the distance is no double, they may be apart by different
-  /// numbers between these two.
+  /// All pairs with this enclosure, in order. If it is not a single double, their distances may
+  /// differ within it.
   std::vector<PairDistance> pairs;
 
   friend bool operator==(const LeastDistance&, const LeastDistance&) = default;
 };
 
-/// The least distance at the time t of all pairs that the step looks at (fast/step.hpp), whatever its
-/// separation and t_max; nothing if it looks at none.
+/// The least distance at the time t of all pairs that the step considers (fast/step.hpp),
+/// independent of its separation and t_max; empty if it considers none.
 /// \throws std::invalid_argument unless 0 ≤ t ≤ 1.
 [[nodiscard]] std::optional<LeastDistance> least_distance(const Step& step, double t = 0.0,
                                                           Norm norm = Norm::l2);

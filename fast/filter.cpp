@@ -29,7 +29,7 @@ double filter_on_axis(Kind kind, double x_max, double separation, ErrorModel mod
   const double x = std::max(x_max, separation);
   if (x > bound.greatest_x) return infinity;
   if (model == ErrorModel::derived) return bound(x);
-  // The released one does not look at the separation here.
+  // The released filter ignores the separation here.
   const double gamma = model == ErrorModel::published ? std::max(x, 1.0) : std::min(x_max, 1.0);
   return published_constant(kind, separated) * gamma * gamma * gamma;
 }

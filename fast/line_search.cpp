@@ -22,8 +22,8 @@ namespace {
 
 constexpr double positive_infinity = std::numeric_limits<double>::infinity();
 
-/// A double s with p d ≤ s < d, if one is certain. (A product is rounded by at most half the spacing to
-/// the next double. For distances that no double exceeds, s is the greatest double.)
+/// A double s with p d ≤ s < d, if one is certain. (A product is rounded by at most half the
+/// spacing to the next double. For distances beyond the greatest double, s is that double.)
 std::optional<double> kept_distance(double p, const Distance& d) {
   const double s =
       std::min(std::nextafter(p * d.upper, positive_infinity), std::numeric_limits<double>::max());
@@ -35,7 +35,7 @@ StepCollision at_start(PairKind kind, const IndexPair& pair) {
   return {.kind = kind, .pair = pair, .toi_lower = 0.0, .toi_upper = 0.0};
 }
 
-/// The status that an impact of these times means.
+/// The status for an impact with these times.
 LineSearchStatus status_of(double toi_lower) {
   return toi_lower > 0.0 ? LineSearchStatus::limited : LineSearchStatus::too_small;
 }
@@ -69,7 +69,7 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
 
 // ---- The pairs' own distances -------------------------------------------------------------------
 
-/// No vertex moves farther than this relative to another, in L2 or L∞. Perhaps infinite.
+/// An upper bound of the motion of a vertex relative to another, in L2 or L∞. May be infinite.
 double greatest_relative_motion(const MovingVertices& vertices) {
   double result = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -88,11 +88,12 @@ double greatest_relative_motion(const MovingVertices& vertices) {
   return result * root_of_three;
 }
 
-/// Each pair that is asked has a distance d at the start, an s with p d ≤ s < d, and a time at which it comes
-/// within s. That is (d − s) / M at the earliest, where M is the greatest relative motion. As s ≤ p (1 +
-/// 2^-50) d and p ≤ 1 − 2^-50, d − s is more than a third of (1 − p) d. So pairs that are farther apart than
-/// 4 M T / (1 − p) come as near after T; these are not looked at, where T is the end of the earliest enclosure
-/// that is known, and time enough is left for enclosures to begin after T as well.
+/// Each considered pair has a distance d at the start, an s with p d ≤ s < d, and a time at which
+/// it comes within s. That is (d − s) / M at the earliest, where M is the greatest relative motion.
+/// As s ≤ p (1 + 2^-50) d and p ≤ 1 − 2^-50, d − s is more than a third of (1 − p) d. Let T be the
+/// end of the earliest known enclosure. Pairs that are farther apart than 4 M T / (1 − p) come
+/// within s after T, with a margin that also covers the lower end of their enclosures, and are not
+/// examined.
 class SearchOfPairs {
  public:
   SearchOfPairs(const Step& step, double p, Norm norm)
@@ -100,7 +101,7 @@ class SearchOfPairs {
 
   [[nodiscard]] LineSearchLimit run() {
     const Step touching = step_.with_separation({});
-    // What touches comes near before that.
+    // A pair that collides comes within s before.
     if (const auto impact = touching.earliest()) upper_ = impact->toi_upper;
     touching.candidates([this](const StepCandidates& some) { consider(some); });
     result_.step_size = 0.0;
@@ -132,14 +133,14 @@ class SearchOfPairs {
     }
   }
 
-  /// Pairs that are farther apart come near after that time. Distances among the least doubles are always
-  /// looked at.
+  /// Pairs that are farther apart come within s after that time. Distances among the least doubles
+  /// are always examined.
   [[nodiscard]] double reach_until(double time) const {
     constexpr double least = 0x1p-1000, greatest = std::numeric_limits<double>::max();
     const double rest = 1.0 - step_.certified().toi_tolerance;
     if (!(rest > 0.0)) return greatest;
     const double reach = 4.0 * motion_ * (time / (1.0 - p_) / rest);
-    // Written so that NaN is the greatest too.
+    // Written so that NaN also yields the greatest value.
     return reach <= greatest ? std::max(reach, least) : greatest;
   }
 
@@ -187,7 +188,7 @@ class SearchOfPairs {
   std::atomic<double> upper_ = positive_infinity;
   std::mutex mutex_;
   std::vector<StepCollision> touching_;  ///< at the start
-  std::vector<StepCollision> too_near_;  ///< for a distance that is kept
+  std::vector<StepCollision> too_near_;  ///< pairs with a distance too small for an s
   LineSearchLimit result_;
 };
 

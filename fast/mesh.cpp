@@ -19,11 +19,11 @@ bool is_below(std::int32_t index, std::size_t size) {
   return index >= 0 && static_cast<std::size_t>(index) < size;
 }
 
-/// Are all indices of all elements below the size? Without a branch an element: these run for every
-/// batch.
+/// True if all indices of all elements are below the size. Without a branch for each element,
+/// because it runs for every batch.
 template <std::size_t count>
 bool are_below(std::span<const std::array<std::int32_t, count>> elements, std::size_t size) {
-  std::uint32_t greatest = 0;  // a negative index counts as one of 2^31 or more
+  std::uint32_t greatest = 0;  // a negative index becomes one of at least 2^31
   for (const auto& element : elements) {
     for (const std::int32_t index : element) {
       greatest = std::max(greatest, static_cast<std::uint32_t>(index));
@@ -71,7 +71,8 @@ class RangeCheck {
   const Candidates& candidates_;
 };
 
-/// Are all edges or faces in range, and all pairs? Then no pair need be followed to its vertices.
+/// True if all edges or faces are in range, and all pairs. Then no pair needs to be resolved to its
+/// vertices.
 bool are_plainly_in_range(const MovingVertices& vertices, const Candidates& candidates) {
   constexpr std::size_t beyond_any_index = std::size_t{1} << 31U;
   if (vertices.size() > beyond_any_index) return false;
@@ -93,7 +94,7 @@ void require_countable(std::size_t count, std::string_view name) {
   throw std::length_error(std::string(name) + ": more than 2^31-1 of them");
 }
 
-/// Elements of a mesh, called so in errors.
+/// Elements of a mesh with their name in error messages.
 template <std::size_t count>
 void require_elements_in_range(std::size_t vertices,
                                std::span<const std::array<std::int32_t, count>> elements,

@@ -1,9 +1,8 @@
 #pragma once
 
-/// \file
-/// A moving mesh as simulators hold it: vertices at the start and at the end of a step, edges and
-/// faces as indices, and candidates as pairs of these. Eight times smaller than queries, and the
-/// vertices stay in the cache.
+/// \file A moving mesh in the form that simulators use: vertices at the start and at the end of a
+/// step, edges and faces as indices, and candidates as pairs of these. Pairs take an eighth of the
+/// memory of queries, and the vertices stay in the cache.
 
 #include <Eigen/Core>
 
@@ -22,10 +21,10 @@ namespace touchstone::fast {
 using Edge = std::array<std::int32_t, 2>;
 /// The three vertices of a face.
 using Face = std::array<std::int32_t, 3>;
-/// What may touch. vertex_face: a vertex and a face; edge_edge: two edges.
+/// The two indices of a pair. vertex_face: a vertex and a face; edge_edge: two edges.
 using IndexPair = std::array<std::int32_t, 2>;
 
-/// Where a vertex is at t=0 and t=1: one cache line, so that reaching for a vertex costs one.
+/// The positions of a vertex at t=0 and t=1, in one cache line.
 struct alignas(64) MovingVertex {
   std::array<double, 4> start;  ///< x, y, z and 0
   std::array<double, 4> end;    ///< x, y, z and 0
@@ -35,7 +34,7 @@ struct alignas(64) MovingVertex {
 class MovingVertices {
  public:
   /// From two matrices of any floating-point type and storage order, a row for each vertex. Copies
-  /// them, which costs about as much as reading as many candidates.
+  /// them, which takes about as long as reading an equal number of candidates.
   /// \throws std::invalid_argument unless both are n×3.
   template <class Start, class End>
   MovingVertices(const Eigen::MatrixBase<Start>& start, const Eigen::MatrixBase<End>& end)
@@ -61,7 +60,7 @@ class MovingVertices {
   std::vector<MovingVertex> vertices_;
 };
 
-/// Pairs of one kind with what their indices mean. Does not own anything.
+/// Pairs of one kind with the arrays that their indices refer to. Owns nothing.
 struct Candidates {
   Kind kind = Kind::vertex_face;
   std::span<const IndexPair> pairs;

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// What every solver looks like from outside: a description and answers to a span of queries.
-/// verify/ knows solvers by nothing else.
+/// \file The interface of every solver: a description, and answers to a span of queries. verify/
+/// uses solvers through it alone.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,62 +20,65 @@ namespace touchstone::fast {
 enum class Verdict : std::uint8_t {
   no,
   yes,
-  undecided,  ///< it cannot say; to be taken as a conservative yes
-  error,      ///< the query or the options are none it accepts (NaN, infinities, …)
+  undecided,  ///< no decision; to be treated as a conservative yes
+  error,      ///< invalid query or options (NaN, infinities, …)
 };
 
-/// An answer with its own uncertainty. A field that the method does not give is NaN.
+/// An answer with its uncertainty. A field that the method does not provide is NaN.
 struct Answer {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   Verdict verdict = Verdict::undecided;
-  /// Steps it took, of whatever sort the method counts: boxes, or the stages of MethodInfo::stages
-  /// that the query went through; 0 where it does not say.
+  /// The number of steps that the method counts: boxes, or the stages of MethodInfo::stages that
+  /// the query went through; 0 if it counts none.
   std::uint32_t checks = 0;
   double toi_lower = none;  ///< claimed: not above the exact time of impact; only with yes
   double toi_upper = none;  ///< claimed: not below the exact time of impact; only with yes
-  double tolerance = none;  ///< how near to contact a yes claims to be, in units of the coordinates
+  double tolerance = none;  ///< with yes: claimed bound of the distance beyond contact
 };
-// The steps stand where the compiler would have left a gap: batches of answers cost memory.
+// `checks` fills a gap of the layout, because batches of answers cost memory.
 static_assert(sizeof(Answer) == 4 * sizeof(double));
 
-/// What a method claims of its answers.
+/// The promise of a method about its answers.
 enum class Promise : std::uint8_t {
-  none,          ///< wrong answers of any sort occur
+  none,          ///< wrong answers of all kinds occur
   conservative,  ///< no false negative, no late time of impact; false positives occur
   exact,         ///< no wrong answer at all
 };
 
-/// Options that methods share. One that a method has no use for, it ignores.
+/// The common options of methods. A method ignores the options that do not apply to it.
 struct MethodOptions {
   double tolerance = 1e-6;              ///< of tolerance-driven methods: Tight-Inclusion's δ
   std::int64_t max_checks = 1'000'000;  ///< of iterative methods: Tight-Inclusion's m_I; ≤ 0: none
-  /// Contact is to be this near; a method that can only do L∞ finds all of L2 with it.
+  /// The distance at which primitives are in contact. A method that supports L∞ alone is
+  /// conservative for L2.
   Separation separation = {};
   double t_max = 1.0;  ///< only impacts up to this time count (0 to 1)
 };
 
-/// All that is known of a method beside its answers. The registry, reports and help read it here.
+/// The description of a method, for the registry, reports and help.
 struct MethodInfo {
-  /// Unique, snake_case: what the command line calls it.
+  /// Its name on the command line: unique, snake_case.
   std::string_view name;
   Promise promise = Promise::none;
-  /// The work that it comes from, by its key in docs/references.bib; empty: none.
+  /// The key in docs/references.bib of the work that describes it; empty if there is none.
   std::string_view reference = {};
-  /// Is it a published method, here for comparison, known errors and all?
+  /// True for a published method that is here for comparison, with its known errors.
   bool is_baseline = false;
-  /// The name of the method of which this is another setting, for comparison; empty: of none.
+  /// The name of the method of which this is a variant with other settings, for comparison; empty
+  /// if it is none.
   std::string_view variant_of = {};
-  /// In which it measures a minimum separation; empty: it knows of contact alone.
+  /// The norms of the minimum separations that it supports; empty if it supports distance 0 alone.
   std::vector<Norm> norms = {};
-  /// Does it search until it is as near as MethodOptions::tolerance?
+  /// True if it searches down to MethodOptions::tolerance.
   bool is_tolerance_driven = false;
-  /// The limit of checks that it is compared with others under: lower for slow searches.
+  /// The limit of checks in comparisons with other methods: lower for slow searches.
   std::int64_t usual_max_checks = MethodOptions{}.max_checks;
-  /// The filter that its tolerances do not include: a yes claims to be as near as its tolerance and
-  /// twice this filter. Without one, as its tolerance alone (docs/theory.md, section 7.3).
+  /// The filter that its tolerances do not include: a yes claims a distance of at most its
+  /// tolerance plus twice this filter. Without one, of at most its tolerance (docs/theory.md,
+  /// section 7.3).
   std::optional<ErrorModel> filter = std::nullopt;
-  /// Names of its stages, in their order; empty if it has none.
+  /// The names of its stages in order; empty if it has none.
   std::vector<std::string_view> stages = {};
 
   [[nodiscard]] bool measures_in(Norm norm) const {
@@ -84,7 +86,7 @@ struct MethodInfo {
   }
 };
 
-/// A solver. Safe to use from several threads at once.
+/// A solver. Thread-safe.
 class Method {
  public:
   Method() = default;
@@ -94,14 +96,15 @@ class Method {
   Method& operator=(Method&&) = delete;
   virtual ~Method() = default;
 
-  /// Always the same; its texts live as long as the method.
+  /// The description. It never changes; its texts live as long as the method.
   [[nodiscard]] virtual const MethodInfo& info() const = 0;
   [[nodiscard]] std::string_view name() const { return info().name; }
   [[nodiscard]] Promise promise() const { return info().promise; }
 
   /// Answers query i in answers[i], in this thread.
   /// \pre both spans have the same length.
-  /// \throws std::runtime_error if the arithmetic is not what the method needs; std::bad_alloc.
+  /// \throws std::runtime_error if the arithmetic violates the assumptions of the method;
+  /// std::bad_alloc.
   virtual void solve(Kind kind, std::span<const Query> queries, std::span<Answer> answers,
                      const MethodOptions& options) const = 0;
 };

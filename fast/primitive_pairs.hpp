@@ -1,12 +1,11 @@
 #pragma once
 
-/// \file
-/// Two primitives given by their points: the certified solver in the shape that simulators call.
+/// \file The certified solver for two primitives given by their points, as simulators call it.
 ///
 /// Each function takes the points at t=0 and then, in the same order, at t=1. They move on straight
-/// lines in between. A point is anything with three floats or doubles (`Point`); floats are exact in
-/// double. The degenerate pairs are a triangle without an area: point_edge asks about (e0, e1, e0),
-/// point_point about (p1, p1, p1).
+/// lines in between. A point is any vector of three floats or doubles (`Point`); floats are
+/// converted to double exactly. An edge or a point takes the place of a face as a triangle without
+/// an area: point_edge uses (e0, e1, e0), point_point (p1, p1, p1). The functions are thread-safe.
 
 #include <Eigen/Core>
 
@@ -19,7 +18,7 @@
 namespace touchstone::fast {
 
 /// Three coordinates, from an Eigen vector (or a row or column of a matrix) or from a pointer to x,
-/// of floats or doubles. Meant as a parameter.
+/// of floats or doubles. For use as a parameter.
 struct Point {
   /// \throws std::invalid_argument unless there are three coefficients.
   template <class Derived>
@@ -40,27 +39,28 @@ struct Point {
   std::array<double, 3> coordinates;
 };
 
-/// A point and a triangle. With yes, (u, v) is the place t0 + u (t1 − t0) + v (t2 − t0).
-/// \throws std::invalid_argument for options out of range; so do the others.
+/// Solves a point and a triangle. With yes, (u, v) is the point t0 + u (t1 − t0) + v (t2 − t0).
+/// \throws std::invalid_argument for options out of range, as the other functions do.
 [[nodiscard]] CertifiedResult point_triangle(const Point& p_t0, const Point& t0_t0,
                                              const Point& t1_t0, const Point& t2_t0,
                                              const Point& p_t1, const Point& t0_t1,
                                              const Point& t1_t1, const Point& t2_t1,
                                              const CertifiedOptions& options = {});
 
-/// Two edges. With yes, u is the place on the first one, from its first point, and v on the second.
+/// Solves two edges. With yes, u is the parameter on the first one, from its first point, and v on
+/// the second.
 [[nodiscard]] CertifiedResult edge_edge(const Point& ea0_t0, const Point& ea1_t0,
                                         const Point& eb0_t0, const Point& eb1_t0,
                                         const Point& ea0_t1, const Point& ea1_t1,
                                         const Point& eb0_t1, const Point& eb1_t1,
                                         const CertifiedOptions& options = {});
 
-/// A point and an edge. With yes, u is the place on the edge, and v is 0.
+/// Solves a point and an edge. With yes, u is the parameter on the edge, and v is 0.
 [[nodiscard]] CertifiedResult point_edge(const Point& p_t0, const Point& e0_t0, const Point& e1_t0,
                                          const Point& p_t1, const Point& e0_t1, const Point& e1_t1,
                                          const CertifiedOptions& options = {});
 
-/// Two points. With yes, u and v are 0.
+/// Solves two points. With yes, u and v are 0.
 [[nodiscard]] CertifiedResult point_point(const Point& p0_t0, const Point& p1_t0,
                                           const Point& p0_t1, const Point& p1_t1,
                                           const CertifiedOptions& options = {});

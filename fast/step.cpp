@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -203,6 +205,7 @@ class EarliestSearch {
 // ---- The step that is taken ---------------------------------------------------------------------
 
 /// \pre strict floating point
+/// \throws std::domain_error if a motion overflows.
 MovingVertices scaled_vertices(const MovingVertices& vertices, double alpha) {
   using Places = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
   const auto count = static_cast<Eigen::Index>(vertices.size());
@@ -212,7 +215,12 @@ MovingVertices scaled_vertices(const MovingVertices& vertices, double alpha) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       const double from = vertex.start[static_cast<std::size_t>(axis)];
       const double to = vertex.end[static_cast<std::size_t>(axis)];
-      const double part = alpha * (to - from);
+      const double motion = to - from;
+      if (!std::isfinite(motion)) {
+        throw std::domain_error("vertex " + std::to_string(i) +
+                                ": the motion x1 - x0 is greater than any double");
+      }
+      const double part = alpha * motion;
       start(i, axis) = from;
       end(i, axis) = from + part;
     }

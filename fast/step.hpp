@@ -189,7 +189,8 @@ class Step {
   ///
   /// which lie on no straight line to x1 in general. It has the same mesh and options, but for
   /// t_max, which is 1: all of it counts. It does not refer to this step.
-  /// \throws std::invalid_argument unless 0 ≤ α ≤ 1; std::domain_error if a place overflows.
+  /// \throws std::invalid_argument unless 0 ≤ α ≤ 1; std::domain_error, which names the vertex, if
+  /// fl(x1 − x0) overflows, for any α.
   [[nodiscard]] Step scaled(double alpha) const;
 
   /// A step size as large as can be: a double α in [0,1] such that scaled(α) is free and, unless
@@ -200,6 +201,7 @@ class Step {
   /// them: rounding may let a contact of a step be missed by one with a larger α, so that α is not
   /// always the largest at which a step is free, nor is every smaller one free. It takes some dozens
   /// of calls of is_free.
+  /// \throws std::domain_error as `scaled`.
   [[nodiscard]] std::optional<double> free_step_size() const;
 
   // ---- Pairs ----

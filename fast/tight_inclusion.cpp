@@ -13,7 +13,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Splits of one axis after which parameters are still exact, and so are their complements to 1.
+/// The maximum number of splits of one axis for which parameters and their complements to 1 are
+/// exact.
 constexpr int most_splits = std::numeric_limits<double>::digits;
 
 /// Coordinates beyond this are scaled down before the search, so that nothing overflows in it.
@@ -25,7 +26,7 @@ using LowerCorner = std::array<double, 3>;
 
 enum Axis : std::size_t { t_axis, u_axis, v_axis };
 
-/// Memory of a search, kept for the next.
+/// The memory of a search, reused by the next.
 struct Workspace {
   BoxProblem problem;
   std::vector<LowerCorner> level;
@@ -33,7 +34,7 @@ struct Workspace {
   std::vector<LowerCorner> upper_halves;
 };
 
-/// What a search is told.
+/// The options of a search.
 struct SearchOptions {
   double tolerance;
   std::int64_t max_checks;
@@ -41,7 +42,7 @@ struct SearchOptions {
   double t_end;  ///< of at most 53 fractional bits
 };
 
-/// What a search finds.
+/// The result of a search.
 struct SearchResult {
   bool hit;
   double toi;
@@ -56,7 +57,7 @@ class Search {
       : kernel_(kernel), workspace_(workspace), options_(options) {}
 
   SearchResult run() {
-    // Most queries end here, before their tolerances are needed.
+    // Most queries end here, and do not need tolerances.
     const BoxTest root = kernel_.test(workspace_.problem, box_at({0.0, 0.0, 0.0}));
     if (root.rejected) return {false, 0.0, 0.0, 1};
     set_parameter_tolerances();
@@ -97,7 +98,7 @@ class Search {
     if (options_.t_end == 0.0) parameter_tolerances_[t_axis] = infinity;
   }
 
-  /// The axis to split on this level: relative to its tolerance the widest. None if all are small.
+  /// The axis to split on this level: the widest relative to its tolerance. None if all are small.
   [[nodiscard]] std::optional<Axis> axis_to_split() const {
     std::optional<Axis> widest;
     double greatest_ratio = 0.0;
@@ -112,8 +113,8 @@ class Search {
     return widest;
   }
 
-  /// Examines the boxes of a level and makes those of the next. True if the search ends with a hit,
-  /// at the level's first box that is not dropped.
+  /// Examines the boxes of a level and creates the boxes of the next. True if the search ends with
+  /// a hit, at the level's first box that is not dropped.
   bool examine_level() {
     const std::optional<Axis> axis = axis_to_split();
     bool is_first = true;
@@ -159,7 +160,7 @@ class Search {
       return;
     }
     workspace_.next_level.push_back(corner);
-    // A sum that is above 1 may round to 1; then the box is kept, which does no harm.
+    // A sum above 1 may round to 1; then the box is kept, which is harmless.
     if (workspace_.problem.kind == Kind::edge_edge || upper[u_axis] + upper[v_axis] <= 1.0) {
       workspace_.next_level.push_back(upper);
     }
@@ -212,7 +213,7 @@ const BoxKernel& kernel_of(const TightInclusionOptions& options) {
   return options.error_model == ErrorModel::released ? released_box_kernel() : best_box_kernel();
 }
 
-/// One query: searches as often as the options ask for.
+/// Solves one query by one search or more, as the options require.
 class QuerySolver {
  public:
   QuerySolver(Workspace& workspace, const TightInclusionOptions& options)
@@ -258,7 +259,7 @@ class QuerySolver {
             ? *options_.scene_filter
             : error_filter(kind, x_max, workspace_.problem.separation, options_.error_model);
     if (scale_ == 1.0) return result;
-    // Scaling does not shrink underflow, and adds as much again by what it cuts off coordinates.
+    // Scaling does not reduce underflow, and truncates coordinates by as much again.
     const std::array<double, 3> underflow = error_filter(kind, {0.0, 0.0, 0.0}, 0.0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (options_.scene_filter) result[axis] *= scale_;
@@ -279,7 +280,7 @@ class QuerySolver {
     result.min_separation = workspace_.problem.separation;
   }
 
-  /// While the time of impact is 0: makes the question easier, in the way that its answer suggests.
+  /// Searches again while the time of impact is 0, with options that depend on the last result.
   void refine(TightInclusionResult& result) {
     while (result.verdict == Verdict::yes && result.toi == 0.0 &&
            result.refinements < options_.max_refinements) {
@@ -295,7 +296,8 @@ class QuerySolver {
       }
       const double last_tolerance = result.tolerance;
       search(result);
-      // Free up to a shorter time, or at a lower separation only: still a yes to what was asked.
+      // No contact was found, but only up to a shorter time or at a lower separation: the answer to
+      // the query remains yes.
       const bool asked_for_more =
           t_max_ < options_.t_max || separation < options_.min_separation * scale_;
       if (result.verdict == Verdict::no && asked_for_more) {
@@ -319,7 +321,7 @@ Workspace& workspace_of_this_thread() {
   return workspace;
 }
 
-/// As many as an answer can say.
+/// Saturates the number at the maximum of an answer.
 std::uint32_t to_answer_checks(std::int64_t checks) {
   return static_cast<std::uint32_t>(
       std::min<std::int64_t>(checks, std::numeric_limits<std::uint32_t>::max()));
@@ -342,7 +344,7 @@ MethodInfo info_of(const TightInclusionOptions& options) {
     info.is_baseline = true;
     info.variant_of = "tight_inclusion";
   }
-  // An answer cannot say that it is about a lower separation.
+  // An answer has no field for a lower separation.
   if (options.no_zero_toi) info.promise = Promise::none;
   return info;
 }

@@ -1,28 +1,28 @@
 #pragma once
 
-/// \file
-/// Numbers of 106 bits, each with a bound of its error: for expressions whose bound nobody has
-/// derived, and for magnitudes that are known at run time alone.
+/// \file Numbers of 106 bits, each with a bound of its error: for expressions without a derived
+/// bound, and for magnitudes that are known only at run time.
 ///
-/// A ball stands for any real x with |x − center| ≤ radius. The sum, difference or product of two balls
-/// holds those of all numbers in them.
+/// A ball represents any real x with |x − center| ≤ radius. The sum, difference or product of two
+/// balls contains the sums, differences or products of all numbers in them.
 ///
 /// **Proof.** Let c be the pair computed from the centers a and b, and u = 2^-53.
-/// - *Sums.* c is wrong by less than 2^-103 of the exact sum (filters/double_double.hpp), so by less
-///   than 2^-102 |c.high|. Underflow takes no part: the error is a multiple of 2^-1074, so it is 0
-///   where 2^-103 |c.high| is below that; elsewhere 2^-102 |c.high|, rounded to a multiple of 2^-1074,
-///   is not below it either. Numbers in the balls add the two radii. The radius is computed by two
-///   additions, each exact or wrong by at most u of its sum, and a factor of 1 + 2^-50, which is more
-///   than both and never rounds to less than what it multiplies.
-/// - *Products.* c is wrong by less than 2^-103 of the product and 2^-1071. Numbers in the balls add
-///   |a| s + |b| r + r s, where r and s are the radii; the magnitudes of a and b are at most 1 + u
-///   times those of their high parts. The radius is computed by operations on numbers that are not
-///   negative, six in a row at most, each wrong by at most u of its result and 2^-1075; the factor of
-///   1 + 2^-49 and the addition of 2^-1070 are more than all of that.
-/// - A factor that is exactly 0 makes a product that is. (In plain C++: on lanes it has a radius too.)
+/// - *Sums.* c is wrong by less than 2^-103 of the exact sum (filters/double_double.hpp), so by
+///   less than 2^-102 |c.high|. Underflow has no effect: the error is a multiple of 2^-1074, so it
+///   is 0 where 2^-103 |c.high| is below that; elsewhere 2^-102 |c.high|, rounded to a multiple of
+///   2^-1074, is not below it either. The variation within the balls adds the two radii. The radius
+///   is computed by two additions, each exact or wrong by at most u of its sum, and a factor of 1 +
+///   2^-50, which exceeds both errors; a product with it never rounds below the other factor.
+/// - *Products.* c is wrong by less than 2^-103 of the product and 2^-1071. The variation within
+///   the balls adds |a| s + |b| r + r s, where r and s are the radii; the magnitudes of a and b are
+///   at most 1 + u times those of their high parts. The radius is computed by operations on numbers
+///   that are not negative, six in a row at most, each wrong by at most u of its result and
+///   2^-1075; the factor of 1 + 2^-49 and the addition of 2^-1070 exceed these errors together.
+/// - A product with a factor that is exactly 0 is exactly 0. (In plain C++; on lanes it has a
+///   radius.)
 ///
-/// \pre Nothing overflows, and magnitudes are at most 2^490: so those of factors' halves are in the
-/// range of filters/double_double.hpp.
+/// \pre Nothing overflows, and magnitudes are at most 2^490, so that the halves of factors are in
+/// the range of filters/double_double.hpp.
 
 #include <type_traits>
 
@@ -37,7 +37,7 @@ struct BallOf {
   Scalar radius{0.0};
 
   constexpr BallOf() = default;
-  /// Exactly this number.
+  /// A number without error.
   constexpr explicit BallOf(double x) : center{Scalar(x), Scalar(0.0)} {}
   constexpr explicit BallOf(const DoubleDouble<Scalar>& x) : center(x) {}
   constexpr BallOf(const DoubleDouble<Scalar>& x, const Scalar& error) : center(x), radius(error) {}
@@ -49,8 +49,8 @@ using Ball = BallOf<double>;
   return a.center.high == 0.0 && a.radius == 0.0;
 }
 
-/// Are all numbers of the ball positive? (The low part is at most half a last place of the high
-/// one, and the rounding of twice the radius cannot make up for the half that is left.)
+/// True if all numbers of the ball are positive. (The low part is at most half a last place of the
+/// high one, and the rounding of twice the radius is less than the other half.)
 [[nodiscard]] constexpr bool is_positive(const Ball& a) {
   return a.center.high > 0.0 && a.center.high > 2.0 * a.radius;
 }

@@ -5,18 +5,19 @@
 /// of double, lanes included.
 ///
 /// **Errors.** Let u = 2^-53. All pairs are normalised: high is the double nearest to the sum, hence
-/// |low| ≤ u |high|. While nothing overflows or underflows, sums and products are wrong by less than
-/// 8u² = 2^-103 of the truth, whatever the signs: an arithmetic of 103 digits in the sense of
+/// |low| ≤ u |high|. While nothing overflows or underflows, sums and products are wrong by less
+/// than 8u² = 2^-103 of the truth, whatever the signs: an arithmetic of 103 digits in the sense of
 /// filters/derivation/rounding_model.hpp. The algorithms are AccurateDWPlusDW and DWTimesDW1 of
-/// [joldes2017] (bounds there: 3u²/(1−4u) and 7u²). What is needed here follows quickly.
+/// [joldes2017] (bounds there: 3u²/(1−4u) and 7u²). The weaker bounds needed here have short
+/// proofs.
 ///
-/// *Products.* Scale so that 1 ≤ a.high, b.high < 2; the low parts are at most u. Left out is
-/// a.low b.low, at most u². The two cross terms are below 2u each and rounded by at most u² each.
-/// - If a.high b.high < 2, then a.high + b.high < 3. So the cross terms add up to at most 3u, rounded
-///   by at most 2u², and with the error term, at most u, to at most 4u, rounded by at most 2u². All
-///   in all that is 7u², of a product that is at least (1 − u)².
-/// - Otherwise they add up to at most 4u, rounded by 2u², and with the error term, at most 2u, to at
-///   most 6u, rounded by 4u². All in all 9u², of a product that is at least 2 (1 − u)².
+/// *Products.* Scale so that 1 ≤ a.high, b.high < 2; the low parts are at most u. Left out is a.low
+/// b.low, at most u². The two cross terms are each below 2u and rounded by at most u² each.
+/// - If a.high b.high < 2, then a.high + b.high < 3. So the cross terms add up to at most 3u,
+///   rounded by at most 2u², and with the error term, at most u, to at most 4u, rounded by at most
+///   2u². The sum is 7u², for a product that is at least (1 − u)².
+/// - Otherwise they add up to at most 4u, rounded by 2u², and with the error term, at most 2u, to
+///   at most 6u, rounded by 4u². The sum is 9u², for a product that is at least 2 (1 − u)².
 ///
 /// *Sums.* Let |a.high| ≥ |b.high|, scaled so that 1 ≤ a.high < 2, and exactly s + s' = a.high +
 /// b.high, t + t' = a.low + b.low. Two operations round: c = s' + t, and w = t' + v', where v + v' =
@@ -25,22 +26,25 @@
 ///   most u |t' + v'|, and not at all if v' = 0. Otherwise |s + t| is more than 2^53 last places of t:
 ///   s is a multiple of them, as it is of the last place of b.high, of which t has at most 1½. So
 ///   |t'|, at most half a last place of t, is below u |v|, and |v'| ≤ u |v|. The error is at most
-///   2u² |v|, of a sum that is at least (1 − 2u) |v|.
-/// - Otherwise σ ≤ s < 2σ for a σ of ½, 1 or 2. Then |s'| ≤ uσ, and |t| is at most 2u (3u/2 if σ = ½,
-///   as then |b.high| < 1): |s' + t| is at most 2u, 3u and 4u for σ = ½, 1 and 2, so that c is rounded
-///   by at most 2u²σ. |v'| ≤ u |v| and |t'| ≤ u², so that w is rounded by at most u² |v| + u³. All in
-///   all that is 3u² and terms of order u³, of a sum that is at least σ (1 − 5u) and near |v|.
+///   2u² |v|, for a sum that is at least (1 − 2u) |v|.
+/// - Otherwise σ ≤ s < 2σ for a σ of ½, 1 or 2. Then |s'| ≤ uσ, and |t| is at most 2u (3u/2 if σ =
+///   ½, as then |b.high| < 1): |s' + t| is at most 2u, 3u and 4u for σ = ½, 1 and 2, so that c is
+///   rounded by at most 2u²σ. |v'| ≤ u |v| and |t'| ≤ u², so that w is rounded by at most u² |v| +
+///   u³. The sum is 3u² and terms of order u³, for a sum that is at least σ (1 − 5u) and close to
+///   |v|.
 ///
-/// **Underflow.** Sums of doubles, and so those of pairs, do not know it: what is below the least
-/// normal number is a multiple of 2^-1074, and exact. In a product P = a.high b.high, let η = 2^-1075.
-/// Each cross term loses at most η more, and the error term ε. If its operation is fused or
-/// |P| ≥ 2^-995, ε is at most η; by halves 3η above 2^-1022, 4η below, as one after the other of the
-/// four products of halves has bits below 2^-1074. (Their sum stays exact. It is one of multiples of
-/// 2^-1074 below 2^-1021, or as exact as it is without underflow.)
-/// - For |P| < 2^-971 the two sums of cross terms and error term are below 2^-1021, hence exact: the
-///   product errs by at most 6η more.
-/// - Otherwise ε ≤ η. What is lost can carry a sum beyond the power of two that bounded its rounding,
-///   which costs no more than was lost: 2η in the first sum, 3η in the second. That makes 8η more.
+/// **Underflow.** Sums of doubles, and hence of pairs, are not affected: results below the least
+/// normal number are multiples of 2^-1074, and exact. In a product P = a.high b.high, let η =
+/// 2^-1075. Each cross term has an additional error of at most η, and the error term one of ε. With
+/// a fused operation, or if |P| ≥ 2^-995, ε is at most η; computed by halves it is 3η above 2^-1022
+/// and 4η below, as successively more of the four products of halves have bits below 2^-1074.
+/// (Their sum stays exact. It is one of multiples of 2^-1074 below 2^-1021, or as exact as it is
+/// without underflow.)
+/// - For |P| < 2^-971 the two sums of cross terms and error term are below 2^-1021, hence exact:
+///   the additional error of the product is at most 6η.
+/// - Otherwise ε ≤ η. The underflow errors can carry a sum beyond the power of two that bounded its
+///   rounding, which adds no more than these errors: 2η in the first sum, 3η in the second. The
+///   additional error is at most 8η.
 ///
 /// The derivation counts 2^-1071 = 16η, half the least positive number of double_double_format.
 

@@ -12,12 +12,12 @@ namespace touchstone::filters {
 
 /// |computed − exact| ≤ Σ_j coefficients[j] x^j for all coordinates of magnitude up to x, all
 /// weights of the expression's groups, and x ≤ greatest_x, where nothing overflows. The last
-/// coefficient is the rounding error, those before are underflow.
+/// coefficient is the rounding error, the others are underflow.
 ///
-/// Where an expression has classes (each of its products has one coordinate of each class), the
+/// If an expression has classes (each of its products has one coordinate of each class), the
 /// greatest magnitudes x_1, x_2, … of the classes bound the rounding error more tightly:
-/// |computed − exact| ≤ rounding() · x_1 · x_2 ⋯ + underflow(x) for any x ≥ max x_i, all of it
-/// computed in Scalar, the products in any order. For an expression of measured coordinates
+/// |computed − exact| ≤ rounding() · x_1 · x_2 ⋯ + underflow(x) for any x ≥ max x_i, computed in
+/// Scalar, the products in any order. For an expression of measured coordinates
 /// (filters/polynomial_expressions.hpp) the x_i are the magnitudes of the rounded ones.
 template <class Scalar, std::size_t degree>
 struct ErrorBound {
@@ -35,7 +35,7 @@ struct ErrorBound {
   /// The factor of the greatest power of x.
   [[nodiscard]] constexpr Scalar rounding() const { return coefficients[degree]; }
 
-  /// The part of the bound at x that underflow causes.
+  /// The underflow part of the bound at x.
   [[nodiscard]] constexpr Scalar underflow(Scalar x) const {
     Scalar bound = 0;
     for (std::size_t j = degree; j-- > 0;) bound = bound * x + coefficients[j];

@@ -4,8 +4,8 @@
 /// Every floating-point expression that the project filters, once, as a template on the scalar.
 ///
 /// The same source runs in double, float and SIMD lanes, is evaluated in rationals and intervals by
-/// tests, is recorded by the derivation of its error bound, and is printed as a Gappa script. So a
-/// bound cannot belong to another order of operations than the code.
+/// tests, is recorded by the derivation of its error bound, and is printed as a Gappa script.
+/// Therefore bound and code always have the same order of operations.
 ///
 /// An expression is a struct with a static `evaluate` over two kinds of input:
 /// - `Coordinates`: floating-point numbers of magnitude up to x_max; the bound is in terms of it;
@@ -13,10 +13,10 @@
 ///   polygon or segment in barycentric coordinates, such as (1−t, t) for t ∈ [0,1].
 /// It uses +, − and * only, and no product of two terms that hold weights of one group.
 ///
-/// Points move as (1−t) x(0) + t x(1) and are blended with weights that sum to one, in this order of
-/// operations on purpose: every step is a convex combination, so that no intermediate value grows
-/// beyond what it stands for. That makes the bounds four times smaller than those of the usual
-/// x(0) + t (x(1) − x(0)), and the values at t=0 and t=1 exact.
+/// Points move as (1−t) x(0) + t x(1) and are blended with weights that sum to one, in this order
+/// of operations, because every step is a convex combination and no intermediate value exceeds the
+/// coordinates. That makes the bounds four times smaller than those of the usual x(0) + t (x(1) −
+/// x(0)), and the values at t=0 and t=1 exact.
 
 #include <array>
 #include <cstddef>
@@ -27,7 +27,7 @@
 
 namespace touchstone::filters {
 
-// ---- Steps: what the expressions are made of, and what SIMD code applies to whole lanes ---------
+// ---- Steps of the expressions, which SIMD code applies to whole lanes ---------------------------
 
 /// (a, b) with weights that sum to one.
 template <class Scalar>
@@ -70,7 +70,7 @@ inline constexpr Group<2, 2> unit_segment{{{1, 0}, {0, 1}}};
 /// (1−u−v, u, v) for (u,v) ∈ [0,1]²: the boxes of a subdivision reach beyond the triangle.
 inline constexpr Group<4, 3> unit_square{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 1, 1}}};
 
-// ---- Where a point is at a time -----------------------------------------------------------------
+// ---- The position of a point at a time ----------------------------------------------------------
 
 /// One coordinate of a moving point. Coordinates: at t=0 and at t=1. Weights: (1−t, t).
 struct Position {
@@ -90,7 +90,7 @@ struct Position {
   }
 };
 
-// ---- One axis of F (exact/query.hpp), as the solvers of fast/ run it ----------------------------
+// ---- One axis of F (exact/query.hpp) in the order of the solvers of fast/ -----------------------
 
 /// F of edge_edge on one axis. Coordinates: ea0, ea1, eb0, eb1 at t=0, then at t=1. Weights:
 /// (1−t, t), (1−u, u), (1−v, v).
@@ -137,8 +137,8 @@ struct VertexFace {
 
 // ---- The same in the order of operations of the public Tight-Inclusion -------------------------
 
-/// F of edge_edge on one axis as the public Tight-Inclusion computes it, from the first point on.
-/// Inputs as EdgeEdge.
+/// F of edge_edge on one axis as the public Tight-Inclusion computes it, relative to the first
+/// point. Inputs as EdgeEdge.
 struct ReleasedEdgeEdge : EdgeEdge {
   static constexpr std::string_view name = "released_edge_edge";
 
@@ -208,7 +208,7 @@ struct PaperVertexFace {
 
 // ---- With a minimum separation ------------------------------------------------------------------
 
-/// F − d; F + d is its mirror image. One coordinate more: the separation d.
+/// F − d; F + d is its mirror image. The additional last coordinate is the separation d.
 template <class Expression>
 struct Separated {
   static constexpr std::size_t coordinates = Expression::coordinates + 1;

@@ -1,27 +1,27 @@
 #pragma once
 
-/// \file
-/// The filtered expressions of the certified solver: polynomials in t by their Bernstein
-/// coefficients. (How expressions are written: filters/expressions.hpp.)
+/// \file The filtered expressions of the certified solver: polynomials in t by their Bernstein
+/// coefficients. (Rules for expressions: filters/expressions.hpp.)
 ///
 /// Both kinds of query are written F = r − u p − v q, each of r, p, q moving linearly:
 ///
 ///     vertex_face:  r = v − f0,    p = f1 − f0,    q = f2 − f0
 ///     edge_edge:    r = ea0 − eb0, p = ea0 − ea1,  q = eb1 − eb0
 ///
-/// On an interval [a,b] of times a polynomial of degree n has Bernstein coefficients whose hull it
-/// stays within, the first and the last being its values at a and b. Of products of linearly moving
-/// vectors they are averages of products of the vectors' values at a and b (the blossom):
+/// On an interval [a,b] of times a polynomial of degree n is in the hull of its Bernstein
+/// coefficients; the first and the last are its values at a and b. For products of linearly moving
+/// vectors the coefficients are averages of products of the vectors' values at a and b (the
+/// blossom):
 ///
 ///     N = p × q:        N_a = p_a × q_a,     2 N_ab = p_a × q_b + p_b × q_a,     N_b
 ///     det = r · N:      r_a·N_a,   (r_b·N_a + r_a·2N_ab) / 3,   (r_a·N_b + r_b·2N_ab) / 3,  r_b·N_b
 ///     x · (d × y):      x_a·(d×y_a),   (x_a·(d×y_b) + x_b·(d×y_a)) / 2,    x_b·(d×y_b)
 ///
-/// for a fixed direction d. The steps below give them without the divisors. What is last is first
-/// with a and b exchanged, so that one expression stands for both.
+/// for a fixed direction d. The steps below compute them without the divisors. The last
+/// coefficients are the first ones with a and b exchanged, so that one expression serves both.
 ///
-/// The vectors are *differences of coordinates*, rounded once: their components are the expressions'
-/// coordinates, each in a class by the vector it belongs to, and `Measured` adds their rounding.
+/// The vectors are *differences of coordinates*, rounded once: their components are the
+/// expressions' coordinates, each in the class of its vector, and `Measured` adds their rounding.
 
 #include <array>
 #include <cstddef>
@@ -108,7 +108,7 @@ template <std::size_t start, std::size_t end, std::size_t weight, class Scalar, 
   return at_time(vector_of<start>(x), vector_of<end>(x), w[weight], w[weight + 1]);
 }
 
-/// d·a − d·b: how far a is beyond b in a fixed direction d. Coordinates: d, a, b.
+/// d·a − d·b: the distance by which a is beyond b in a fixed direction d. Coordinates: d, a, b.
 struct ProjectedGap {
   static constexpr std::string_view name = "projected_gap";
   static constexpr std::size_t coordinates = 9;
@@ -133,8 +133,8 @@ struct DeterminantInputs {
                                                                 0, 0, 0, 1, 1, 1, 2, 2, 2};
 };
 
-/// r · (p × q) at a time t. Weights: (1−t, t) of r, of p and of q. (They are one t in use. That the
-/// bound holds for three is more than is needed, and what the theorem can say.)
+/// r · (p × q) at a time t. Weights: (1−t, t) of r, of p and of q. (The code uses one t. The
+/// theorem needs separate groups, so the bound holds for three.)
 struct DeterminantEnd : DeterminantInputs {
   static constexpr std::string_view name = "determinant_end";
   static constexpr std::size_t weights = 6;
@@ -218,11 +218,12 @@ struct OrientationMiddle : OrientationInputs {
   }
 };
 
-// ---- Coordinates that were rounded before -------------------------------------------------------
+// ---- Rounded coordinates ------------------------------------------------------------------------
 
-/// The expression with each coordinate rounded once, as differences of given numbers are: computed
-/// is x (1+δ), exact is x. To the model of the derivation that is a product with the weight 1, which
-/// the weights that this adds hold. Solvers run the expression itself on the rounded coordinates.
+/// The expression with each coordinate rounded once, as for differences of given numbers: the
+/// computed coordinate is x (1+δ), the exact one x. In the model of the derivation that is a
+/// product with an added weight that is 1. Solvers run the expression itself on the rounded
+/// coordinates.
 template <class Expression>
 struct Measured {
   static constexpr std::size_t coordinates = Expression::coordinates;

@@ -1,13 +1,13 @@
 #pragma once
 
-/// \file
-/// The filtered expressions of the certified solver with a minimum separation D > 0. (How expressions
-/// are written: filters/expressions.hpp; vectors and steps: filters/polynomial_expressions.hpp.)
+/// \file The filtered expressions of the certified solver with a minimum separation D > 0. (Rules
+/// for expressions: filters/expressions.hpp; vectors and steps:
+/// filters/polynomial_expressions.hpp.)
 ///
 /// A fixed direction d keeps a moving corner w = a − b more than D away from the origin, in a norm
-/// whose dual norm of d is at most n, if d·w > D n. The gap d·w − D n is linear in time: what is
-/// positive at two times is so between them. At one time a point x of the polygon that is not longer
-/// than D shows the contrary.
+/// whose dual norm of d is at most n, if d·w > D n. The gap d·w − D n is linear in time: if it is
+/// positive at two times, it is positive between them. Conversely, a point x of the polygon with
+/// ‖x‖ ≤ D at one time proves a contact.
 
 #include <array>
 #include <cstddef>

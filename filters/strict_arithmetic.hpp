@@ -1,18 +1,16 @@
 #pragma once
 
-/// \file
-/// The assumptions of error bounds about the arithmetic, refused at compile
-/// time where it does not hold: IEEE 754 binary64 and binary32, each operation rounded once to its
-/// own format, no value-changing optimisation. Every file with a filtered expression includes this
-/// one.
+/// \file The assumptions of error bounds about the arithmetic, checked at compile time: IEEE 754
+/// binary64 and binary32, each operation rounded once to its own format, no value-changing
+/// optimisation. Every file with a filtered expression includes this one.
 ///
-/// The compiler announces fast-math but not contraction (a·b+c in one rounding); that is found at
-/// run time, by fast/platform/arithmetic_check.hpp.
+/// Fast-math defines a macro, contraction (a·b+c with one rounding) does not;
+/// fast/platform/arithmetic_check.hpp detects it at run time.
 
 #include <cfloat>
 #include <limits>
 
-// The single flags too: GCC announces each of them, clang finite-math and fast-math.
+// The single flags too: GCC defines a macro for each of them, clang for finite-math and fast-math.
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0) || \
     defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || defined(__NO_SIGNED_ZEROS__)
 #error "touchstone: error bounds do not hold under -ffast-math or any of its value-changing parts"

@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fast/certified.hpp"
@@ -200,11 +201,14 @@ std::int32_t touchstone_step_collisions(TouchstoneStep* step,
                                         const TouchstoneCollision** collisions,
                                         std::size_t* count) {
   return guarded([&] {
-    const auto found = required(step, "step").step->collisions();
-    step->collisions.clear();
-    for (const auto& collision : found) step->collisions.push_back(collision_of(collision));
-    required(collisions, "collisions") = step->collisions.data();
-    required(count, "count") = step->collisions.size();
+    TouchstoneStep& asked = required(step, "step");
+    const TouchstoneCollision*& first = required(collisions, "collisions");
+    std::size_t& number = required(count, "count");
+    std::vector<TouchstoneCollision> found;
+    for (const auto& collision : asked.step->collisions()) found.push_back(collision_of(collision));
+    asked.collisions = std::move(found);
+    first = asked.collisions.data();
+    number = asked.collisions.size();
   });
 }
 

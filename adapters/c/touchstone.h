@@ -122,13 +122,14 @@ TOUCHSTONE_API int32_t touchstone_step_is_free(const TouchstoneStep* step, int32
 TOUCHSTONE_API int32_t touchstone_step_earliest(const TouchstoneStep* step,
                                                 TouchstoneImpact* impact);
 
-/// All pairs that touch. They stay valid until the next call with this step, or its end.
+/// All pairs that touch. They stay valid until the next call of this function that returns 0 with this step, or its end.
 TOUCHSTONE_API int32_t touchstone_step_collisions(TouchstoneStep* step,
                                                   const TouchstoneCollision** collisions,
                                                   size_t* count);
 
 /// A step size as large as can be: the step from x0 to fl(x0 + alpha (x1 − x0)) was decided to be free, and that of the
 /// next double not to be. Writes −1 if not even a step of size 0 is free.
+/// Status 2 if x1 − x0 of a coordinate is greater than any double; the message names the vertex.
 TOUCHSTONE_API int32_t touchstone_step_free_step_size(const TouchstoneStep* step, double* alpha);
 
 #ifdef __cplusplus

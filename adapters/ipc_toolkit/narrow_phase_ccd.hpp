@@ -23,6 +23,10 @@
 ///
 /// In two dimensions the third coordinate is 0. A coordinate that is NaN or infinite is a collision at 0: nothing may
 /// move. All functions may be called from several threads at once.
+///
+/// **Bad arguments.** A `min_distance` that is negative, NaN or infinite, a `tmax` outside [0,1], and points of which some have two
+/// coordinates and others three throw std::invalid_argument, whatever the points, and leave toi as it was. (The toolkit
+/// has no rule of its own: its classes take a negative distance as its magnitude or as none, and only assert the rest.)
 
 #include <algorithm>
 #include <cmath>
@@ -88,21 +92,22 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
   }
 
  private:
-  /// \throws std::invalid_argument for points of neither two nor three coordinates.
-  template <class... Points>
-  static Query query(const Points&... points) {
+  /// \throws std::invalid_argument unless all points have two coordinates, or all three.
+  template <class First, class... Others>
+  static Query query(const First& first, const Others&... others) {
     Query query{};
     std::size_t next = 0;
     const auto add = [&](const auto& point) {
-      if (point.size() != 2 && point.size() != 3) {
-        throw std::invalid_argument("points must have two or three coordinates");
+      if ((point.size() != 2 && point.size() != 3) || point.size() != first.size()) {
+        throw std::invalid_argument("points must all have two coordinates, or all three");
       }
       for (Eigen::Index axis = 0; axis < point.size(); ++axis) {
         query.coordinates[next + static_cast<std::size_t>(axis)] = point[axis];
       }
       next += 3;
     };
-    (add(points), ...);
+    add(first);
+    (add(others), ...);
     return query;
   }
 
@@ -112,7 +117,15 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
     return std::max(d_min, std::min(wanted, std::nextafter(d.lower, 0.0)));
   }
 
+  static void require_valid(double min_distance, double tmax) {
+    if (!is_valid(Separation{.distance = min_distance, .norm = Norm::l2})) {
+      throw std::invalid_argument("min_distance must be finite and not negative");
+    }
+    if (!(tmax >= 0.0 && tmax <= 1.0)) throw std::invalid_argument("tmax must be in [0,1]");
+  }
+
   bool decide(Kind kind, const Query& query, double min_distance, double tmax, double& toi) const {
+    require_valid(min_distance, tmax);
     toi = 0.0;
     if (!is_finite(query)) return true;
     const fast::Distance d = fast::distance(kind, query, 0.0, Norm::l2);

@@ -19,18 +19,26 @@
 /// | `no_zero_toi` | no meaning: it always holds (see `toi`) |
 /// | `ccd_method` | no meaning |
 ///
+/// The tolerances of the parameters, which that library's search works to, are computed as in [wang2021], section 4.2; the
+/// two functions above do not need them.
+///
 /// A query with a coordinate that is NaN or infinite is a collision at 0: nothing can be said of it, so nothing may move.
-/// Both functions may be called from several threads at once.
+/// All functions may be called from several threads at once.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
+#include "adapters/tight_inclusion/config.hpp"
 #include "adapters/tight_inclusion/types.hpp"
 #include "fast/primitive_pairs.hpp"
 
 namespace ticcd {
 
 inline constexpr bool DEFAULT_NO_ZERO_TOI = false;
+constexpr Scalar DEFAULT_CCD_DISTANCE_TOL = static_cast<Scalar>(1e-6);
 
 enum class CCDRootFindingMethod { DEPTH_FIRST_SEARCH, BREADTH_FIRST_SEARCH };
 
@@ -63,6 +71,28 @@ inline bool take(const touchstone::fast::CertifiedResult& result, Scalar& toi, S
   }
 }
 
+/// F at the corners of the domain, numbered by the binary digits t, u, v.
+using Corners = std::array<Vector3, 8>;
+
+/// How wide an interval of t, of u and of v may be for F to vary by no more than the tolerance over a box of three such
+/// intervals: a third of it each. F is affine in each, so its greatest rate of change is that along an edge of the domain.
+inline Array3 tolerances(const Corners& corners, Scalar distance_tolerance) {
+  Array3 result;
+  for (std::size_t parameter = 0; parameter < 3; ++parameter) {
+    const std::size_t digit = std::size_t{4} >> parameter;
+    Scalar greatest = 0;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      if ((corner & digit) != 0) continue;
+      const Vector3 change = corners[corner + digit] - corners[corner];
+      greatest = std::max(greatest, change.cwiseAbs().maxCoeff());
+    }
+    result[static_cast<Eigen::Index>(parameter)] = greatest == 0
+                                                       ? std::numeric_limits<Scalar>::infinity()
+                                                       : distance_tolerance / (3 * greatest);
+  }
+  return result;
+}
+
 }  // namespace touchstone_adapter
 
 /// Do two edges collide? \throws std::invalid_argument if `ms` or `t_max` is out of range.
@@ -90,5 +120,40 @@ inline bool vertexFaceCCD(
                                        touchstone_adapter::options(ms, t_max)),
       toi, tolerance, output_tolerance);
 }
+
+/// The widths of intervals of t, u and v over which F varies by at most `distance_tolerance`; infinity for what F does not
+/// depend on.
+inline Array3 compute_edge_edge_tolerances(
+    const Vector3& ea0_t0, const Vector3& ea1_t0, const Vector3& eb0_t0, const Vector3& eb1_t0,
+    const Vector3& ea0_t1, const Vector3& ea1_t1, const Vector3& eb0_t1, const Vector3& eb1_t1,
+    const Scalar distance_tolerance = DEFAULT_CCD_DISTANCE_TOL) {
+  return touchstone_adapter::tolerances(
+      {ea0_t0 - eb0_t0, ea0_t0 - eb1_t0, ea1_t0 - eb0_t0, ea1_t0 - eb1_t0, ea0_t1 - eb0_t1,
+       ea0_t1 - eb1_t1, ea1_t1 - eb0_t1, ea1_t1 - eb1_t1},
+      distance_tolerance);
+}
+
+/// The same of a vertex and a face.
+inline Array3 compute_vertex_face_tolerances(
+    const Vector3& v_t0, const Vector3& f0_t0, const Vector3& f1_t0, const Vector3& f2_t0,
+    const Vector3& v_t1, const Vector3& f0_t1, const Vector3& f1_t1, const Vector3& f2_t1,
+    const Scalar distance_tolerance = DEFAULT_CCD_DISTANCE_TOL) {
+  return touchstone_adapter::tolerances(
+      {v_t0 - f0_t0, v_t0 - f2_t0, v_t0 - f1_t0, v_t0 - (f1_t0 + f2_t0 - f0_t0), v_t1 - f0_t1,
+       v_t1 - f2_t1, v_t1 - f1_t1, v_t1 - (f1_t1 + f2_t1 - f0_t1)},
+      distance_tolerance);
+}
+
+/// Its name before version 1.0.4.
+inline Array3 compute_face_vertex_tolerances(
+    const Vector3& v_t0, const Vector3& f0_t0, const Vector3& f1_t0, const Vector3& f2_t0,
+    const Vector3& v_t1, const Vector3& f0_t1, const Vector3& f1_t1, const Vector3& f2_t1,
+    const Scalar distance_tolerance = DEFAULT_CCD_DISTANCE_TOL) {
+  return compute_vertex_face_tolerances(v_t0, f0_t0, f1_t0, f2_t0, v_t1, f0_t1, f1_t1, f2_t1,
+                                        distance_tolerance);
+}
+
+/// 0: there is no queue.
+inline long return_queue_size() { return 0; }
 
 }  // namespace ticcd

@@ -6,12 +6,14 @@
 
 #include <Eigen/Core>
 
+#include "adapters/tight_inclusion/config.hpp"
+
 namespace ticcd {
 
-#ifdef TOUCHSTONE_TICCD_FLOAT
-using Scalar = float;
-#else
+#ifdef TIGHT_INCLUSION_WITH_DOUBLE_PRECISION
 using Scalar = double;
+#else
+using Scalar = float;
 #endif
 using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 using Array3 = Eigen::Array<Scalar, 3, 1>;

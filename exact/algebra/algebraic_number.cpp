@@ -31,7 +31,7 @@ DyadicCell half(const DyadicCell& cell, bool upper) {
   return {2 * cell.index + (upper ? 1 : 0), cell.level + 1};
 }
 
-/// A cell that holds several roots, or may.
+/// A cell that may hold several roots.
 struct Crowded {
   DyadicCell cell;
   int changes;
@@ -39,9 +39,9 @@ struct Crowded {
   unsigned long bits;
 };
 
-/// Where a cell's roots are if they are near to each other, as many as its form has changes: Newton's
-/// step for a root of that multiplicity, from the lower or the upper end. The nearest grid point of
-/// 2^bits parts strictly inside the cell.
+/// The estimated place of a cluster of roots in a cell, one root for each sign change of its form:
+/// Newton's step for a root of that multiplicity, from the lower or the upper end, rounded to the
+/// nearest grid point of 2^bits parts strictly inside the cell.
 Integer guess_of_cluster(std::vector<Integer> local, const Crowded& crowded, bool from_upper) {
   const Integer parts = Integer(1) << crowded.bits;
   // The value and the slope at an end.
@@ -61,9 +61,9 @@ Integer guess_of_cluster(std::vector<Integer> local, const Crowded& crowded, boo
   return std::clamp(guess, Integer(1), Integer(parts - 1));
 }
 
-/// The two cells of 2^-bits of a crowded one on both sides of a guess, if they have all its changes.
-/// Then (the changes of parts, and the roots between parts, are no more than those of the whole) there
-/// is no root elsewhere in it, nor at the ends of the two.
+/// The two subcells of width 2^-bits on both sides of a guess, if together they have all sign
+/// changes of the cell. Then there is no root elsewhere in the cell, nor at the ends of the two,
+/// because the changes of parts and the roots between parts are no more than those of the whole.
 std::vector<Crowded> cells_of_cluster(const Polynomial& p, const Crowded& crowded) {
   const auto local = local_coefficients(p, crowded.cell);
   for (const bool from_upper : {false, true}) {
@@ -79,10 +79,10 @@ std::vector<Crowded> cells_of_cluster(const Polynomial& p, const Crowded& crowde
   return {};
 }
 
-/// Isolates the roots of a squarefree polynomial in (0,1), ascending; or gives up at the first root
-/// that is met at a midpoint, and returns it: divided out it leaves a polynomial that has no root at
-/// the end of a cell. By bisection, but where the roots in a cell are near to each other the cell is
-/// replaced by much smaller ones at once, as long as guesses are right [sagraloff2016].
+/// Isolates the roots of a squarefree polynomial in (0,1), ascending; or stops at the first root at
+/// a midpoint and returns it, so that the caller divides it out and no root remains at the end of a
+/// cell. The method is bisection, but a cell with a cluster of roots is replaced by much smaller
+/// ones at once, as long as guesses are right [sagraloff2016].
 std::optional<Rational> isolate(const Polynomial& p, std::vector<AlgebraicNumber>& roots) {
   static constexpr unsigned long first_bits = 2;
   const auto crowded = [&](DyadicCell cell, unsigned long bits) {
@@ -160,7 +160,7 @@ void AlgebraicNumber::halve() {
 bool AlgebraicNumber::narrow(unsigned long bits) {
   const std::vector<Integer> a = local_coefficients(polynomial_, cell_);
   const Integer parts = Integer(1) << bits;
-  // Where the secant through both ends crosses zero, to the nearest of the 2^bits grid points.
+  // The zero of the secant through both ends, rounded to the nearest of the 2^bits grid points.
   Integer rise = -a[0];
   for (const Integer& c : a) rise += c;  // value at the upper end minus value at the lower end
   Integer guess;

@@ -9,12 +9,10 @@
 /// - *Refinement.* p changes sign across the cell, so one sign of p halves it. Quadratic interval
 ///   refinement [abbott2006] guesses where the secant crosses zero and asks for two signs there; a
 ///   right guess doubles the number of bits that the next guess gains, a wrong one halves it.
-/// - *Sign of q(α).* If the Bernstein form of q has no sign change on the cell, that sign is the
-/// sign of
-///   q(α). Otherwise refine; this ends unless q(α) = 0, which holds iff α is a root of gcd(p,q),
+/// - *Sign of q(α).* If the Bernstein form of q has no sign change on the cell, its sign is the sign
+///   of q(α). Otherwise refine; this ends unless q(α) = 0, which holds iff α is a root of gcd(p,q),
 ///   that is iff this divisor changes sign across the cell.
-/// - *Comparison.* Refine until the cells are disjoint; this ends unless the numbers are equal,
-/// which
+/// - *Comparison.* Refine until the cells are disjoint; this ends unless the numbers are equal, which
 ///   holds iff the gcd of their polynomials has a root in the intersection of the cells.
 
 #include <compare>
@@ -40,8 +38,8 @@ class AlgebraicNumber {
   /// A squarefree integer polynomial that has this number as a root.
   [[nodiscard]] const Polynomial& polynomial() const { return polynomial_; }
 
-  /// The value, if this number is known to be rational (a rational number of a polynomial of degree
-  /// 2 or more is recognised when refinement meets it, which it does for every dyadic one).
+  /// The value, if this number is known to be rational. A rational root of a polynomial of degree 2
+  /// or more is recognised when refinement meets it, as it does for every dyadic number.
   [[nodiscard]] const std::optional<Rational>& rational() const { return rational_; }
 
   /// The isolating interval: both ends equal the number, or it is the polynomial's only root
@@ -57,7 +55,7 @@ class AlgebraicNumber {
   /// Sign (−1, 0, 1) of q at this number. Refines as far as that takes.
   [[nodiscard]] int sign_of(const Polynomial& q);
 
-  /// Is q zero at this number? The quicker way to ask where the answer is expected to be yes.
+  /// True if q is zero at this number. Faster than sign_of if the answer is expected to be true.
   [[nodiscard]] bool is_root_of(const Polynomial& q) const;
 
   /// Neighbouring doubles around this number, or the double that it is: lower ≤ α ≤ upper.
@@ -67,7 +65,7 @@ class AlgebraicNumber {
   friend bool operator==(const AlgebraicNumber& a, const Rational& b) { return (a <=> b) == 0; }
   friend std::strong_ordering operator<=>(const AlgebraicNumber& a, const AlgebraicNumber& b);
 
-  /// As <=>, and keeps what it refined: quicker where the same numbers are compared again.
+  /// As <=>, but keeps the refinements: faster if the same numbers are compared again.
   friend std::strong_ordering compare(AlgebraicNumber& x, AlgebraicNumber& y);
   friend bool operator==(const AlgebraicNumber& a, const AlgebraicNumber& b) {
     return (a <=> b) == 0;
@@ -84,8 +82,8 @@ class AlgebraicNumber {
 };
 
 /// All roots of p ≠ 0 in [0,1], ascending, each once. Roots at dyadic numbers that the isolation
-/// meets, and roots of linear factors that it splits off, are known to be rational. \throws
-/// std::invalid_argument if p is the zero polynomial.
+/// meets, and roots of linear factors that it splits off, are known to be rational.
+/// \throws std::invalid_argument if p is the zero polynomial.
 [[nodiscard]] std::vector<AlgebraicNumber> roots_in_unit_interval(const Polynomial& p);
 
 /// An interval of at most `width` > 0 around numerator(α)/denominator(α); both ends equal and exact

@@ -3,11 +3,11 @@
 /// \file
 /// Integer polynomials in one variable: the few exact operations that root isolation rests on.
 ///
-/// A polynomial stands in the monomial basis. On a cell [m/2^k, (m+1)/2^k] it is looked at through
-/// its *Bernstein form*: with s and y the distances to the upper and lower end, p = Σ c_j s^(n−j)
-/// y^j. The c_j are binomial multiples of the Bernstein coefficients, so (Descartes, Bernstein) the
-/// number of sign changes among them bounds the number of roots in the open cell and has its
-/// parity; none means no root and the sign of the c_j throughout, one means exactly one root.
+/// A polynomial is stored in the monomial basis. On a cell [m/2^k, (m+1)/2^k] its *Bernstein form*
+/// is used: with s and y the distances to the upper and lower end, p = Σ c_j s^(n−j) y^j. The c_j
+/// are binomial multiples of the Bernstein coefficients, so (Descartes, Bernstein) the number of
+/// sign changes among them bounds the number of roots in the open cell and has its parity; no
+/// change means no root and the sign of the c_j throughout, one change means exactly one root.
 
 #include <concepts>
 #include <cstddef>
@@ -54,7 +54,7 @@ class Polynomial {
 [[nodiscard]] Polynomial operator-(const Polynomial& p, const Polynomial& q);
 [[nodiscard]] Polynomial operator*(const Polynomial& p, const Polynomial& q);
 
-/// As a sum of terms in t, the highest first: "3 t^2 - t + 5".
+/// Writes a sum of terms in t, the highest first: "3 t^2 - t + 5".
 std::ostream& operator<<(std::ostream& out, const Polynomial& p);
 
 /// dp/dt.
@@ -72,8 +72,8 @@ struct DyadicCell {
 /// Sign (−1, 0, 1) of p(x).
 [[nodiscard]] int sign_at(const Polynomial& p, const Rational& x);
 
-/// The coefficients of y ↦ 2^(n·level) p((index + y)/2^level), n the degree: p seen from the cell,
-/// y ∈ [0,1].
+/// The coefficients of y ↦ 2^(n·level) p((index + y)/2^level), n the degree: p in the coordinate y
+/// ∈ [0,1] of the cell.
 [[nodiscard]] std::vector<Integer> local_coefficients(const Polynomial& p, const DyadicCell& cell);
 
 /// The coefficients c_0..c_n of p's Bernstein form on a cell, all multiplied by one positive
@@ -83,8 +83,7 @@ struct DyadicCell {
 /// Number of sign changes in a sequence, zeros left out.
 [[nodiscard]] int sign_changes(const std::vector<Integer>& coefficients);
 
-/// Sign that p is proved to have on all of the open cell by its Bernstein form, or 0 if that proves
-/// none.
+/// Sign of p on the whole open cell as far as the Bernstein form proves it; 0 if it proves no sign.
 [[nodiscard]] int sign_on(const Polynomial& p, const DyadicCell& cell);
 
 /// p divided by its content, with positive leading coefficient. The zero polynomial is returned as

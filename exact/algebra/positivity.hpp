@@ -3,10 +3,10 @@
 /// \file
 /// Proofs that a polynomial is positive on an interval, as a checker of certificates makes them.
 ///
-/// The Bernstein coefficients of p on [a,b] enclose its values: if all are positive, so is p. If one
-/// is not, [a,b] is halved. A p that is positive on [a,b] is proved so at some depth, about the
-/// logarithm of the distance of its nearest complex root; a checker halves only so often, so whoever
-/// writes a certificate has to know how deep a proof goes and where.
+/// The Bernstein coefficients of p on [a,b] enclose its values: if all are positive, so is p. If
+/// one is not, [a,b] is halved. For a p that is positive on [a,b] the proof succeeds at some depth,
+/// about the logarithm of the distance of its nearest complex root. A checker limits the depth, so
+/// the writer of a certificate has to know the depth of a proof and its place.
 
 #include <cstdint>
 #include <vector>
@@ -16,7 +16,7 @@
 
 namespace touchstone::exact {
 
-/// So often a checker of certificates halves an interval.
+/// The maximum number of times that a checker of certificates halves an interval.
 inline constexpr unsigned long bisection_limit = 128;
 
 /// The Bernstein coefficients of p on an interval, all multiplied by one positive number.
@@ -39,14 +39,14 @@ struct BisectionProof {
   };
 
   Outcome outcome = Outcome::positive;
-  /// The deepest part that was looked at, where the outcome is `positive`: part number `index` of
-  /// the 2^depth equal ones. The first of several.
+  /// The deepest part of the proof if the outcome is `positive`: part number `index` of 2^depth
+  /// equal ones. The first if there are several.
   unsigned long depth = 0;
   Integer index = 0;
 };
 
-/// Looks whether the polynomial with these Bernstein coefficients is positive on the closed interval
-/// that they belong to, halving it up to `limit` times.
+/// Tries to prove that the polynomial with these Bernstein coefficients is positive on their closed
+/// interval, halving it up to `limit` times.
 [[nodiscard]] BisectionProof prove_positive(const std::vector<Integer>& bernstein,
                                             unsigned long limit = bisection_limit);
 

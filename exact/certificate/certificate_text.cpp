@@ -15,7 +15,7 @@ constexpr int fraction_bits = 52;
 constexpr int exponent_bias = 1023;
 constexpr std::uint64_t hidden_bit = std::uint64_t{1} << fraction_bits;
 
-/// The bits of the double that a number ≥ 0 is, if it is one.
+/// The bits of a number ≥ 0 as a double, if it is one.
 std::optional<std::uint64_t> double_bits(const Rational& value) {
   static constexpr long least_exponent = -1074, greatest_exponent = 1023;
   if (sgn(value) == 0) return 0;

@@ -13,25 +13,25 @@
 
 namespace touchstone::exact {
 
-/// A label has at most so many bytes.
+/// The maximum length of a label in bytes.
 inline constexpr std::size_t label_limit = 1024;
 
 /// The first line of a stream of certificates.
 [[nodiscard]] std::string_view certificates_header();
 
-/// The last line of a stream of so many certificates: a stream without it is cut.
+/// The last line of a stream with this number of certificates. A stream without it is incomplete.
 [[nodiscard]] std::string certificates_closing_line(std::uint64_t certificates);
 
 /// Appends the lines of a certificate.
-/// \param label For messages: from which file the query is, say. Control characters become question
-/// marks, and of a longer one the last label_limit bytes remain. No line if it is empty.
+/// \param label A text for messages, such as the file of the query. Control characters become
+/// question marks, and only the last label_limit bytes remain. An empty label has no line.
 void write(std::string& text, const Certificate& certificate, std::string_view label = {});
 
 /// A stream of one certificate, from the first line to the closing line. \param label as for write()
 [[nodiscard]] std::string certificate_stream(const Certificate& certificate,
                                              std::string_view label = {});
 
-/// Appends the lines of pieces, or of a contact, as they stand in a certificate.
+/// Appends the lines of pieces, or of a contact, as in a certificate.
 void write_pieces(std::string& text, const std::vector<Piece>& pieces);
 void write_contact(std::string& text, const ContactProof& contact);
 

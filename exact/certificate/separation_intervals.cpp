@@ -10,12 +10,12 @@
 namespace touchstone::exact {
 namespace {
 
-/// A piece that needs more depth than the limit is broken around its deepest place so that this
-/// many levels are left there.
+/// The number of levels that are left at the deepest place of a piece after it was divided for the
+/// limit.
 constexpr unsigned long depth_left = 100;
 static_assert(depth_left + 2 <= bisection_limit);
 
-/// Deeper than any break point within the limit can help.
+/// A depth at which no break point within the limit can help.
 constexpr unsigned long greatest_depth = number_limit + depth_left;
 
 /// The motion on [0,until] as one on [0,1], in other units.
@@ -37,7 +37,7 @@ Motion restricted(const Motion& motion, const Rational& until) {
 
 // ---- One piece ----------------------------------------------------------------------------------
 
-/// A separator that holds at all times of the motion, and for which a checker can see it.
+/// A separator that holds at all times of the motion and that a checker can verify.
 std::optional<Feature> single_feature(const std::vector<Separator>& separators) {
   for (const Separator& separator : separators) {
     bool holds = true;
@@ -53,7 +53,7 @@ std::optional<Feature> single_feature(const std::vector<Separator>& separators) 
 // ---- Many pieces --------------------------------------------------------------------------------
 // Here time is the fraction y of [0,until].
 
-/// As farthest, where there must be one.
+/// As farthest, but a separator must exist.
 Span span_at(std::vector<Separator>& separators, const AlgebraicNumber& y) {
   std::optional<Span> span = farthest(separators, y);
   if (!span) throw std::logic_error("touchstone: no separation where nothing was to touch");
@@ -77,7 +77,8 @@ Rational break_between(AlgebraicNumber lower, AlgebraicNumber upper, const Ratio
   for (unsigned long level = 8; level <= 2 * number_limit; level *= 2) {
     const RationalInterval below = lower.interval(), above = upper.interval();
     const Rational gap = above.lower - below.upper;
-    // Enough of the gap for its shortest number to be as short as any, or nearly.
+    // A part of the gap that is large enough for its shortest number to be nearly the shortest of
+    // the gap.
     if (sgn(gap) > 0 && 2 * gap >= above.upper - below.lower) {
       return shortest_between(until * below.upper, until * above.lower);
     }
@@ -87,14 +88,14 @@ Rational break_between(AlgebraicNumber lower, AlgebraicNumber upper, const Ratio
   throw CertificateLimitError("a break point between two features needs too many bits");
 }
 
-/// A piece by the times of its ends.
+/// A piece with the times of its ends.
 struct LongPiece {
   Rational from;
   Rational to;
   Separator* separator;
 };
 
-/// The fewest pieces, as if a checker could see everything.
+/// The fewest pieces, without regard to the checker's limit.
 std::vector<LongPiece> fewest_pieces(std::vector<Separator>& separators, const Rational& until) {
   std::vector<LongPiece> pieces;
   Rational from = 0;
@@ -113,7 +114,7 @@ std::vector<LongPiece> fewest_pieces(std::vector<Separator>& separators, const R
   return pieces;
 }
 
-/// The deepest place of all proofs that a piece is one; empty if a checker reaches it.
+/// The deepest place of all proofs that a piece needs; empty if it is within the checker's limit.
 std::optional<BisectionProof> beyond_checker(const LongPiece& piece, const Rational& until) {
   const RationalInterval fractions{piece.from / until, piece.to / until};
   std::optional<BisectionProof> deepest;
@@ -130,8 +131,8 @@ std::optional<BisectionProof> beyond_checker(const LongPiece& piece, const Ratio
   return deepest;
 }
 
-/// The piece in parts that a checker can see, appended: the surroundings of the deepest place are
-/// one, and there its proof has depth_left levels less than two to go.
+/// Appends the piece in parts that a checker can verify. The neighbourhood of the deepest place is
+/// one part, whose proof needs at most depth_left + 2 levels.
 void append_visible(const LongPiece& whole, const Rational& until, std::vector<Piece>& pieces) {
   std::vector<LongPiece> rest{whole};
   while (!rest.empty()) {
@@ -147,7 +148,7 @@ void append_visible(const LongPiece& whole, const Rational& until, std::vector<P
     const Rational part = (piece.to - piece.from) * power_of_two(-static_cast<long>(level));
     const Rational lower = std::max(piece.from, Rational(piece.from + part * (middle - 1)));
     const Rational upper = std::min(piece.to, Rational(piece.from + part * (middle + 2)));
-    // The first part is to be taken first.
+    // The stack must yield the first part first.
     if (upper < piece.to) rest.push_back({upper, piece.to, piece.separator});
     rest.push_back({lower, upper, piece.separator});
     if (piece.from < lower) rest.push_back({piece.from, lower, piece.separator});

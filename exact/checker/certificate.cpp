@@ -10,10 +10,6 @@ namespace {
 
 // ---- Numbers --------------------------------------------------------------------------------------
 
-void require_at_most(std::size_t limit, std::size_t count, std::string_view what) {
-  if (count > limit) reject("more than " + std::to_string(limit) + ' ' + std::string(what));
-}
-
 mpz_class parse_digits(std::string_view digits, int base) {
   const auto known = std::string_view("0123456789abcdef").substr(0, std::size_t(base));
   if (digits.empty() || digits.find_first_not_of(known) != std::string_view::npos)
@@ -22,6 +18,13 @@ mpz_class parse_digits(std::string_view digits, int base) {
   require_at_most(base == 10 ? 4'933 : max_number_bits / 4, digits.size(), "digits in a number");
   mpz_class number(std::string(digits), base);
   require_at_most(max_number_bits, mpz_sizeinbase(number.get_mpz_t(), 2), "bits in a number");
+  return number;
+}
+
+/// A decimal integer without a sign, in its only form.
+mpz_class parse_decimal(std::string_view digits) {
+  mpz_class number = parse_digits(digits, 10);
+  if (digits.size() > 1 && digits.front() == '0') reject("an integer with leading zeros");
   return number;
 }
 
@@ -54,21 +57,23 @@ mpq_class parse_hexadecimal(std::string_view text) {
   return number;
 }
 
-mpq_class parse(std::string_view word, bool is_integer = false) try {
-  const std::string_view text = word.substr(word.starts_with('-') ? 1 : 0);
-  mpq_class number;
-  if (is_integer) {
-    number = parse_digits(text, 10);
-  } else if (text.starts_with("0x")) {
-    number = parse_hexadecimal(text.substr(2));
-  } else {
-    const auto [above, below] = parted(text, '/', "1");
-    number.get_num() = parse_digits(above, 10);
-    number.get_den() = parse_digits(below, 10);
-    if (number.get_den() == 0) reject("a denominator that is 0");
-    number.canonicalize();
-  }
-  return word.starts_with('-') ? mpq_class(-number) : number;
+mpq_class parse_fraction(std::string_view text) {
+  const auto [above, below] = parted(text, '/', "1");
+  mpq_class number(parse_decimal(above), parse_decimal(below));
+  if (number.get_den() == 0) reject("a denominator that is 0");
+  number.canonicalize();
+  return number;
+}
+
+/// The number that parse() makes of the word without its sign.
+template <class Parse>
+auto signed_number(std::string_view word, const Parse& parse) try {
+  const bool is_negative = word.starts_with('-');
+  auto number = parse(word.substr(is_negative ? 1 : 0));
+  // C's %a writes one zero with a sign; no integer is written so.
+  if (is_negative && number == 0 && !word.starts_with("-0x")) reject("a zero with a sign");
+  if (is_negative) number = -number;
+  return number;
 } catch (const Rejection& rejection) {
   reject(rejection.reason + ": " + quoted(word));
 }
@@ -111,6 +116,10 @@ void read_corners(Reader& reader, const Certificate& certificate, std::size_t co
 
 }  // namespace
 
+void require_at_most(std::size_t limit, std::size_t count, std::string_view what) {
+  if (count > limit) reject("more than " + std::to_string(limit) + ' ' + std::string(what));
+}
+
 std::string printable(std::string_view text) {
   static constexpr std::string_view digits = "0123456789abcdef";
   std::string result;
@@ -122,6 +131,42 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+mpq_class parse_number(std::string_view word) {
+  return signed_number(word, [](std::string_view text) {
+    return text.starts_with("0x") ? parse_hexadecimal(text.substr(2)) : parse_fraction(text);
+  });
+}
+
+std::string to_text(const mpq_class& number) {
+  const std::string fraction = number.get_str();
+  const bool is_dyadic = mpz_popcount(number.get_den_mpz_t()) == 1;
+  if (number == 0 || !is_dyadic) return fraction;
+  // ± 1.H · 2^power; `digits` are those of 1H.
+  mpz_class digits = abs(number.get_num());
+  const mp_bitcnt_t zeros = mpz_scan1(digits.get_mpz_t(), 0);
+  digits >>= zeros;
+  const std::size_t bits_behind_point = mpz_sizeinbase(digits.get_mpz_t(), 2) - 1;
+  const auto denominator_bits = static_cast<long>(mpz_scan1(number.get_den_mpz_t(), 0));
+  const long power = static_cast<long>(zeros + bits_behind_point) - denominator_bits;
+  digits <<= (4 - bits_behind_point % 4) % 4;
+  std::string text = digits.get_str(16);
+  if (text.size() > 1) text.insert(1, ".");
+  text = (number < 0 ? "-0x" : "0x") + text + (power < 0 ? "p" : "p+") + std::to_string(power);
+  return text.size() < fraction.size() ? text : fraction;
+}
+
+std::string to_text(const Certificate& certificate) {
+  static constexpr std::array names{"no_collision", "collision", "time_of_impact"};
+  const std::string name = names.at(std::size_t(certificate.claim));
+  if (certificate.claim != Claim::time_of_impact) return name;
+  return name + ' ' + to_text(certificate.lower) + ' ' + to_text(certificate.upper);
+}
+
+std::string separation_text(const Certificate& certificate) {
+  const std::string distance = to_text(certificate.distance);
+  return certificate.distance == 0 ? distance : distance + (certificate.is_l2 ? " l2" : " linf");
+}
+
 std::string quoted(std::string_view word) {
   return "'" + printable(word.substr(0, 40)) + (word.size() > 40 ? "...'" : "'");
 }
@@ -130,6 +175,7 @@ void Reader::advance() {
   do {
     stream_->getline(buffer_.data() + 1, std::ssize(buffer_) - 1);
     auto length = static_cast<std::size_t>(stream_->gcount());
+    bytes_ += std::int64_t(length);
     at_end_ = stream_->eof() && length == 0;
     fault_ = nullptr;
     if (at_end_) {
@@ -178,7 +224,7 @@ void Reader::end() {
   advance();
 }
 
-mpq_class read_number(Reader& reader) { return parse(reader.word()); }
+mpq_class read_number(Reader& reader) { return parse_number(reader.word()); }
 
 void read_separation(Reader& reader, Certificate& certificate) {
   reader.begin("separation");
@@ -219,7 +265,7 @@ void read_contact(Reader& reader, Certificate& certificate) {
   contact.from = read_number(reader);
   contact.to = contact.is_root ? read_number(reader) : contact.from;
   while (contact.is_root && reader.has_word()) {
-    contact.g.push_back(parse(reader.word(), true).get_num());
+    contact.g.push_back(signed_number(reader.word(), parse_decimal));
     require_at_most(max_root_degree + 1, contact.g.size(), "coefficients in a polynomial");
   }
   if (contact.is_root && contact.g.size() < 2) reject("a polynomial of a degree below 1");

@@ -32,6 +32,17 @@ inline constexpr std::size_t max_root_degree = 8;
   throw Rejection{line, "", std::move(reason)};
 }
 
+/// Rejects more of something than the limit.
+void require_at_most(std::size_t limit, std::size_t count, std::string_view what);
+
+/// The number that a word is: a decimal integer, a fraction or a hexadecimal float.
+/// \throws Rejection if it is none, or beyond the limits.
+[[nodiscard]] mpq_class parse_number(std::string_view word);
+
+/// The number in one form, whatever form it was read in: the shorter of the fraction in lowest terms and,
+/// where there is one, the hexadecimal float whose first digit is 1.
+[[nodiscard]] std::string to_text(const mpq_class& number);
+
 /// The text with every byte that is not printable ASCII as \xHH.
 [[nodiscard]] std::string printable(std::string_view text);
 /// The beginning of a word, for a message.
@@ -89,6 +100,15 @@ struct Certificate {
   [[nodiscard]] bool has_pieces() const { return claim != Claim::collision && upper != 0; }
 };
 
+/// The claim and the separation in one form, whatever form they were read in: a demand is the same text
+/// (checker.hpp). At distance 0 both norms are the same, and none is named.
+[[nodiscard]] std::string to_text(const Certificate& certificate);
+[[nodiscard]] std::string separation_text(const Certificate& certificate);
+
+/// \throws Rejection, with that line, unless the options demand this claim and separation, or any.
+void require_demanded(const Options& options, const std::string& claim,
+                      const std::string& separation, std::size_t line);
+
 /// The lines of a stream without those that are empty or comments, and the words of the line at hand.
 class Reader {
  public:
@@ -100,6 +120,8 @@ class Reader {
   void advance();
 
   [[nodiscard]] bool at_end() const { return at_end_; }
+  /// The bytes of the stream up to here.
+  [[nodiscard]] std::int64_t bytes() const { return bytes_; }
   /// The number of the line, from 1; at the end that of the last line.
   [[nodiscard]] std::size_t number() const { return number_; }
   /// The line as far as it was read, until the next advance.
@@ -122,6 +144,7 @@ class Reader {
   /// A space and the line.
   std::vector<char> buffer_;
   std::size_t number_ = 0;
+  std::int64_t bytes_ = 0;
   bool at_end_ = false;
   const char* fault_ = nullptr;
   std::string_view text_;

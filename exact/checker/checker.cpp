@@ -1,8 +1,12 @@
 #include "exact/checker/checker.hpp"
 
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
+#include <vector>
 
 #include "exact/checker/certificate.hpp"
 #include "exact/checker/proof.hpp"
@@ -15,6 +19,16 @@ constexpr std::string_view header = "touchstone-certificates 2";
 constexpr std::string_view steps_header = "touchstone-steps 1";
 constexpr std::string_view closing_word = "certificates";
 
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const std::size_t end = text.find(' ');
+    words.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return words;
+    text.remove_prefix(end + 1);
+  }
+}
+
 class StreamCheck {
  public:
   StreamCheck(std::istream& stream, const Options& options) : reader_(stream), options_(options) {}
@@ -23,6 +37,9 @@ class StreamCheck {
     attempt("", [&] {
       reader_.advance();
       if (reader_.text() == steps_header) return check_steps();
+      if (options_.scenes != nullptr) {
+        reject("the first line is not '" + std::string(steps_header) + "', as for scenes", 1);
+      }
       if (reader_.text() == header) return check_certificates();
       reject("the first line is not '" + std::string(header) + "'", 1);
     });
@@ -62,6 +79,8 @@ class StreamCheck {
     attempt(certificate.label, [&] {
       read_certificate(reader_, certificate);
       is_read = true;
+      require_demanded(options_, to_text(certificate), separation_text(certificate),
+                       certificate.line);
       verify(certificate, work_bits_left);
       static constexpr std::array counts{&Report::no_collision, &Report::collision,
                                          &Report::time_of_impact};
@@ -103,6 +122,54 @@ class StreamCheck {
 };
 
 }  // namespace
+
+std::string demanded_claim(std::string_view words) {
+  if (words == "free") return "no_contact 1";
+  struct Form {
+    std::string_view name;
+    std::size_t numbers;
+    bool may_be_without;
+  };
+  static constexpr std::array forms{Form{"no_collision", 0, true}, Form{"collision", 0, true},
+                                    Form{"time_of_impact", 2, true}, Form{"no_contact", 1, false},
+                                    Form{"earliest", 2, true}};
+  const std::vector<std::string_view> parts = words_of(words);
+  for (const auto& [name, numbers, may_be_without] : forms) {
+    if (parts[0] != name) continue;
+    const std::size_t count = parts.size() - 1;
+    if (count != numbers && !(count == 0 && may_be_without)) break;
+    std::string claim(name);
+    for (std::size_t i = 1; i < parts.size(); ++i) claim += ' ' + to_text(parse_number(parts[i]));
+    return claim;
+  }
+  reject("not a claim: " + quoted(words));
+}
+
+std::string demanded_separation(std::string_view distance, std::string_view norm) {
+  Certificate certificate;
+  if (norm != "linf" && norm != "l2") reject("not a norm: " + quoted(norm));
+  certificate.is_l2 = norm == "l2";
+  double decimal = 0.0;
+  const auto [end, error] =
+      std::from_chars(distance.data(), distance.data() + distance.size(), decimal);
+  const bool is_decimal =
+      error == std::errc() && end == distance.data() + distance.size() && std::isfinite(decimal);
+  certificate.distance = is_decimal ? mpq_class(decimal) : parse_number(distance);
+  if (certificate.distance < 0) reject("a distance below 0");
+  return separation_text(certificate);
+}
+
+void require_demanded(const Options& options, const std::string& claim,
+                      const std::string& separation, std::size_t line) {
+  const auto is_demanded = [](const std::string& demand, const std::string& text) {
+    return demand.empty() || text == demand || text.starts_with(demand + ' ');
+  };
+  if (!is_demanded(options.claim, claim)) {
+    reject("the claim is not the one demanded: " + claim, line);
+  }
+  if (options.separation.empty() || options.separation == separation) return;
+  reject("the separation is not the one demanded: " + separation, line);
+}
 
 Report check(std::istream& certificates, const Options& options) {
   if (!certificates) throw std::runtime_error("the stream cannot be read");

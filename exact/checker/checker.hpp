@@ -45,6 +45,7 @@
 #include <cstdint>
 #include <istream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace touchstone::checker {
@@ -54,8 +55,13 @@ struct Options {
   std::size_t max_rejections = 100;
   /// The scenes that certificates of steps have to be about, in order, without labels; null: any.
   std::istream* scenes = nullptr;
-  /// How often boxes are held against each other in the search for the pairs of a step, at most.
-  std::int64_t max_comparisons = std::int64_t{1} << 36U;
+  /// The claim that every certificate has to make, in the form of `demanded_claim`; empty: any.
+  std::string claim = "";
+  /// Its separation, in the form of `demanded_separation`; empty: any.
+  std::string separation = "";
+  /// How often boxes are compared in the search for the pairs of a step, at most: so many times a byte that
+  /// was read up to its end.
+  std::int64_t max_comparisons_per_byte = 256;
   /// The sizes of all polynomials that the proof of one certificate looks at, halves included, in sum:
   /// of a query, and of all pairs of a step.
   std::int64_t max_work_bits = std::int64_t{1} << 28U, max_step_work_bits = std::int64_t{1} << 35U;
@@ -90,6 +96,16 @@ struct Report {
   }
   [[nodiscard]] bool all_accepted() const { return rejected == 0; }
 };
+
+/// The claim in the words of a certificate, its numbers in one form. `time_of_impact` and `earliest` without
+/// numbers stand for all times; `free` is `no_contact 1`.
+/// \throws Rejection if it is no claim.
+[[nodiscard]] std::string demanded_claim(std::string_view words);
+
+/// The separation in one form. \param distance as certificates have it, or a decimal number, which stands for
+/// the double nearest to it. \param norm `linf` or `l2`
+/// \throws Rejection if it is none.
+[[nodiscard]] std::string demanded_separation(std::string_view distance, std::string_view norm);
 
 /// Reads a stream of certificates to its end and checks each. After a rejected one it goes on at the
 /// next `query` line; a stream whose first line is wrong is rejected as a whole, as one. The closing

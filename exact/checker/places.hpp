@@ -11,9 +11,10 @@
 /// and b of the other, at the start and at the end, then there is no contact on the way: for one sign
 /// every ±d·w_i is above D‖d‖₁ ≥ D‖d‖* (checker.hpp) at both ends, and linear in between.
 ///
-/// **Which pairs are met.** The boxes that the primitives sweep are sorted by their lower ends on an
-/// axis. Two that are more than D apart on it, this axis keeps apart. Of any other two the one that
-/// begins later is met behind the other, before the first that begins more than D behind its end.
+/// **Which pairs are met.** The boxes of the primitives at both ends are the leaves of a tree, and every node
+/// has the box around its leaves. An axis that keeps the boxes of two nodes apart keeps every primitive below
+/// the one apart from every primitive below the other. All other pairs of nodes are followed down to the
+/// pairs of primitives.
 
 #include <gmpxx.h>
 
@@ -92,27 +93,37 @@ class Places {
 
   /// Calls take(a, b) for every a of `some` and b of `others` that no coordinate axis keeps apart; if
   /// both are the same list, for every two of it, the smaller number first.
-  /// \param comparisons_left how often boxes may still be held against each other
+  /// \param comparisons_left how often boxes may still be compared
   /// \throws Rejection if that is not often enough.
   template <class Take>
-  void find_near(const Elements& some, const Elements& others, std::size_t axis,
-                 std::int64_t& comparisons_left, const Take& take) const {
+  void find_near(const Elements& some, const Elements& others, std::int64_t& comparisons_left,
+                 const Take& take) const {
     const bool is_same = &some == &others;
-    std::vector<Box> boxes;
-    for (const Element& element : some) boxes.push_back(box_of(element, is_same));
-    for (const Element& element : others) {
-      if (!is_same) boxes.push_back(box_of(element, true));
-    }
-    const auto begin = [&](const Box& x) { return std::min(x.lower[axis], x.lower[axis + 3]); };
-    std::ranges::sort(boxes, {}, begin);
-    for (auto i = boxes.begin(); i != boxes.end(); ++i) {
-      const std::int64_t end = std::max(i->upper[axis], i->upper[axis + 3]) + distance_;
-      for (auto j = i + 1; j != boxes.end() && begin(*j) <= end; ++j) {
-        if (--comparisons_left < 0) reject("the search for pairs takes too many comparisons");
-        if (is_axis_between(*i, *j)) continue;
-        const bool is_first = is_same ? i->element->first < j->element->first : j->is_other;
-        const Box &a = is_first ? *i : *j, &b = is_first ? *j : *i;
-        if (is_same || a.is_other != b.is_other) take(*a.element, *b.element);
+    const Tree first = tree_of(some);
+    const Tree second = is_same ? Tree() : tree_of(others);
+    const Tree& other = is_same ? first : second;
+    if (first.empty() || other.empty()) return;
+    std::vector<std::array<std::size_t, 2>> waiting{{first.size() - 1, other.size() - 1}};
+    while (!waiting.empty()) {
+      const auto [i, j] = waiting.back();
+      waiting.pop_back();
+      const Node &a = first[i], &b = other[j];
+      const bool is_itself = is_same && i == j;
+      if (--comparisons_left < 0) reject("the search for pairs takes too many comparisons");
+      if (!is_itself && is_axis_between(a, b)) continue;
+      if (a.element != nullptr && b.element != nullptr) {
+        const bool is_first = !is_same || a.element->first < b.element->first;
+        if (!is_itself) take(*(is_first ? a : b).element, *(is_first ? b : a).element);
+      } else if (is_itself) {
+        waiting.push_back({a.left, a.left});
+        waiting.push_back({a.left, a.right});
+        waiting.push_back({a.right, a.right});
+      } else if (b.element != nullptr || (a.element == nullptr && a.count >= b.count)) {
+        waiting.push_back({a.left, j});
+        waiting.push_back({a.right, j});
+      } else {
+        waiting.push_back({i, b.left});
+        waiting.push_back({i, b.right});
       }
     }
   }
@@ -123,24 +134,64 @@ class Places {
   struct Bounds {
     Integers lower, upper;
   };
-  struct Box : Bounds {
-    const Element* element;
-    bool is_other;
+  /// A node of a tree: a leaf has an element, another node has two children, which stand before it.
+  struct Node : Bounds {
+    const Element* element = nullptr;
+    std::size_t left = 0;
+    std::size_t right = 0;
+    std::size_t count = 1;  ///< of leaves
   };
+  /// The last node is the root.
+  using Tree = std::vector<Node>;
 
-  [[nodiscard]] Box box_of(const Element& element, bool is_other) const {
-    Box box{bounds_[std::size_t(element.second[0])], &element, is_other};
-    for (std::size_t k = 0; k < 18; ++k) {
-      const Bounds& bounds = bounds_[std::size_t(element.second[k / 6])];
-      box.lower[k % 6] = std::min(box.lower[k % 6], bounds.lower[k % 6]);
-      box.upper[k % 6] = std::max(box.upper[k % 6], bounds.upper[k % 6]);
+  [[nodiscard]] Node leaf_of(const Element& element) const {
+    Node leaf{bounds_[std::size_t(element.second[0])], &element};
+    for (const std::int32_t vertex : element.second) include(leaf, bounds_[std::size_t(vertex)]);
+    return leaf;
+  }
+
+  static void include(Bounds& box, const Bounds& other) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      box.lower[k] = std::min(box.lower[k], other.lower[k]);
+      box.upper[k] = std::max(box.upper[k], other.upper[k]);
     }
-    return box;
+  }
+
+  [[nodiscard]] Tree tree_of(const Elements& elements) const {
+    std::vector<Node> leaves;
+    for (const Element& element : elements) leaves.push_back(leaf_of(element));
+    Tree tree;
+    tree.reserve(2 * leaves.size());
+    if (!leaves.empty()) add_node(tree, leaves.begin(), leaves.end());
+    return tree;
+  }
+
+  using Leaf = std::vector<Node>::iterator;
+
+  /// Adds the tree of some leaves, which are divided in two halves along the axis and at the end where they
+  /// spread most.
+  static std::size_t add_node(Tree& tree, Leaf first, Leaf last) {
+    Node node = *first;
+    if (last - first > 1) {
+      for (Leaf leaf = first; leaf != last; ++leaf) include(node, *leaf);
+      std::size_t widest = 0;
+      const auto spread = [&](std::size_t k) { return node.upper[k] - node.lower[k]; };
+      for (std::size_t k = 1; k < 6; ++k) widest = spread(k) > spread(widest) ? k : widest;
+      const auto middle = first + (last - first) / 2;
+      const auto place = [&](const Node& leaf) { return leaf.lower[widest] + leaf.upper[widest]; };
+      std::ranges::nth_element(first, middle, last, {}, place);
+      node.element = nullptr;
+      node.count = std::size_t(last - first);
+      node.left = add_node(tree, first, middle);
+      node.right = add_node(tree, middle, last);
+    }
+    tree.push_back(node);
+    return tree.size() - 1;
   }
 
   /// Are the boxes more than D apart on an axis, at the start and at the end, in the same order?
-  [[nodiscard]] bool is_axis_between(const Box& a, const Box& b) const {
-    const auto is_below = [&](const Box& x, const Box& y, std::size_t k) {
+  [[nodiscard]] bool is_axis_between(const Bounds& a, const Bounds& b) const {
+    const auto is_below = [&](const Bounds& x, const Bounds& y, std::size_t k) {
       return x.upper[k] + distance_ < y.lower[k] && x.upper[k + 3] + distance_ < y.lower[k + 3];
     };
     for (std::size_t k = 0; k < 3; ++k) {

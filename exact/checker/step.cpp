@@ -13,12 +13,12 @@ namespace {
 
 using Numbers = std::array<std::int32_t, 2>;
 
-/// Takes a word that is a decimal integer from `least` to below `limit`.
+/// Takes a word that is a decimal integer from `least` to below `limit`, in its only form.
 std::int32_t take_integer(Reader& reader, std::int32_t least, std::size_t limit) {
   const std::string_view word = reader.word();
   std::int32_t x = 0;
   const auto [end, error] = std::from_chars(word.begin(), word.end(), x);
-  const bool is_integer = error == std::errc() && end == word.end();
+  const bool is_integer = error == std::errc() && end == word.end() && std::to_string(x) == word;
   const bool is_in_range = x >= least && x < std::int64_t(limit);
   if (!is_integer || !is_in_range) reject("not an integer, or out of range: " + quoted(word));
   return x;
@@ -82,20 +82,24 @@ struct PairKind {
 
 class StepCheck {
  public:
-  StepCheck(Reader& reader, const Options& options) : reader_(reader), left_(options) {}
+  StepCheck(Reader& reader, const Options& options)
+      : reader_(reader), options_(options), work_bits_left_(options.max_step_work_bits) {}
 
   std::string run(Reader* scenes) {
-    read_text();
-    reader_.begin("step");
-    reader_.advance();
+    read_label();
     scene_ = read_scene(reader_);
     const bool is_another = scenes != nullptr && read_scene(*scenes) != scene_;
     if (is_another) reject("the scene is not the one given");
     find_elements();
-    read_text();
     read_separation(reader_, pair_);
     to_double(pair_.distance);
-    read_claim();
+    const std::string separation = separation_text(pair_);
+    text_ += "separation " + separation + '\n';
+    const std::size_t line = reader_.number();
+    const std::string claim = read_claim();
+    text_ += "claim " + claim + '\n';
+    require_demanded(options_, claim, separation, line);
+    if (claim.starts_with("earliest")) read_earliest();
     pair_.claim = Claim::no_collision;
     if (pair_.has_pieces()) prove_no_contact();
     reader_.begin("end");
@@ -104,8 +108,12 @@ class StepCheck {
   }
 
  private:
-  /// Appends the present line to what is proved.
-  void read_text() { text_ += printable(reader_.text().substr(0, max_label_bytes)) + '\n'; }
+  void read_label() {
+    reader_.begin("step");
+    require_at_most(max_label_bytes, reader_.text().size(), "bytes in a label");
+    text_ += printable(reader_.text()) + '\n';
+    reader_.advance();
+  }
 
   void find_elements() {
     scene_.groups.resize(scene_.vertices.size());
@@ -133,18 +141,24 @@ class StepCheck {
              " edges, " + std::to_string(faces_.size()) + " faces\n";
   }
 
-  /// Takes the claim and verifies its contact.
-  void read_claim() {
-    read_text();
+  /// Takes the claim. \returns it, with its numbers in one form.
+  std::string read_claim() {
     reader_.begin("claim");
-    if (reader_.one_of({"no_contact", "earliest"}) == 0) {
+    const bool is_no_contact = reader_.one_of({"no_contact", "earliest"}) == 0;
+    if (is_no_contact) {
       pair_.lower = read_number(reader_);
       if (pair_.lower < 0 || pair_.lower > 1) reject("a time is from 0 to 1");
-      return reader_.end();
+    } else {
+      read_time_of_impact(reader_, pair_);
     }
-    read_time_of_impact(reader_, pair_);
     reader_.end();
-    read_text();
+    if (is_no_contact) return "no_contact " + to_text(pair_.lower);
+    return "earliest " + to_text(pair_.lower) + ' ' + to_text(pair_.upper);
+  }
+
+  /// Takes the pair of the earliest contact and verifies the contact.
+  void read_earliest() {
+    text_ += printable(reader_.text().substr(0, max_label_bytes)) + '\n';
     reader_.begin("pair");
     const PairKind& kind =
         kinds_.at(reader_.one_of({"vertex_face", "edge_edge", "vertex_edge", "vertex_vertex"}));
@@ -152,23 +166,24 @@ class StepCheck {
     reader_.end();
     read_contact(reader_, pair_);
     pair_.claim = Claim::collision;
-    verify(pair_, left_.max_step_work_bits);
+    verify(pair_, work_bits_left_);
   }
 
   /// Finds all pairs that no axis keeps apart, and requires that they have an argument.
   void prove_no_contact() {
     const Places places(scene_.vertices, pair_.distance.get_d(), pair_.lower);
     reader_.begin("sweep");
-    const std::size_t axis = reader_.one_of({"x", "y", "z"});
+    static_cast<void>(reader_.one_of({"x", "y", "z"}));
     reader_.end();
     for (PairKind& kind : kinds_) read_arguments(kind, places);
+    std::int64_t comparisons_left = options_.max_comparisons_per_byte * reader_.bytes();
     for (const PairKind& kind : kinds_) {
       const auto require_argument = [&](const Element& a, const Element& b) {
         if (kind.proved.contains({a.first, b.first}) || !can_collide({&a, &b})) return;
         reject("no argument for " + std::string(kind.name) + ' ' + std::to_string(a.first) + ' ' +
                std::to_string(b.first));
       };
-      places.find_near(kind.some, kind.others, axis, left_.max_comparisons, require_argument);
+      places.find_near(kind.some, kind.others, comparisons_left, require_argument);
     }
   }
 
@@ -188,7 +203,7 @@ class StepCheck {
       } else {
         reader_.end();
         read_pieces(reader_, pair_);
-        verify(pair_, left_.max_step_work_bits);
+        verify(pair_, work_bits_left_);
       }
     }
   }
@@ -238,8 +253,8 @@ class StepCheck {
                                   {"vertex_vertex", points_, points_}}};
   /// The pair at hand, with the step's separation and times.
   Certificate pair_;
-  /// What is left of the limits.
-  Options left_;
+  const Options& options_;
+  std::int64_t work_bits_left_;
 };
 
 }  // namespace

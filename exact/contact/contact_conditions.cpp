@@ -6,12 +6,12 @@
 namespace touchstone::exact {
 namespace {
 
-/// The conditions of a place as they are found to hold.
+/// Collects the conditions of a place while they are found to hold.
 class Conditions {
  public:
   explicit Conditions(AlgebraicNumber& time) : time_(time) {}
 
-  /// The form's sign at the time; from now on it is one of the conditions.
+  /// The form's sign at the time. Adds the form to the conditions.
   template <std::size_t degree>
   int sign(const Form<degree>& form) {
     const int sign = sign_at(form, time_);
@@ -168,7 +168,8 @@ class CubeContact {
     return true;
   }
 
-  /// Has the polygon corners on both sides of what separates it from the cube along an axis?
+  /// True if the polygon has corners on both sides of the planes that would separate it from the
+  /// cube along an axis.
   template <std::size_t degree>
   bool reaches_across(const std::array<Form<degree>, 3>& direction) {
     Form<degree> length{};
@@ -185,7 +186,7 @@ class CubeContact {
            add_one_not_positive([&](std::size_t k) { return -value(k) - reach; });
   }
 
-  /// Of one form a corner; a negative one, if there is one: it asks for less.
+  /// A corner of one form, with a negative value if possible: that condition is weaker.
   template <class FormOf>
   bool add_one_not_positive(const FormOf& form_of) {
     std::optional<decltype(form_of(0))> zero;

@@ -18,12 +18,13 @@ struct ContactForms {
   Form<2> denominator;
 };
 
-/// The sign rules of the theorem at given times, each polynomial made when it is first needed.
+/// The sign rules of the theorem at given times. Polynomials are computed when they are first
+/// needed.
 class ContainsOrigin {
  public:
   explicit ContainsOrigin(const Motion& motion) : motion_(motion) {}
 
-  /// Is the origin in conv{w_i(t)}? If so, where. \pre det vanishes at t.
+  /// The place of the origin in conv{w_i(t)}; empty if it is outside. \pre det vanishes at t.
   std::optional<ContactForms> at(AlgebraicNumber& t) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const int orientation = sign_at(normal(axis), t);
@@ -32,7 +33,7 @@ class ContainsOrigin {
     return in_segment(t);
   }
 
-  /// For motion in a common plane: polynomials between whose roots the answer does not change.
+  /// The polynomials, for motion in a common plane, between whose roots the answer does not change.
   std::vector<Polynomial> planar_polynomials() {
     std::vector<Polynomial> result;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -66,7 +67,7 @@ class ContainsOrigin {
   [[nodiscard]] std::size_t edges() const { return motion_.corner_count; }
   [[nodiscard]] std::size_t next(std::size_t corner) const { return (corner + 1) % edges(); }
 
-  /// Is it not identically zero, and so appended?
+  /// Appends the polynomial unless it vanishes identically; true if it was appended.
   static bool append(const Form<2>& form, std::vector<Polynomial>& result) {
     if (form.is_zero()) return false;
     result.push_back(to_polynomial(form));
@@ -139,7 +140,7 @@ Form<3> scaled_contact_function(const Motion& motion, const ContactForms& contac
   return value;
 }
 
-/// F(toi,u,v) = 0 with (u,v) in the domain, or the oracle itself is wrong.
+/// Checks that F(toi,u,v) = 0 and that (u,v) is in the domain; a failure is a fault of the oracle.
 void check_contact(const Motion& motion, const ContactForms& contact, AlgebraicNumber& toi) {
   const auto& [u, v, d] = contact;
   bool holds = sign_at(d, toi) > 0;
@@ -180,7 +181,7 @@ std::vector<AlgebraicNumber> planar_candidates(ContainsOrigin& contains_origin) 
   return candidates;
 }
 
-/// Times that include the toi if there is one, in ascending order.
+/// Candidate times in ascending order, among them the toi if the query collides.
 std::vector<AlgebraicNumber> candidates(const Motion& motion, ContainsOrigin& contains_origin) {
   const Form<3> det = determinant(motion);
   const auto is_positive = [](const Integer& c) { return sgn(c) > 0; };

@@ -14,21 +14,21 @@
 ///     passes every point between its ends). The origin is in it iff for some edge i, j
 ///     w_i × w_j = 0 and w_i · w_j ≤ 0.
 ///
-/// As t moves these are polynomials, det of degree 3, the others of degree 2. The set of times of
-/// contact is closed, so if it is not empty it has a least element. Candidates for it are
+/// As functions of t these values are polynomials, det of degree 3, the others of degree 2. The set
+/// of times of contact is closed, so if it is not empty it has a least element. The candidates are
 ///   - det ≢ 0: the roots of det in [0,1].
 ///   - det ≡ 0, some N_k ≢ 0 (a polygon whose plane always contains the origin): 0 and the roots in
 ///     [0,1] of N_k and of the (w_i × w_{i+1})_k. Between neighbouring ones N_k ≠ 0 and no sign of
-///     the rule changes, so the answer is the same throughout, and a closed set that begins there
-///     begins at a candidate.
+///     the rule changes, so the answer is constant there; a closed set that begins there begins at
+///     a candidate.
 ///   - det ≡ 0, N ≡ 0 (always a segment): 0 and for every edge i, j the roots in [0,1] of w_i · w_j
-///     and of one component of w_i × w_j, those that are not identically zero. Between neighbouring
+///     and of one component of w_i × w_j, if these do not vanish identically. Between neighbouring
 ///     ones the answer for each edge is constant.
 /// The signs are evaluated exactly at each candidate in ascending order; the first that holds is
 /// the time of impact. The contact's (u,v) follow from the same minors by Cramer's rule, and
-/// F(toi,u,v) = 0 is then checked on F itself, evaluated from the eight points: the one check that
-/// does not rest on the theorem. The rules leave out no case: they also decide parallel edges, needle
-/// triangles and coinciding points.
+/// F(toi,u,v) = 0 is then checked on F itself, evaluated from the eight points. This check does not
+/// depend on the theorem. The rules cover every case: also parallel edges, needle triangles and
+/// coinciding points.
 ///
 /// docs/theory.md, section 2.
 

@@ -17,7 +17,8 @@ struct Decomposed {
   int exponent = 0;
 };
 
-/// Taken from the bits: a caller's floating-point environment may flush subnormals to zero.
+/// Computed from the bits, because a caller's floating-point environment may flush subnormals to
+/// zero.
 Decomposed decompose(double x) {
   static constexpr int fraction_bits = 52, exponent_bias = 1075, special_exponent = 0x7FF;
   const auto bits = std::bit_cast<std::uint64_t>(x);
@@ -107,7 +108,7 @@ Motion scale_to_integers(Kind kind, const Query& query) {
 }
 
 Motion scale_uniformly(Kind kind, const Query& query, const Separation& separation) {
-  // Where subnormals count as zero a comparison takes a negative one for valid.
+  // A comparison accepts a negative subnormal if the environment treats it as zero.
   const bool is_infinite_or_nan = !is_valid(separation);
   const Decomposed distance =
       is_infinite_or_nan ? Decomposed{-1, 0} : decompose(separation.distance);

@@ -4,12 +4,12 @@
 /// A query as integers, and the polynomials in time that decide it.
 ///
 /// Each axis is multiplied by its own power of two that makes its eight coordinates integers: a
-/// linear map of space with positive diagonal, which changes no root of F. (t,u,v) of a contact
-/// stay as they are. Where angles and distances matter one power of two serves all axes.
+/// linear map of space with positive diagonal, which changes no root of F and keeps the (t,u,v) of
+/// a contact. Where angles and distances matter, all axes have the same power of two.
 ///
 /// A polynomial of degree n in time is held as a *form*, Σ c_k (1−t)^(n−k) t^k: a point that moves
 /// from a to b is the form (a, b), products are convolutions, and the c_k are the polynomial's
-/// Bernstein coefficients on [0,1] times binomials, so their signs speak for all of [0,1] at once.
+/// Bernstein coefficients on [0,1] times binomials, so their signs bound the sign on all of [0,1].
 
 #include <algorithm>
 #include <array>
@@ -77,7 +77,7 @@ template <std::size_t m, std::size_t n>
   return product;
 }
 
-/// The constant 1 as a form of any degree: (1−t + t)^degree.
+/// The constant 1 as a form: (1−t + t)^degree.
 template <std::size_t degree>
 [[nodiscard]] Form<degree> one() {
   if constexpr (degree == 0) {
@@ -87,7 +87,7 @@ template <std::size_t degree>
   }
 }
 
-/// The same polynomial as a form of one degree more: times (1−t) + t.
+/// The same polynomial as a form of one higher degree: multiplied by (1−t) + t.
 template <std::size_t degree>
 [[nodiscard]] Form<degree + 1> raised(const Form<degree>& form) {
   Form<degree + 1> result;
@@ -113,8 +113,8 @@ template <std::size_t degree>
   return to_polynomial(std::span<const Integer>(form.c));
 }
 
-/// Sign of a form at a number in [0,1]. The coefficients settle most cases at once: on (0,1) a
-/// form without sign change has the sign of its coefficients.
+/// Sign of a form at a number in [0,1]. The coefficients decide most cases: on (0,1) a form without
+/// sign changes has the sign of its coefficients.
 [[nodiscard]] int sign_at(std::span<const Integer> form, AlgebraicNumber& t);
 
 template <std::size_t degree>
@@ -131,28 +131,28 @@ struct Motion {
   /// w_0..w_2 (vertex_face) or w_0..w_3 (edge_edge), in the order of touchstone::corners.
   std::array<Point, 4> corners;
   std::size_t corner_count;
-  /// The minimum separation in units of the coordinates; 0 where each axis has its own.
+  /// The minimum separation in units of the coordinates; 0 if each axis has its own unit.
   Integer distance = 0;
   Norm norm = Norm::l2;
 };
 
-/// Each axis in its own unit.
+/// Scales each axis by its own power of two.
 /// \throws std::invalid_argument if a coordinate is NaN or infinite.
 [[nodiscard]] Motion scale_to_integers(Kind kind, const Query& query);
 
-/// All axes and the distance in one unit, a power of two: angles and ratios of lengths keep. Exact
-/// for all finite doubles, in every floating-point environment.
+/// Scales all axes and the distance by one power of two, which keeps angles and ratios of lengths.
+/// Exact for all finite doubles, in every floating-point environment.
 /// \throws std::invalid_argument if a coordinate is NaN or infinite, or the separation is not valid.
 [[nodiscard]] Motion scale_uniformly(Kind kind, const Query& query,
                                      const Separation& separation = {.distance = 0.0,
                                                                      .norm = Norm::l2});
 
-/// Component `axis` of w_i × w_j, as the corners move.
+/// Component `axis` of w_i × w_j as a function of time.
 [[nodiscard]] Form<2> cross_component(const Motion& motion, std::size_t i, std::size_t j,
                                       std::size_t axis);
 
-/// w_i · w_j, each axis still scaled by its own power of two: its sign means something only where
-/// w_i and w_j are known to be parallel.
+/// w_i · w_j, each axis still scaled by its own power of two: its sign is meaningful only where w_i
+/// and w_j are parallel.
 [[nodiscard]] Form<2> dot(const Motion& motion, std::size_t i, std::size_t j);
 
 /// Component `axis` of the polygon's normal N = (w_1 − w_0) × (w_last − w_0).

@@ -6,11 +6,11 @@
 /// **Theorem.** A query collides at distance d iff P(t) = conv{w_i(t)} has a point x with ‖x‖ ≤ d for
 /// some t ∈ [0,1], where w_i are the corners of F. Proof: F(t,·,·) has the image P(t).
 ///
-/// Before the first such time every time has a separating axis. The search
-/// (exact/distance/separating_axes.hpp) goes from 0 to where the axes end: at a root of one of their
-/// polynomials, of degree at most 8. That time is then checked by the conditions of a contact
-/// (exact/contact/contact_conditions.hpp), which do not depend on separating axes. The rules leave out
-/// no case: they also decide zero-length edges, faces without area and polygons that are points.
+/// At every earlier time some axis separates. The search (exact/distance/separating_axes.hpp) goes
+/// from 0 to the first time at which no axis separates: a root of one of their polynomials, of
+/// degree at most 8. That time is then checked by the conditions of a contact
+/// (exact/contact/contact_conditions.hpp), which do not depend on separating axes. The rules cover
+/// every case: also zero-length edges, faces without area and polygons that are points.
 ///
 /// docs/theory.md, section 3.
 

@@ -27,7 +27,8 @@ class Values {
     return motion_.norm == Norm::l2 ? l2_features() : linf_features();
   }
 
-  /// Does the predicate hold for all forms of a feature? It is not called again after a failure.
+  /// True if the predicate holds for all forms of a feature. It is not called again after a
+  /// failure.
   bool every(const Feature& feature, const Holds& holds) {
     switch (feature.sort) {
       case Feature::Sort::vertex:
@@ -249,8 +250,8 @@ bool Separator::holds_at(AlgebraicNumber& t) {
   return true;
 }
 
-/// Is one of its polynomials negative at a point between t and the bound, and close to the bound? For
-/// most separators this saves the isolation of roots.
+/// True if one of its polynomials is negative at a point between t and the bound, close to the
+/// bound. For most separators this avoids the isolation of roots.
 bool Separator::is_over_before(const AlgebraicNumber& t, const AlgebraicNumber& bound) {
   const Rational point = bound.interval().lower;
   if (t >= point) return false;

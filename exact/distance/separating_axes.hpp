@@ -3,9 +3,10 @@
 /// \file
 /// Directions that separate a polygon from a ball, and the times at which they do.
 ///
-/// P(t) = conv{w_i(t)} is the polygon of corners, d the distance of the query. A direction a separates P from the ball of radius d strictly iff a·w_k > d‖a‖* for every corner k, ‖·‖* the
+/// P(t) = conv{w_i(t)} is the polygon of corners, d the distance of the query. A direction a
+/// separates P from the ball of radius d strictly iff a·w_k > d‖a‖* for every corner k, ‖·‖* the
 /// dual norm: |a| for l2, |a_x| + |a_y| + |a_z| for linf. While the distance is above d, one of
-/// finitely many does, each polynomial in t and named by a *feature*:
+/// finitely many directions separates. Each is polynomial in t and named by a *feature*:
 ///
 ///   - l2: the nearest point x of P lies inside a vertex, an edge or the face, whose direction is
 ///     parallel to x, and x·w_k ≥ |x|² > d|x|. The directions are
@@ -15,31 +16,32 @@
 ///                                                               nearest to the origin)
 ///         face:        ±N,  N = (w_1 − w_0) × (w_2 − w_0)
 ///
-///     Each edge of the polygon is a side of it: where the polygon has no area, its sides cover it,
-///     so the diagonals of an edge-edge query are not needed.
+///     Each edge of the polygon is a side of it: if the polygon has no area, its sides cover it, so
+///     the diagonals of an edge-edge query are not needed.
 ///   - linf: P misses the cube [−d,d]³ iff 0 is not in cube ⊕ −P. For d > 0 that is a polytope with
-///     volume, so the normal of one of its facets separates 0 from it strictly. A facet is the sum of
-///     the faces of both that are extreme in its direction: a side of the cube and anything, P itself
-///     and anything, or an edge of each. The normals are
+///     volume, so the normal of one of its facets separates 0 from it strictly. A facet is the sum
+///     of the extreme faces of the two summands in its direction: a side of the cube and any face
+///     of P, P itself and any face of the cube, or an edge of each. The normals are
 ///
 ///         axis k:        ±e_k
 ///         face:          ±N
 ///         cross k, i, j: e_k × (w_j − w_i),  i and j neighbours
 ///
-///     This holds for P a segment or a point too: its sides then are all its edges. For d = 0 the
-///     distance is still above some d' > 0, and the direction for d' serves.
+///     This also holds if P is a segment or a point: its sides are then all its edges. For d = 0
+///     the distance is still above some d' > 0, and the direction for d' serves.
 ///
-/// In integer polynomials, all of which have to be positive for a feature to hold:
-///   - l2: a·w_k and (a·w_k)² − d²|a|². For k = i of vertex i these say |w_i|² − d² > 0; for k = i, j
-///     of edge i, j, where a·w_k = V = |e|²|w_i|² − (w_i·e)² and |a|² = |e|² V, V − d²|e|² > 0. In
-///     time the second of a pair ends first: where a·w_k reaches 0 it is not positive. So the first is
-///     a *guard*, which must be evaluated where an interval begins, but whose roots are never needed.
+/// A feature holds iff all of these integer polynomials are positive:
+///   - l2: a·w_k and (a·w_k)² − d²|a|². For k = i of vertex i these say |w_i|² − d² > 0; for k = i,
+///     j of edge i, j, where a·w_k = V = |e|²|w_i|² − (w_i·e)² and |a|² = |e|² V, V − d²|e|² > 0.
+///     The second of a pair stops being positive first: where a·w_k reaches 0 it is not positive.
+///     So the first is a *guard*: it must be evaluated at the beginning of an interval, but its
+///     roots are never needed.
 ///   - linf: a·w_k − d(σ·a) for every vector σ of signs.
 ///
-/// So the times at which P is farther than d are a finite union of open sets. **The search**: from
-/// t = 0, while some feature holds at t, go to where the one that holds longest ends. Every step goes
-/// to a later root of finitely many polynomials, so the search ends: at the first time of contact, or
-/// with a feature that holds up to t = 1.
+/// Hence the times at which P is farther than d are a finite union of open sets. **The search**:
+/// from t = 0, while some feature holds at t, go to the end of the one that holds longest. Every
+/// step goes to a later root of finitely many polynomials, so the search terminates: at the first
+/// time of contact, or with a feature that holds up to t = 1.
 
 #include <cstddef>
 #include <optional>
@@ -54,8 +56,8 @@
 
 namespace touchstone::exact {
 
-/// A feature that holds at some times, with its polynomials, except those whose forms have positive
-/// coefficients only: they are positive throughout.
+/// A feature that holds at some times, with its polynomials. Forms with positive coefficients only
+/// are left out, because they are positive throughout.
 class Separator {
  public:
   /// A form that must be positive.
@@ -68,7 +70,7 @@ class Separator {
 
   [[nodiscard]] const Feature& feature() const { return feature_; }
 
-  /// Are all of its polynomials positive by their coefficients?
+  /// True if all of its polynomials are positive by their coefficients.
   [[nodiscard]] bool is_trivial() const { return values_.empty(); }
 
   [[nodiscard]] std::size_t size() const { return values_.size(); }
@@ -79,17 +81,17 @@ class Separator {
   /// The same as a polynomial.
   const Polynomial& polynomial(std::size_t n);
 
-  /// Does it hold at this time?
+  /// True if the feature holds at this time.
   bool holds_at(AlgebraicNumber& t);
 
   /// The end of the open interval on which it holds from t on: the first root after t, if there is one.
   /// \pre holds_at(t)
   struct End {
     std::optional<AlgebraicNumber> root;
-    /// Is the end not after the given bound? Then `root` may be missing or a later one.
+    /// True if the end is not after the given bound. `root` may then be missing or a later one.
     bool is_within_bound = false;
   };
-  /// \param bound A time after t, or none: an end that is not after it need not be found.
+  /// \param bound A time after t, or empty. An end that is not after it need not be found.
   End end_after(AlgebraicNumber& t, std::optional<AlgebraicNumber>& bound);
 
   /// The beginning of that interval: the last root before t, if there is one.
@@ -114,18 +116,18 @@ class Separator {
 /// first; or a single one that is trivial.
 [[nodiscard]] std::vector<Separator> separators(const Motion& motion);
 
-/// A separator that holds at a time, and up to where it does.
+/// A separator that holds at a time, and the end of its interval.
 struct Span {
   Separator* separator = nullptr;
   std::optional<AlgebraicNumber> end;
 };
 
-/// Of the separators that hold at a time the one that holds longest, the first if there are several;
-/// empty if none holds.
+/// The separator that holds longest among those that hold at a time, the first if there are
+/// several; empty if none holds.
 [[nodiscard]] std::optional<Span> farthest(std::vector<Separator>& separators, AlgebraicNumber t);
 
-/// The first time in [0,1] at which no direction separates, by the search above; empty if there is
-/// none.
+/// The first time in [0,1] at which no direction separates, by the search above; empty if some
+/// direction separates at every time.
 /// \pre the motion is scaled uniformly.
 [[nodiscard]] std::optional<AlgebraicNumber> end_of_separation(const Motion& motion);
 

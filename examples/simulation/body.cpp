@@ -10,8 +10,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The cell's corner (i, j, k) is corner i + 2j + 4k. Each tetrahedron is a way from corner 0 to corner 7 along the axes
-/// in one of their six orders, so that neighbouring cells cut their common square along the same diagonal.
+/// The cell's corner (i, j, k) is corner i + 2j + 4k. Each tetrahedron is a path from corner 0 to
+/// corner 7 along the axes in one of their six orders, so that neighbouring cells cut their common
+/// square along the same diagonal.
 constexpr std::array<std::array<std::size_t, 4>, 6> cell_tetrahedra{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Bodies made by formula: blocks and rings of tetrahedra, cloth, and obstacles that do not move.
+/// \file Bodies defined by formulas: blocks and rings of tetrahedra, cloth, and fixed obstacles.
 
 #include <Eigen/Core>
 
@@ -22,14 +21,14 @@ using Vertices = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 enum class BodyKind : std::uint8_t {
   elastic,   ///< tetrahedra
   cloth,     ///< triangles that resist stretching and bending
-  obstacle,  ///< triangles that stay where they are
+  obstacle,  ///< triangles that do not move
 };
 
 struct Body {
   BodyKind kind = BodyKind::elastic;
   Vertices vertices;  ///< at rest
   std::vector<Tetrahedron> tetrahedra;
-  /// What can collide: the surface of the tetrahedra, the cloth, or the obstacle.
+  /// The faces that can collide: the surface of the tetrahedra, the cloth, or the obstacle.
   std::vector<fast::Face> faces;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< at the start, in m/s
   double density = 1000.0;                             ///< kg/m³; of cloth kg/m²
@@ -42,13 +41,14 @@ using Map = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 /// The cube [−1,1]³ in cells of six tetrahedra each, moved by a map.
 [[nodiscard]] Body block(const std::array<int, 3>& cells, const Map& map);
 
-/// The same with its ends at x = −1 and x = 1 joined. The map must give them the same places.
+/// The same with its ends at x = −1 and x = 1 joined. The map must have the same values there.
 [[nodiscard]] Body ring(const std::array<int, 3>& cells, const Map& map);
 
 /// The square [−1,1]² × 0 in triangles, moved by a map, as cloth.
 [[nodiscard]] Body cloth(const std::array<int, 2>& cells, const Map& map);
 
-/// A plane curve, (x, z) in order, drawn along y from −width/2 to width/2 in so many strips.
+/// A plane curve, (x, z) in order, extruded along y from −width/2 to width/2 in this number of
+/// strips.
 [[nodiscard]] Body extruded(const std::vector<std::array<double, 2>>& profile, double width,
                             int strips);
 

@@ -104,7 +104,7 @@ std::vector<CollisionDetector::Hit> CollisionDetector::hits(const fast::Step& st
         ++statistics_.missed;
         continue;
       }
-      // What is not decided may touch at once.
+      // An undecided pair may collide immediately.
       const bool is_known = answers[i].verdict == fast::Verdict::yes && answers[i].toi_lower >= 0.0;
       result.push_back(
           {candidates.kind, candidates.pairs[i], is_known ? answers[i].toi_lower : 0.0});

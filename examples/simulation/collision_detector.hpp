@@ -1,14 +1,14 @@
 #pragma once
 
-/// \file
-/// Continuous collision detection for a simulator, by any method: how far a line search may go, and which contacts a
-/// constrained step has.
+/// \file Continuous collision detection for a simulator, by any method: the limit of a line search,
+/// and the contacts of a constrained step.
 ///
-/// **Line search** ([wang2021], algorithm 4). With the certified solver this is fast::line_search_limit, pair by pair: each
-/// keeps p times its own distance. (Were it p times the least of the scene, a pair from far away could come as near as
-/// the nearest at one stroke, and the nearest would be nearer at each.) Other methods that know of a separation are asked
-/// for contact at p times the least distance of the scene; those that do not are asked for contact, and (1 − p) of the
-/// time of impact is taken. Either may be 0, and may be wrong: that is what is to be seen.
+/// **Line search** ([wang2021], algorithm 4). With the certified solver this is
+/// fast::line_search_limit, pair by pair: each keeps p times its own distance. (With p times the
+/// least distance of the scene, a distant pair could become as close as the closest in one step,
+/// and the closest pair would come closer in each.) Other methods that support a separation use p
+/// times the least distance of the scene; for the rest the step is (1 − p) of the time of impact.
+/// Either may be 0 or wrong; simulations show the effects.
 
 #include <cstdint>
 #include <memory>
@@ -27,28 +27,28 @@ struct DetectorOptions {
   std::string method = "certified";
   double tolerance = 1e-6;              ///< δ, of methods that are driven by one
   std::int64_t max_checks = 1'000'000;  ///< m_I
-  double p = 0.2;                       ///< the part of the distance that a line search keeps
-  /// One query in so many is answered "no" whatever the truth, chosen by its coordinates; 0: none. (The certified solver is
-  /// then asked as the others are.)
+  double p = 0.2;                       ///< the fraction of the distance that a line search keeps
+  /// One query in this number, chosen by its coordinates, is answered "no" regardless of the truth;
+  /// 0: none. (The certified solver is then used like the others.)
   std::uint64_t missed_one_in = 0;
-  /// One answer in all is "no" whatever the truth: to the query that limits the step of the so many-th line search that
-  /// any limits; 0: none. (The certified solver is then asked as the others are.)
+  /// A single answer is "no" regardless of the truth: to the query that limits the limited line
+  /// search of this number; 0: none. (The certified solver is then used like the others.)
   std::uint64_t missed_limit = 0;
-  /// Of the queries that methods are asked, or would be. Null: they are not recorded.
+  /// Records the queries of all methods. Null: they are not recorded.
   Recorder* recorder = nullptr;
-  /// Of each motion no more queries of each kind than that are recorded, evenly spread; positive.
+  /// The maximum number of recorded queries of each motion and kind, evenly spread; positive.
   std::size_t record_limit = SIZE_MAX;
 };
 
-/// What the detector did so far.
+/// Statistics of the detector.
 struct DetectorStatistics {
   std::uint64_t calls = 0;
-  std::uint64_t candidates = 0;  ///< pairs that methods were asked about, or would have been
-  std::uint64_t missed = 0;      ///< on purpose, where the answer was not "no"
+  std::uint64_t candidates = 0;  ///< candidate pairs
+  std::uint64_t missed = 0;      ///< planted false negatives
   std::uint64_t limited =
-      0;  ///< line searches that a contact limits, of methods asked query by query
-  std::uint64_t steps_of_zero = 0;  ///< line searches that may not go anywhere
-  double seconds = 0.0;             ///< broad phase included, recording not
+      0;  ///< line searches that a contact limits, of methods called query by query
+  std::uint64_t steps_of_zero = 0;  ///< line searches with a step size of 0
+  double seconds = 0.0;             ///< including the broad phase, without recording
 };
 
 class CollisionDetector {
@@ -56,7 +56,7 @@ class CollisionDetector {
   /// \throws std::invalid_argument for an unknown method.
   explicit CollisionDetector(DetectorOptions options);
 
-  /// A step size in [0, 1] up to which nothing is to touch.
+  /// A step size in [0, 1] up to which the method finds no collision.
   [[nodiscard]] double step_size(const fast::Step& step);
 
   /// The pairs that come within eta, with their contacts.
@@ -65,14 +65,14 @@ class CollisionDetector {
   [[nodiscard]] const DetectorStatistics& statistics() const { return statistics_; }
 
  private:
-  /// A pair that the method says comes near, and when.
+  /// A pair with its time of impact according to the method.
   struct Hit {
     fast::PairKind kind;
     fast::IndexPair pair;
     double toi;
   };
 
-  /// Is the whole step given to the certified solver, with its own broad phase?
+  /// True if the certified solver takes the whole step, with its own broad phase.
   [[nodiscard]] bool is_whole() const;
   [[nodiscard]] std::vector<Hit> hits(const fast::Step& step, const Separation& separation);
   [[nodiscard]] double limit_by_method(const fast::Step& step);

@@ -1,4 +1,4 @@
-// touchstone-simulate: a small simulator with the collision detection of one's choice.
+// touchstone-simulate: a small simulator with a choice of collision detection.
 
 #include <fmt/format.h>
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// So many are decided at a time, on all cores.
+/// The number of queries that are decided together, on all cores.
 constexpr std::size_t block_size = 8192;
 
 std::size_t index_of(Kind kind) { return kind == Kind::vertex_face ? 0 : 1; }
@@ -60,7 +60,7 @@ class Recorder::File {
 
  private:
   void write_pending() {
-    // Not of bool, whose elements several threads cannot write at the same time.
+    // Not bool, because several threads cannot write elements of std::vector<bool> concurrently.
     std::vector<char> collides(pending_.size());
     tbb::parallel_for(std::size_t{0}, pending_.size(), [&](std::size_t i) {
       collides[i] = exact::decide(kind_, pending_[i]).collides() ? 1 : 0;

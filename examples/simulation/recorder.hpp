@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Queries in files, with the truth that the oracle finds: as CSV with a label in each row, the format of the 2021
-/// benchmark, or as an array of NumPy with the labels in a file beside it.
+/// \file Queries in files, with the oracle's truth: as CSV with a label in each row, the format of
+/// the 2021 benchmark, or as a NumPy array with the labels in a separate file.
 
 #include <array>
 #include <cstdint>
@@ -23,7 +22,7 @@ struct RecorderOptions {
 
 class Recorder {
  public:
-  /// \throws verify::data::DatasetError if no file can be made there.
+  /// \throws verify::data::DatasetError if no file can be created there.
   explicit Recorder(RecorderOptions options);
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -33,7 +32,8 @@ class Recorder {
 
   void add(Kind kind, const Query& query);
 
-  /// Writes what is left, and gives the files their names. \throws verify::data::DatasetError if it cannot be written.
+  /// Writes the rest, and renames the files. \throws verify::data::DatasetError if it cannot be
+  /// written.
   void close();
 
   [[nodiscard]] std::uint64_t queries(Kind kind) const;

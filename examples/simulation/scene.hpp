@@ -1,7 +1,7 @@
 #pragma once
 
-/// \file
-/// The scenes: bodies, where they start, and what pulls on them. All are made by formula.
+/// \file The scenes: bodies, their positions at the start, and the forces on them. All are defined
+/// by formulas.
 
 #include <Eigen/Core>
 
@@ -15,11 +15,11 @@
 
 namespace touchstone::simulation {
 
-/// A vertex that a spring pulls to a place that moves.
+/// A vertex that a spring pulls to a moving place.
 struct Pin {
   std::int32_t body = 0;
   std::int32_t vertex = 0;
-  /// Where, at a time in seconds.
+  /// The place at a time in seconds.
   std::function<Eigen::Vector3d(double)> place;
 };
 
@@ -29,7 +29,7 @@ struct Scene {
   std::vector<Pin> pins;
   Eigen::Vector3d gravity{0.0, 0.0, -9.81};
   double time_step = 0.01;            ///< seconds
-  int steps = 60;                     ///< so many show what the scene is for
+  int steps = 60;                     ///< enough to show the purpose of the scene
   double activation_distance = 1e-3;  ///< below which a barrier acts: d̂, in metres
 };
 
@@ -42,7 +42,7 @@ struct SceneDescription {
 /// All scenes, in the order of the paper and then of Erleben's.
 [[nodiscard]] const std::vector<SceneDescription>& scenes();
 
-/// \throws std::invalid_argument with the names there are, if there is none of this one.
+/// \throws std::invalid_argument, listing the names, for an unknown one.
 [[nodiscard]] Scene make_scene(std::string_view name);
 
 }  // namespace touchstone::simulation

@@ -44,7 +44,8 @@ ContactWeights weights_of(const fast::Step& step, const fast::ActiveContact& con
 
 using Factorisation = Eigen::SimplicialLDLT<SparseMatrix<double>>;
 
-/// Factorises the Hessian, and solves for the step to the minimum of the quadratic model. Adds the time that takes.
+/// Factorises the Hessian, and solves for the step to the minimum of the quadratic model. Adds its
+/// time.
 VectorXd newton_step(Factorisation& solver, const Derivatives& derivatives, double& seconds) {
   const Stopwatch stopwatch(seconds);
   const Index n = derivatives.gradient.size();
@@ -114,7 +115,7 @@ void Simulator::take_time_step(const Frame& frame) {
 
 double BarrierSimulator::barrier(const VectorXd& x, Derivatives* derivatives) {
   const double reach = options_.activation_distance;
-  // A vertex of mean mass that has to lose the fastest speed of the start at distance d̂/2 or so.
+  // A vertex of mean mass with the greatest initial speed is stopped at a distance of about d̂/2.
   const double speed = std::max(1.0, world_.start_velocity().lpNorm<Eigen::Infinity>());
   const double stiffness = 100.0 * world_.masses().mean() * reach * options_.time_step * speed;
   const fast::Step rest = world_.step(x, x, {.distance = reach});
@@ -128,7 +129,8 @@ double BarrierSimulator::barrier(const VectorXd& x, Derivatives* derivatives) {
       contacts.push_back(contact);
     }
   });
-  // Sums of doubles depend on their order, that of the search on its threads.
+  // Sorted, because sums of doubles depend on their order, and the order of the search on its
+  // threads.
   std::ranges::sort(contacts, {},
                     [](const fast::ActiveContact& one) { return std::pair(one.kind, one.pair); });
   double result = 0.0;
@@ -220,7 +222,7 @@ VectorXd solve(Constraints& constraints, const VectorXd& unconstrained, double e
   for (int sweep = 0; sweep < max_sweeps; ++sweep) {
     double change = 0.0;
     for (Index i = 0; i < constraints.size(); ++i) {
-      if (!(diagonal[i] > 0.0)) continue;  // nothing that could move
+      if (!(diagonal[i] > 0.0)) continue;  // no vertex that can move
       const double gap = constraints.gap(i, x);
       const double multiplier =
           std::max(0.0, constraints.multipliers[i] + (eta - gap) / diagonal[i]);

@@ -7,22 +7,24 @@
 ///
 ///     E(x) = ½ (x − x̂)ᵀ M (x − x̂) + h² W(x),   x̂ = x0 + h v0 + h² g,
 ///
-/// M the masses and W the elastic energy. They differ in how they keep bodies apart.
+/// M the masses and W the elastic energy. They differ in the treatment of contact.
 ///
 /// **Barrier** ([li2020]). Contact costs an energy that grows without bound: with distances d below d̂, κ times the sum of
 ///
 ///     b(d) = −(d/d̂ − 1)² log(d/d̂).
 ///
-/// Newton's method with a line search: collision detection limits the step, so that no step touches, and then the step is
-/// halved until the energy falls. The Hessian of a barrier leaves out the part with the curvature of d, which is the one
-/// with negative eigenvalues. Every Newton step is a straight motion, and one frame.
+/// Newton's method with a line search: collision detection limits the step such that there is no
+/// collision, and the step is then halved until the energy decreases. The Hessian of a barrier
+/// omits the term with the curvature of d, which has negative eigenvalues. Every Newton step is a
+/// straight motion, and one frame.
 ///
-/// **Constraints** ([verschoor2019], [wang2021], section 6.1). Where the unconstrained step comes within η, the contact
-/// points must be at least η apart along the contact normal at the end of the step, to first order. One Newton step of E
-/// under these constraints is a quadratic program, solved by projected Gauss-Seidel on its dual; collision detection of
-/// the result adds constraints, until there is nothing to add. Constraints take triangles for planes and edges for lines,
-/// so they may not be enough, or contradict one another: a step that still touches is shortened as by a line search. A
-/// time step is one straight motion, and one frame.
+/// **Constraints** ([verschoor2019], [wang2021], section 6.1). Where the unconstrained step comes
+/// within η, the contact points must be at least η apart along the contact normal at the end of the
+/// step, to first order. One Newton step of E under these constraints is a quadratic program,
+/// solved by projected Gauss-Seidel on its dual; collision detection of the result adds
+/// constraints, until there are none to add. Constraints treat triangles as planes and edges as
+/// lines, so they may be insufficient or contradictory: a step that still has a collision is
+/// shortened as by a line search. A time step is one straight motion, and one frame.
 
 #include <Eigen/Core>
 
@@ -39,7 +41,7 @@ struct SimulatorOptions {
   double time_step = 0.01;            ///< h, in seconds
   double activation_distance = 1e-3;  ///< d̂ of the barrier and η of constraints, in metres
   int max_iterations = 60;  ///< of Newton's method, or of adding constraints, in a time step
-  /// Newton's method ends when no vertex would move faster than that, in m/s.
+  /// Newton's method ends when no vertex would move faster than this, in m/s.
   double velocity_tolerance = 5e-3;
 };
 
@@ -57,7 +59,7 @@ struct SimulatorStatistics {
   double total_seconds = 0.0;
 };
 
-/// What moves; the state is between time steps.
+/// The simulated world between time steps.
 class Simulator {
  public:
   /// Called with the positions after each straight motion.
@@ -81,7 +83,7 @@ class Simulator {
 
   /// E; adds its derivatives.
   double energy(const Eigen::VectorXd& x, Derivatives* derivatives) const;
-  /// Takes what is held out of a system of equations: no gradient, and a row of the identity.
+  /// Removes fixed coordinates from a system of equations: no gradient, and a row of the identity.
   void hold(Derivatives& derivatives) const;
 
   const World& world_;

@@ -15,10 +15,10 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of pins, in N/m.
+/// The stiffness of pins, in N/m.
 constexpr double pin_stiffness = 1e4;
 constexpr double poissons_ratio = 0.4;
-/// Of cloth, in N m.
+/// The bending stiffness of cloth, in N m.
 constexpr double bending_stiffness = 1e-5;
 
 /// Density and derivatives of an element's energy, as functions of F's columns one below the other.
@@ -201,7 +201,7 @@ void World::add(const Body& body) {
   }
   if (body.kind != BodyKind::cloth) return;
   for (const fast::Face& face : body.faces) {
-    // In the triangle's own plane.
+    // In the triangle's plane.
     const Vector3d along = place(face[1]) - place(face[0]), other = place(face[2]) - place(face[0]);
     const Vector3d x = along.normalized(), y = along.cross(other).cross(along).normalized();
     const Eigen::Matrix2d frame{{along.norm(), other.dot(x)}, {0.0, other.dot(y)}};

@@ -27,11 +27,11 @@
 
 namespace touchstone::simulation {
 
-/// Gradient and Hessian of an energy, summed up from small blocks.
+/// Gradient and Hessian of an energy, as sums of small blocks.
 struct Derivatives {
   explicit Derivatives(Eigen::Index coordinates) : gradient(Eigen::VectorXd::Zero(coordinates)) {}
 
-  /// Adds those of an energy of some vertices: three coordinates each, in their order.
+  /// Adds the derivatives of an energy of some vertices: three coordinates each, in their order.
   void add(std::span<const std::int32_t> vertices,
            const Eigen::Ref<const Eigen::VectorXd>& gradient,
            const Eigen::Ref<const Eigen::MatrixXd>& hessian);
@@ -63,9 +63,9 @@ class World {
   [[nodiscard]] Eigen::Index coordinates() const { return start_.size(); }
   [[nodiscard]] const Eigen::VectorXd& start() const { return start_; }
   [[nodiscard]] const Eigen::VectorXd& start_velocity() const { return velocity_; }
-  /// Of each coordinate, in kg; 0 where it is held.
+  /// The mass of each coordinate, in kg; 0 if it is fixed.
   [[nodiscard]] const Eigen::VectorXd& masses() const { return masses_; }
-  /// Is the coordinate's vertex one of an obstacle?
+  /// True if the coordinate's vertex belongs to an obstacle.
   [[nodiscard]] bool is_held(Eigen::Index coordinate) const {
     return is_held_[static_cast<std::size_t>(coordinate / 3)];
   }
@@ -73,7 +73,7 @@ class World {
   /// The energy of elements and pins at positions x and a time; adds its derivatives.
   double energy(const Eigen::VectorXd& x, double time, Derivatives* derivatives = nullptr) const;
 
-  /// The elements and what can collide, as a step takes them. Obstacles do not meet each other.
+  /// The elements and collision groups of a step. Collisions between obstacles are ignored.
   [[nodiscard]] fast::MeshElements elements() const {
     return {.edges = {}, .faces = faces_, .points = {}};
   }

@@ -58,7 +58,7 @@ std::optional<CertifiedResult> result_of(const KernelHit& hit, const CertifiedOp
 }
 
 double limit_after(double toi_upper, double tolerance) {
-  // The lower end of an enclosure is above its upper one · (1 − tolerance − 2^-52).
+  // The lower end of an enclosure is above the upper end times (1 − tolerance − 2^-52).
   constexpr double far_from_subnormal = 0x1p-900;
   if (tolerance > 0.5) return 1.0;
   const double limit = toi_upper / (1.0 - tolerance) * (1.0 + 0x1p-50);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// \file
-/// A block of queries through all stages: the kernel, and the exact stage for what it leaves.
+/// \file A block of queries through all stages: the kernel, and the exact stage for the queries
+/// that the kernel leaves undecided.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,20 +16,20 @@ namespace touchstone::fast {
 /// \throws std::invalid_argument for options out of range.
 void require_valid(const CertifiedOptions& options);
 
-/// What the exact stage says.
+/// The result of the exact stage.
 [[nodiscard]] CertifiedResult decided_exactly(Kind kind, const Query& query,
                                               const CertifiedOptions& options);
 
-/// The result of a hit, if it is as narrow as wanted and on one side of t_max.
+/// The result of a hit, if its enclosure is narrow enough and on one side of t_max.
 [[nodiscard]] std::optional<CertifiedResult> result_of(const KernelHit& hit,
                                                        const CertifiedOptions& options);
 
-/// A time such that a contact after it has an enclosure whose ends are both above toi_upper.
+/// A time such that every contact after it has an enclosure with both ends above toi_upper.
 [[nodiscard]] double limit_after(double toi_upper, double tolerance);
 
-/// Runs the kernel on a block whose queries are named, with contacts after t_limit of no interest,
-/// and hands on the results of queries that may have a contact: report(index, result). Under strict
-/// floating point. \param query_of(index) a query of the block
+/// Runs the kernel on a block, ignoring contacts after t_limit, and passes on the results of
+/// queries that may have a contact: report(index, result). \pre strict floating point. \param
+/// query_of(index) a query of the block
 template <class QueryOf, class Report>
 const KernelOutput& decide_block(KernelInput block, double t_limit, const CertifiedOptions& options,
                                  const QueryOf& query_of, const Report& report) {

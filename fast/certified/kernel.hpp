@@ -15,7 +15,8 @@
 
 namespace touchstone::fast {
 
-/// Queries that a kernel takes at a time: few enough that they stay in the cache between stages.
+/// The maximum number of queries in a block: small enough that they stay in the cache between
+/// stages.
 inline constexpr std::size_t kernel_block = 1024;
 
 /// A block of queries: from an array, or from pairs of indices.
@@ -24,26 +25,27 @@ struct KernelInput {
   std::size_t count = 0;  ///< at most kernel_block
   /// With an array: its first query of the block.
   const Query* queries = nullptr;
-  /// Else: all vertices, all edges or faces, and the first pair of the block.
+  /// Otherwise: all vertices, all edges or faces, and the first pair of the block.
   const MovingVertex* vertices = nullptr;
   const Edge* edges = nullptr;
   const Face* faces = nullptr;
   const IndexPair* pairs = nullptr;
-  /// Are coordinates known to be finite, and queries not to be separated on an axis, but for few?
-  /// Then the first stage is left out.
+  /// True if coordinates are known to be finite and few queries are separated on an axis. Then the
+  /// first stage is omitted.
   bool axis_is_done = false;
-  /// Contact is to be this near.
+  /// The distance at which primitives are in contact.
   Separation separation = {};
   /// As CertifiedOptions::toi_tolerance, at least least_kernel_tolerance.
   double toi_tolerance = 1e-12;
-  /// Contacts after this time do not matter: found or not.
+  /// Contacts after this time may or may not be found.
   double t_limit = 1.0;
 };
 
-/// Below this, the rounding of the enclosure's own ends would count.
+/// The least tolerance for which the rounding of the enclosure's ends is negligible.
 inline constexpr double least_kernel_tolerance = 0x1p-48;
 
-/// A collision: no contact up to toi_lower, and one up to toi_upper; or both are 0 and so is the toi.
+/// A collision: there is no contact up to toi_lower, and one up to toi_upper; or both are 0 and the
+/// toi is 0.
 struct KernelHit {
   std::uint32_t index;  ///< in the block
   double toi_lower;
@@ -52,7 +54,7 @@ struct KernelHit {
   double v;
 };
 
-/// What became of a block. Queries that are in no list are separated on an axis.
+/// The results of a block. Queries that are in no list are separated on an axis.
 struct KernelOutput {
   template <class T>
   struct List {
@@ -63,19 +65,19 @@ struct KernelOutput {
   List<std::uint32_t> one_sided;  ///< the determinant keeps its sign
   List<std::uint32_t> rejected;   ///< by bisection, no contact up to t_limit
   List<KernelHit> hits;
-  List<std::uint32_t> undecided;  ///< to be decided exactly
+  List<std::uint32_t> undecided;  ///< for the exact stage
 };
 
-/// The functions of one instruction set. All sets come to the same decisions.
+/// The functions of one instruction set. All sets make the same decisions.
 struct CertifiedKernel {
   InstructionSet instructions;
   void (*decide)(const KernelInput& input, KernelOutput& output);
-  /// a b + c on its lanes: lets certified_kernels() see whether products are rounded before they are
-  /// added.
+  /// a b + c on its lanes: certified_kernels() uses it to check that products are rounded before
+  /// they are added.
   double (*product_then_sum)(double a, double b, double c);
 };
 
-/// Those that this processor can run, slowest first; scalar is always among them.
+/// The kernels that this processor can run, slowest first; scalar is always among them.
 /// \throws std::runtime_error if one was compiled so that products are contracted.
 [[nodiscard]] std::span<const CertifiedKernel* const> certified_kernels();
 

@@ -1,5 +1,5 @@
-// The kernel in AVX2 and FMA, four queries at a time; compiled for them, and called on processors
-// that have them only.
+// The kernel in AVX2 and FMA, four queries at a time. It is compiled for these instructions and
+// called only on processors that have them.
 
 #include "fast/certified/kernel_on_lanes.hpp"
 #include "fast/platform/avx2_doubles.hpp"

@@ -1,5 +1,5 @@
-// The kernel in AVX-512 (its foundation, F), eight queries at a time; compiled for it, and called on
-// processors that have it only.
+// The kernel in AVX-512 (its foundation, F), eight queries at a time. It is compiled for these
+// instructions and called only on processors that have them.
 
 #include <immintrin.h>
 

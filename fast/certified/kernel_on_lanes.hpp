@@ -1,36 +1,37 @@
 #pragma once
 
-/// \file
-/// The floating-point stages of the certified solver, written once for lanes: each lane has a
-/// query. For the kernels alone: one file an instruction set includes this one (kernel_*.cpp).
+/// \file The floating-point stages of the certified solver, written once for lanes, with one query
+/// in each lane. Only the kernels include this file, one file for each instruction set
+/// (kernel_*.cpp).
 ///
 /// F = r − u p − v q (filters/polynomial_expressions.hpp), the corners w_i are F at the vertices of
-/// its domain, and a query collides at a time t iff 0 ∈ conv{w_i(t)}. Each stage ends the queries
-/// of which it proves something. Its file begins with the theorem:
+/// its domain, and there is contact at a time t iff 0 ∈ conv{w_i(t)}. Each stage decides the
+/// queries for which its theorem applies. Its file begins with the theorem:
 ///
-/// 1. **Axis** (stages/axis.hpp): a coordinate axis separates the primitives all the time.
-/// 2. **Direction** (stages/direction.hpp): so does the sum of the corners.
+/// 1. **Axis** (stages/axis.hpp): a coordinate axis separates the primitives at all times.
+/// 2. **Direction** (stages/direction.hpp): the direction of the sum of the corners separates them
+///   at all times.
 /// 3. **Determinant** (stages/determinant.hpp): det = r·(p×q), which is 0 at each contact, keeps
 ///    its sign.
 /// 4. **Orientation** (stages/orientation.hpp): signs of the corners' orientations exclude a
-///    contact, or prove that a zero of det is one. If, moreover, det has one zero, it is the time
-///    of impact.
+///    contact, or prove that a zero of det is a contact. If det then has exactly one zero, that is
+///    the time of impact.
 /// 5. **The only zero** (stages/only_zero.hpp): the same on a short interval around the zero of
 ///    det, if it has one on [0,1].
 /// 6. **Bisection** (stages/bisection.hpp): the same on intervals in order of time.
 /// 7. **Refinement** (stages/refinement.hpp): the enclosure of the time of impact.
 ///
 /// With a minimum separation, the bounds of 3. to 7. cover all polygons shifted by it
-/// (stages/moving_vectors.hpp), and there is one stage more:
+/// (stages/moving_vectors.hpp), and there is an additional stage:
 ///
 /// 8. **Conservative advancement** (stages/conservative_advancement.hpp) for queries whose distance
 ///    is too large for the shifted bounds.
 ///
-/// What refinement cannot enclose, because the zero of det is too long after the time of impact,
-/// and what advancement finds is enclosed by stages/distance_enclosure.hpp.
+/// stages/distance_enclosure.hpp encloses the times of impact that advancement finds, and those
+/// that refinement cannot enclose because the zero of det is too long after them.
 ///
-/// Queries that no stage ends are undecided here, and so are those whose coordinates are not
-/// finite, or so large that the bounds do not hold.
+/// Queries that no stage decides remain undecided, as do those with coordinates that are not finite
+/// or too large for the bounds.
 
 #include <array>
 

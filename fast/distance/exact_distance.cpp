@@ -15,7 +15,7 @@
 namespace touchstone::fast {
 namespace exact_stage {
 
-/// |a|. (Where the templates of polygon_features.hpp find it.)
+/// |a|. (In the namespace in which the templates of polygon_features.hpp look for it.)
 static BigInteger abs(const BigInteger& a) { return a.sign() < 0 ? -a : a; }
 
 }  // namespace exact_stage
@@ -111,7 +111,7 @@ Fraction greatest_gap(const Polygon& p) {
   return greatest;
 }
 
-/// The root of that degree of a fraction in units of 2^(degree · unit), about.
+/// The approximate root of that degree of a fraction in units of 2^(degree · unit).
 double approximate_root(const Fraction& fraction, long unit, int degree) {
   const auto a = fraction.numerator.approximation(), b = fraction.denominator.approximation();
   const long exponent = a.exponent - b.exponent;

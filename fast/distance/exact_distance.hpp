@@ -1,19 +1,18 @@
 #pragma once
 
-/// \file
-/// The distance of two primitives at a time, in integers: the truth for all finite doubles.
+/// \file The distance of two primitives at a time, in integers: exact for all finite doubles.
 ///
-/// Coordinates are multiplied by one power of two that makes them integers. With t = n / 2^k so are the
-/// corners, times 2^k. Theorem 1 and theorem 3 of polygon_features.hpp then give the distance, or its
-/// square, as a fraction, which is compared with doubles.
+/// Coordinates are multiplied by one power of two that makes them integers. With t = n / 2^k the
+/// corners, multiplied by 2^k, are integers too. Theorem 1 and theorem 3 of polygon_features.hpp
+/// then give the distance, or its square, as a fraction, which is compared with doubles.
 
 #include "exact/query.hpp"
 #include "fast/distance.hpp"
 
 namespace touchstone::fast {
 
-/// As `distance`. Under strict floating point.
-/// \pre All coordinates are finite; 0 ≤ t ≤ 1.
+/// As `distance`.
+/// \pre Strict floating point; all coordinates are finite; 0 ≤ t ≤ 1.
 [[nodiscard]] Distance exact_distance(Kind kind, const Query& query, double t, Norm norm);
 
 }  // namespace touchstone::fast

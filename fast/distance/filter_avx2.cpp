@@ -1,5 +1,5 @@
-// The filter of distances in AVX2 and FMA, four queries at a time; compiled for them, and called on
-// processors that have them only.
+// The filter of distances in AVX2 and FMA, four queries at a time. It is compiled for these
+// instructions and called only on processors that have them.
 
 #include "fast/distance/filter_on_lanes.hpp"
 #include "fast/platform/avx2_doubles.hpp"

@@ -1,5 +1,5 @@
-// The filter of distances in AVX-512 (its foundation, F), eight queries at a time; compiled for it, and
-// called on processors that have it only.
+// The filter of distances in AVX-512 (its foundation, F), eight queries at a time. It is compiled
+// for these instructions and called only on processors that have them.
 
 #include "fast/distance/filter_on_lanes.hpp"
 #include "fast/platform/avx512_doubles.hpp"

@@ -13,20 +13,21 @@
 
 namespace touchstone::fast {
 
-/// What a kernel leaves open.
+/// The answer that a kernel leaves open.
 inline constexpr Distance open_distance{-1.0, -1.0};
 
-/// The functions of one instruction set. What they answer is the same; what they leave open may differ.
+/// The functions of one instruction set. Their answers are the same, but they may leave different
+/// queries open.
 struct DistanceKernel {
   InstructionSet instructions;
-  /// Answers query i in results[i], or leaves it open. Under strict floating point. \pre all coordinates
-  /// are finite, 0 ≤ t ≤ 1.
+  /// Answers query i in results[i], or leaves it open. \pre strict floating point; all coordinates
+  /// are finite; 0 ≤ t ≤ 1.
   void (*filter)(Kind kind, const Query* queries, std::size_t count, double t, Distance* results);
   /// a b + c on its lanes, as CertifiedKernel.
   double (*product_then_sum)(double a, double b, double c);
 };
 
-/// Those that this processor can run, slowest first; scalar is always among them.
+/// The kernels that this processor can run, slowest first; scalar is always among them.
 /// \throws std::runtime_error if one was compiled so that products are contracted.
 [[nodiscard]] std::span<const DistanceKernel* const> distance_kernels();
 

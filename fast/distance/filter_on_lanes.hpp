@@ -1,18 +1,17 @@
 #pragma once
 
-/// \file
-/// The filter of distances in L2 (filtered_distance.hpp), written once for lanes that hold a query each. For
-/// the kernels alone: one file an instruction set includes this one (filter_*.cpp).
+/// \file The filter of distances in L2 (filtered_distance.hpp), written once for lanes, with one
+/// query in each lane. Only the kernels include this file, one file for each instruction set
+/// (filter_*.cpp).
 ///
-/// Each lane has a nearest feature of its own, guessed in doubles. Corners are rotated so that it begins at
-/// the first: vertex 0, side 0 1, or the face. Then there are three features to evaluate, and all
-/// lanes do whatever one of them needs. The root of the quotient is the first double that is
-/// compared; its neighbour, on the side where the distance is, the second. What these two do not settle
-/// remains open, and so do the queries that need care: with points that coincide, or a size that the
-/// filter would have to scale.
+/// The nearest feature of each lane is guessed in doubles. Corners are rotated so that it begins at
+/// the first: vertex 0, side 0 1, or the face. The three features are then evaluated for all lanes
+/// if one lane needs them. The first double to compare with is the root of the quotient, the second
+/// its neighbour on the side of the distance. Queries that these two do not decide remain open, and
+/// so do special ones: with coincident points, or with a size that would need scaling.
 ///
-/// `Lanes` is a type of the file of one instruction set, in an anonymous namespace, with Value and Mask
-/// as in fast/certified/stages/lanes.hpp. Nothing else may be linked from here.
+/// `Lanes` is a type of the file of one instruction set, in an anonymous namespace, with Value and
+/// Mask as in fast/certified/stages/lanes.hpp. No other file may link code from here.
 
 #include <array>
 #include <bit>
@@ -67,7 +66,7 @@ class Filter {
     }
   }
 
-  /// The next double or the one before. \pre x is positive, or the result does not matter.
+  /// The next double or the one before. \pre x is positive, or the result is not used.
   static double neighbour(double x, bool is_up) {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     return std::bit_cast<double>(is_up ? bits + 1 : bits - 1);
@@ -75,7 +74,7 @@ class Filter {
 
   // ---- Queries ----
 
-  /// Are its coordinates of a usual size, and its corners different?
+  /// True if its coordinates need no scaling and its corners are different.
   static bool is_plain(const Query& query) {
     constexpr double usual = 0x1p64;
     double greatest = 0.0;

@@ -23,8 +23,8 @@ double rounded(const Ball& x) { return x.center.high; }
 
 // ---- The polygon --------------------------------------------------------------------------------
 
-/// The power of two that coordinates are multiplied by so that nothing overflows; nothing if not all of
-/// them can be, exactly.
+/// The exponent of the power of two by which coordinates are multiplied against overflow; empty if
+/// not all products are exact.
 std::optional<int> scaling(const Query& query) {
   constexpr int usual = 64, least_exponent = -900;
   double greatest = 0.0, least = std::numeric_limits<double>::infinity();
@@ -100,17 +100,17 @@ FeatureName nearest_feature(const Guess& p) {
   return result;
 }
 
-/// A feature: its distance is the root of value / square. For its direction, a·w_k of the corners off
-/// the feature are `others`; of those on it, `value`.
+/// A feature: its distance is the root of value / square. With its direction a, `others` are the
+/// a·w_k of the corners that are not on the feature; `value` is that of the corners on it.
 struct Feature {
   Ball value;
   Ball square;
-  bool is_attained = false;  ///< certainly, by a point of the polygon
+  bool is_attained = false;  ///< true if certainly attained by a point of the polygon
   std::array<Ball, 3> others{};
   std::size_t count = 0;
 };
 
-/// \param with_others Are they wanted?
+/// \param with_others true to compute them
 Feature feature(const BallPolygon& p, const FeatureName& name, bool with_others) {
   Feature result;
   if (name.kind == FeatureKind::face) {
@@ -142,7 +142,7 @@ Feature feature(const BallPolygon& p, const FeatureName& name, bool with_others)
   return result;
 }
 
-/// Answers which of two is greater, the distance or a double, in L2.
+/// Compares the distance with a double, in L2.
 class EuclideanComparison {
  public:
   explicit EuclideanComparison(const BallPolygon& p)
@@ -160,8 +160,8 @@ class EuclideanComparison {
   }
 
  private:
-  /// Theorem 2, with the direction of the nearest feature. A corner off the feature that is certainly
-  /// no nearer than it, along the direction, needs no square.
+  /// Theorem 2, with the direction of the nearest feature. A corner that is certainly at least as
+  /// far along the direction as the feature needs no square.
   [[nodiscard]] bool is_beyond(const Ball& s_squared) const {
     const Ball threshold = s_squared * nearest_.square;
     if (!is_positive(nearest_.value - threshold)) return false;
@@ -178,7 +178,7 @@ class EuclideanComparison {
       return feature.is_attained && is_positive(s_squared * feature.square - feature.value);
     };
     if (nearest_.is_attained) return shows(nearest_);
-    // The foot is on the boundary of the feature, or not where it seems to be.
+    // The foot of the perpendicular is on the boundary of the feature, or was guessed wrongly.
     for (std::size_t i = 0; i < polygon_.sides(); ++i) {
       if (shows(feature(polygon_, {FeatureKind::side, i}, false))) return true;
     }
@@ -195,7 +195,7 @@ class EuclideanComparison {
 
 // ---- L∞ -----------------------------------------------------------------------------------------
 
-/// The same in L∞.
+/// Compares the distance with a double, in L∞.
 class CubeComparison {
  public:
   explicit CubeComparison(const BallPolygon& p) : axes_(polygon::axes(p)) {
@@ -212,8 +212,8 @@ class CubeComparison {
 
   [[nodiscard]] double guess() const { return guess_; }
 
-  /// Theorem 3. Differences of coordinates are often doubles, so that a coordinate axis may have just this
-  /// quotient.
+  /// Theorem 3. Differences of coordinates are often doubles, so the quotient of a coordinate axis
+  /// may equal s.
   [[nodiscard]] std::optional<int> operator()(double s) const {
     const auto is_at_most = [](const Ball& a, const Ball& b) {
       return is_positive(b - a) || is_exact_zero(b - a);
@@ -239,7 +239,7 @@ class CubeComparison {
     return Ball(s) * axes_.items[axis].length;
   }
 
-  /// Is its quotient certainly more than s, or as much?
+  /// True if its quotient is certainly at least s.
   template <class IsLess>
   [[nodiscard]] bool separates(std::size_t axis, double s, const IsLess& is_less) const {
     const Ball far = reach(axis, s);
@@ -247,7 +247,7 @@ class CubeComparison {
     return std::ranges::all_of(all, [&](const Ball& x) { return is_less(far, x); }) ||
            std::ranges::all_of(all, [&](const Ball& x) { return is_less(x, -far); });
   }
-  /// Are all quotients certainly less, or at most that?
+  /// True if all quotients are certainly less than s, or at most s.
   template <class IsLess>
   [[nodiscard]] bool are_blocked(double s, const IsLess& is_less) const {
     for (std::size_t i = 0; i < axes_.count; ++i) {

@@ -1,10 +1,10 @@
 #pragma once
 
-/// \file
-/// Which of some pairs at rest are near: a quick answer for many, on lanes.
+/// \file A fast test for many pairs at rest, on lanes: which of them may be within a distance.
 ///
-/// Primitives at rest are within a distance iff a step without motion has contact at that separation. So
-/// the certified solver's stages in floating point (fast/certified/kernel.hpp) tell which are not.
+/// Primitives at rest are within a distance iff a step without motion has contact at that
+/// separation. So the floating-point stages of the certified solver (fast/certified/kernel.hpp)
+/// exclude pairs.
 
 #include <cstdint>
 #include <span>
@@ -16,15 +16,15 @@
 
 namespace touchstone::fast {
 
-/// The places of those queries that may be within the distance at t=0: all that are, and perhaps some
-/// others. Replaces their ends by their starts. Under strict floating point.
-/// \pre All coordinates are finite; at most kernel_block queries.
+/// The indices of the queries that may be within the distance at t=0: all that are, and possibly
+/// others. Replaces their ends by their starts.
+/// \pre Strict floating point; all coordinates are finite; at most kernel_block queries.
 /// \param kernel nullptr: the best one.
 [[nodiscard]] std::vector<std::uint32_t> perhaps_within(Kind kind, std::span<Query> queries,
                                                         const Separation& separation,
                                                         const CertifiedKernel* kernel = nullptr);
 
-/// The same of some of a step's candidates, by the step's kernel.
+/// The same for some of a step's candidates, by the step's kernel.
 [[nodiscard]] std::vector<std::uint32_t> perhaps_within(const Step& step,
                                                         const StepCandidates& candidates,
                                                         const Separation& separation);

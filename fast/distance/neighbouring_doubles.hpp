@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// A number that is not negative between the nearest doubles, found by comparisons with doubles.
+/// \file The enclosure of a number ≥ 0 by neighbouring doubles, found by comparisons with doubles.
 
 #include <algorithm>
 #include <bit>
@@ -14,10 +13,10 @@
 
 namespace touchstone::fast {
 
-/// The greatest double that is not above the number α and the least that is not below it: both are α if
-/// that is a double, and the upper one is infinity beyond the greatest double. `sign_of(x)` is the sign of
-/// α − x for a finite x ≥ 0, or nothing if it does not know; then there is no answer either. Fast if α
-/// is near the guess, right in any case. \pre α ≥ 0.
+/// The greatest double that is not above the number α and the least that is not below it. Both are
+/// α if that is a double; the upper one is infinity beyond the greatest double. `sign_of(x)` is the
+/// sign of α − x for a finite x ≥ 0, or empty if unknown; then the result is empty too. Fast if α
+/// is close to the guess, correct in any case. \pre α ≥ 0.
 template <class SignOf>
 [[nodiscard]] std::optional<Distance> neighbouring_doubles(double guess, const SignOf& sign_of) {
   constexpr double greatest = std::numeric_limits<double>::max();
@@ -26,7 +25,8 @@ template <class SignOf>
   // NaN is not above 0.
   const auto start = std::bit_cast<std::uint64_t>(guess > 0.0 ? std::fmin(guess, greatest) : 0.0);
   std::optional<int> sign = sign_of(at(start));
-  // Doubles by their bits, which are in their order: one below α, and one above, or behind the last.
+  // The bits of doubles, which have the order of the doubles: one below α, and one above or after
+  // the last.
   std::uint64_t below = start, above = start;
   if (sign && *sign > 0) {
     for (std::uint64_t stride = 1; sign && *sign > 0; stride *= 2) {

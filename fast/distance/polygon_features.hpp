@@ -1,14 +1,13 @@
 #pragma once
 
-/// \file
-/// The distance of two primitives at one time, in sums and products: over any numbers.
+/// \file The distance of two primitives at one time, in sums and products of numbers of any type.
 ///
 /// P is the convex hull of the differences of the primitives' points, the corners w_i
-/// (exact/query.hpp). The distance is that of P from the origin. Corners that are the same all the
-/// time are taken once, so a vertex and an edge make a segment, and two vertices a point. Let ij be a
-/// side of P, e = w_j − w_i, m = w_i × w_j, and N = (w_1 − w_0) × (w_last − w_0).
+/// (exact/query.hpp). The distance is that of P from the origin. Corners that coincide at all times
+/// are taken once, so P is a segment for a vertex and an edge, and a point for two vertices. Let ij
+/// be a side of P, e = w_j − w_i, m = w_i × w_j, and N = (w_1 − w_0) × (w_last − w_0).
 ///
-/// **Theorem 1** (L2, above). The square of the distance is at most, and for one of them equal to
+/// **Theorem 1** (L2, upper bounds). The square of the distance is the least of
 ///   - vertex: |w_i|²;
 ///   - side, if w_i·e < 0 < w_j·e: |m|² / |e|²;
 ///   - face, if N ≠ 0 and N·(w_i × w_j) ≥ 0 for every side: (N·w_0)² / |N|².
@@ -16,7 +15,7 @@
 /// the face, so each is the square of the length of a point of P. The nearest point is in the relative
 /// interior of a vertex, a side or the face, and the foot on that. ∎
 ///
-/// **Theorem 2** (L2, below). The distance is more than s iff for one direction a among w_i,
+/// **Theorem 2** (L2, lower bounds). The distance is more than s iff for one direction a among w_i,
 /// |e|² w_i − (w_i·e) e and ±N, all a·w_k are positive and (a·w_k)² > s² |a|². With V = a·w_i and |a|²
 ///   - vertex: V = |w_i|², |a|² = V;
 ///   - side: V = |m|² = a·w_j, |a|² = |e|² V, and a·w_k = m·(w_k × e) for the others;

@@ -13,7 +13,7 @@
 namespace touchstone::fast {
 namespace {
 
-/// A value that the compiler cannot see through.
+/// A value that is opaque to the compiler.
 double opaque(double x) {
   volatile double hidden = x;
   return hidden;

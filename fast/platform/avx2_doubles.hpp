@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Four doubles in a register of AVX2 and FMA, and masks of them: what kernels for these instructions are made of. Local
-/// to the file that includes this one, so that nothing compiled for them can be linked from elsewhere.
+/// \file Four doubles in a register of AVX2 and FMA, and masks of them, for the kernels. They are
+/// local to the including file, so that no other file links code for these instructions.
 
 #include <immintrin.h>
 
@@ -55,7 +54,7 @@ struct Value {
   friend Value select(const Mask& mask, const Value& a, const Value& b) {
     return Value(_mm256_blendv_pd(b.x, a.x, mask.set));
   }
-  /// a · b − product, in one rounding of what is exact.
+  /// a · b − product, with a single rounding.
   friend Value product_error(const Value& a, const Value& b, const Value& product) {
     return Value(_mm256_fmsub_pd(a.x, b.x, product.x));
   }

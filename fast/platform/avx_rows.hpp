@@ -1,9 +1,8 @@
 #pragma once
 
-/// \file
-/// A point in a vector of four, and four points turned into vectors of x, y and z: what the AVX2 and
-/// the AVX-512 kernel share. Templates on a type local to the file that includes this one, so that
-/// nothing compiled for these instructions can be linked from elsewhere.
+/// \file A point in a vector of four, and four points transposed into vectors of x, y and z, for
+/// the AVX2 and the AVX-512 kernel. They are templates on a type that is local to the including
+/// file, so that no other file links code for these instructions.
 
 #include <immintrin.h>
 
@@ -22,7 +21,7 @@ struct AvxRowMask {
   }
 };
 
-/// x, y, z and something else.
+/// x, y, z and an undefined fourth number.
 template <class Local>
 struct AvxRow {
   __m256d all;
@@ -31,7 +30,7 @@ struct AvxRow {
   explicit AvxRow(double value) : all(_mm256_set1_pd(value)) {}
   explicit AvxRow(__m256d value) : all(value) {}
   static AvxRow load(const double* from) { return AvxRow(_mm256_loadu_pd(from)); }
-  /// Reads what is before instead of what is behind.
+  /// Reads the number before the point instead of the one after it.
   static AvxRow load_backwards(const double* from) {
     return AvxRow(_mm256_permute4x64_pd(_mm256_loadu_pd(from - 1), 0b00'11'10'01));
   }
@@ -61,7 +60,7 @@ struct AvxRow {
   }
 };
 
-/// Vectors of the first to the last number of four rows.
+/// The transpose of four rows: vectors of their first to their last numbers.
 template <class Local>
 struct AvxColumns {
   __m256d first, second, third, fourth;
@@ -89,7 +88,7 @@ struct AvxPoints {
     const auto columns = AvxColumns<Local>::of(rows[0], rows[1], rows[2], rows[3]);
     return {columns.first, columns.second, columns.third};
   }
-  /// Reads what is before the points instead of what is behind.
+  /// Reads the numbers before the points instead of those after them.
   static AvxPoints load_backwards(const double* const* rows) {
     const auto columns = AvxColumns<Local>::of(rows[0] - 1, rows[1] - 1, rows[2] - 1, rows[3] - 1);
     return {columns.second, columns.third, columns.fourth};

@@ -6,7 +6,8 @@
 
 namespace touchstone::fast {
 
-// In a file of their own: no arithmetic can be moved across a call that the compiler cannot see into.
+// In a separate file, because the compiler cannot move arithmetic across a call of an unknown
+// function.
 #ifdef __SSE2__
 namespace {
 constexpr unsigned default_state = 0x1F80;

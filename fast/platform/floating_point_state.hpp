@@ -1,14 +1,13 @@
 #pragma once
 
-/// \file
-/// The floating-point state that certified code runs under, whatever its caller runs under.
+/// \file The floating-point state of certified code, independent of its caller's.
 
 #include <cfenv>
 
 namespace touchstone::fast {
 
-/// While it lives, this thread rounds to nearest, keeps subnormals and traps nothing. Then the
-/// caller's state is back: modes, masks and flags.
+/// During its lifetime this thread rounds to nearest, keeps subnormals and has no traps. The
+/// destructor restores the caller's modes, masks and flags.
 class StrictFloatingPoint {
  public:
   StrictFloatingPoint();

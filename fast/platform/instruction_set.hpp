@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// The instruction sets that kernels are written for, and the choice among a kernel's
-/// implementations at run time.
+/// \file The instruction sets of kernels, and the choice among a kernel's implementations at run
+/// time.
 
 #include <algorithm>
 #include <array>
@@ -25,13 +24,13 @@ enum class InstructionSet : std::uint8_t {
 /// "scalar", "avx2" or "avx512".
 [[nodiscard]] std::string_view to_string(InstructionSet instructions);
 
-/// Can this processor run it?
+/// True if this processor supports it.
 [[nodiscard]] bool is_supported(InstructionSet instructions);
 
-/// Those implementations that this processor can run, in their order. A Kernel has the member
-/// `instructions`; `name` is what to call it in an error, `rounds_products(kernel)` tells whether it
-/// rounds products before it adds them: each is compiled for its own instruction set, so each could
-/// be contracted by itself.
+/// The implementations that this processor can run, in their order. A Kernel has the member
+/// `instructions`; `name` is its name in errors; `rounds_products(kernel)` is true if it rounds
+/// products before it adds them. Each implementation is checked, because each is compiled for its
+/// own instruction set and could be contracted.
 /// \throws std::runtime_error if one was compiled so that products are contracted.
 template <class Kernel, class Check>
 [[nodiscard]] std::vector<const Kernel*> runnable_kernels(
@@ -60,7 +59,7 @@ double product_then_sum(double a, double b, double c) {
   return result[0];
 }
 
-/// For runnable_kernels, of a kernel with the member `product_then_sum`.
+/// A test for runnable_kernels of a kernel with the member `product_then_sum`.
 template <class Kernel>
 [[nodiscard]] bool rounds_its_products(const Kernel& kernel) {
   // (1+ε)(1−ε) − 1 for ε = 2^-30: 0 if the product rounds to 1.
@@ -68,7 +67,7 @@ template <class Kernel>
   return kernel.product_then_sum(1.0 + epsilon, 1.0 - epsilon, -1.0) == 0.0;
 }
 
-/// The one of an instruction set; nullptr if there is none.
+/// The implementation for an instruction set; nullptr if there is none.
 template <class Kernel>
 [[nodiscard]] const Kernel* find_kernel(std::span<const Kernel* const> kernels,
                                         InstructionSet instructions) {

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Work in as many threads as are allowed.
+/// \file Work in a limited number of threads.
 
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
@@ -12,11 +11,12 @@
 
 namespace touchstone::fast {
 
-/// What work() returns, called in an arena of at most so many threads (0: all cores), strictly: it may
-/// be in another thread than the caller's. Tasks that it makes have to see to that for themselves.
+/// Calls work() in an arena of at most this number of threads (0: all cores), under strict floating
+/// point, and returns its result. It may run in another thread than the caller's. Its tasks have to
+/// establish strict floating point themselves.
 template <class Work>
 auto with_threads(int max_threads, const Work& work) {
-  // More threads than cores would not even be made.
+  // oneTBB would not start more threads than cores.
   const int cores = oneapi::tbb::info::default_concurrency();
   oneapi::tbb::task_arena arena(max_threads == 0 ? cores : std::min(max_threads, cores));
   return arena.execute([&work] {

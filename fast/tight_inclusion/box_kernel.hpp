@@ -1,12 +1,12 @@
 #pragma once
 
-/// \file
-/// The inner loop of Tight-Inclusion: F at the eight corners of a box, and what follows from it.
+/// \file The inner loop of Tight-Inclusion: F at the eight corners of a box, and the properties
+/// that follow.
 ///
 /// F is affine in each of t, u and v, so over a box it stays within the bounding box of its eight
-/// corner values ([wang2021], section 4.2). Both are computed on lanes, one a corner, with the
-/// steps of filters/expressions.hpp in their order, so that a lane has the very bits of
-/// EdgeEdge::evaluate or VertexFace::evaluate, whatever the instruction set.
+/// corner values ([wang2021], section 4.2). Both are computed on lanes, one for each corner, with
+/// the steps of filters/expressions.hpp in their order. So a lane has the same bits as
+/// EdgeEdge::evaluate or VertexFace::evaluate for every instruction set.
 
 #include <array>
 #include <cstddef>
@@ -18,12 +18,12 @@
 
 namespace touchstone::fast {
 
-/// A query as the kernel reads it.
+/// A query in the layout of the kernel.
 struct BoxProblem {
-  /// Per axis the coordinates of the four points at t=0, then at t=1.
+  /// For each axis, the coordinates of the four points at t=0, then at t=1.
   alignas(64) std::array<std::array<double, query_points>, 3> coordinates{};
-  /// Per axis the error bound of F's computed values, in units of the coordinates; the fourth
-  /// stays infinite, it fills the vector.
+  /// For each axis, the error bound of F's computed values, in units of the coordinates; the fourth
+  /// number fills the vector and is infinite.
   std::array<double, 4> filter{0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
   double separation = 0.0;
   Kind kind = Kind::vertex_face;
@@ -35,14 +35,14 @@ struct Box {
   std::array<double, 6> ends;  ///< t0, t1, u0, u1, v0, v1
 };
 
-/// What the corner values say of a box.
+/// Properties of a box that follow from the corner values.
 struct BoxTest {
   bool rejected;  ///< F stays away from the origin by more than separation and filter, on some axis
   bool inside;    ///< not rejected, and all corners within separation and filter, on all axes
   double width;   ///< the longest side of the bounding box of the corner values, if not rejected
 };
 
-/// Of the greatest magnitudes of a query.
+/// The greatest magnitudes of a query.
 struct Extent {
   std::array<double, 3> x_max;  ///< per axis over the eight points
   bool finite;                  ///< no coordinate is infinite or NaN
@@ -54,14 +54,14 @@ using CornerValues = std::array<double, 8>;
 /// The functions of one instruction set. All sets give the same bits.
 struct BoxKernel {
   InstructionSet instructions;
-  /// Sorts the query's coordinates by axis. Leaves filter and separation as they are.
+  /// Sorts the query's coordinates by axis. Does not change filter and separation.
   Extent (*load)(const Query& query, BoxProblem& problem);
   BoxTest (*test)(const BoxProblem& problem, const Box& box);
   /// The corner values on an axis.
   CornerValues (*corners)(const BoxProblem& problem, const Box& box, std::size_t axis);
 };
 
-/// Those that this processor can run, slowest first; scalar is always among them.
+/// The kernels that this processor can run, slowest first; scalar is always among them.
 /// \throws std::runtime_error if one was compiled so that products are contracted.
 [[nodiscard]] std::span<const BoxKernel* const> box_kernels();
 
@@ -69,7 +69,7 @@ struct BoxKernel {
 [[nodiscard]] const BoxKernel& best_box_kernel();
 
 /// The scalar kernel in the order of operations of the public Tight-Inclusion, with the bits of
-/// filters::ReleasedEdgeEdge and filters::ReleasedVertexFace: for comparison only.
+/// filters::ReleasedEdgeEdge and filters::ReleasedVertexFace: for comparisons only.
 [[nodiscard]] const BoxKernel& released_box_kernel();
 
 /// The kernel of an instruction set; nullptr if there is none or this processor cannot run it.

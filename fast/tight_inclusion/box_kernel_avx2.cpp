@@ -1,7 +1,9 @@
-// The kernel in AVX2; compiled for it, and called on processors that have it only.
+// The kernel in AVX2. It is compiled for these instructions and called only on processors that have
+// them.
 //
-// There is none in AVX-512: the lanes move within halves of four, which one wide register does no faster. On a processor
-// with both (Zen 4) it took 1.08 to 1.24 times as long as this one on the public data.
+// There is no kernel in AVX-512: lanes move only within halves of four, for which one wide register
+// is not faster. On a processor with both (Zen 4) it took 1.08 to 1.24 times as long on the public
+// data.
 
 #include <immintrin.h>
 
@@ -12,7 +14,7 @@
 namespace touchstone::fast {
 namespace {
 
-/// One coordinate of four points, which stand one after the other, x, y, z each.
+/// One coordinate of four consecutive points of x, y and z.
 template <std::size_t axis>
 __m256d of_axis(const double* points) {
   // x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3
@@ -56,7 +58,7 @@ struct AxisBounds {
             across(greatest_x, greatest_y, greatest_z, max)};
   }
 
-  /// Is the box beyond separation and filter, on some axis?
+  /// True if the box is beyond separation and filter on some axis.
   [[nodiscard]] bool are_beyond(const double* filter, double separation) const {
     const __m256d f = _mm256_loadu_pd(filter), d = _mm256_set1_pd(separation);
     const __m256d above = _mm256_cmp_pd(_mm256_sub_pd(least, d), f, _CMP_GT_OQ);
@@ -64,7 +66,7 @@ struct AxisBounds {
     return _mm256_movemask_pd(_mm256_or_pd(above, below)) != 0;
   }
 
-  /// Is the box within separation and filter, on all axes?
+  /// True if the box is within separation and filter on all axes.
   [[nodiscard]] bool are_within(const double* filter, double separation) const {
     const __m256d f = _mm256_loadu_pd(filter), d = _mm256_set1_pd(separation);
     const __m256d not_above = _mm256_cmp_pd(_mm256_sub_pd(greatest, d), f, _CMP_LE_OQ);
@@ -92,7 +94,7 @@ struct AxisBounds {
   }
 };
 
-/// Eight lanes in two registers, a half each.
+/// Eight lanes in two registers, one half in each.
 struct Lanes {
   __m256d low;
   __m256d high;

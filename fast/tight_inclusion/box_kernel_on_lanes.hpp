@@ -6,15 +6,15 @@
 ///
 /// The eight lanes are two halves of four: the lower for t0, the upper for t1. In a half the lanes
 /// are first the four points, then, for edge_edge, the points at (u0, u1) of the one edge and at
-/// (v0, v1) of the other, and at last the corners in the order (u,v) = 00, 01, 10, 11. So no value
-/// is computed twice, and lanes move within their half only.
+/// (v0, v1) of the other, and at last the corners in the order (u,v) = 00, 01, 10, 11. Thus no
+/// value is computed twice, and lanes move only within their half.
 ///
 /// `Lanes` has: twice(a, b, c, d) and twice(pointer) — the same four in both halves; halves(a, b) —
-/// all of a half equal; coordinate<axis>(pointer) — of eight points; +, −, *; shuffled<a,b,c,d>() within halves; store(pointer);
-/// are_finite(); magnitude(), the greatest of eight finite values; and bounds(x, y, z), the bounding
-/// box of corner values. Such a type, and with it every
-/// instance of these templates, must be local to its file: code for one instruction set may not be
-/// what another file links.
+/// all of a half equal; coordinate<axis>(pointer) — of eight points; +, −, *; shuffled<a,b,c,d>()
+/// within halves; store(pointer); are_finite(); magnitude(), the greatest of eight finite values;
+/// and bounds(x, y, z), the bounding box of corner values. Such a type, and hence every instance of
+/// these templates, must be local to its file, so that no other file links code for its instruction
+/// set.
 
 #include "fast/tight_inclusion/box_kernel.hpp"
 #include "filters/expressions.hpp"
@@ -34,7 +34,7 @@ struct ConvexSteps {
   }
 };
 
-/// Those of filters::ReleasedEdgeEdge and filters::ReleasedVertexFace.
+/// The steps of filters::ReleasedEdgeEdge and filters::ReleasedVertexFace.
 struct ReleasedSteps {
   template <class Lanes>
   static Lanes blend(const Lanes& a, const Lanes& b, const Lanes& /*weight_a*/,
@@ -51,14 +51,15 @@ struct ReleasedSteps {
 /// The kernel's functions on `Lanes`, in the order of operations of `Steps`.
 template <class Lanes, class Steps = ConvexSteps>
 struct BoxKernelOnLanes {
-  /// The weights of a box: the time's, and those of (u,v) in the layout of the kind, which for
-  /// edge_edge has no third.
+  /// The weights of a box: of the time, and of (u,v) in the layout of the kind; edge_edge has no
+  /// third one.
   struct BoxWeights {
     Lanes early, late;
     Lanes first, second, third;
   };
 
-  // From scalars, not by loading the box as a vector: its ends have just been written one by one.
+  // Built from scalars instead of a vector load, because the ends of the box were just written one
+  // by one.
   static BoxWeights edge_edge_weights(const Box& box) {
     const auto [t0, t1, u0, u1, v0, v1] = box.ends;
     return {Lanes::halves(1.0 - t0, 1.0 - t1), Lanes::halves(t0, t1),

@@ -1,4 +1,4 @@
-// The kernel without vector instructions of its own: every processor runs it.
+// The kernel without explicit vector instructions, for every processor.
 
 #include <cstddef>
 
@@ -14,7 +14,7 @@ struct AxisBounds {
   double least[axes];     // NOLINT(modernize-avoid-c-arrays): no function of another file
   double greatest[axes];  // NOLINT(modernize-avoid-c-arrays)
 
-  /// Is the box beyond separation and filter, on some axis?
+  /// True if the box is beyond separation and filter on some axis.
   [[nodiscard]] bool are_beyond(const double* filter, double separation) const {
     bool result = false;
     for (std::size_t axis = 0; axis < axes; ++axis) {
@@ -24,7 +24,7 @@ struct AxisBounds {
     return result;
   }
 
-  /// Is the box within separation and filter, on all axes?
+  /// True if the box is within separation and filter on all axes.
   [[nodiscard]] bool are_within(const double* filter, double separation) const {
     bool result = true;
     for (std::size_t axis = 0; axis < axes; ++axis) {

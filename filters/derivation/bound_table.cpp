@@ -17,7 +17,7 @@
 namespace touchstone::filters {
 namespace {
 
-/// One cell of the table that takes time.
+/// A task: one cell of the table that is expensive to compute.
 struct Task {
   std::size_t row;
   const CatalogueEntry* entry;
@@ -50,7 +50,7 @@ DeriveRow start_row(const CatalogueEntry& entry, const Format& format,
   return row;
 }
 
-/// Does the tasks in several threads.
+/// Runs the tasks in several threads.
 class Work {
  public:
   Work(const DeriveOptions& options, DeriveResult& result, const std::vector<Task>& tasks)
@@ -122,7 +122,7 @@ std::string in_units(const std::optional<mpq_class>& bound) {
   return bound ? fmt::format("{:.6g} u", bound->get_d()) : "";
 }
 
-/// Text counts as many columns as it has characters: all of it is ASCII.
+/// The width of a text is its number of characters, because all texts are ASCII.
 std::string line(std::size_t name_width, std::string_view expression, std::string_view precision,
                  std::string_view constant, std::string_view published, std::string_view ours,
                  std::string_view gappa, std::string_view observed, std::string_view tightness) {

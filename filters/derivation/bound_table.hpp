@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// The table of all bounds, by each model: what `touchstone derive` prints.
+/// \file The table of all bounds, by each model, as `touchstone derive` prints it.
 
 #include <cstdint>
 #include <functional>
@@ -15,11 +14,11 @@
 
 namespace touchstone::filters {
 
-/// Where a bound comes from.
+/// The origin of a bound.
 enum class Model : std::uint8_t {
   published,  ///< the paper's rounding model (published_model.hpp)
   rigorous,   ///< ours (rounding_model.hpp)
-  gappa,      ///< what Gappa proves (gappa.hpp)
+  gappa,      ///< the bound that Gappa proves (gappa.hpp)
   observed    ///< no bound: the worst error found (worst_case.hpp)
 };
 
@@ -27,15 +26,15 @@ struct DeriveOptions {
   std::set<Model> models{Model::published, Model::rigorous, Model::gappa, Model::observed};
   std::vector<Format> formats{double_format, float_format, double_double_format};
   WorstCaseOptions search;
-  unsigned threads = 0;  ///< 0: as many as the machine has
-  /// Called with the fraction done, from 0 to 1, from any thread but one at a time.
+  unsigned threads = 0;  ///< 0: one for each core
+  /// Called with the completed fraction, from 0 to 1, from any thread, but by one at a time.
   std::function<void(double)> progress = [](double) {};
-  /// Asked before each piece of work: return true to leave out the rest.
+  /// Called before each task. Return true to skip the remaining ones.
   std::function<bool()> stop = [] { return false; };
 };
 
-/// An expression in a precision. Bounds are multiples of u x^k; what was not asked for, or could
-/// not be had, is empty.
+/// An expression in a precision. Bounds are multiples of u x^k. A bound that was not requested or
+/// not found is empty.
 struct DeriveRow {
   std::string expression;
   Format format;
@@ -54,7 +53,7 @@ struct DeriveResult {
 };
 
 /// All rows of the catalogue.
-/// \throws what the models throw, GappaMissing excepted.
+/// \throws the exceptions of the models except GappaMissing.
 [[nodiscard]] DeriveResult derive(const DeriveOptions& options);
 
 /// The rows as text, a line each.

@@ -22,7 +22,7 @@ CatalogueEntry entry(Ships ships, const PublishedConstants& published) {
           .ships = ships == Ships::yes};
 }
 
-/// An expression of the certified solver, in the one format that it runs it in.
+/// An expression of the certified solver, in the only format in which it runs.
 template <class Expression>
 CatalogueEntry entry(const Format& format) {
   return {.graph = record<Expression>(),

@@ -1,9 +1,8 @@
 #pragma once
 
-/// \file
-/// The list of all expressions. To add one, write its template in filters/expressions.hpp or
-/// filters/polynomial_expressions.hpp and its line in catalogue.cpp; filters/README.md shows how with
-/// an example.
+/// \file The list of all expressions. To add one, write its template in filters/expressions.hpp or
+/// filters/polynomial_expressions.hpp and its line in catalogue.cpp; filters/README.md has an
+/// example.
 
 #include <optional>
 #include <string>
@@ -15,20 +14,20 @@
 
 namespace touchstone::filters {
 
-/// Constants published for a function [wang2021], as they were printed, and the expression
-/// with the order of operations in which the published model gives them.
+/// Constants published for a function [wang2021], as printed, and the expression whose order of
+/// operations yields them in the published model.
 struct PublishedConstants {
   std::string_view in_double;
   std::string_view in_float;
   std::string_view order;  ///< name of an expression of the catalogue
 };
 
-/// An expression, with what it is evaluated by and compared with.
+/// An expression with its evaluators and the published constants.
 struct CatalogueEntry {
   ExpressionGraph graph;
   Evaluators evaluators;
   std::optional<PublishedConstants> published;
-  std::vector<Format> formats;  ///< that it is run in
+  std::vector<Format> formats;  ///< the formats that it runs in
   bool ships = false;           ///< its bounds stand in filters/error_bounds.hpp
 };
 

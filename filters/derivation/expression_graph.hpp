@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// An expression as a graph of its operations, recorded by running its template on a scalar that
-/// notes what is done to it. All that is derived of an expression is derived from this graph.
+/// \file An expression as a graph of its operations, recorded by running its template on a scalar
+/// that records operations. All derivations start from this graph.
 
 #include <array>
 #include <cstddef>
@@ -16,7 +15,7 @@ namespace touchstone::filters {
 
 enum class Operation : std::uint8_t { coordinate, weight, add, subtract, multiply };
 
-/// A value of the graph. Operands stand before their results.
+/// A value of the graph. Operands precede their results.
 struct Node {
   Operation operation;
   std::size_t left = 0;   ///< the input's number, or the first operand's place in the graph
@@ -41,7 +40,7 @@ struct ExpressionGraph {
   [[nodiscard]] std::vector<std::vector<int>> weight_vertices() const;
 };
 
-/// A scalar that records: each operation adds a node to the graph and stands for its result.
+/// A recording scalar: each operation adds a node to the graph and returns a reference to it.
 class Recorded {
  public:
   Recorded(ExpressionGraph& graph, Node node) : graph_(&graph), place_(graph.nodes.size()) {
@@ -66,7 +65,7 @@ class Recorded {
 };
 
 /// Throws std::invalid_argument, naming the expression, unless the groups hold exactly its weights
-/// and no product has weights of one group on both sides: what the derivations rest on.
+/// and no product has weights of one group on both sides, as the derivations assume.
 void require_multiaffine(const ExpressionGraph& graph, std::size_t weights);
 
 /// Throws std::invalid_argument, naming the expression, unless each coordinate has a class, each
@@ -75,7 +74,7 @@ void require_multiaffine(const ExpressionGraph& graph, std::size_t weights);
 /// x_1 ⋯ x_k (rounding_model.hpp has the proof).
 void require_classes(const ExpressionGraph& graph, std::span<const std::size_t> classes);
 
-/// The graph of an expression (filters/expressions.hpp says what that is).
+/// The graph of an expression (filters/expressions.hpp has the rules).
 /// \throws std::invalid_argument if it breaks the rules for expressions.
 template <class Expression>
 [[nodiscard]] ExpressionGraph record() {

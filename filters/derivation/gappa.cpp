@@ -32,8 +32,8 @@ std::string dyadic(const mpq_class& x) {
   return fmt::format("{}b-{}", x.get_num().get_str(), exponent);
 }
 
-/// A script in the making. Small letters are computed values, capital ones exact. Whatever it names
-/// is numbered in the order in which it is met on the way down from the result.
+/// A script under construction. Small letters are computed values, capital ones exact values. Names
+/// are numbered in the order of a traversal from the result down.
 class Script {
  public:
   Script(const ExpressionGraph& graph, const Format& format, GappaGoal goal,
@@ -61,8 +61,8 @@ class Script {
     return node.operation == Operation::weight && weights_[node.left] == 0;
   }
 
-  /// Is it a product with a weight that is 0? Then its computed value is 0 as its exact one is,
-  /// whatever the error (without a least exponent, that is).
+  /// True for a product with a weight that is 0. Its computed value is 0, as its exact one, for any
+  /// error (in a format without a least exponent).
   [[nodiscard]] bool vanishes(std::size_t place) const {
     const auto& [operation, left, right] = graph_.nodes[place];
     return goal_ == GappaGoal::rounding && operation == Operation::multiply &&
@@ -86,7 +86,7 @@ class Script {
     return vanishes(place) ? "0" : fmt::format("N{}", *numbers_[place]);
   }
 
-  /// The sum of the terms, in an order that the names alone decide.
+  /// The sum of the terms, in an order that depends on the names alone.
   [[nodiscard]] std::string polynomial(const ExactValue& value) const {
     std::vector<std::string> terms;
     for (const ExactValue::Term& term : value.terms) {
@@ -101,7 +101,7 @@ class Script {
     return terms.empty() ? "0" : fmt::format("{}", fmt::join(terms, " + "));
   }
 
-  /// An operation on the operands as they are named.
+  /// An operation on the named operands.
   [[nodiscard]] static std::string plain(Operation operation, std::string_view a,
                                          std::string_view b) {
     const char sign = operation == Operation::multiply ? '*' : sum_sign(operation);
@@ -114,14 +114,14 @@ class Script {
 
   // ---- Definitions ----
 
-  /// The operands of a node. What is 0 comes last in a sum, wherever it stood.
+  /// The operands of a node. In a sum a zero comes last, whatever its original place.
   [[nodiscard]] std::pair<std::size_t, std::size_t> operands(std::size_t place) const {
     const auto& [operation, left, right] = graph_.nodes[place];
     if (operation == Operation::add && vanishes(left)) return {right, left};
     return {left, right};
   }
 
-  /// Defines a node after all that it depends on.
+  /// Defines a node after its operands.
   void define(std::size_t place) {
     if (numbers_[place]) return;
     const Operation operation = graph_.nodes[place].operation;
@@ -176,8 +176,9 @@ class Script {
     definitions_ += ";\n";
   }
 
-  /// Where terms cancel, Gappa is told what is left. A sum's rounding error is relative to the sum
-  /// of the computed operands: that is then best bounded by the exact sum and the operands' errors.
+  /// Writes the remaining sum as a rule if terms cancel. A sum's rounding error is relative to the
+  /// sum of the computed operands, and in this case the best bound of that sum is the exact sum
+  /// plus the operands' errors.
   void add_cancellation(std::size_t place) {
     const Operation operation = graph_.nodes[place].operation;
     const auto [left, right] = operands(place);
@@ -236,7 +237,7 @@ using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
   throw std::system_error(error, std::generic_category(), what);
 }
 
-/// A file without a name. Files rather than pipes: nobody waits for the other to read.
+/// A file without a name. With files instead of pipes, neither process waits for the other to read.
 File temporary_file() {
   File file(std::tmpfile(), std::fclose);
   if (!file) fail(errno, "gappa: no temporary file");
@@ -273,7 +274,7 @@ pid_t start_gappa(std::FILE* input, std::FILE* output) {
   return process;
 }
 
-/// The kernel ends the process by SIGXCPU when the time is over.
+/// The kernel ends the process by SIGXCPU at the end of its time.
 void limit_time(pid_t process, std::chrono::seconds limit) {
   const auto seconds = static_cast<rlim_t>(limit.count());
   const rlimit of_processor{.rlim_cur = seconds, .rlim_max = seconds + 1};
@@ -282,7 +283,7 @@ void limit_time(pid_t process, std::chrono::seconds limit) {
   }
 }
 
-/// Nothing if its time was over.
+/// Empty if its time was up.
 std::optional<int> exit_status(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0) {

@@ -8,7 +8,7 @@
 namespace touchstone::filters {
 
 /// A binary floating-point number of chosen precision. Results have the greater precision of their
-/// operands and are rounded to nearest; MPFR's inexact flag tells whether any of them was rounded.
+/// operands and are rounded to nearest; MPFR's inexact flag is set if any of them was rounded.
 class MpfrNumber {
  public:
   /// \param precision in bits, at least the 53 of a double, so that the value is exact

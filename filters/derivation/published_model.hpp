@@ -9,9 +9,9 @@
 ///     sum:      value A + B,   error e_A + e_B + h(A + B)
 ///     product:  value A B,     error A e_B + B e_A + h(A B)
 ///
-/// Second-order terms are dropped and intermediate values are not known to cancel, so that it is
-/// neither rigorous nor tight; it is kept because it reproduces what was published, to the last
-/// digit, if applied to the paper's order of operations.
+/// Second-order terms are dropped and cancellation is ignored, so the model is neither rigorous nor
+/// tight. It is here because it reproduces the published constants, to the last digit, for the
+/// paper's order of operations.
 
 #include <gmpxx.h>
 

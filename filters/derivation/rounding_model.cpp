@@ -41,7 +41,7 @@ ExactValue product(const ExactValue& a, const ExactValue& b) {
   return from_terms(terms);
 }
 
-/// The degree that a node has whether or not its value vanishes at some vertex.
+/// The degree of a node, which does not depend on the vertex, even if its value vanishes there.
 std::vector<std::size_t> degrees(const ExpressionGraph& graph) {
   std::vector<std::size_t> result;
   for (const Node& node : graph.nodes) {
@@ -211,7 +211,7 @@ DerivedBound derive_bound(const ExpressionGraph& graph, const Format& format) {
     }
   }
   DerivedBound bound{.coefficients = error, .greatest_x_exponent = format.greatest_exponent};
-  // Strictly below half the overflow threshold, whatever is rounded on the way.
+  // Strictly below half the overflow threshold, for any intermediate rounding.
   const mpq_class limit = power_of_two(format.greatest_exponent - 1);
   while (evaluate(largest, power_of_two(bound.greatest_x_exponent)) >= limit) {
     --bound.greatest_x_exponent;

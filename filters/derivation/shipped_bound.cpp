@@ -11,7 +11,7 @@ namespace {
 /// The least number of the format that is not below x ≥ 0.
 mpq_class round_up(const mpq_class& x, const Format& format) {
   if (x == 0) return x;
-  // The distance of neighbouring numbers of the format at x.
+  // The distance between neighbouring numbers of the format at x.
   const mpq_class spacing = std::max<mpq_class>(
       power_of_two_below(x) * power_of_two(1 - format.digits), power_of_two(format.least_exponent));
   const mpq_class multiple = x / spacing;
@@ -62,7 +62,7 @@ std::string error_bound_declaration(const ExpressionGraph& graph, const Format& 
   const std::vector<mpq_class> coefficients = shipped_coefficients(bound, format);
   std::string list;
   for (std::size_t j = 0; j < coefficients.size(); ++j) {
-    // As clang-format breaks the line, which holds three.
+    // The line breaks of clang-format, with three numbers on a line.
     const std::string_view separator = j == 0       ? ""
                                        : j % 3 == 0 ? ",\n                      "
                                                     : ", ";

@@ -1,20 +1,20 @@
 #pragma once
 
-/// \file
-/// From a proved bound to the floating-point numbers that ship: `filters/error_bounds.hpp`.
+/// \file The floating-point numbers of `filters/error_bounds.hpp`, rounded from the proved bounds.
 ///
-/// The user evaluates the bound by Horner's rule in the same format, k products and k sums, whose
-/// own rounding must not lower it. Each operation rounds down by a factor of at most 1 − u, each
-/// product by η more. With every coefficient raised by the factor (1 + 3u)^2k ≥ (1 − u)^-4k and all
+/// The user evaluates the bound by Horner's rule in the same format, with k products and k sums,
+/// whose rounding must not lower it. Each operation rounds down by a factor of at least 1 − u, each
+/// product also by η. With every coefficient raised by the factor (1 + 3u)^2k ≥ (1 − u)^-4k and all
 /// but the last by the least subnormal (2η), the computed value is not below the proved one.
 ///
-/// Where classes are used (error_bound.hpp) the leading term is k products of its own, in any order,
-/// and the sum. With the roundings of the magnitudes, where these are of rounded coordinates, no term
-/// meets more than 3k factors of 1 − u. (One more is left for a value in double_double of which code
-/// sees the high part: if that is beyond the computed bound, the value is beyond the proved one.) A
-/// product that underflows loses η, times what it is multiplied by afterwards: that is η x^j once for
-/// each j < k among the products that the coefficient is in, and far less than another η x^j for
-/// those that it, far below 1, is yet to multiply. So for k ≥ 2 all but the last are raised by 4η.
+/// With classes (error_bound.hpp) the leading term has k separate products, in any order, and a
+/// sum. Including the roundings of the magnitudes of rounded coordinates, no term has more than 3k
+/// factors of 1 − u. (One more factor is reserved for a value in double_double of which code uses
+/// the high part: if that is beyond the computed bound, the value is beyond the proved one.) A
+/// product that underflows loses η times the later factors: that is η x^j once for each j < k among
+/// the products with the coefficient, and far less than another η x^j for the products before it,
+/// because the coefficient is far below 1. So for k ≥ 2 all but the last coefficients are raised by
+/// 4η.
 
 #include <span>
 #include <string>
@@ -24,7 +24,7 @@
 
 namespace touchstone::filters {
 
-/// An expression in a format that its bound ships for.
+/// An expression in a format for which its bound ships.
 struct ShippedExpression {
   ExpressionGraph graph;
   Format format;

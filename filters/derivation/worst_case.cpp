@@ -10,7 +10,8 @@ namespace {
 
 /// Coordinates are 0 or in [2^-least_scale, 2) in magnitude.
 constexpr int least_scale = 32;
-/// Random inputs that each climb starts from the best of, and changes without gain that end it.
+/// The number of random inputs from whose best a climb starts, and the number of changes without
+/// gain that end it.
 constexpr int samples_per_climb = 200;
 constexpr int patience = 3000;
 
@@ -44,21 +45,21 @@ class Search {
   }
 
  private:
-  // ---- Random numbers: not the standard's distributions, which differ between libraries ---------
+  // ---- Random numbers, without the standard's distributions, which differ between libraries -----
 
   std::uint64_t below(std::uint64_t end) { return random_() % end; }
   int between(int least, int greatest) {
     return least + static_cast<int>(below(static_cast<std::uint64_t>(greatest - least) + 1));
   }
   bool one_in(std::uint64_t n) { return below(n) == 0; }
-  /// Random bits, as many as a random length says.
+  /// Random bits of a random length.
   std::int64_t random_bits(int most) {
     return static_cast<std::int64_t>(random_() >> (64 - between(1, most)));
   }
 
   // ---- Inputs -----------------------------------------------------------------------------------
 
-  /// 1.000…r: just above a power of two, by chance far above it.
+  /// 1.000…r: mostly just above a power of two, sometimes far above it.
   double random_coordinate() {
     const double fraction = std::ldexp(static_cast<double>(random_bits(digits_ - 1)), 1 - digits_);
     const int scale = one_in(4) ? between(0, least_scale) : between(0, 1);
@@ -245,7 +246,7 @@ mpfr_prec_t exact_precision(const ExpressionGraph& graph, const Format& format) 
         sizes.push_back({std::max(sizes[left].fraction, sizes[right].fraction),
                          std::max(sizes[left].magnitude, sizes[right].magnitude) + 1});
     }
-    // One more bit: the difference of computed and exact value is exact too.
+    // One additional bit makes the difference of computed and exact value exact too.
     precision = std::max(precision, sizes.back().fraction + sizes.back().magnitude + 1);
   }
   return precision;

@@ -1,18 +1,18 @@
 #pragma once
 
-/// \file
-/// A search for the input on which an expression is most wrong: how tight its bound is.
+/// \file A search for the input with the greatest error of an expression, which shows the tightness
+/// of its bound.
 ///
-/// Random inputs, then hill climbing from the best of them, again and again until the budget is
-/// spent. The truth is computed by MPFR at a precision at which nothing is rounded: coordinates are
-/// drawn between 2^-32 and 2 and have the format's digits, weights are fractions over a power of
-/// two, and so every value of the graph is an integer over a known power of two and below another.
+/// It draws random inputs and climbs from the best of them, repeatedly until the budget is spent.
+/// MPFR computes the exact value at a precision without rounding: coordinates are drawn between
+/// 2^-32 and 2 and have the format's digits, weights are fractions over a power of two, so every
+/// value of the graph is an integer over a known power of two and below another one.
 ///
-/// Errors jump with magnitudes: a rounding error is largest, relatively, just above a power of two.
-/// Hence the coordinates that are tried are such, mostly, and the changes that the climb tries are
-/// of all kinds: last bits, sign, magnitude, another weight. The weights of measured coordinates
-/// (groups of one vertex, filters/polynomial_expressions.hpp) are drawn just below 1: a coordinate
-/// times its weight then is the exact value that is rounded, not greater than the coordinate.
+/// The relative rounding error is largest just above a power of two. Hence most coordinates are
+/// drawn there, and the climb tries changes of all kinds: last bits, sign, magnitude, another
+/// weight. The weights of measured coordinates (groups of one vertex,
+/// filters/polynomial_expressions.hpp) are drawn just below 1: a coordinate times its weight is
+/// then the exact value that is rounded, not greater than the coordinate.
 
 #include <array>
 #include <cstdint>
@@ -44,7 +44,7 @@ struct Evaluators {
 
 struct WorstCaseOptions {
   std::uint64_t seed = 2021;
-  std::uint64_t evaluations = 200'000;  ///< of the expression, all in all
+  std::uint64_t evaluations = 200'000;  ///< of the expression, in total
 };
 
 /// The worst input found.
@@ -92,7 +92,7 @@ template <class Expression>
 /// The precision at which MPFR evaluates the expression exactly on all inputs of the search.
 [[nodiscard]] mpfr_prec_t exact_precision(const ExpressionGraph& graph, const Format& format);
 
-/// The worst input that the search finds: a function of its arguments.
+/// The worst input that the search finds. It depends on the arguments alone.
 [[nodiscard]] WorstCase search_worst_case(const ExpressionGraph& graph,
                                           const Evaluators& evaluators, const Format& format,
                                           const WorstCaseOptions& options);

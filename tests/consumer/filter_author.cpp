@@ -37,7 +37,7 @@ int main() {
   const mpq_class units = bound.rounding() / double_format.unit_roundoff();
   const std::string declaration = error_bound_declaration(graph, double_format);
   std::printf("%s%g u\n", declaration.c_str(), units.get_d());
-  // filters/README.md, "A predicate of your own, worked".
+  // filters/README.md, "Worked example: your own predicate".
   return units >= 30 && units < 31 && declaration.find("orientation_double") != std::string::npos
              ? 0
              : 1;

@@ -532,6 +532,26 @@ TEST(FreeStepSize, IsTheLargestWhereRoundingIsMonotone) {
   EXPECT_EQ(falling_vertex(-0.5).step().free_step_size(), 1.0);
 }
 
+// The coordinates are finite, their difference is not.
+TEST(FreeStepSize, NamesTheVertexWhoseMotionOverflows) {
+  Eigen::MatrixX3d before = Eigen::MatrixX3d::Identity(3, 3), after = before;
+  before(1, 0) = 1.5e308;
+  after(1, 0) = -1.5e308;
+  const std::vector<Face> faces{{0, 1, 2}};
+  const Step step(before, after, {.edges = {}, .faces = faces, .points = {}});
+  EXPECT_TRUE(step.is_free());
+  for (const double alpha : {0.0, 0.5, 1.0}) {
+    try {
+      static_cast<void>(step.scaled(alpha));
+      ADD_FAILURE() << alpha;
+    } catch (const std::domain_error& error) {
+      EXPECT_EQ(error.what(),
+                std::string("vertex 1: the motion x1 - x0 is greater than any double"));
+    }
+  }
+  EXPECT_THROW(static_cast<void>(step.free_step_size()), std::domain_error);
+}
+
 TEST(FreeStepSize, IsThatOfTheRoundedStepAndNotOfTheExactOne) {
   // From 0.1 by −1.1 (rounded): the exact time of impact is not where the rounded place reaches 0.
   const Scene scene = falling_vertex(0.1);

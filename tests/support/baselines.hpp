@@ -1,9 +1,7 @@
 #pragma once
 
-/// \file
-/// What the tests of the baselines share: the printed queries that set the methods apart,
-/// random queries that are hit in the middle, and a count of wrong answers on whatever the truth is
-/// known of.
+/// \file Common parts of the tests of the baselines: the printed queries that distinguish the
+/// methods, random queries with a collision in the middle, and a count of wrong answers.
 
 #include <gtest/gtest.h>
 
@@ -52,9 +50,9 @@ namespace touchstone::tests {
 
 enum class Motion { independent, translation };
 
-/// Random points in (−1,1), but that at t=1/2 the vertex is in the middle of the face, or the
-/// edges' middles meet: contact in the interior, whatever the rounding. Points move independently,
-/// or each primitive translates.
+/// Random points in (−1,1), except that at t=1/2 the vertex is in the middle of the face, or the
+/// edges' middles meet: contact in the interior for any rounding. Points move independently, or
+/// each primitive translates.
 [[nodiscard]] inline PosedQuery centre_hit(Random& random, Kind kind, Motion motion) {
   Query query{};
   for (double& x : query.coordinates) x = random.uniform(-1.0, 1.0);
@@ -78,7 +76,7 @@ enum class Motion { independent, translation };
   return {kind, query};
 }
 
-/// How many of so many centre hits a method denies.
+/// The number of centre hits, of this many, that a method denies.
 [[nodiscard]] inline int missed_centre_hits(const fast::Method& method, Kind kind, Motion motion,
                                             const fast::MethodOptions& options, int count) {
   Random random(11);
@@ -90,7 +88,7 @@ enum class Motion { independent, translation };
   return missed;
 }
 
-/// Wrong answers of a method, and right ones.
+/// Wrong and correct answers of a method.
 struct Score {
   int hits = 0;             ///< queries that collide
   int misses = 0;           ///< queries that do not
@@ -101,7 +99,7 @@ struct Score {
   int undecided = 0;
   int errors = 0;
 
-  /// Of a method that says yes or no and nothing else.
+  /// Adds the answer of a method with verdicts alone.
   void count(bool collides, bool yes) {
     ++(collides ? hits : misses);
     false_negatives += collides && !yes ? 1 : 0;
@@ -130,7 +128,7 @@ struct Score {
   }
 };
 
-/// On the built-in families, so many queries of each and kind.
+/// The score on the built-in set, with this number of queries of each family and kind.
 [[nodiscard]] inline Score score_on_families(const fast::Method& method,
                                              const fast::MethodOptions& options,
                                              std::uint64_t count) {
@@ -148,7 +146,7 @@ struct Score {
   return score;
 }
 
-/// On random queries, so many of each family (queries.hpp) and kind.
+/// The score on random queries, with this number of each family (queries.hpp) and kind.
 [[nodiscard]] inline Score score_on_random(const fast::Method& method,
                                            const fast::MethodOptions& options, int count) {
   Random random(7);
@@ -164,8 +162,8 @@ struct Score {
   return score;
 }
 
-/// On public data below a folder of theirs, every `stride`-th query of a kind. Nothing where they
-/// are missing.
+/// The score on public data below a folder, for every `stride`-th query of a kind; empty if the
+/// data is missing.
 [[nodiscard]] inline Score score_on_public_data(const fast::Method& method,
                                                 const fast::MethodOptions& options,
                                                 const std::string& folder, Kind kind,

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Tests that look at pages in a real browser: headless Chromium loads one from a file, runs its scripts
-/// and hands back what became of it.
+/// \file Tests of pages in a browser: headless Chromium loads a page from a file, runs its scripts
+/// and returns the resulting document.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -16,7 +15,7 @@
 
 namespace touchstone::tests {
 
-/// Skipped, and said to be, without Chromium.
+/// Skipped with a message without Chromium.
 class BrowserTest : public FolderTest {
  protected:
   void SetUp() override {
@@ -25,11 +24,11 @@ class BrowserTest : public FolderTest {
     GTEST_SKIP() << "chromium is not installed";
   }
 
-  /// The document after the script has run; what the browser says goes to "err". Its limit of time is only there to end a
-  /// browser that hangs: the browser's own clock stands still while a script runs.
+  /// The document after the script has run; the browser's messages go to "err". The time limit only
+  /// ends a browser that hangs, because the browser's clock stops while a script runs.
   [[nodiscard]] std::string load(const std::string& page, int width = 1200) const {
     std::ofstream(path("page.html"), std::ios::binary) << page;
-    // The proxy leads nowhere: whatever the page asks of a network shows as an error.
+    // The proxy does not exist: every network access of the page is an error.
     EXPECT_TRUE(
         runs("timeout 500 chromium --headless --no-sandbox --disable-gpu "
              "--use-angle=swiftshader --enable-unsafe-swiftshader --disable-dev-shm-usage "
@@ -42,7 +41,7 @@ class BrowserTest : public FolderTest {
     return read("dom");
   }
 
-  /// What the page's scripts and policy complained of. The driver's remarks on its own speed are not theirs.
+  /// The errors of the page's scripts and policy, without the driver's messages about its speed.
   [[nodiscard]] std::string complaints() const {
     std::ifstream file(path("err"));
     std::string found;

@@ -1,9 +1,8 @@
 #pragma once
 
-/// \file
-/// Where the sources are, and what the build has made of them: for tests that read files of the project or run its
-/// programs. These paths are compiled into one file (built_files.cpp), so that the objects of the tests do not depend on
-/// the folder they were built in.
+/// \file Paths of the sources and of built programs, for tests that read files of the project or
+/// run its programs. These paths are compiled into one file (built_files.cpp), so that the objects
+/// of the tests do not depend on the folder they were built in.
 
 #include <string>
 #include <string_view>

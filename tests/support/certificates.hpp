@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Certificates from the oracle to the checker, and what is true of the claims that it accepts.
+/// \file Certificates from the oracle to the checker, and the truth of accepted claims.
 
 #include <cmath>
 #include <cstddef>
@@ -37,7 +36,7 @@ namespace touchstone::tests {
   return checker::check(in);
 }
 
-/// Why the checker rejects the certificate; empty if it accepts it.
+/// The reason for which the checker rejects the certificate; empty if it accepts it.
 [[nodiscard]] inline std::string rejection(const exact::Certificate& certificate) {
   const checker::Report report = check(exact::certificate_stream(certificate));
   if (report.all_accepted() && report.accepted() == 1) return {};
@@ -75,7 +74,7 @@ struct ReadClaim {
   return negative ? exact::Rational(-value) : value;
 }
 
-/// The double that a number is, if it is one.
+/// The number as a double, if it is one.
 [[nodiscard]] inline std::optional<double> read_double(std::string_view word) {
   const exact::Rational value = read_number(word);
   const double rounded = exact::round_to_nearest(value);
@@ -85,9 +84,9 @@ struct ReadClaim {
   return rounded;
 }
 
-/// The claim of the last certificate in a stream that the checker accepted; empty if a coordinate or
-/// the distance is no double, for then the oracle has nothing to say. \pre it has the lines of a
-/// certificate.
+/// The claim of the last certificate in a stream that the checker accepted; empty if a coordinate
+/// or the distance is not a double, because the oracle then does not apply. \pre it has the lines
+/// of a certificate.
 [[nodiscard]] inline std::optional<ReadClaim> read_claim(const std::string& stream) {
   ReadClaim result;
   std::istringstream lines(stream);
@@ -125,7 +124,7 @@ struct ReadClaim {
   return result;
 }
 
-/// Is the claim true, by the oracle?
+/// True if the claim is true by the oracle.
 [[nodiscard]] inline bool is_true(const ReadClaim& claim) {
   const auto& [kind, query] = claim.posed;
   const auto first = exact::decide(kind, query, claim.separation).toi;

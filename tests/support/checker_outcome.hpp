@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Certificates as text, and what the checker says of them.
+/// \file Certificates as text, and the checker's results.
 
 #include <gtest/gtest.h>
 
@@ -33,8 +32,8 @@ inline constexpr std::string_view certificate_header = "touchstone-certificates 
   return text + "certificates " + std::to_string(queries) + "\n";
 }
 
-/// What became of a stream of one certificate without its closing line: its claim if it is accepted,
-/// else "LINE: REASON".
+/// The outcome for a stream of one certificate without its closing line: its claim if it is
+/// accepted, else "LINE: REASON".
 [[nodiscard]] inline std::string outcome(const std::string& text) {
   const checker::Report report = check_text(closed(text));
   if (report.accepted() + report.rejected != 1) return "not one certificate";

@@ -1,10 +1,9 @@
 #pragma once
 
-/// \file
-/// The distance of two primitives at a time in rational numbers, for tests: by trying everything.
+/// \file The distance of two primitives at a time in rational numbers, for tests, by enumeration.
 ///
-/// A point of the polygon is a point of a triangle of three corners (the same one twice or thrice where it
-/// has fewer). On a triangle's plane, with parameters a and b,
+/// A point of the polygon is a point of a triangle of three corners (with repetitions if it has
+/// fewer). On a triangle's plane, with parameters a and b,
 /// - the square of the length is least where its gradient is 0 inside, or on one of the lines that
 ///   bound the triangle, or at a corner;
 /// - the greatest component is least where two of these numbers are 0: a, b, 1 − a − b, the components of the

@@ -1,13 +1,12 @@
 #pragma once
 
-/// \file
-/// Minimum separation decided another way, for tests: every candidate is evaluated
+/// \file A second decision of minimum separation, for tests: every candidate is evaluated
 /// (docs/theory.md, section 3.6).
 ///
-/// At the time of impact the distance is d or the time is 0. So a polynomial of the conditions is zero
-/// there: all of them are listed, their roots in [0,1] and 0 tried, and the least at which the
-/// conditions hold is the answer. It shares polynomials and algebraic numbers with the oracle, and
-/// nothing of what the oracle does with them. Slow.
+/// At the time of impact the distance is d or the time is 0. So a polynomial of the conditions is
+/// zero there: all of them are listed, their roots in [0,1] and 0 tried, and the least at which the
+/// conditions hold is the answer. It shares only polynomials and algebraic numbers with the oracle.
+/// Slow.
 
 #include <array>
 #include <cmath>

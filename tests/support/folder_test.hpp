@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Tests with a folder of their own for the files that they write.
+/// \file Tests with a separate folder for their files.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -19,7 +18,7 @@ namespace touchstone::tests {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The folder is there before the test and gone after it.
+/// The folder is created before the test and removed after it.
 class FolderTest : public ::testing::Test {
  public:
   FolderTest(const FolderTest&) = delete;

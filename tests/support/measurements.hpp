@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Measurements for tests of reports: few, of plain numbers, as if someone had made them.
+/// \file Artificial measurements for tests of reports, few and with simple numbers.
 
 #include <cstdint>
 #include <string>
@@ -10,7 +9,7 @@
 
 namespace touchstone::tests {
 
-/// A method that was asked 100 of 200 queries, of which 20 collide.
+/// A method that solved 100 of 200 queries, of which 20 collide.
 [[nodiscard]] inline verify::report::Measurement measured(const std::string& group,
                                                           const std::string& method,
                                                           double nanoseconds,
@@ -43,9 +42,10 @@ namespace touchstone::tests {
   return m;
 }
 
-/// A report with something of everything: on "handcrafted", vertex-face, certified, tight_inclusion and
-/// msrf; certified is exact, tight_inclusion has 8 false positives, msrf 1 and 2 false negatives. Of the
-/// filters of Tight-Inclusion, the released one misses 2 of 20 contacts at t=1, and of a family's.
+/// A report with an example of everything: on "handcrafted", vertex-face, certified,
+/// tight_inclusion and msrf; certified is exact, tight_inclusion has 8 false positives, msrf 1 and
+/// 2 false negatives. Of the filters of Tight-Inclusion, the released one misses 2 of 20 contacts
+/// at t=1, and of a family's.
 [[nodiscard]] inline verify::report::Measurements small_report() {
   using verify::report::Experiment;
   verify::report::Measurements report;

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// A source of queries that stand in memory, with faults on demand.
+/// \file A source of queries in memory, with faults on demand.
 
 #include <cstdint>
 #include <optional>

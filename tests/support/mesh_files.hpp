@@ -17,7 +17,7 @@
 
 namespace touchstone::tests {
 
-/// A folder of this test's own, gone with this object.
+/// A folder for this test, removed with this object.
 class MeshFolder {
  public:
   MeshFolder() {
@@ -33,13 +33,13 @@ class MeshFolder {
   MeshFolder& operator=(MeshFolder&&) = delete;
   ~MeshFolder() { std::filesystem::remove_all(path_); }
 
-  /// Writes a file and gives its path.
+  /// Writes a file and returns its path.
   [[nodiscard]] std::filesystem::path file(const std::string& name, std::string_view bytes) const {
     std::ofstream(path_ / name, std::ios::binary) << bytes;
     return path_ / name;
   }
 
-  /// The mesh in a file of those bytes.
+  /// The mesh in a file with these bytes.
   [[nodiscard]] verify::mesh::Mesh mesh(const std::string& name, std::string_view bytes) const {
     return verify::mesh::read_mesh(file(name, bytes));
   }

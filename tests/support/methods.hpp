@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Solvers for tests: a right one, made from the oracle, and any other as a function.
+/// \file Solvers for tests: a correct one from the oracle, and any other as a function.
 
 #include <functional>
 #include <span>
@@ -40,7 +39,7 @@ class FunctionMethod final : public fast::Method {
   fast::MethodInfo info_;
 };
 
-/// The truth as an answer, with the narrowest times of impact that doubles can tell.
+/// The truth as an answer, with the narrowest enclosure in doubles.
 [[nodiscard]] inline fast::Answer true_answer(Kind kind, const Query& query) {
   const exact::Verdict verdict = exact::decide(kind, query);
   if (!verdict.collides()) return {.verdict = fast::Verdict::no};

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// What nearly every test program includes, to be precompiled (tests/CMakeLists.txt). A test still includes what
-/// it uses.
+/// \file The common includes of test programs, for precompilation (tests/CMakeLists.txt). A test
+/// still includes the headers that it uses.
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Properties for RapidCheck as expectations of GoogleTest: the same cases in every run, for the seed
-/// that stands in the test, and what fails is shrunk to the simplest case before it is told.
+/// \file Properties for RapidCheck as expectations of GoogleTest: the same cases in every run, from
+/// the seed in the test, and failures are reduced to the simplest case before they are reported.
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -15,8 +14,8 @@
 
 namespace touchstone::tests {
 
-/// Expects the property of so many random arguments (fewer under the sanitizers). It says what is
-/// wrong with RC_ASSERT, or by returning false; RC_PRE discards arguments.
+/// Expects the property for this number of random arguments (fewer under the sanitizers). It fails
+/// by RC_ASSERT or by returning false; RC_PRE discards arguments.
 template <class Property>
 void expect_property(std::uint64_t seed, int cases, Property&& property) {
   rc::detail::TestParams parameters;

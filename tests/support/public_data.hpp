@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Where the public benchmark data are: outside the project, and not everywhere.
+/// \file The path of the public data, which is not part of the project and may be missing.
 
 #include <array>
 #include <cstdio>
@@ -15,7 +14,7 @@
 namespace touchstone::tests {
 
 /// The folder that TOUCHSTONE_DATA names, by default ../shared/datasets beside the project; empty,
-/// with a loud word, if it is missing.
+/// with a message, if it is missing.
 [[nodiscard]] inline std::filesystem::path public_data_folder() {
   const char* const variable = std::getenv("TOUCHSTONE_DATA");  // NOLINT(concurrency-mt-unsafe)
   std::filesystem::path folder =

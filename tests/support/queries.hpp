@@ -1,12 +1,11 @@
 #pragma once
 
-/// \file
-/// Queries for tests: written down point by point, or drawn at random from families that each have
-/// their own way of being difficult.
+/// \file Queries for tests: given point by point, or drawn at random from families with different
+/// difficulties.
 ///
-/// Random coordinates hardly ever touch a boundary, so most families force what chance avoids:
-/// shared points, points at rest, motion in a plane or on a line, contacts built to lie on an edge
-/// of a primitive up to rounding.
+/// Random coordinates are hardly ever on a boundary, so most families force degeneracies: shared
+/// points, points at rest, motion in a plane or on a line, contacts built to lie on an edge of a
+/// primitive up to rounding.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -37,7 +36,7 @@ inline std::ostream& operator<<(std::ostream& out, const PosedQuery& posed) {
 /// Four points, x, y, z each, in the order of Query.
 using FourPoints = std::array<double, 3 * moving_points>;
 
-/// The query whose points are at `start` at t=0 and at `end` at t=1.
+/// The query with the points `start` at t=0 and `end` at t=1.
 [[nodiscard]] inline Query moving(const FourPoints& start, const FourPoints& end) {
   Query query{};
   std::ranges::copy(end, std::ranges::copy(start, query.coordinates.begin()).out);
@@ -99,32 +98,32 @@ enum class Family {
   /// Coordinates in (−2, 2) with 53 random bits: generic position.
   full_significands,
   /// As full_significands, then one point aimed so that the primitives touch up to rounding, half
-  /// of the time on the boundary of a primitive: hits by a hair and misses by a hair.
+  /// of the time on the boundary of a primitive: barely or barely not.
   near_contact
 };
 
 inline constexpr std::array<Family, 4> all_families{
     Family::tiny_integers, Family::small_integers, Family::full_significands, Family::near_contact};
 
-/// Does every coordinate of the family's queries have few bits, so that sums and midpoints of them
-/// are exact?
+/// True if every coordinate of the family's queries has few bits, so that sums and midpoints are
+/// exact.
 [[nodiscard]] constexpr bool has_integer_coordinates(Family family) {
   return family == Family::tiny_integers || family == Family::small_integers;
 }
 
-/// Point `to` becomes the same moving point as `from`.
+/// Makes point `to` the same moving point as `from`.
 inline void share_point(Query& query, std::size_t from, std::size_t to) {
   for (const std::size_t end : {0U, 1U}) query.point(end, to) = query.point(end, from);
 }
 
-/// All points stay in the plane where the coordinate `axis` is 0.
+/// Moves all points in the plane in which the coordinate `axis` is 0.
 inline void flatten(Query& query, std::size_t axis) {
   for (const std::size_t end : {0U, 1U}) {
     for (std::size_t point = 0; point < moving_points; ++point) query.at(end, point, axis) = 0.0;
   }
 }
 
-/// All points move by the same vector, that of point 0, as far as the sums are exact.
+/// Moves all points by the vector of point 0, as far as the sums are exact.
 inline void move_together(Query& query) {
   const Eigen::Vector3d step = query.point(1, 0) - query.point(0, 0);
   for (std::size_t point = 1; point < moving_points; ++point) {

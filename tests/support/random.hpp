@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Random numbers for tests: the same on every machine, for a seed that stands in the test.
+/// \file Random numbers for tests: the same on every machine, from a seed in the test.
 ///
 /// The generator is that of the product (splitmix64). The distributions of the standard library are not
 /// used because their results differ between implementations.
@@ -14,7 +13,7 @@
 
 namespace touchstone::tests {
 
-/// The product's generator, with what tests draw.
+/// The product's generator, with the draws of tests.
 class Random : public verify::generate::Random {
  public:
   using verify::generate::Random::Random;
@@ -40,7 +39,8 @@ class Random : public verify::generate::Random {
     return coin() ? magnitude : Integer(-magnitude);
   }
 
-  /// A finite double of random bit pattern: every exponent alike, subnormals and both zeros too.
+  /// A finite double with a random bit pattern: all exponents are equally likely, including
+  /// subnormals and both zeros.
   [[nodiscard]] double finite_double() {
     for (;;) {
       const auto x = std::bit_cast<double>(bits());

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// How many times a query collides: contacts by their instants, counted exactly. It shares polynomials
-/// and algebraic numbers with the oracle, and not what the oracle does with them.
+/// \file The exact number of instants of contact of a query. It shares only polynomials and
+/// algebraic numbers with the oracle.
 
 #include <array>
 #include <cstddef>
@@ -47,9 +46,9 @@ using Vector = std::array<Polynomial, 3>;
 
 }  // namespace root_count
 
-/// The number of times t in [0,1] at which the primitives touch.
+/// The number of times t in [0,1] of contact.
 /// \pre integer coordinates below 2^50; the primitives do not move in a common plane, and are not
-/// degenerate where they meet.
+/// degenerate at a contact.
 [[nodiscard]] inline int count_contacts(const PosedQuery& posed) {
   using root_count::cross, root_count::dot, root_count::minus;
   const auto w = root_count::moving_corners(posed);

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// A number that a test shares with the child processes it makes.
+/// \file A number that a test shares with its child processes.
 
 #include <sys/mman.h>
 
@@ -12,7 +11,7 @@
 
 namespace touchstone::tests {
 
-/// 0 at first. To be made before the processes that count.
+/// Initially 0. Must be constructed before the counting processes.
 class SharedCounter {
  public:
   SharedCounter()

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// The public simulation steps with their labels, pair by pair: meshes before and after a step, and
-/// which of the pairs that a conservative solver reported truly collide. Every other pair of the
+/// \file The public simulation steps with their labels, pair by pair: meshes before and after a
+/// step, and the truth of the pairs that a conservative solver reported. Every other pair of the
 /// step does not collide.
 ///
 /// The dataset numbers vertices first, then edges, then faces, and edges as fast::edges_of does.
@@ -46,7 +45,7 @@ struct SimulationStep {
     return kind == Kind::vertex_face ? vertex_face : edge_edge;
   }
 
-  /// Pairs with what their indices mean; refers to both.
+  /// Pairs with the arrays of their indices; refers to both.
   [[nodiscard]] fast::Candidates candidates(Kind kind,
                                             const std::vector<fast::IndexPair>& pairs) const {
     return {.kind = kind, .pairs = pairs, .edges = edges, .faces = faces};
@@ -57,13 +56,13 @@ struct SimulationStep {
 inline constexpr std::array<std::string_view, 3> simulation_scenes{
     "cloth-ball", "armadillo-rollers", "cloth-funnel"};
 
-/// Where the public simulation steps are; empty, with a loud word, if they are missing.
+/// The folder of the public simulation steps; empty, with a message, if they are missing.
 [[nodiscard]] inline std::filesystem::path simulation_folder() {
   const std::filesystem::path data = public_data_folder();
   return data.empty() ? data : data / "simulation";
 }
 
-/// The files of a folder whose names end so, in order.
+/// The files of a folder with this ending, in order.
 [[nodiscard]] inline std::vector<std::filesystem::path> files_ending(
     const std::filesystem::path& folder, std::string_view ending) {
   std::vector<std::filesystem::path> result;
@@ -100,8 +99,8 @@ inline constexpr std::array<std::string_view, 3> simulation_scenes{
 }
 
 /// Loads the step of a scene: its two frames and its labelled pairs.
-/// \param folder what simulation_folder gave
-/// \throws std::exception if anything about it is unreadable, or a pair is none of the mesh.
+/// \param folder from simulation_folder
+/// \throws std::exception if a file is unreadable, or a pair is not one of the mesh.
 [[nodiscard]] inline SimulationStep load_simulation_step(const std::filesystem::path& folder,
                                                          std::string_view scene_name) {
   const std::filesystem::path scene = folder / scene_name;

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// What the tests of baselines that give verdicts alone add to baselines.hpp.
+/// \file Additions to baselines.hpp for baselines with verdicts alone.
 
 #include <cmath>
 #include <cstdint>
@@ -19,7 +18,7 @@ namespace touchstone::tests {
   return answer_to(method, posed, options).verdict;
 }
 
-/// Does it say yes? (Or cannot say, which counts as yes.)
+/// True for yes or undecided.
 [[nodiscard]] inline bool says_yes(const fast::Method& method, const PosedQuery& posed) {
   const fast::Verdict verdict = verdict_of(method, posed);
   return verdict == fast::Verdict::yes || verdict == fast::Verdict::undecided;
@@ -41,13 +40,13 @@ namespace touchstone::tests {
   return score;
 }
 
-/// The score on the public handcrafted queries of a kind; nothing where they are missing.
+/// The score on the public handcrafted queries of a kind; empty if they are missing.
 [[nodiscard]] inline Score score_on_handcrafted(const fast::Method& method, Kind kind) {
   return score_on_public_data(method, {}, "handcrafted", kind, 1);
 }
 
-/// 1 + 2^-60, rounded in the mode that this thread's SSE unit has (which std::fegetround does not
-/// tell): 1 to nearest and downward.
+/// 1 + 2^-60, rounded in the mode of this thread's SSE unit (which std::fegetround does not
+/// report): 1 for to nearest and downward.
 [[nodiscard]] inline double one_and_a_little() {
   volatile double one = 1.0, little = 0x1p-60;
   return one + little;

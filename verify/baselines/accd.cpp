@@ -41,7 +41,7 @@ Points centred_displacements(const Query& query) {
   return displacement;
 }
 
-/// ℓ: how much nearer the primitives can come in [0,1].
+/// ℓ: an upper bound of the approach of the primitives in [0,1].
 double greatest_approach(Kind kind, const Points& displacement) {
   const auto length = [&](std::size_t i) { return displacement[i].norm(); };
   return kind == Kind::vertex_face

@@ -79,7 +79,7 @@ template <class Number>
   return points;
 }
 
-/// The same with numbers that are made from a double.
+/// The same for number types with a constructor from double.
 template <class Number>
 [[nodiscard]] MovingPoints<Number> moving_points_of(Kind kind, const Query& query) {
   std::array<Number, 3 * query_points> coordinates;
@@ -100,7 +100,7 @@ template <class Number>
   return {start, {half(sum[0]), half(sum[1]), half(sum[2])}, end};
 }
 
-/// n(t), the normal that both forms are made of.
+/// n(t), the normal in both forms.
 template <class Number>
 [[nodiscard]] Bernstein<Vector<Number>, 2> normal_of(const MovingPoints<Number>& points) {
   return moving_cross(points[1], points[2], points[0]);
@@ -198,7 +198,7 @@ template <class Number>
   return k[0] * ss * s + three * k[1] * ss * t + three * k[2] * s * tt + k[3] * tt * t;
 }
 
-/// The monotonicity of a cubic on [0,1], as its coefficients show it.
+/// The monotonicity of a cubic on [0,1], by its coefficients.
 enum class Course { monotone, one_extremum, inflection };
 
 /// One extremum, or none, of a cubic without an inflection. \param opposite of two signs
@@ -208,7 +208,8 @@ template <class Number, class Opposite>
   return opposite(k[1] - k[0], k[3] - k[2]) ? Course::one_extremum : Course::monotone;
 }
 
-/// Does one end's coefficient differ in sign from all the others? Then there is exactly one root.
+/// True if one end's coefficient differs in sign from all the others. Then there is exactly one
+/// root.
 template <class Number, class Opposite>
 [[nodiscard]] bool has_lone_end(const Bernstein<Number, 3>& k, const Opposite& opposite) {
   return (opposite(k[0], k[1]) && opposite(k[0], k[2]) && opposite(k[0], k[3])) ||
@@ -216,7 +217,7 @@ template <class Number, class Opposite>
 }
 
 /// The course of a cubic; a lone end counts as monotone, which for roots it is.
-/// \param certainly and possibly: are the signs of two numbers opposite?
+/// \param certainly and possibly: true if the signs of two numbers are opposite
 template <class Number, class Certainly, class Possibly>
 [[nodiscard]] Course course_of(const Bernstein<Number, 3>& k, const Certainly& certainly,
                                const Possibly& possibly) {

@@ -14,7 +14,7 @@
 namespace touchstone::baselines {
 namespace {
 
-/// The quick no: is Y's every coefficient beyond a fixed threshold on one side?
+/// The quick no: true if every coefficient of Y is beyond a fixed threshold on one side.
 bool is_clearly_apart(Kind kind, const Query& query) {
   constexpr double threshold = 100 * 0x1p-52;
   const auto points = baselines::moving_points_of<double>(kind, query);
@@ -23,8 +23,8 @@ bool is_clearly_apart(Kind kind, const Query& query) {
          std::ranges::all_of(products, [](double x) { return x < -threshold; });
 }
 
-/// The test in one number type, which says of two numbers whether they have the same sign: for
-/// intervals, whether they may have; for exact numbers, whether their signs in {−1, 0, 1} are equal.
+/// The test in one number type, which compares the signs of two numbers: for intervals, true if
+/// they may be the same; for exact numbers, true if their signs in {−1, 0, 1} are equal.
 template <class Number>
 class SignClassification {
  public:

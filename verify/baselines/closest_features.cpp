@@ -144,7 +144,7 @@ double feature_squared_distance(const Segment& first, const Segment& second) {
   const bool is_parallel =
       normal.squaredNorm() < parallel_squared_sine * u.squaredNorm() * v.squaredNorm();
   if (!is_parallel) {
-    // Where the lines are nearest: r + s u − t v is along the normal.
+    // The nearest points of the lines: r + s u − t v is along the normal.
     const double s = normal.dot(v.cross(r));
     const double t = normal.dot(u.cross(r));
     const double whole = normal.squaredNorm();

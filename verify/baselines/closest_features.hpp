@@ -1,13 +1,12 @@
 #pragma once
 
-/// \file
-/// Squared distances of a point and a triangle, and of two segments, by their closest
+/// \file Squared distances of a point and a triangle, and of two segments, by their closest
 /// features, in the two ways that released methods compute them: from the closest points themselves
-/// (MSRF; [ericson2005], 5.1.5 and 5.1.9), and by the formula of the pair of features, which cancels
-/// less near contact (ACCD; [li2020]).
+/// (MSRF; [ericson2005], 5.1.5 and 5.1.9), and by the formula of the pair of features, with less
+/// cancellation near contact (ACCD; [li2020]).
 ///
 /// The closest points of two convex sets are in the interior of one feature each, where the
-/// difference is orthogonal to both features. In ordinary rounding; nothing bounds the error.
+/// difference is orthogonal to both features. In ordinary floating point; nothing bounds the error.
 
 #include <Eigen/Core>
 
@@ -29,8 +28,8 @@ inline constexpr double point_squared_length = 1e-8;
 [[nodiscard]] double closest_point_squared_distance(const Eigen::Vector3d& p,
                                                     const Triangle& triangle);
 
-/// The squared distance of the nearest points of two segments, of which those of a squared length
-/// up to point_squared_length are points.
+/// The squared distance of the nearest points of two segments; segments of a squared length up to
+/// point_squared_length are treated as points.
 [[nodiscard]] double closest_points_squared_distance(const Segment& first, const Segment& second);
 
 /// The squared distance of p and the triangle, by the formula of its nearest vertex, edge or face.

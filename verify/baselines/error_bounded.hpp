@@ -7,9 +7,9 @@
 /// rounds by at most 2^-53 of its magnitude; the unit below is a little more than twice that, which
 /// also covers that the bounds are themselves rounded to nearest.
 ///
-/// **Underflow breaks it**: bounds are about 2^-52 of the values, so they vanish first. A value with a
-/// bound of 0 is then taken as exact, and a 0 with a bound of 0 as exactly zero. tccd.hpp says what
-/// comes of it.
+/// **Underflow breaks it**: bounds are about 2^-52 of the values, so they vanish first. A value
+/// with a bound of 0 is then treated as exact, and a 0 with a bound of 0 as exactly zero. tccd.hpp
+/// describes the consequences.
 
 #include <cmath>
 
@@ -27,7 +27,7 @@ struct ErrorBounded {
   ErrorBounded(double exact) : value(exact) {}  // NOLINT(google-explicit-constructor): a number
   ErrorBounded(double about, double error) : value(about), bound(error) {}
 
-  /// 1 or −1 where that is certain, else 0.
+  /// 1 or −1 if the sign is certain, else 0.
   [[nodiscard]] int sign() const {
     if (value > bound) return 1;
     return value < -bound ? -1 : 0;

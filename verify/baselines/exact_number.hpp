@@ -4,9 +4,9 @@
 /// Exact numbers for baselines that decide signs exactly ([brochu2012] and [tang2014] do it in
 /// floating-point expansions).
 ///
-/// Expansions overflow and underflow with their terms. Here all doubles of a query are scaled by one
-/// power of two to integers, which no sign minds since every form is homogeneous in them, and
-/// products and sums of integers are exact over the whole range of doubles.
+/// Expansions overflow and underflow with their terms. Here all doubles of a query are scaled by
+/// one power of two to integers, which changes no sign because every form is homogeneous in them,
+/// and products and sums of integers are exact over the whole range of doubles.
 
 #include <algorithm>
 #include <array>
@@ -32,8 +32,8 @@ class ExactNumber {
 
   /// −1, 0 or 1.
   [[nodiscard]] int sign() const { return value_.sign(); }
-  /// This number times 2^exponent as a double, or nearly; its magnitude is at most the greatest
-  /// double, and 0 where it is below the least.
+  /// An approximation of this number times 2^exponent; its magnitude is at most the greatest
+  /// double, and 0 below the least one.
   [[nodiscard]] double estimate(long exponent) const {
     const auto about = value_.approximation();
     const long shift = std::clamp(about.exponent + exponent, -3000L, 3000L);
@@ -56,9 +56,9 @@ class ExactNumber {
   friend bool operator==(const ExactNumber& a, const ExactNumber& b) {
     return a.value_ == b.value_;
   }
-  /// Are both positive, both negative or both 0?
+  /// True if both are positive, both negative or both 0.
   friend bool same_sign(const ExactNumber& a, const ExactNumber& b) { return a.sign() == b.sign(); }
-  /// About a/b. \pre b is not 0.
+  /// An approximation of a/b. \pre b is not 0.
   friend double quotient(const ExactNumber& a, const ExactNumber& b) {
     return fast::exact_stage::quotient(a.value_.approximation(), b.value_.approximation());
   }
@@ -68,7 +68,7 @@ class ExactNumber {
   Integer value_;
 };
 
-/// The exponent of a power of two that all these finite doubles are multiples of; 0 if all are 0.
+/// The exponent of a power of two that divides all these finite doubles; 0 if all are 0.
 [[nodiscard]] inline int common_exponent(std::span<const double> values) {
   int least = std::numeric_limits<int>::max();
   for (const double x : values) {

@@ -15,7 +15,7 @@
 namespace touchstone::baselines {
 namespace {
 
-/// Edges whose product is shorter are parallel, at any scale.
+/// The length of a product of edges below which they count as parallel, at any scale.
 constexpr double parallel_product = 1e-8;
 
 using Intervals = std::vector<TimeInterval>;
@@ -25,7 +25,7 @@ Intervals not_negative(const Polynomial<Degree>& polynomial) {
   return sign_intervals(descending(polynomial), WantedSign::not_negative);
 }
 
-/// D(t) ≤ 0: where the plane of e and g through 0 is within η of q.
+/// The times with D(t) ≤ 0, at which the plane of e and g through 0 is within η of q.
 Intervals near_plane(const LinearMotion& q, const LinearMotion& e, const LinearMotion& g,
                      double eta) {
   const VectorPolynomial<2> normal = cross(e, g);
@@ -45,15 +45,15 @@ LinearMotion linearised_normal(const LinearMotion& e, const LinearMotion& g) {
   return result;
 }
 
-/// Not negative where p is on the face's side of the edge e from corner c, in the face's plane; g
-/// is the other edge there.
+/// A polynomial that is ≥ 0 while p is on the face's side of the edge e from corner c, in the
+/// face's plane; g is the other edge there.
 Polynomial<3> edge_side(const LinearMotion& p, const LinearMotion& c, const LinearMotion& e,
                         const LinearMotion& g) {
   return dot(p - c, cross(linearised_normal(e, g), e));
 }
 
-/// Not negative where, along α, β's start is behind γ's: the nearest point of the line β, seen from
-/// the line α, is not before β's start.
+/// A polynomial that is ≥ 0 while, along α, β's start is behind γ's: the nearest point of the line
+/// β to the line α is not before β's start.
 Polynomial<4> end_side(const LinearMotion& alpha, const LinearMotion& beta,
                        const LinearMotion& gamma) {
   return dot(beta, alpha) * dot(gamma, alpha) - dot(alpha, alpha) * dot(gamma, beta);
@@ -95,7 +95,7 @@ std::optional<double> vertex_face_time(const Query& query, double eta) {
   return earliest_overlap(lists, {});
 }
 
-/// Are the edges parallel at that time?
+/// True if the edges are parallel at that time.
 bool are_parallel(const Query& query, double t) {
   const Eigen::Vector3d a = position_at(query, 0, t) - position_at(query, 1, t);
   const Eigen::Vector3d b = position_at(query, 2, t) - position_at(query, 3, t);

@@ -8,7 +8,7 @@
 /// covered by their halves, so if all are dropped there is none. A box that is small on all axes
 /// and that the problem accepts ends the search. Dimensions are split in turn; the lower half is
 /// searched first. In one dimension boxes therefore come in ascending order, and the accepted one
-/// begins no later than any solution; in several it is just some box.
+/// begins no later than any solution; in several it is an arbitrary one.
 
 #include <array>
 #include <cstddef>
@@ -50,7 +50,7 @@ template <std::size_t Dimensions>
   return std::nullopt;
 }
 
-/// A box that waits, and the dimension that it was last split along.
+/// A box in the queue, and the dimension of its last split.
 template <std::size_t Dimensions>
 struct WaitingBox {
   ParameterBox<Dimensions> box;
@@ -59,12 +59,12 @@ struct WaitingBox {
 
 /// Searches a box. Problem has, as const functions of a ParameterBox:
 ///   - may_vanish(box): false only if it holds no solution;
-///   - reaches_domain(box): false only if it holds no point of the domain; asked of each half of a
-///     split in any dimension but the first;
-///   - accepts(box): is a small box that may hold a solution taken for one?
+///   - reaches_domain(box): false only if it holds no point of the domain; called for each half of
+///     a split in any dimension but the first;
+///   - accepts(box): true if a small box that may hold a solution counts as one.
 /// \param tolerances Widths that count as small, in the order of the dimensions; infinite: any
 /// width.
-/// \param max_checks So many boxes are examined at most; not positive: no limit.
+/// \param max_checks The maximum number of boxes examined; not positive: no limit.
 template <std::size_t Dimensions, class Problem>
 [[nodiscard]] IntervalSearchResult<Dimensions> search_box(
     const Problem& problem, const ParameterBox<Dimensions>& domain,

@@ -1,18 +1,17 @@
 #pragma once
 
-/// \file
-/// Closed intervals of doubles with outward rounding (Boost.Interval), and what IRF and UIRF
-/// compute with them: points on their way.
+/// \file Closed intervals of doubles with outward rounding (Boost.Interval), and the moving points
+/// of IRF and UIRF.
 ///
-/// **Theorem.** Replace each operation of an expression by one on intervals that holds all results
-/// of operands from the intervals; then the result holds all values of the expression [moore1966].
-/// So an interval that excludes 0 proves that the expression has no zero.
+/// **Theorem.** Replace each operation of an expression by one on intervals whose result contains
+/// all results for operands from the intervals; then the result contains all values of the
+/// expression [moore1966]. So an interval that excludes 0 proves that the expression has no zero.
 ///
-/// The rounding mode is switched before each operation and put back after it: the policy that Boost
-/// calls save-state, standard. Its own class for it writes the operation once for each mode and
-/// relies on the compiler to execute both; GCC merges them even under -frounding-math. So here
-/// operands are read from volatile memory after each switch, and the result written there before
-/// the next.
+/// The rounding mode is switched before each operation and restored after it: the policy that Boost
+/// calls save-state, standard. Boost's own class for this policy contains the operation once for
+/// each mode and relies on the compiler to execute both, but GCC merges them even with
+/// -frounding-math. Therefore operands are read from volatile memory after each switch, and the
+/// result written there before the next.
 
 #include <array>
 #include <boost/numeric/interval.hpp>
@@ -22,7 +21,7 @@
 
 namespace touchstone::baselines {
 
-/// Directed rounding, for Boost.Interval. Round to nearest must be the mode outside.
+/// Directed rounding, for Boost.Interval. Outside, the mode must be round to nearest.
 struct DirectedArithmetic : boost::numeric::interval_lib::rounding_control<double> {
   using Control = boost::numeric::interval_lib::rounding_control<double>;
 
@@ -72,7 +71,7 @@ using Interval =
 
 using IntervalVector = std::array<Interval, 3>;
 
-/// May the interval hold 0? An interval that is not a number may.
+/// True if the interval may contain 0, as an interval that is NaN may.
 [[nodiscard]] inline bool may_be_zero(const Interval& x) {
   return !(x.lower() > 0.0) && !(x.upper() < 0.0);
 }
@@ -85,12 +84,12 @@ using IntervalVector = std::array<Interval, 3>;
 [[nodiscard]] IntervalVector between(const IntervalVector& start, const IntervalVector& end,
                                      const Interval& parameter);
 
-/// The four points of a query on their way.
+/// The four moving points of a query.
 class IntervalMotion {
  public:
   explicit IntervalMotion(const Query& query);
 
-  /// Where they are at the times of t: displacement × t + start.
+  /// Their positions at the times of t: displacement × t + start.
   [[nodiscard]] std::array<IntervalVector, moving_points> at(const Interval& t) const;
 
  private:
@@ -98,7 +97,7 @@ class IntervalMotion {
   std::array<IntervalVector, moving_points> displacement_;
 };
 
-/// The greatest Euclidean distance that a point of the query goes, rounded.
+/// The greatest Euclidean displacement of a point of the query, rounded.
 [[nodiscard]] double greatest_displacement(const Query& query);
 
 }  // namespace touchstone::baselines

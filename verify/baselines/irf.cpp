@@ -36,7 +36,7 @@ class ContactFunction {
     return true;
   }
 
-  /// Does the box reach down to u + v ≤ 1?
+  /// True if the box contains a point with u + v ≤ 1.
   [[nodiscard]] bool reaches_domain(const Box& box) const {
     return kind_ == Kind::edge_edge ||
            (Interval(box[1].lower()) + Interval(box[2].lower())).lower() <= 1.0;
@@ -49,8 +49,8 @@ class ContactFunction {
   IntervalMotion motion_;
 };
 
-/// δ over what moves a point of F by at most 1 for each unit of the parameter. Infinite where
-/// nothing moves: that parameter needs no splitting.
+/// δ divided by the greatest change of F for a unit of the parameter. Infinite without a change:
+/// that parameter needs no splitting.
 std::array<double, 3> parameter_tolerances(Kind kind, const Query& query, double tolerance) {
   const bool is_face = kind == Kind::vertex_face;
   return {tolerance / greatest_displacement(query),

@@ -10,18 +10,19 @@
 /// δ divided by the greatest displacement in t, and by the lengths of the edges in u and v, is a
 /// collision.
 ///
-/// **fast::Promise.** Rounding is outward and no box that holds a root is dropped: no false negatives.
+/// **Promise.** Conservative: rounding is outward and no box that holds a root is dropped.
 ///
 /// **Known defects.**
 ///   - The box that ends the search is small in its parameters and need not hold a root, nor be
 ///     within δ in F: near misses of δ's order are false positives. (A vertex that passes the side
 ///     u + v = 1 of a face, δ/16 away.)
-///   - With rotating dimensions that box need not be the earliest: its time bounds nothing. So
-///     answers give none.
-///   - There is no bound on the work but fast::MethodOptions::max_checks: after so many boxes the answer
-///     is undecided, and its `checks` is max_checks. Contacts over a range of parameters (motion in
-///     a plane) take the longest where they miss by a hair.
-///   - It knows no minimum separation: queries that only come within one are false negatives.
+///   - With rotating dimensions that box need not be the earliest: its time bounds nothing, so
+///     answers have none.
+///   - Only fast::MethodOptions::max_checks bounds the work: after that number of boxes the answer
+///     is undecided, with max_checks as `checks`. Motion in a plane takes longest if the primitives
+///     barely avoid a contact.
+///   - It does not support a minimum separation: queries that only come within one are false
+///     negatives.
 
 #include <memory>
 
@@ -30,12 +31,12 @@
 
 namespace touchstone::baselines {
 
-/// Decides one query. Uses tolerance (δ, in units of the coordinates), max_checks and t_max.
+/// Solves one query. Uses tolerance (δ, in units of the coordinates), max_checks and t_max.
 /// \pre finite coordinates, valid options, rounding to nearest (method_support.hpp).
 /// \returns yes or no, or undecided once max_checks are spent; never times.
 [[nodiscard]] fast::Answer irf(Kind kind, const Query& query, const fast::MethodOptions& options);
 
-/// As a method called `irf`, which promises to be conservative.
+/// The method `irf`, which promises to be conservative.
 [[nodiscard]] std::unique_ptr<fast::Method> irf_method();
 
 }  // namespace touchstone::baselines

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Polynomials in t, and vectors of them: what moving points and their products are. In power
-/// form, with ordinary rounding; the methods that are built on it know no better.
+/// \file Polynomials in t and vectors of them, for moving points and their products, in power form
+/// with ordinary rounding, as in the methods that use them.
 
 #include <algorithm>
 #include <array>
@@ -88,7 +87,7 @@ template <std::size_t A>
   return dot(a, a);
 }
 
-/// Where a point of the query is.
+/// A point of the query as a function of time.
 [[nodiscard]] inline LinearMotion motion_of(const Query& query, std::size_t point) {
   LinearMotion result;
   for (std::size_t axis = 0; axis < 3; ++axis) {

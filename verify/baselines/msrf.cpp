@@ -13,10 +13,10 @@
 namespace touchstone::baselines {
 namespace {
 
-/// Candidate times, in the order they were found in.
+/// Candidate times, in the order of discovery.
 class Candidates {
  public:
-  /// Adds the zeros in [0,1] that came out real.
+  /// Adds the zeros in [0,1] that were computed as real.
   template <std::size_t Degree>
   void add_zeros(const Polynomial<Degree>& polynomial) {
     const auto coefficients = descending(polynomial);

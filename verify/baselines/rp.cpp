@@ -35,7 +35,7 @@ struct Boundary {
   std::span<const ImageCorner> corners;
   std::span<const Triangle> caps;
   std::span<const Patch> patches;
-  std::span<const Triangle> culling_planes;  ///< corners that planes through 0 are parallel to
+  std::span<const Triangle> culling_planes;  ///< corners to which planes through 0 are parallel
 };
 
 const Boundary& boundary_of(Kind kind) {
@@ -82,7 +82,7 @@ Number volume_with_end(const std::array<Number, 2>& end, const std::array<Number
   return (end[0] * a[1] - end[1] * a[0]) * b[2] - a[2] * (end[0] * b[1] - end[1] * b[0]);
 }
 
-/// A number of known sign, and about what it is.
+/// A number with its exact sign and an approximate value.
 struct Signed {
   int sign;
   double estimate;
@@ -162,7 +162,7 @@ class Try {
             volume(x[q[0]], x[q[1]], x[q[3]]), -volume(x[q[0]], x[q[1]], x[q[2]])};
   }
 
-  /// Is 0 in the closed tetrahedron of the corners, which may be flat?
+  /// True if 0 is in the closed tetrahedron of the corners, which may be flat.
   bool tetrahedron_holds_origin(const Patch& q) {
     const auto rough = volumes<Interval>(corners_, q);
     std::array<int, 4> signs{};
@@ -288,7 +288,7 @@ class Try {
   bool spoiled_ = false;
 };
 
-/// Are all these strictly on one side of 0?
+/// True if all of these are strictly on one side of 0.
 template <class SideOf>
 bool are_on_one_side(std::span<const IntervalPoint> corners, const SideOf& side_of) {
   const int side = side_of(corners[0]).sign();
@@ -312,7 +312,7 @@ bool is_culled_by_fixed_planes(std::span<const IntervalPoint> corners) {
   return false;
 }
 
-/// The unit normal of three corners' middles; nothing if they lie on a line, or nearly.
+/// The unit normal of three corners' middles; empty if they lie nearly on a line.
 std::optional<std::array<double, 3>> normal_of(std::span<const IntervalPoint> corners,
                                                const Triangle& t) {
   std::array<std::array<double, 3>, 2> edges{};
@@ -372,7 +372,8 @@ bool has_odd_crossings(const Query& query, const Boundary& boundary,
   return true;
 }
 
-/// Not inlined: its arithmetic must stay where the rounding mode is upward. Exact numbers do not mind.
+/// Not inlined: its arithmetic must stay within upward rounding, which does not affect exact
+/// numbers.
 [[gnu::noinline]] bool collides_by_parity(Kind kind, const Query& query) {
   const Boundary& boundary = boundary_of(kind);
   std::array<IntervalPoint, 8> memory;

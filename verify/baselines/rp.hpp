@@ -8,29 +8,30 @@
 /// inside, each counted with its multiplicity, has the parity of the number of times that a ray from
 /// 0 crosses the surface.
 ///
-/// **Algorithm.** Planes through 0 that have all corners of F strictly on one side say no. Else the
-/// crossings of a segment from 0 to beyond the corners are counted: with triangles by orientations,
-/// with a patch by two triangles of its corners' tetrahedron, chosen by the side of the patch that 0
-/// is on. Signs come from intervals in upward rounding, and from exact numbers where these hold 0. A
-/// crossing on a triangle's boundary spoils the segment; after ten the answer is yes.
+/// **Algorithm.** If a plane through 0 has all corners of F strictly on one side, the answer is no.
+/// Otherwise the crossings of a segment from 0 to beyond the corners are counted: with triangles by
+/// orientations, with a patch by two triangles of its corners' tetrahedron, chosen by the side of
+/// the patch that 0 is on. Signs come from intervals in upward rounding, and from exact numbers if
+/// these contain 0. A crossing on a triangle's boundary invalidates the segment; after ten segments
+/// the answer is yes.
 ///
-/// **What it gives.** A verdict. No time of impact (a yes does not look at t_max), no separation.
+/// **Answer.** A verdict, without a time of impact (a yes ignores t_max) and without separation.
 ///
-/// **Known to be wrong.**
-///   - *False negatives*: even numbers of roots, always. In and out again within the step: a fifth of
-///     random vertex-face hits with large deformation, a third of edge-edge. The test takes the
-///     queries apart by their number of roots: even ones are missed, odd ones found.
+/// **Known defects.**
+///   - *False negatives*: even numbers of roots, always. In and out again within the step: a fifth
+///     of random vertex-face collisions with large deformation, a third of edge-edge. The test
+///     separates the queries by their number of roots: even ones are missed, odd ones found.
 ///   - *False positives*: a flat patch that folds over itself ("hourglass"), in whose plane 0 lies
-///     within the hull of the corners but not on the patch; and what is still spoiled after ten
-///     segments. All segments lie in the plane z = 0, so what
-///     lies in it can spoil them all.
-///   - *False positives* where all coordinates are below about 1e-15: the segment is at least 10 long,
-///     so a crossing with a face at t=0 or t=1 has its weight rounded to that of 0 itself, which
-///     passes for contact there.
-///   - In the coplanar fallback a crossing of one edge passes unnoticed (planar_overlap.hpp): the
+///     within the hull of the corners but not on the patch; and queries that are still open after
+///     ten segments. All segments lie in the plane z = 0, so primitives in that plane can
+///     invalidate all of them.
+///   - *False positives* where all coordinates are below about 1e-15: the segment is at least 10
+///     long, so the weight of a crossing with a face at t=0 or t=1 is rounded to that of 0 itself,
+///     which is treated as contact there.
+///   - In the coplanar fallback the crossing of one edge is not noticed (planar_overlap.hpp): the
 ///     parity may then be wrong either way.
 ///
-/// It promises nothing. The directions are drawn from a generator seeded with the query.
+/// **Promise.** None. The directions are drawn from a generator seeded with the query.
 
 #include <memory>
 
@@ -40,11 +41,11 @@
 namespace touchstone::baselines {
 
 /// RP's verdict. \pre all coordinates are finite, and the rounding is to nearest.
-/// \throws std::overflow_error where the segment does not fit into doubles: to be taken as a
+/// \throws std::overflow_error if the segment does not fit into doubles, to be treated as a
 /// collision.
 [[nodiscard]] bool rp_collides(Kind kind, const Query& query);
 
-/// As a method: its name is `rp`. It ignores all options.
+/// The method `rp`. It ignores all options.
 [[nodiscard]] std::unique_ptr<fast::Method> rp_method();
 
 }  // namespace touchstone::baselines

@@ -104,8 +104,8 @@ class ZeroFinder {
       turn();
       sr_ = modulus * direction_.re;
       u_ = -2.0 * sr_;
-      // Not its square, which the product of the zeros would be: as the published program has it,
-      // and as the public methods' counts of misses come out.
+      // Not its square, the product of the zeros, as in the published program; this agrees with the
+      // public methods' counts of false negatives.
       v_ = modulus;
       if (fixed_shift(steps_per_shift * shift)) {
         deflate();
@@ -205,8 +205,8 @@ class ZeroFinder {
     }
   }
 
-  /// Stage 2: at most so many steps with the divisor x² + u x + v fixed, until guesses settle and
-  /// an iteration from them converges.
+  /// Stage 2: at most this number of steps with the divisor x² + u x + v fixed, until guesses
+  /// settle and an iteration from them converges.
   bool fixed_shift(int steps) {
     linear_limit_ = 0.25;
     quadratic_limit_ = 0.25;
@@ -248,8 +248,8 @@ class ZeroFinder {
     return false;
   }
 
-  /// Stage 3: tries what has settled, the more promising first. If nothing converges stage 2 goes
-  /// on where it was, with a stricter idea of settled.
+  /// Stage 3: tries the sequences that have settled, the more promising first. If none converges,
+  /// stage 2 continues with a stricter criterion.
   bool iterate(Settled guess) {
     const Coefficients saved_k = k_;
     const double saved_u = u_;
@@ -352,8 +352,8 @@ class ZeroFinder {
     }
   }
 
-  /// Iterates a real zero by variable shifts. If it stalls near what looks like a double zero, s is
-  /// where.
+  /// Iterates a real zero by variable shifts. If it stalls near an apparent double zero, s is its
+  /// place.
   RealEnd iterate_real(double& s) {
     double x = s;
     double t = 0.0;
@@ -425,7 +425,7 @@ class ZeroFinder {
 
   void divide_p() { divide(p_, degree_, qp_, a_, b_); }
 
-  /// Divides K, and prepares what the next K and the next guess are made of.
+  /// Divides K, and prepares the terms of the next K and the next guess.
   void divide_k() {
     double c = 0.0;
     double d = 0.0;
@@ -465,7 +465,7 @@ class ZeroFinder {
       return;
     }
     const double reference = scaling_ == Scaling::by_c ? b_ : a_;
-    // A divisor next to zero is left out: K is only needed up to a factor.
+    // A divisor close to zero is omitted, because K is only needed up to a factor.
     const bool is_significant = std::abs(a1_) > std::abs(reference) * unit_error * 10.0;
     if (is_significant) {
       a7_ /= a1_;
@@ -497,7 +497,7 @@ class ZeroFinder {
   }
 
   std::size_t degree_;
-  Coefficients p_{};   ///< the polynomial, what is left of it
+  Coefficients p_{};   ///< the polynomial, divided by the zeros found
   Coefficients k_{};   ///< the polynomial beside it, of one degree less
   Coefficients qp_{};  ///< quotients of both by the divisor
   Coefficients qk_{};
@@ -507,7 +507,7 @@ class ZeroFinder {
   double a_ = 0.0, b_ = 0.0;  ///< remainder of P
   double c_ = 0.0, d_ = 0.0;  ///< remainder of K
   Scaling scaling_ = Scaling::by_c;
-  double e_ = 0.0, f_ = 0.0, g_ = 0.0, h_ = 0.0;  ///< ratios, scaled so or so
+  double e_ = 0.0, f_ = 0.0, g_ = 0.0, h_ = 0.0;  ///< ratios, scaled in one of two ways
   double a1_ = 0.0, a3_ = 0.0, a7_ = 0.0;         ///< weights of the next K
   double linear_limit_ = 0.25;                    ///< changes below these count as settled
   double quadratic_limit_ = 0.25;

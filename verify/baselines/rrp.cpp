@@ -55,7 +55,7 @@ Hit ray_hit(const Point& direction, const Triangle& triangle) {
   return u == 0 || v == 0 || u + v == 1 ? Hit::bad_luck : Hit::crosses;
 }
 
-/// Where segment ab properly crosses segment cd, if it does. \pre they lie in a plane.
+/// The proper crossing of segments ab and cd, if any. \pre they lie in a plane.
 std::optional<Point> proper_crossing(const Point& a, const Point& b, const Point& c,
                                      const Point& d) {
   const Point ab = b - a, cd = d - c;
@@ -119,7 +119,7 @@ Point random_direction(Random& random) {
   return direction;
 }
 
-/// One ray's count over several surfaces: their hits' parity, unless one of them settles it.
+/// One ray's count over several surfaces: the parity of their hits, unless one of them decides.
 template <class Surfaces, class HitOf>
 Hit parity(const Surfaces& surfaces, const HitOf& hit_of) {
   bool is_odd = false;
@@ -131,7 +131,8 @@ Hit parity(const Surfaces& surfaces, const HitOf& hit_of) {
   return is_odd ? Hit::crosses : Hit::none;
 }
 
-/// Calls `hit_along` with the first direction, and with random ones as long as that is bad luck.
+/// Calls `hit_along` with the first direction, and with random ones as long as the direction is
+/// degenerate.
 template <class HitAlong>
 Hit with_luck(Point direction, Random& random, const HitAlong& hit_along) {
   for (int i = 0; i <= most_tries; ++i) {
@@ -142,7 +143,7 @@ Hit with_luck(Point direction, Random& random, const HitAlong& hit_along) {
   return Hit::error;
 }
 
-/// A query's rays and what they meet.
+/// The rays of a query and their crossings.
 class RayParity {
  public:
   explicit RayParity(const Query& query) : random_(random_of(query)) {}
@@ -194,7 +195,7 @@ class RayParity {
   Random random_;
 };
 
-/// Do all points move by the same vector, as differences in doubles? At rest they do.
+/// True if all points move by the same vector, as differences in doubles, in particular at rest.
 bool all_move_alike(const Query& query) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto moves_by = [&](std::size_t point) {

@@ -20,7 +20,7 @@ struct Breaks {
   void sort() { std::sort(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(count)); }
 };
 
-/// A polynomial that is to have a sign: c as it is wanted to be not negative.
+/// A polynomial that must not be negative.
 class SignSearch {
  public:
   SignSearch(std::span<const double> coefficients, WantedSign sign) {
@@ -46,7 +46,7 @@ class SignSearch {
   }
 
  private:
-  /// Is the constant, with all that adds to it, still of the other sign?
+  /// True if the constant with all positive contributions is still negative.
   [[nodiscard]] bool is_hopeless() const {
     double greatest = c_[size_ - 1];
     for (std::size_t i = 0; i + 1 < size_; ++i) greatest += std::max(c_[i], 0.0);

@@ -1,12 +1,11 @@
 #pragma once
 
-/// \file
-/// Where on [0,1] a polynomial has the wanted sign: FPRF's way of solving everything.
+/// \file The times in [0,1] at which a polynomial has a required sign: the basis of FPRF.
 ///
-/// The sign of a polynomial can only change at its zeros, so between neighbouring ones its value at
-/// the middle tells. Zeros come from zeros_of() (rpoly.hpp) with their real parts alone: those of
-/// complex pairs cut intervals too, which does no harm in exact arithmetic, and in floating point
-/// stands for double zeros that came out as a complex pair.
+/// The sign of a polynomial can only change at its zeros, so its value in the middle between
+/// neighbouring ones decides. Zeros come from zeros_of() (rpoly.hpp) with their real parts alone:
+/// those of complex pairs cut intervals too, which is harmless in exact arithmetic, and in floating
+/// point represents double zeros that were computed as a complex pair.
 
 #include <span>
 #include <vector>
@@ -26,9 +25,9 @@ enum class WantedSign { not_negative, not_positive };
 /// The intervals, in ascending order.
 ///
 /// The coefficients (the highest power's first) are divided by the greatest magnitude among them;
-/// first ones that are exactly 0 are left out, others however tiny are not. From degree 3 on there
-/// are no intervals if the constant and all other coefficients that help are together of the other
-/// sign. A quadratic a t² has a division by zero, and of its zero only that time is an interval.
+/// leading ones that are exactly 0 are omitted, tiny ones are not. From degree 3 on there are no
+/// intervals if the constant together with all positive contributions is negative. A quadratic a t²
+/// has a division by zero, and of its zero only that time is an interval.
 [[nodiscard]] std::vector<TimeInterval> sign_intervals(std::span<const double> coefficients,
                                                        WantedSign sign);
 

@@ -24,11 +24,11 @@ bool possibly_opposite(const Number& a, const Number& b) { return a.sign() * b.s
 /// The roots of a cubic on its interval.
 struct Roots {
   int count;
-  int start_sign;  ///< Y's before the first of them; 0 if it is not known
+  int start_sign;  ///< Y's sign before the first of them; 0 if it is unknown
 };
 
-/// The signs of κ at both ends where one extremum lies between them. What is not known follows from
-/// the other end, or if neither is, from the curvature, one end of which may be an inflection.
+/// The signs of κ at both ends if one extremum lies between them. An unknown sign follows from the
+/// other end or, if both are unknown, from the curvature, one end of which may be an inflection.
 std::array<int, 2> end_signs(const Bernstein<Number, 2>& kappa) {
   const int start = kappa[0].sign(), end = kappa[2].sign();
   if (start != 0 && end != 0) return {start, end};
@@ -69,7 +69,7 @@ Roots roots_of(const Cubic& k, Course course) {
   return {2, start};
 }
 
-/// The sign of a linear form at each of Y's roots; 0 where it is not known.
+/// The sign of a linear form at each of Y's roots; 0 if it is unknown.
 std::array<int, 2> signs_at_roots(const Bernstein<Number, 1>& linear, const Cubic& k,
                                   const Roots& roots) {
   const int first = linear[0].sign(), last = linear[1].sign();
@@ -91,7 +91,7 @@ std::array<int, 2> signs_at_roots(const Bernstein<Number, 1>& linear, const Cubi
   return there == before ? std::array{last, last} : std::array{first, first};
 }
 
-/// At which roots of Y is G certainly negative?
+/// The roots of Y at which G is certainly negative.
 std::array<bool, 2> violations(const Cubic& k, const Quartic& g, const Roots& roots) {
   const auto j = reduce(k, g);
   const Decomposition<Number> parts = decompose(k, j);
@@ -108,8 +108,9 @@ std::array<bool, 2> violations(const Cubic& k, const Quartic& g, const Roots& ro
   return {l[0] * rest[0] > 0, l[1] * rest[1] > 0};
 }
 
-/// Has the cubic, which has no inflection, a root where no quartic is certainly negative?
-/// \param inside the quartic of that index; asked for only where there is a root.
+/// True if the cubic, which has no inflection, has a root at which no quartic is certainly
+/// negative.
+/// \param inside the quartic of that index; called only if there is a root.
 template <class Inside>
 bool has_contact(const Cubic& k, const Inside& inside, Course course) {
   const Roots roots = roots_of(k, course);
@@ -141,7 +142,7 @@ Parts<degree> subdivided(Bernstein<Number, degree> row, const Number& n, const N
     parts.before[step] = row[0];
     parts.after[degree - step] = row[degree - step];
   }
-  // Row `step` has that many factors q; the others have to catch up.
+  // Row `step` has that many factors q; the others are multiplied accordingly.
   Number power = q;
   for (std::size_t step = degree; step-- > 0;) {
     parts.before[step] = parts.before[step] * power;

@@ -12,7 +12,7 @@ namespace {
 using Box = ParameterBox<1>;
 using Points = std::array<IntervalVector, moving_points>;
 
-/// May p be on the same side of the line ab as x, in the plane of all four?
+/// True if p may be on the same side of the line ab as x, in the plane of all four.
 bool may_be_inside(const IntervalVector& p, const IntervalVector& a, const IntervalVector& b,
                    const IntervalVector& x) {
   const IntervalVector edge = minus(b, a);

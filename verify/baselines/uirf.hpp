@@ -11,20 +11,22 @@
 /// vertex-face, is the vertex on the inner side of each edge; edge-edge, does each edge separate
 /// the other's ends.
 ///
-/// **fast::Promise.** The inside tests are closed and rounded outward, so they hold where there is a
-/// contact: no false negatives. Intervals come in ascending order, so the lower end of the accepted
-/// one is not above the time of impact.
+/// **Promise.** Conservative: the inside tests are closed and rounded outward, so they hold at
+/// every contact. Intervals come in ascending order, so the lower end of the accepted one is not
+/// above the time of impact.
 ///
 /// **Known defects.**
-///   - Nothing bounds u and v: the inside test is as coarse as the points move in that interval.
+///   - Nothing bounds u and v: the inside test is as coarse as the motion of the points in that
+///     interval.
 ///   - Degenerate triangles and edges on a line make every product contain 0, and all passes: false
 ///     positives. So does a motion in one plane wherever the inside test is near 0. (Two edges on
 ///     one line, far from each other, at rest.)
 ///   - A pair at rest has no tolerance to reach: [0,1] itself is decided.
 ///   - f ≡ 0, motion in one plane, makes every interval a candidate: as many checks as there are
-///     small intervals. fast::MethodOptions::max_checks bounds them, and the answer is then undecided,
-///     its `checks` max_checks.
-///   - It knows no minimum separation: queries that only come within one are false negatives.
+///     small intervals. fast::MethodOptions::max_checks bounds them; the answer is then undecided,
+///     with max_checks as `checks`.
+///   - It does not support a minimum separation: queries that only come within one are false
+///     negatives.
 
 #include <memory>
 
@@ -33,12 +35,12 @@
 
 namespace touchstone::baselines {
 
-/// Decides one query. Uses tolerance (δ, in units of the coordinates), max_checks and t_max.
+/// Solves one query. Uses tolerance (δ, in units of the coordinates), max_checks and t_max.
 /// \pre finite coordinates, valid options, rounding to nearest (method_support.hpp).
 /// \returns yes with toi_lower, or no, or undecided once max_checks are spent.
 [[nodiscard]] fast::Answer uirf(Kind kind, const Query& query, const fast::MethodOptions& options);
 
-/// As a method called `uirf`, which promises to be conservative.
+/// The method `uirf`, which promises to be conservative.
 [[nodiscard]] std::unique_ptr<fast::Method> uirf_method();
 
 }  // namespace touchstone::baselines

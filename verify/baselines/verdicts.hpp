@@ -1,10 +1,9 @@
 #pragma once
 
-/// \file
-/// Verdicts of methods that say yes or no and nothing else: the same answer to bad input, and to an
-/// exception inside the method, for all of them.
+/// \file Methods whose answers are verdicts alone, with common rules for bad input and for
+/// exceptions of the method.
 ///
-/// The published comparison wraps every method and turns whatever it throws into "collision". That
+/// The published comparison wraps every method and treats every exception as "collision". This rule
 /// decides most answers of some methods (bsc.hpp), so it is reproduced here.
 
 #include <cstddef>
@@ -20,8 +19,8 @@
 
 namespace touchstone::baselines {
 
-/// The verdict of `collides(kind, query)`: error where a coordinate is not finite, yes where it throws.
-/// \throws std::bad_alloc if that is what it throws.
+/// The verdict of `collides(kind, query)`: error if a coordinate is not finite, yes if it throws.
+/// \throws std::bad_alloc if `collides` throws that.
 template <class Collides>
 [[nodiscard]] fast::Verdict verdict_of(Kind kind, const Query& query, const Collides& collides) {
   if (!is_finite(query)) return fast::Verdict::error;
@@ -34,7 +33,8 @@ template <class Collides>
   }
 }
 
-/// Answers query i in answers[i] with its verdict alone, rounding to nearest whatever the caller does.
+/// Answers query i in answers[i] with its verdict alone, rounding to nearest in any environment of
+/// the caller.
 /// \pre both spans have the same length. \throws std::bad_alloc
 template <class Collides>
 void answer_each(Kind kind, std::span<const Query> queries, std::span<fast::Answer> answers,
@@ -45,7 +45,7 @@ void answer_each(Kind kind, std::span<const Query> queries, std::span<fast::Answ
   }
 }
 
-/// A baseline of verdicts alone, which promises nothing and has no use for options.
+/// A baseline of verdicts alone, which promises nothing and ignores all options.
 class VerdictMethod final : public fast::Method {
  public:
   using Collides = bool (*)(Kind, const Query&);

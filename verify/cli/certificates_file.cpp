@@ -21,8 +21,17 @@ void CertificatesFile::write(std::string_view certificates) {
 
 void CertificatesFile::close(std::string_view closing_line) {
   write(closing_line);
-  if (output_ && !output_.failed() && compressor_) put(compressor_->finish());
+  finish();
   output_.close();
+}
+
+void CertificatesFile::close_incomplete() {
+  finish();
+  output_.close_incomplete();
+}
+
+void CertificatesFile::finish() {
+  if (output_ && !output_.failed() && compressor_) put(compressor_->finish());
 }
 
 void CertificatesFile::put(std::string_view bytes) {

@@ -36,11 +36,16 @@ class CertificatesFile {
 
   /// Completes the stream, of so many certificates, and the file.
   void close(std::uint64_t certificates) { close(exact::certificates_closing_line(certificates)); }
-  /// The same with another closing line; an empty one leaves the stream cut.
+  /// The same with another closing line.
   void close(std::string_view closing_line);
+  /// Closes a stream that lacks certificates: without its closing line, so that the checker takes it for cut,
+  /// and in a file of another name (Output::close_incomplete).
+  void close_incomplete();
 
  private:
   void put(std::string_view bytes);
+  /// Writes all that is left.
+  void finish();
 
   Output output_;
   std::optional<io::Compressor> compressor_;

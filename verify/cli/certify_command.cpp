@@ -78,7 +78,11 @@ class CertifyRun {
     solvers_.report_output(arguments_.judged.show_output);
     // Files first: a closed standard output must not cost them.
     truth_.close();
-    proof_.close(sum_.proofs.certificates());
+    if (io::interrupted()) {
+      proof_.close_incomplete();
+    } else {
+      proof_.close(sum_.proofs.certificates());
+    }
     if (json_) json_.write(io::json_document(report::to_json(results_)));
     json_.close();
     view_.write(arguments_.judged.options);

@@ -130,10 +130,18 @@ void Output::write(std::string_view text) {
   });
 }
 
-void Output::close() {
+void Output::close_incomplete() {
+  static constexpr const char* ending = ".incomplete";
+  close_as(ending);
+  if (file_ && !failed_) {
+    report_warning(file_->path().string() + ending + ": not complete; " + name_ + " is as it was");
+  }
+}
+
+void Output::close_as(const std::string& ending) {
   attempt([&] {
     if (file_) {
-      file_->close();
+      file_->close_as(file_->path().string() + ending);
     } else if (device_ && std::fclose(device_.release()) != 0) {
       fail(name_, "cannot be written", errno);
     }

@@ -69,12 +69,18 @@ class Output {
   /// Does nothing if no file was named or it has failed.
   void write(std::string_view text);
   /// Completes the file.
-  void close();
+  void close() { close_as(""); }
+  /// The same for what is not all that it should be: the file gets the ending ".incomplete", one of the name
+  /// that the user gave stays as it was, and a warning says so.
+  void close_incomplete();
 
  private:
   struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
+
+  /// \param ending behind the name
+  void close_as(const std::string& ending);
 
   template <class Action>
   void attempt(const Action& action);

@@ -66,7 +66,11 @@ class ProveRun {
                        const Progress& progress) { prove_source(source, progress); },
          .fail = [this](const fs::path&, const data::DatasetError& error) { fail(error.what()); },
          .stopped = [this] { return stopped(); }});
-    out_.close(sum_.counts.certificates());
+    if (io::interrupted()) {
+      out_.close_incomplete();
+    } else {
+      out_.close(sum_.counts.certificates());
+    }
     if (json_) json_.write(io::json_document(summary()));
     json_.close();
     report_beyond_limits(sum_.counts);

@@ -151,9 +151,11 @@ class StepRun {
 
   Status finish() {
     if (proof_) {
-      // Without its closing line the checker takes a stream for cut, as it is.
-      const std::string closing = jobs::step_proofs_closing_line(report_.steps.size());
-      proof_.close(lacks_proof() ? std::string_view() : closing);
+      if (lacks_proof() || report_.interrupted) {
+        proof_.close_incomplete();
+      } else {
+        proof_.close(jobs::step_proofs_closing_line(report_.steps.size()));
+      }
     }
     if (json_) json_.write(io::json_document(report::to_json(report_)));
     json_.close();

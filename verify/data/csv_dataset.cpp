@@ -17,7 +17,7 @@ bool is_format(std::size_t columns) {
   return columns == 3 || columns == 4 || columns == 6 || columns == 7;
 }
 
-/// Can it be the name of a column?
+/// True if it can be the name of a column.
 bool is_name(std::string_view text) {
   if (text.empty() || io::is_numeric(text)) return false;
   const auto first = static_cast<unsigned char>(text.front());
@@ -31,7 +31,7 @@ CsvDataset::CsvDataset(const std::filesystem::path& path, const DatasetOptions& 
   if (CsvDataset::at_end()) throw DatasetError(path, {}, "no queries");
 }
 
-/// Passes over what may stand between two queries.
+/// Skips blank lines and headers between two queries.
 bool CsvDataset::at_end() {
   while (!ahead_) {
     ahead_ = lines_.next();
@@ -42,7 +42,7 @@ bool CsvDataset::at_end() {
   return false;
 }
 
-/// Is the line, which stands between two queries or before the first, the file's header?
+/// True if the line, which is between two queries or before the first, is the file's header.
 bool CsvDataset::is_header(std::string_view line) {
   if (columns_ || io::is_numeric(io::trimmed(line))) return !header_.empty() && line == header_;
   const io::CsvSplit split = io::split_csv(line, fields_);

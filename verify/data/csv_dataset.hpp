@@ -1,8 +1,8 @@
 #pragma once
 
-/// \file
-/// The CSV formats of the public benchmarks: eight rows a query, in the order of Query; a row holds
-/// x, y and z, and after them perhaps a label, 1 if they collide, the same on all eight rows.
+/// \file The CSV formats of the public benchmarks: eight rows for each query, in the order of
+/// Query; a row contains x, y and z, and optionally a label, 1 for a collision, the same on all
+/// eight rows.
 ///
 ///     columns  a row                                               e.g.
 ///     6        numerator, denominator of x, of y and of z          the 2023 benchmark
@@ -11,16 +11,15 @@
 ///     4        the same and the label
 ///
 /// Each number is an integer or a decimal (coordinate_text.hpp; newer data has a decimal over 1).
-/// Labels may also lie elsewhere (ground_truth_files.hpp). Fields may stand in quotes. Before the first row
-/// there may be a header line, as many names as there are columns, which are not looked at, and
-/// between two queries blank lines and the header again.
+/// Labels may also be in a separate file (ground_truth_files.hpp). Fields may be quoted. A header
+/// line with a name for each column, which is ignored, may precede the first row; blank lines and
+/// the header may be repeated between two queries.
 ///
-/// Which query a row belongs to is known by counting only. A row with a faulty number costs its
-/// query. A line that is no row (blank or a header inside a query, of another number of columns, or
-/// without any number) may stand for a row or not, and labels that differ inside a query say that a
-/// row is missing or one too many: behind these nothing tells where queries begin, and the rest of
-/// the file is left out, so that no query is ever put together of two. (A row missing or one too
-/// many that leaves no other trace shows at the end only, as a truncated query.)
+/// Only counting assigns rows to queries. A row with an invalid number invalidates its query. After
+/// a line that is not a row (blank or a header inside a query, another number of columns, or no
+/// number), or after labels that differ inside a query, the boundaries of queries are unknown, and
+/// the rest of the file is skipped, so that no query is composed of two. (A missing or additional
+/// row without other signs appears only at the end, as a truncated query.)
 
 #include <array>
 #include <cstddef>
@@ -48,7 +47,7 @@ class CsvDataset final : public DatasetSource {
  private:
   static constexpr std::size_t most_columns = 7;
 
-  /// The rows of one query so far.
+  /// The rows of the current query so far.
   struct Rows {
     StoredQuery query;
     std::uint64_t rounded;
@@ -59,7 +58,7 @@ class CsvDataset final : public DatasetSource {
 
   [[nodiscard]] bool is_header(std::string_view line);
   void split_row(const io::Line& line);
-  /// Return the fault of a row that costs its query, if there is one.
+  /// Return the fault of a row that invalidates its query, if any.
   [[nodiscard]] std::optional<DatasetError> read_label(const io::Line& line, Rows& rows);
   [[nodiscard]] std::optional<DatasetError> read_point(const io::Line& line, std::size_t row,
                                                        Rows& rows) const;
@@ -67,16 +66,16 @@ class CsvDataset final : public DatasetSource {
   [[nodiscard]] std::string_view field(std::size_t column) const;
   [[nodiscard]] DatasetError error(const io::Line& line, std::size_t column,
                                    const std::string& reason) const;
-  /// Gives up at a line behind which rows cannot be counted.
+  /// Ends the stream at a line after which rows cannot be counted.
   [[noreturn]] void lose_count(const io::Line& line, std::size_t column, const std::string& reason);
 
   io::LineReader lines_;
-  /// The first line of the next query, if at_end() has come upon it.
+  /// The first line of the next query, if at_end() has read it.
   std::optional<io::Line> ahead_;
-  /// The file's, empty if it has none.
+  /// The header of the file, empty if it has none.
   std::string header_;
   std::optional<std::size_t> columns_;
-  /// Of the line at hand.
+  /// The position of the current line.
   std::array<std::string, most_columns> fields_;
   std::uint64_t rounded_ = 0;
 };
@@ -92,8 +91,8 @@ class CsvWriter {
   /// \throws DatasetError if no file can be made there.
   explicit CsvWriter(std::filesystem::path path);
 
-  /// Appends a query with its label: do they collide. Without one the rows have six columns, which
-  /// must then be so for all queries.
+  /// Appends a query with its label: true for a collision. Without a label, which must then hold
+  /// for all queries, the rows have six columns.
   /// \throws DatasetError if it cannot be written.
   /// \throws std::invalid_argument if a coordinate is not finite; nothing is written then.
   void write(const Query& query, std::optional<bool> collides);

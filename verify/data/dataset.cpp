@@ -130,7 +130,7 @@ bool is_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80U;
 }
 
-/// Does the text contain the word, with no letter beside it?
+/// True if the text contains the word without an adjacent letter.
 bool contains_word(std::string_view text, std::string_view word) {
   for (std::size_t at = 0; (at = text.find(word, at)) != std::string_view::npos; ++at) {
     const std::size_t end = at + word.size();
@@ -155,8 +155,8 @@ std::optional<Kind> kind_from_parts(const fs::path& path) {
   return kind;
 }
 
-/// Does a file's name without extension end in this, by itself ("ee"), behind a number ("326ee") or
-/// behind a separator ("x_ee", "x-326ee")? "tree" does not.
+/// True if a file's name without extension ends in this, by itself ("ee"), after a number ("326ee")
+/// or behind a separator ("x_ee", "x-326ee")? "tree" does not.
 bool ends_in_word(std::string_view stem, std::string_view ending) {
   if (!stem.ends_with(ending)) return false;
   stem.remove_suffix(ending.size());

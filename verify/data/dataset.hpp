@@ -1,10 +1,11 @@
 #pragma once
 
-/// \file
-/// Recorded queries on disk: finding the files, telling their kind, opening them as streams.
+/// \file Recorded queries on disk: finding the files, determining their kind, opening them as
+/// streams.
 ///
-/// Formats: CSV with eight rows a query, each x, y and z as numbers or as numerator and denominator,
-/// and perhaps a label (csv_dataset.hpp); NumPy arrays of shape (N, 8, 3) (npy_dataset.hpp). Labels and times of impact may lie in files of their own beside either
+/// Formats: CSV with eight rows for each query, each x, y and z as numbers or as numerator and
+/// denominator, and optionally a label (csv_dataset.hpp); NumPy arrays of shape (N, 8, 3)
+/// (npy_dataset.hpp). Labels and times of impact may be in separate files beside either
 /// (ground_truth_files.hpp).
 
 #include <filesystem>
@@ -22,27 +23,27 @@ namespace touchstone::verify::data {
 
 /// Options for reading a dataset.
 struct DatasetOptions {
-  /// The kind of all its queries; without it the path says it.
+  /// The kind of all its queries; by default the path determines it.
   std::optional<Kind> kind = std::nullopt;
-  /// Accept coordinates that are no doubles, as the nearest double; QuerySource::rounded() counts
+  /// Round coordinates that are not doubles to the nearest double; QuerySource::rounded() counts
   /// them. A coordinate whose nearest double is infinite stays an error.
   bool round = false;
-  /// Leave out queries that are in error instead of throwing; QuerySource::skipped() counts them.
+  /// Skip invalid queries instead of throwing; QuerySource::skipped() counts them.
   bool keep_going = false;
-  /// With keep_going: called once for each query that is left out (and for each other fault that
-  /// skipped() counts), with the first error found in it.
+  /// With keep_going: called once for each skipped query (and for each other fault that skipped()
+  /// counts), with its first error.
   std::function<void(const DatasetError&)> on_skip = nullptr;
 };
 
-/// Called with each file, folder or link that a search leaves out, and why.
+/// Called with each file, folder or link that a search skips, and the reason.
 using LeftOut = std::function<void(const DatasetError&)>;
 
-/// The dataset files that the paths stand for: a file stands for itself, a folder for all files
-/// *.csv and *.npy below it, in the order of their names. Symbolic links are followed, but no folder
-/// below a path is searched twice. What accompanies datasets is left out: folders called toi,
-/// mma_bool, boxes or frames, and files named *_toi.csv.
-/// \param on_left_out called with everything else that is left out, and of files in those folders that have a
-/// dataset's name
+/// The dataset files of the paths: a file itself, or all files *.csv and *.npy below a folder, in
+/// the order of their names. Symbolic links are followed, but no folder below a path is searched
+/// twice. Companions of datasets are skipped: folders called toi, mma_bool, boxes or frames, and
+/// files named *_toi.csv.
+/// \param on_left_out called for everything else that is skipped, and for files in those folders
+/// that have a dataset's name
 /// \throws DatasetError for a path that does not exist or cannot be read, or a folder without any
 /// dataset.
 [[nodiscard]] std::vector<std::filesystem::path> find_datasets(
@@ -50,9 +51,9 @@ using LeftOut = std::function<void(const DatasetError&)>;
 
 /// The kind of the queries of a file: the deepest part of the path that contains "vertex-face" or
 /// "edge-edge" without a letter beside it, else the ending "vf" or "ee" of its name without
-/// extension, where only digits ("326vf"), only a separator and digits ("x_ee", "x-326vf") or
-/// nothing stands before it, else the working directory's parts.
-/// \throws DatasetError if the path says none, or both in one part.
+/// extension, after only digits ("326vf"), a separator and optional digits ("x_ee", "x-326vf") or
+/// nothing, else the working directory's parts.
+/// \throws DatasetError if the path determines no kind, or both in one part.
 [[nodiscard]] Kind kind_from_path(const std::filesystem::path& path);
 
 /// Opens a .csv or .npy file.

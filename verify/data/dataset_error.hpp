@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// The one error of all dataset readers and writers: where it is, and what is wrong there.
+/// \file The error of all dataset readers and writers: its place and its reason.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,20 +15,20 @@ namespace touchstone::verify::data {
 struct FilePosition {
   /// Counted from 1.
   std::uint64_t line = 0;
-  /// Counted from 1: number of the field in a CSV file, of the byte in the line of a JSON file.
+  /// Counted from 1: the field in a CSV file, the byte of the line in a JSON file.
   std::uint64_t column = 0;
 
   friend bool operator==(const FilePosition&, const FilePosition&) = default;
 };
 
 /// Bad data, or a file that cannot be read or written. what() is "path:line:column: reason",
-/// without the parts that are 0. Path and reason may come from outside, so what() has a bounded
-/// length: "..." ends what was cut.
+/// without the parts that are 0. Path and reason may be external texts, so what() has a bounded
+/// length: "..." marks a truncation.
 class DatasetError : public std::runtime_error {
  public:
-  /// Bytes that a reason may have.
+  /// Maximum length of a reason in bytes.
   static constexpr std::size_t longest_reason = 1000;
-  /// Bytes that a path may have in what(): those of the system's longest path.
+  /// Maximum length of a path in what(), in bytes: that of the system's longest path.
   static constexpr std::size_t longest_path = 4096;
 
   DatasetError(std::filesystem::path path, FilePosition position, const std::string& reason);
@@ -39,7 +38,7 @@ class DatasetError : public std::runtime_error {
   [[nodiscard]] std::uint64_t line() const { return position_.line; }
   /// Column as FilePosition counts it, 0 if the error belongs to no column.
   [[nodiscard]] std::uint64_t column() const { return position_.column; }
-  /// Not longer than longest_reason and the "..." behind it.
+  /// Not longer than longest_reason followed by "...".
   [[nodiscard]] const std::string& reason() const { return reason_; }
 
  private:
@@ -48,8 +47,7 @@ class DatasetError : public std::runtime_error {
   std::string reason_;
 };
 
-/// The longest beginning of a text that has at most so many bytes and cuts no character of UTF-8 in
-/// two.
+/// The longest prefix of a text that has at most this number of bytes and cuts no UTF-8 character.
 [[nodiscard]] std::string_view beginning(std::string_view text, std::size_t longest);
 
 /// The text in double quotes for a message: cut after 40 bytes, unprintable bytes as '?'.

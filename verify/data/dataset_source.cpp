@@ -53,7 +53,7 @@ void DatasetSource::give_up(const DatasetError& fault) {
   throw DatasetError(fault);
 }
 
-/// Ground truth files must not go on where the queries end.
+/// Ground truth files must not have more entries than there are queries.
 void DatasetSource::finish() {
   for (const DatasetError& fault : ground_truth_files_.beyond(count_)) skip(fault);
 }

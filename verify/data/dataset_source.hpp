@@ -3,11 +3,10 @@
 /// \file
 /// Common parts of the streams of all dataset formats.
 ///
-/// A format only says whether there is another query and reads it. Here the queries are numbered,
-/// joined with what their companion files say, and, with keep_going, left out one by one if they
-/// are in error. A format that no longer knows where queries begin gives up: the rest of the file
-/// is left out. The companions are asked by number, so a query left out leaves its label behind
-/// unread and cannot put the labels of the others out of step.
+/// A format only reports whether there is another query and reads it. The base class numbers the
+/// queries, joins them with their companion files and, with keep_going, skips invalid ones. If a
+/// format no longer knows the boundaries of queries, the rest of the file is skipped. Companions
+/// are read by number, so a skipped query does not shift the labels of the others.
 
 #include <cstdint>
 #include <filesystem>
@@ -30,26 +29,26 @@ class DatasetSource : public QuerySource {
   [[nodiscard]] Separation recorded_separation() const final { return separation_; }
 
  protected:
-  /// A query as the file itself records it.
+  /// A query with the truth that the file itself records.
   struct StoredQuery {
     Query query;
     std::optional<bool> label;
-    /// Where the label stands first.
+    /// The position of the first label.
     FilePosition label_position;
   };
 
   /// \throws DatasetError if the kind is unknown, or a companion file or the separation's cannot be read.
   DatasetSource(const std::filesystem::path& path, DatasetOptions options);
 
-  /// Ends the stream with this error, with and without keep_going: for a fault behind which nothing
-  /// tells where the next query is. What companions hold beyond is not looked at.
+  /// Ends the stream with this error, with and without keep_going: for a fault after which the
+  /// place of the next query is unknown. The rest of the companions is ignored.
   [[noreturn]] void give_up(const DatasetError& fault);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] const DatasetOptions& options() const { return options_; }
 
  private:
-  /// No query is left.
+  /// True if no query is left.
   [[nodiscard]] virtual bool at_end() = 0;
   /// The next query, number `index`. Consumes it also if it throws.
   [[nodiscard]] virtual StoredQuery read(std::uint64_t index) = 0;

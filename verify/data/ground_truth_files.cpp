@@ -97,7 +97,7 @@ std::optional<DatasetError> LabelReader::beyond(std::uint64_t count) {
   return std::nullopt;
 }
 
-/// The next element, or nothing at the closing bracket, where the position stays.
+/// The next element; empty at the closing bracket, at which the position stays.
 std::optional<LabelReader::Element> LabelReader::next_element() {
   if (closed_) return std::nullopt;
   int c = skip_whitespace();

@@ -1,13 +1,12 @@
 #pragma once
 
-/// \file
-/// Truth that lies beside a dataset: labels in <name>_mma_bool.json, times of impact in
+/// \file Recorded truth beside a dataset: labels in <name>_mma_bool.json, times of impact in
 /// <name>_toi.csv.
 ///
-/// Both are read as streams in step with the queries: readers are asked for queries by ascending
-/// number and pass over what lies before. A fault that leaves no doubt where the next entry is
-/// (`null` in place of a label, a malformed decimal) concerns one query. After any other fault
-/// nothing tells which query an entry belongs to: from there on every query gets the same error.
+/// Both are read as streams in step with the queries: entries are requested by ascending number,
+/// and earlier ones are skipped. If the place of the next entry is certain (`null` in place of a
+/// label, a malformed decimal), a fault concerns one query. After any other fault the query of an
+/// entry is unknown: from there on every query has the same error.
 
 #include <array>
 #include <cstddef>
@@ -23,20 +22,21 @@
 
 namespace touchstone::verify::data {
 
-/// Labels from a flat JSON array of true, false, 1 and 0, one a query. Columns of errors count the
-/// bytes of a line. The JSON library's parser ends at the first word that is no JSON, and does not read
-/// in step with the queries; here a wrong word costs the label of one query.
+/// Labels from a flat JSON array of true, false, 1 and 0, one for each query. Columns of errors
+/// count the bytes of a line. The JSON library's parser stops at the first word that is not JSON
+/// and does not read in step with the queries; here a wrong word invalidates the label of one
+/// query.
 class LabelReader {
  public:
   /// \throws DatasetError if the file cannot be read or does not begin with '['.
   explicit LabelReader(std::filesystem::path path);
 
   /// The label of a query; numbers must ascend from call to call.
-  /// \throws DatasetError if there is none, or what stands there is no label.
+  /// \throws DatasetError if there is none, or the entry is not a label.
   [[nodiscard]] bool at(std::uint64_t index);
 
-  /// The error, if any, that lies behind the labels of `count` queries: a further label, or faulty
-  /// JSON that at() has not reported. To be called last.
+  /// The error, if any, after the labels of `count` queries: an additional label, or invalid JSON
+  /// that at() has not reported. Must be the last call.
   [[nodiscard]] std::optional<DatasetError> beyond(std::uint64_t count);
 
   [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
@@ -65,19 +65,19 @@ class LabelReader {
   std::optional<DatasetError> broken_;
 };
 
-/// Times of impact from lines "query,toi" below that header: query numbers strictly ascending, not
-/// every query among them; decimals of any length. Columns of errors count fields.
+/// Times of impact from lines "query,toi" below that header: query numbers strictly ascending,
+/// possibly with gaps; decimals of any length. Columns of errors count fields.
 class ToiReader {
  public:
   /// \throws DatasetError if the file cannot be read or has another header.
   explicit ToiReader(std::filesystem::path path);
 
   /// The time of impact of a query, if it has one; numbers must ascend from call to call.
-  /// \throws DatasetError if what stands there is none, or the file is faulty before it.
+  /// \throws DatasetError if the entry is not a time, or the file is invalid before it.
   [[nodiscard]] std::optional<exact::Rational> at(std::uint64_t index);
 
-  /// The error, if any, that lies behind the entries of `count` queries: an entry of a query past
-  /// them, or a faulty line that at() has not reported. To be called last.
+  /// The error, if any, after the entries of `count` queries: an entry of a later query, or an
+  /// invalid line that at() has not reported. Must be the last call.
   [[nodiscard]] std::optional<DatasetError> beyond(std::uint64_t count);
 
  private:
@@ -87,7 +87,7 @@ class ToiReader {
     std::uint64_t line;
   };
 
-  /// Makes entry_ the first one of query `index` or later.
+  /// Advances entry_ to the first one of query `index` or later.
   void seek(std::uint64_t index);
   [[nodiscard]] std::optional<Entry> next_entry();
   [[noreturn]] void fail(FilePosition position, const std::string& reason) const;
@@ -104,7 +104,7 @@ struct RecordedTruth {
   std::optional<exact::Rational> toi;
 };
 
-/// The companion files that there are of a dataset, the one of its separation included.
+/// The existing companion files of a dataset, including that of its separation.
 [[nodiscard]] std::vector<std::filesystem::path> find_ground_truth_files(
     const std::filesystem::path& dataset);
 
@@ -117,10 +117,10 @@ class GroundTruthFiles {
   explicit GroundTruthFiles(const std::filesystem::path& dataset);
 
   /// The recorded ground truth of a query; numbers must ascend from call to call.
-  /// \throws DatasetError if what is recorded cannot be read.
+  /// \throws DatasetError if the record cannot be read.
   [[nodiscard]] RecordedTruth at(std::uint64_t index);
 
-  /// The errors that lie behind the entries of `count` queries, at most one a file.
+  /// The errors after the entries of `count` queries, at most one for each file.
   [[nodiscard]] std::vector<DatasetError> beyond(std::uint64_t count);
 
   /// The file of the labels, empty if there is none.

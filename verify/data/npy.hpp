@@ -3,8 +3,8 @@
 /// \file
 /// NumPy's .npy files of queries: little-endian float64 of shape (N, 8, 3), in C order.
 ///
-/// Such an array has the layout of N consecutive Query objects, so its bytes *are* the queries:
-/// nothing is parsed. An array of no queries, shape (0, 8, 3), is one as well.
+/// Such an array has the layout of N consecutive Query objects, so its bytes *are* the queries,
+/// without parsing. An array of no queries, shape (0, 8, 3), is valid.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,21 +18,20 @@
 namespace touchstone::verify::data {
 
 /// Reads such a file front to back, a block of queries at a time. The file is not mapped into
-/// memory: the system ends a process that reads mapped pages of a file that has become shorter.
+/// memory, because the system ends a process that reads mapped pages of a file that was truncated.
 class NpyReader {
  public:
   /// \throws DatasetError if the file cannot be read, is not such an array, or its size does not
   /// fit its shape.
   explicit NpyReader(const std::filesystem::path& path);
 
-  /// Number of queries, as the header says it.
+  /// Number of queries according to the header.
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
   /// Number of the query that next() returns.
   [[nodiscard]] std::uint64_t position() const { return position_; }
 
-  /// The next query, valid until the next call. Coordinates are as they are in the file: not
-  /// checked for NaN and infinities.
+  /// The next query, valid until the next call. Coordinates are not checked for NaN and infinities.
   /// \pre position() < count().
   /// \throws DatasetError if the system reports an error, or the file has become shorter.
   [[nodiscard]] const Query& next();

@@ -15,13 +15,13 @@
 
 namespace touchstone::verify::data {
 
-/// A file that begins with no such header, or with that of another array; what() is the reason.
+/// The error for a file without such a header, or with that of another array; what() is the reason.
 class NpyHeaderError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What the header says of the array.
+/// The contents of the header.
 struct NpyHeader {
   std::string descr;           ///< the type: "<f8" is little-endian float64
   bool fortran_order = false;  ///< columns first
@@ -30,11 +30,11 @@ struct NpyHeader {
   std::size_t size = 0;
 };
 
-/// Fills the buffer, or less at the end of the file; returns the number of bytes.
+/// Fills the buffer, or a part of it at the end of the file; returns the number of bytes.
 using ReadBytes = std::function<std::size_t(std::span<char>)>;
 
 /// Reads the header and no byte more.
-/// \throws NpyHeaderError; whatever `read` throws.
+/// \throws NpyHeaderError and the exceptions of `read`.
 [[nodiscard]] NpyHeader read_npy_header(const ReadBytes& read);
 
 /// \throws NpyHeaderError unless the array is in C order.
@@ -43,8 +43,8 @@ void require_c_order(const NpyHeader& header);
 /// "(3, 8, 3)"
 [[nodiscard]] std::string shape_text(const NpyHeader& header);
 
-/// The header of an array in C order whose first extent is `count`, 128 bytes whatever that is, so that it can be
-/// written again when the number is known.
+/// The header of an array in C order whose first extent is `count`, always 128 bytes, so that it
+/// can be rewritten when the number is known.
 /// \param descr the type \param extents the further extents
 [[nodiscard]] std::string npy_header_text(std::string_view descr, std::uint64_t count,
                                           std::span<const std::uint64_t> extents);

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Queries of one kind in memory, from one source or several, that are measured together.
+/// \file Queries of one kind in memory, from one or several sources, that are measured together.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,35 +13,35 @@
 
 namespace touchstone::verify::data {
 
-/// Where a query comes from.
+/// The origin of a query.
 struct QueryPlace {
   std::string source;       ///< QuerySource::name
   std::uint64_t index = 0;  ///< RecordedQuery::index
 };
 
-/// Some queries of one kind, and where they come from.
+/// Queries of one kind with their origins.
 class QueryGroup {
  public:
   QueryGroup(std::string name, Kind kind) : name_(std::move(name)), kind_(kind) {}
 
-  /// Queries that were made here: their source is the group, their index their position.
+  /// Generated queries: their source is the group, their index their position.
   QueryGroup(std::string name, Kind kind, std::vector<Query> queries);
 
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] const std::vector<Query>& queries() const { return queries_; }
 
-  /// A number that tells groups of other queries apart: FNV-1a, 64 bits, of the bytes of all coordinates in
-  /// their order.
+  /// A digest that distinguishes groups of different queries: FNV-1a, 64 bits, of the bytes of all
+  /// coordinates in their order.
   [[nodiscard]] std::uint64_t digest() const;
 
   /// Appends the queries of a source, up to its end or until `stopped`.
-  /// \param progress called now and then with the fraction of the source that is read.
+  /// \param progress called occasionally with the fraction of the source that is read.
   /// \throws DatasetError as the source does, std::invalid_argument if it is of another kind.
   void read(QuerySource& source, const std::function<void(double)>& progress,
             const std::function<bool()>& stopped);
 
-  /// Where the query at a position of queries() comes from. \pre there is one.
+  /// The origin of the query at a position of queries(). \pre the position is in range.
   [[nodiscard]] QueryPlace place_of(std::size_t position) const;
 
  private:

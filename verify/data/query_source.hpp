@@ -1,8 +1,6 @@
 #pragma once
 
-/// \file
-/// Where queries come from: the one interface between datasets, the built-in families and the
-/// judge.
+/// \file Sources of queries: the common interface of datasets and the built-in set.
 
 #include <cstdint>
 #include <optional>
@@ -13,14 +11,14 @@
 
 namespace touchstone::verify::data {
 
-/// A query with what its source claims to be true of it.
+/// A query with the truth that its source records.
 struct RecordedQuery {
   Query query;
   /// Position in the source, counted from 0; skipped queries keep their number.
   std::uint64_t index;
-  /// Do they collide, where the source says so.
+  /// The label, if the source has one: true for a collision.
   std::optional<bool> collides;
-  /// Exact time of impact, or a decimal approximation of it, where the source has one.
+  /// Exact time of impact, or a decimal approximation of it, if the source has one.
   std::optional<exact::Rational> toi;
 };
 
@@ -38,20 +36,20 @@ class QuerySource {
   [[nodiscard]] virtual const std::string& name() const = 0;
   [[nodiscard]] virtual Kind kind() const = 0;
 
-  /// The separation that recorded labels and times of impact are about.
+  /// The separation of the recorded labels and times of impact.
   [[nodiscard]] virtual Separation recorded_separation() const { return {}; }
 
-  /// The next query, or nothing at the end.
+  /// The next query; empty at the end.
   /// \throws DatasetError on bad input, unless the source was opened to keep going.
   [[nodiscard]] virtual std::optional<RecordedQuery> next() = 0;
 
-  /// Fraction read so far, 0 to 1: what a progress bar shows.
+  /// Fraction read so far, 0 to 1, for a progress bar.
   [[nodiscard]] virtual double progress() const = 0;
 
-  /// Queries left out because they could not be read (only where the source keeps going).
+  /// Number of skipped invalid queries (only if the source keeps going).
   [[nodiscard]] virtual std::uint64_t skipped() const { return 0; }
 
-  /// Coordinates that were no doubles and were rounded to the nearest one (only where asked for).
+  /// Number of coordinates that were rounded to the nearest double (only if requested).
   [[nodiscard]] virtual std::uint64_t rounded() const { return 0; }
 };
 

@@ -21,7 +21,7 @@ namespace touchstone::verify::data {
 /// Significant digits of a time of impact whose decimal cannot be exact.
 inline constexpr unsigned rounded_digits = 60;
 
-/// A rational as a decimal: all digits where the denominator is a power of two, else rounded_digits.
+/// A rational as a decimal: all digits if the denominator is a power of two, else rounded_digits.
 [[nodiscard]] std::string to_decimal(const exact::Rational& value);
 
 /// Writes a toi companion (<dir>/toi/<name>_toi.csv beside <dir>/<name>.csv).

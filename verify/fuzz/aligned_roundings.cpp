@@ -13,7 +13,7 @@ namespace {
 using generate::Random;
 
 /// Coordinates of the axis are in [1,2), as whole numbers of their unit in the last place; the time
-/// is n/64, and what is exact then is a whole number of 64ths of that unit.
+/// is n/64, and exact values then are whole numbers of 64ths of that unit.
 constexpr std::int64_t parts = 64;
 
 /// One coordinate of a moving point, in units.
@@ -21,10 +21,10 @@ struct Track {
   std::int64_t start = 0;
   std::int64_t end = 0;
 
-  /// Where it is at n/64, in 64ths.
+  /// The position at n/64, in 64ths.
   [[nodiscard]] std::int64_t at(std::int64_t n) const { return (parts - n) * start + n * end; }
 
-  /// How far above that value solvers compute it, in 64ths.
+  /// The error of the value that solvers compute, in 64ths, upward.
   [[nodiscard]] std::int64_t error(std::int64_t n) const {
     const double t = static_cast<double>(n) / parts;
     const auto a = static_cast<double>(start), b = static_cast<double>(end);
@@ -32,8 +32,8 @@ struct Track {
   }
 };
 
-/// A track near `about` that is at `place` at n/64, to a unit, and computed to be nearly a unit
-/// beyond, upward or downward.
+/// A track close to `about` that is at `place` at n/64, up to a unit, and whose computed value is
+/// nearly a unit above or below.
 std::optional<Track> aligned_track(const Track& about, std::int64_t n, std::int64_t place,
                                    bool upward, Random& random) {
   constexpr int tries = 4000;
@@ -55,10 +55,10 @@ struct Plan {
   double u = 0.0, v = 0.0;
 };
 
-/// At n/64, edge a is below edge b by so many units at the contact's u and v, and reaches it then.
+/// The number of units by which edge a is below edge b at n/64, at the contact's u and v.
 constexpr double lag = 0.1;
 
-/// Where on edge a that is, of what is at v on edge b.
+/// The parameter on edge a of the point at v on edge b.
 double crossing(const Plan& plan) {
   std::array<double, moving_points> away{};
   for (std::size_t i = 0; i < away.size(); ++i) {
@@ -98,8 +98,8 @@ void put_tracks(Query& query, std::size_t axis, const Plan& plan) {
   }
 }
 
-/// The edges meet on this axis at the very time, and earlier they are beyond its rounding: no box
-/// that ends at n/64 has a contact by it.
+/// On this axis the edges meet exactly at that time, and earlier they are beyond rounding: on it no
+/// box that ends at n/64 has a contact.
 void put_clock(Query& query, std::size_t axis, const Plan& plan) {
   const double c = static_cast<double>(plan.n) / parts, late = lag * 0x1p-52 / plan.speed;
   for (std::size_t point = 0; point < moving_points; ++point) {
@@ -109,7 +109,7 @@ void put_clock(Query& query, std::size_t axis, const Plan& plan) {
   }
 }
 
-/// Random coordinates on the third axis, but for one, which is such that F is 0 there.
+/// Random coordinates on the third axis, except one, for which F is 0 there.
 void put_crossing(Query& query, std::size_t axis, const Plan& plan, Random& random) {
   const double t = static_cast<double>(plan.n) / parts;
   const std::array<double, moving_points> weights{1.0 - plan.u, plan.u, plan.v - 1.0, -plan.v};

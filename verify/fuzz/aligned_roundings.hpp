@@ -1,12 +1,11 @@
 #pragma once
 
-/// \file
-/// Contact of two edges where the roundings of one coordinate all go to one side.
+/// \file Contacts of two edges for which all roundings of one coordinate have the same direction.
 ///
-/// What a solver computes of F = A − B at a contact is the sum of the errors of many roundings, and
-/// that of random ones is far below a bound that holds for all. Here the points of edge a are such
-/// that their positions at the dyadic time c are rounded up by nearly as much as can be, and those
-/// of edge b down: more than a third of what Tight-Inclusion's filter of edges allows for.
+/// At a contact the computed value of F = A − B is the sum of many rounding errors, and for random
+/// points it is far below a bound for all. Here the positions of edge a at the dyadic time c are
+/// rounded up nearly as much as possible, and those of edge b down: the error is more than a third
+/// of Tight-Inclusion's filter for edges.
 
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
@@ -14,8 +13,7 @@
 namespace touchstone::verify::fuzz {
 
 /// Two edges that meet at a time just after c, one of 33/64 and 31/64, and on one axis are computed
-/// to be apart by some 4 u x at c (u: 2^-53, x: the greatest coordinate there), before u and v are
-/// looked at.
+/// to be apart by some 4 u x at c (u: 2^-53, x: the greatest coordinate there), for any u and v.
 [[nodiscard]] Query aligned_contact(generate::Random& random);
 
 }  // namespace touchstone::verify::fuzz

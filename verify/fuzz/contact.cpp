@@ -38,7 +38,7 @@ Vector place_of(const Query& query, std::size_t end, std::size_t point) {
 
 /// The query under a random symmetry that keeps distances and the time.
 Query turned(Kind kind, const Query& query, Random& random) {
-  // A distance that is none of 0 leaves out what does not keep distances.
+  // A positive distance excludes symmetries that do not keep distances.
   Symmetry symmetry = draw_symmetry(kind, query, {.distance = 1.0}, random);
   symmetry.reversed = false;
   return image(symmetry, query).value_or(query);
@@ -46,8 +46,8 @@ Query turned(Kind kind, const Query& query, Random& random) {
 
 // ---- On a grid ----------------------------------------------------------------------------------
 
-/// Vectors of integers below 2^bits, with zeros now and then: not often, what lies in a plane takes the
-/// judge long.
+/// Vectors of integers below 2^bits, with occasional zeros: few, because motion in a plane takes
+/// the judge long.
 class Grid {
  public:
   Grid(Random& random, int bits) : random_(random), bound_(std::int64_t{1} << bits) {}
@@ -101,10 +101,10 @@ std::array<Vector, moving_points> draw_velocities(Kind kind, Random& random) {
 
 // ---- Level --------------------------------------------------------------------------------------
 
-/// Position of the projections relative to each other.
+/// The relative position of the projections.
 enum class Spot : std::uint8_t { inside, side, corner };
 
-/// Takes a list in braces, whose draws have an order.
+/// Takes a list in braces, in which the order of draws is defined.
 void put_plane(Query& query, std::size_t end, std::size_t point, const std::array<double, 2>& xy) {
   query.at(end, point, 0) = xy[0];
   query.at(end, point, 1) = xy[1];
@@ -181,7 +181,7 @@ void put_heights(Kind kind, const Heights& heights, Query& query) {
 
 Vector linear(double s, const Vector& a, double t, const Vector& b) { return s * a + t * b; }
 
-/// Where point 0 has to be at the time whose places these are, for F = 0. \pre u < 1 for edges
+/// The position of point 0 with F = 0 at the time of these places. \pre u < 1 for edges
 Vector aim(Kind kind, const std::array<Vector, moving_points>& at_t, double u, double v) {
   if (kind == Kind::vertex_face) {
     return (1.0 - u - v) * at_t[1] + (u * at_t[2] + v * at_t[3]);
@@ -190,9 +190,9 @@ Vector aim(Kind kind, const std::array<Vector, moving_points>& at_t, double u, d
   return (1.0 / (1.0 - u)) * (on_b - u * at_t[1]);
 }
 
-/// A vector as long as the separation's distance in its norm, but for roundings.
+/// A vector with the separation's distance as its norm, up to rounding.
 Vector draw_offset(const Separation& separation, Random& random) {
-  // (2,3,6) and (1,2,2) have lengths 7 and 3; (7,7,−2) is as long as 7 in L∞.
+  // (2,3,6) and (1,2,2) have lengths 7 and 3; (7,7,−2) has length 7 in L∞.
   static constexpr std::array<Vector, 3> of_l2{{{2.0, 3.0, 6.0}, {1.0, 2.0, 2.0}, {0.0, 3.0, 4.0}}};
   static constexpr std::array<double, 3> lengths{7.0, 3.0, 5.0};
   const double d = separation.distance;
@@ -268,7 +268,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Level primitives that come as near as the distance at an end, or stay there.
+/// Level primitives that come to the distance at an end, or stay there.
 Query hovering(Kind kind, const Separation& separation, Random& random) {
   Query query = draw_plan(kind, random);
   const double d = separation.distance;
@@ -367,7 +367,7 @@ Query rounded_contact(Kind kind, Random& random) {
 Query contact_apart(Kind kind, const Separation& separation, Random& random) {
   if (random.coin()) return hovering(kind, separation, random);
   Query query = random.coin() ? level_contact(kind, random) : grid_contact(kind, random);
-  // The size of the scene by that of the distance: from like it to a million times it.
+  // The size of the scene relative to the distance: from one to a million.
   double greatest = 0.0;
   for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
   if (greatest > 0.0 && !one_in(random, 4)) {

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Queries that touch, by construction: where solvers fail is beside them.
+/// \file Queries with contact by construction: solvers fail close to them.
 ///
 /// **On a grid.** All points are placed at a time n/2^k at integer positions: the vertex at an
 /// integer combination of the face, the edges through one point. With integer velocities e per 2^-k
@@ -9,11 +8,11 @@
 /// that time. Then each axis is multiplied by a power of two.
 ///
 /// **Level.** The first primitive has the height p(t) in z at all of its points, the second q(t).
-/// The projections to x and y meet at all times (inside, on a side, or on a corner, where the same
-/// double stands in both), and p − q has a zero in [0,1]. Rounding keeps order and equality, so
+/// The projections to x and y meet at all times (inside, on a side, or on a corner with the same
+/// double in both), and p − q has a zero in [0,1]. Rounding keeps order and equality, so
 /// significands may be full, and the scale of each axis any number.
 ///
-/// These are then turned by an exact symmetry (symmetry.hpp).
+/// An exact symmetry is then applied (symmetry.hpp).
 
 #include "exact/query.hpp"
 #include "verify/generate/random.hpp"
@@ -23,32 +22,32 @@ namespace touchstone::verify::fuzz {
 /// A query on a grid that collides.
 [[nodiscard]] Query grid_contact(Kind kind, generate::Random& random);
 
-/// The centres of two edges, or of a triangle and a vertex, meet at an end of the step, exactly, and
-/// move along the normal, exactly too: what a direction's products tell apart is rounding alone.
+/// The centres of two edges, or of a triangle and a vertex, meet exactly at an end of the step and
+/// move exactly along the normal, so products with a direction differ by rounding alone.
 [[nodiscard]] Query central_contact(Kind kind, generate::Random& random);
 
 /// A level query that collides.
 [[nodiscard]] Query level_contact(Kind kind, generate::Random& random);
 
-/// A query with full significands, one point of which is put where F = 0 and rounded: a hit or a
-/// miss by a hair.
+/// A query with full significands, one point of which is placed at F = 0 and rounded: a collision,
+/// or barely none.
 [[nodiscard]] Query rounded_contact(Kind kind, generate::Random& random);
 
 /// Level primitives whose nearest heights differ by the distance of the separation, rounded; or a
-/// contact as above, one primitive of which is moved by as much, in a direction that is often one of
-/// few bits. \pre distance > 0
+/// contact as above, one primitive of which is moved by as much, in a direction that often has few
+/// bits. \pre distance > 0
 [[nodiscard]] Query contact_apart(Kind kind, const Separation& separation,
                                   generate::Random& random);
 
-/// A polygon r − u p − v q that tilts: it begins and ends some distances d from the origin, and comes
-/// nearest in the middle of the step, to a point inside; or not so near. Its normal is about as long
-/// as its sides allow. So bounds of what a shift by d changes, by the sides' coordinates, have no slack,
-/// and the determinant's Bernstein coefficients in the middle are far below its values.
+/// A polygon r − u p − v q that tilts: it begins and ends some distances d from the origin and is
+/// closest at mid-step, at an interior point (optionally a near miss). Its normal is about as long
+/// as its sides allow. So the bounds of the change by a shift of d, from the sides' coordinates,
+/// are sharp, and the determinant's middle Bernstein coefficients are far below its values.
 /// \pre distance > 0
 [[nodiscard]] Query tilting(Kind kind, const Separation& separation, generate::Random& random);
 
-/// Primitives that slide along each other, nearly parallel, in a common plane but for 2^-10 to
-/// 2^-50 of their size, which may change its sign.
+/// Primitives that slide along each other, nearly parallel, in a common plane up to a deviation of
+/// 2^-10 to 2^-50 of their size, which may change its sign.
 [[nodiscard]] Query sliding(Kind kind, generate::Random& random);
 
 }  // namespace touchstone::verify::fuzz

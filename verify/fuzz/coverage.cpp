@@ -12,13 +12,13 @@ namespace {
 /// The exponent field of a double, 0 (zeros, subnormals) to 2047 (infinities, NaN).
 std::uint64_t exponent_field(double x) { return (std::bit_cast<std::uint64_t>(x) >> 52U) & 0x7ffU; }
 
-/// The exponent of numbers up to 1, from 0 to 64: all below 2^-64 are one.
+/// The exponent of numbers up to 1, from 0 to 64, which stands for all below 2^-64.
 std::uint64_t small_exponent(double x) {
   static constexpr std::uint64_t bias = 1023, least = bias - 64;
   return std::max(exponent_field(x), least) - least;
 }
 
-/// Where in [0,1] a time is: how near to the nearer end.
+/// The class of a time in [0,1]: the exponent of its distance from the closer end.
 std::uint64_t time_place(double t) {
   return t < 0.5 ? small_exponent(t) / 8 : 16 + small_exponent(1.0 - t) / 8;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Small draws that the generators of the fuzzer share.
+/// \file Common random draws of the fuzzer's generators.
 
 #include <array>
 #include <cmath>
@@ -20,7 +19,7 @@ using generate::Random;
   return static_cast<std::size_t>(random.bits() % count);
 }
 
-/// True once in so many times.
+/// True with probability 1/n.
 [[nodiscard]] inline bool one_in(Random& random, std::size_t count) {
   return below(random, count) == 0;
 }
@@ -45,7 +44,7 @@ using generate::Random;
   }
 }
 
-/// Scales of the three axes: most of the time one.
+/// Scales of the three axes, mostly the same one.
 [[nodiscard]] inline std::array<double, 3> scales(Random& random) {
   const double common = scale(random);
   if (!one_in(random, 4)) return {common, common, common};

@@ -13,16 +13,16 @@
 
 namespace touchstone::verify::fuzz {
 
-/// Markdown for readers who have never heard of this project: what was answered, what is true, the points
-/// in decimal and in hexadecimal, a program that shows it (standalone.hpp), the certificate and how to
-/// check it, and the command that asks again.
+/// Markdown for readers without knowledge of this project: the answer, the truth, the points in
+/// decimal and in hexadecimal, a program that shows the fault (standalone.hpp), the certificate
+/// with instructions for its check, and the command that reproduces the finding.
 /// \param name of the files beside the page: NAME.cpp and NAME.cert
 [[nodiscard]] std::string as_page(const FuzzReport& report, const FindingGroup& group,
                                   CallInterface interface, const std::string& name);
 
-/// Writes into a folder, which it makes: for each group of the report, by its number and kind of finding,
-/// the page, the program, the certificate if there is one and a test (1-false_negative.md, .cpp, .cert
-/// and _test.cpp), and findings.json (fuzz_report.hpp). Returns the pages.
+/// Writes into a folder, which it creates: for each group of the report, by its number and kind of
+/// finding, the page, the program, the certificate if there is one and a test (1-false_negative.md,
+/// .cpp, .cert and _test.cpp), and findings.json (fuzz_report.hpp). Returns the pages.
 /// \throws DatasetError if a file cannot be written.
 [[nodiscard]] std::vector<std::filesystem::path> write_pages(const FuzzReport& report,
                                                              CallInterface interface,

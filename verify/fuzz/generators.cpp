@@ -33,7 +33,8 @@ Query few_bits(Kind /*kind*/, const GeneratorContext& /*context*/, Random& rando
   return query;
 }
 
-/// A few numbers an axis, with full significands, for all coordinates: equal ones abound.
+/// A few numbers for each axis, with full significands, for all coordinates, so that many are
+/// equal.
 Query grid(Kind /*kind*/, const GeneratorContext& /*context*/, Random& random) {
   std::array<std::array<double, 4>, 3> palettes{};
   const std::array<double, 3> scales = draws::scales(random);
@@ -117,7 +118,7 @@ Query contact_rounded(Kind kind, const GeneratorContext& /*context*/, Random& ra
   return query;
 }
 
-/// Of edges; of a vertex and a triangle what is next to it.
+/// For edges; for a vertex and a triangle the closest equivalent.
 Query contact_aligned(Kind kind, const GeneratorContext& context, Random& random) {
   return kind == Kind::edge_edge ? aligned_contact(random) : contact_rounded(kind, context, random);
 }
@@ -136,8 +137,8 @@ Query apart(Kind kind, const GeneratorContext& context, Random& random) {
   return query;
 }
 
-/// Small multiples of the distance or of a part of it: many things happen at the same time, such as at
-/// an end, and then a moment after each other.
+/// Small multiples of the distance or of a part of it: several events coincide, for instance at an
+/// end, or follow each other closely.
 Query multiples(Kind kind, const GeneratorContext& context, Random& random) {
   const int exponent = -static_cast<int>(below(random, 3));
   const double unit = std::ldexp(std::min(context.separation().distance, 0x1p1000), exponent);
@@ -174,8 +175,8 @@ Query mutate(Kind kind, const GeneratorContext& context, Random& random) {
   return mutated(from_pool(kind, context, random), random);
 }
 
-/// Exponents of the greatest coordinate. Most of the time not far from that of the
-/// distance, if there is one: it decides nothing among coordinates of quite another size.
+/// Exponents of the greatest coordinate. Mostly close to that of the distance, if there is one,
+/// which is irrelevant among coordinates of a very different size.
 std::pair<int, int> draw_exponents(const Separation& separation, Random& random) {
   constexpr int most = 1000, near = 30;
   if (is_contact(separation) || one_in(random, 8)) return {-most, most};
@@ -183,8 +184,8 @@ std::pair<int, int> draw_exponents(const Separation& separation, Random& random)
   return {middle - near, middle + near};
 }
 
-/// Another query far from 1, its greatest coordinate from 2^-1000 to 2^1000; now and then each axis
-/// by itself.
+/// A query of another generator far from 1, with a greatest coordinate from 2^-1000 to 2^1000,
+/// sometimes for each axis separately.
 Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
   const Query query = from_pool(kind, context, random);
   std::array<double, 3> greatest{};
@@ -211,8 +212,8 @@ Query scaled(Kind kind, const GeneratorContext& context, Random& random) {
   return result;
 }
 
-/// What a solver's users have is worth more than what else may be found: about an eighth of the
-/// queries from the start.
+/// Queries like those of a solver's users are the most valuable: about an eighth of the queries
+/// from the start.
 constexpr double explored_everyday = 5.0;
 
 constexpr std::array<Generator, 16> all_generators{{

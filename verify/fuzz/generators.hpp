@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Where the fuzzer's queries come from. Each generator has its own way to be hard; the scale, the
-/// closeness and the rest of what makes it hard it draws anew for each query.
+/// \file The sources of the fuzzer's queries. Each generator has one kind of difficulty; it draws
+/// the scale, the closeness and all other parameters anew for each query.
 
 #include <array>
 #include <cstddef>
@@ -17,16 +16,16 @@
 
 namespace touchstone::verify::fuzz {
 
-/// Queries of one kind to mutate: some that stay, and the latest of those that were found worth it.
+/// Queries of one kind to mutate: some permanent ones, and the latest ones with new coverage.
 class QueryPool {
  public:
-  /// Keeps a query for good.
+  /// Keeps a query permanently.
   void keep(const Query& query) { kept_.push_back(query); }
 
   /// Keeps a query until many others have been added.
   void add(const Query& query);
 
-  /// Any of them; half of the time one that stays, if there is one. \pre not empty
+  /// A random one of them; with probability 1/2 a permanent one, if there is one. \pre not empty
   [[nodiscard]] const Query& draw(generate::Random& random) const;
 
   [[nodiscard]] bool empty() const { return kept_.empty() && latest_.empty(); }
@@ -60,26 +59,26 @@ class GeneratorContext {
   std::array<QueryPool, 2> pools_;
 };
 
-/// A named way to make queries.
+/// A named generator of queries.
 struct Generator {
   /// Unique, snake_case.
   std::string_view name;
   /// A description of its queries.
   std::string_view about;
-  /// The work of a query: about the microseconds that making and judging it takes.
+  /// The work of a query: about the microseconds to generate and judge it.
   double work;
-  /// Makes a query of finite coordinates: a function of the arguments and nothing else.
+  /// Generates a query of finite coordinates: a function of the arguments alone.
   Query (*make)(Kind kind, const GeneratorContext& context, generate::Random& random);
-  /// Does it need a separation that is more than contact?
+  /// True if it needs a positive separation.
   bool needs_distance = false;
-  /// Its part of what is explored (scheduler.hpp), whatever it has brought so far.
+  /// Its share of the exploration (scheduler.hpp), independent of its results so far.
   double explored = 1.0;
 };
 
 /// All generators, always in the same order.
 [[nodiscard]] std::span<const Generator> generators();
 
-/// Those that have queries for the separation.
+/// The generators with queries for the separation.
 [[nodiscard]] std::vector<Generator> generators(const Separation& separation);
 
 }  // namespace touchstone::verify::fuzz

@@ -15,7 +15,7 @@ using draws::below;
 using draws::one_in;
 using generate::Random;
 
-/// Doubles in order as integers in order: ±0 are 0.
+/// Maps doubles to integers in the same order: ±0 to 0.
 std::int64_t rank(double x) {
   const auto bits = std::bit_cast<std::int64_t>(std::abs(x));
   return std::signbit(x) ? -bits : bits;
@@ -25,7 +25,7 @@ double& some_coordinate(Query& query, Random& random) {
   return query.coordinates.at(below(random, query.coordinates.size()));
 }
 
-/// Another coordinate of the same axis: what is likely to be made equal.
+/// Another coordinate of the same axis, for equal coordinates.
 double some_like(const Query& query, const double& coordinate, Random& random) {
   const auto index = static_cast<std::size_t>(&coordinate - query.coordinates.data());
   return query.coordinates.at(3 * below(random, query_points) + index % 3);

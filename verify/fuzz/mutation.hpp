@@ -1,8 +1,6 @@
 #pragma once
 
-/// \file
-/// Small changes to a query: to what a solver does well at, or has just been wrong at, the next
-/// thing.
+/// \file Small perturbations of queries that solvers handled well or just failed.
 
 #include <cstdint>
 
@@ -11,16 +9,17 @@
 
 namespace touchstone::verify::fuzz {
 
-/// The double that is so many doubles above x (below, if negative), at most the greatest finite one
-/// in magnitude. \pre x is finite
+/// The double at this number of doubles above x (below, if negative), limited to the greatest
+/// finite magnitude. \pre x is finite
 [[nodiscard]] double stepped(double x, std::int64_t steps);
 
-/// Moves one to three coordinates by some units in the last place: mostly a few, now and then 2^k.
-/// All coordinates stay finite.
+/// Moves one to three coordinates by some units in the last place: mostly a few, sometimes 2^k. All
+/// coordinates stay finite.
 void nudge(Query& query, generate::Random& random);
 
-/// Moves the points at one end by up to 2^-20 of their way, on or back: what happened at that end happens
-/// a moment earlier or not at all. All points, or the first primitive's. All coordinates stay finite.
+/// Moves the points at one end by up to 2^-20 of their way, forwards or backwards: an event at that
+/// end then happens slightly earlier or not at all. All points, or the first primitive's. All
+/// coordinates stay finite.
 void overshoot(Kind kind, Query& query, generate::Random& random);
 
 /// One to three changes: a bit flipped, coordinates or points copied or exchanged, a sign changed,

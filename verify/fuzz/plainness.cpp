@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 // ---- Size ---------------------------------------------------------------------------------------
 
-/// How far an exponent is from a range.
+/// The distance of an exponent from a range.
 std::uint64_t away(int exponent, int least, int greatest) {
   return static_cast<std::uint64_t>(std::max({least - exponent, exponent - greatest, 0}));
 }
@@ -31,7 +31,7 @@ std::uint64_t drift(const Query& query, const Query& original) {
 
 // ---- Degeneracy ---------------------------------------------------------------------------------
 
-/// A query so large that differences would overflow, by half.
+/// Halves a query that is so large that differences would overflow.
 Query with_room(const Query& query) {
   constexpr int most = 1000;
   Query result = query;
@@ -54,8 +54,8 @@ double extent(const Query& query) {
   return result;
 }
 
-/// The query's shape, about 1 in extent: products of it neither overflow nor vanish. All are 0 if all
-/// points are in one place.
+/// The query's shape, about 1 in extent: its products neither overflow nor vanish. All coordinates
+/// are 0 if all points coincide.
 Query shape(const Query& query) {
   const Query roomy = with_room(query);
   const double size = extent(roomy);
@@ -69,7 +69,8 @@ Query shape(const Query& query) {
   return result;
 }
 
-/// Of the query's extent a side is no side, of its longest side a triangle has no height.
+/// The fraction of the query's extent below which a side is degenerate, and of the longest side
+/// below which a triangle's height is.
 constexpr double least_part = 0x1p-10;
 
 std::uint64_t collapsed_triangle(const Query& shape, std::size_t end) {
@@ -95,7 +96,7 @@ std::uint64_t collapsed_in_shape(Kind kind, const Query& shape) {
   return result;
 }
 
-/// A cubic that is about 0 at four times is so at all.
+/// A cubic that is about 0 at four times is about 0 at all times.
 bool is_coplanar(const Query& shape) {
   constexpr double least_volume = 0x1p-20;
   for (const double t : {0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0}) {

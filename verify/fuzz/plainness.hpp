@@ -1,26 +1,26 @@
 #pragma once
 
-/// \file
-/// How plain a query is: the one measure by which queries that show the same fault are preferred.
+/// \file The plainness of a query: the measure by which queries with the same fault are preferred.
 ///
-/// Who reads a finding believes it sooner if it could be their own: numbers between 1e-3 and 1e3 of few
-/// decimal digits, few different ones, triangles and edges that are some, at the scale where the fault
-/// was met. The measure is a tuple of natural numbers in lexicographic order, less being plainer:
+/// A finding is more convincing if it looks like a query of practice: numbers between 1e-3 and 1e3
+/// with few decimal digits, few different ones, proper triangles and edges, and the scale at which
+/// the fault was found. The measure is a tuple of natural numbers in lexicographic order; less is
+/// plainer:
 ///
-/// 1. `beyond`: by how much coordinates are not of everyday size, 2^-10 to 2^10. For each magnitude that
-///    occurs, the binary orders of magnitude between.
+/// 1. `beyond`: the distance of coordinates from everyday size, 2^-10 to 2^10: for each occurring
+///   magnitude, the binary orders of magnitude in between.
 /// 2. `degenerate`: elements that are collapsed, and coplanarity. See degeneracy().
-/// 3. `drift`: by how many binary orders of magnitude, beyond three, the greatest coordinate is from the
-///    original's; or from everyday size if the original's is not of it.
-/// 4. `length`: what it takes to write it down. For each magnitude (0 apart) 8, 3 for each significant
-///    digit of the shortest decimal that reads as this double, 1 for each empty place between these and
-///    the point, and 2 if it is no integer. For each coordinate 2 unless it is 0, 1 for a sign, and 1
-///    if it moves.
+/// 3. `drift`: the binary orders of magnitude, beyond three, between the greatest coordinate and
+///   the original's, or everyday size if the original's is outside.
+/// 4. `length`: the cost of writing it down. For each magnitude (except 0) 8, 3 for each
+///    significant digit of the shortest decimal of this double, 1 for each zero between these and
+///    the point, and 2 if it is not an integer. For each coordinate 2 unless it is 0, 1 for a sign,
+///    and 1 if it moves.
 /// 5. `size`: the sum of the magnitudes, each as a number that orders doubles.
-/// 6. `disorder`: pairs of points whose order the kind does not care for (the triangle's, an edge's),
-///    the greater one first.
+/// 6. `disorder`: pairs of points whose order is irrelevant (the triangle's, an edge's), with the
+///   greater one first.
 ///
-/// All of it is the same on every machine.
+/// The measure is the same on every machine.
 
 #include <array>
 #include <compare>
@@ -40,7 +40,7 @@ inline constexpr std::size_t coordinate_count = point_axes * query_points;
 /// Distance of a point's coordinate at t=0 from the one at t=1.
 inline constexpr std::size_t to_other_end = point_axes * moving_points;
 
-/// As above. Two queries may be equally plain.
+/// The measure above. Two queries may be equally plain.
 struct Plainness {
   std::uint64_t beyond = 0;
   std::uint64_t degenerate = 0;
@@ -51,17 +51,17 @@ struct Plainness {
 
   friend auto operator<=>(const Plainness&, const Plainness&) = default;
 
-  /// Is it worse by any of the first four numbers, whatever the others are?
+  /// True if it is worse in any of the first four numbers, regardless of the others.
   [[nodiscard]] bool is_worse_somewhere(const Plainness& other) const;
 };
 
-/// \param original where the query comes from. \pre all coordinates are finite
+/// \param original the query from which it was derived. \pre all coordinates are finite
 [[nodiscard]] Plainness plainness(Kind kind, const Query& query, const Query& original);
 
-/// At each end 1 for an edge that is shorter than 2^-10 of the query's extent, 1 for a triangle whose
-/// height is less than 2^-10 of its longest side, or 2 if all its sides are so short; and 1 if the four
-/// points are in one plane all the time, to about 2^-20. (The extent: the greatest difference of two
-/// coordinates on an axis.) 0 to 5.
+/// At each end 1 for an edge that is shorter than 2^-10 of the query's extent, 1 for a triangle
+/// whose height is less than 2^-10 of its longest side, or 2 if all its sides are that short; and 1
+/// if the four points are always in one plane, to about 2^-20. (The extent: the greatest difference
+/// of two coordinates on an axis.) 0 to 5.
 [[nodiscard]] std::uint64_t degeneracy(Kind kind, const Query& query);
 
 /// The elements' part of degeneracy(): 0 to 4.
@@ -73,11 +73,11 @@ inline constexpr int least_everyday = -10, greatest_everyday = 9;
 /// The binary exponent of the greatest coordinate in magnitude; least_everyday if all are 0.
 [[nodiscard]] int size_exponent(const Query& query);
 
-/// The magnitudes that occur, 0 apart, least first.
+/// The occurring magnitudes without 0, in ascending order.
 [[nodiscard]] std::vector<double> magnitudes(const Query& query);
 
-/// A positive number as the shortest decimal that reads as it: digits · 10^exponent, where the digits
-/// do not end in 0.
+/// The shortest decimal of a positive double: digits · 10^exponent, where the digits do not end in
+/// 0.
 struct Decimal {
   std::uint64_t digits = 0;
   int count = 0;  ///< of digits
@@ -93,10 +93,10 @@ struct Decimal {
 /// The double nearest to digits · 10^exponent.
 [[nodiscard]] double from_decimal(std::uint64_t digits, int exponent);
 
-/// The length of a magnitude by itself. \pre it is finite and positive
+/// The length of one magnitude. \pre it is finite and positive
 [[nodiscard]] std::uint64_t writing_length(double magnitude);
 
-/// The pairs of points whose order does not matter.
+/// The pairs of points whose order is irrelevant.
 using PointPair = std::array<std::size_t, 2>;
 [[nodiscard]] std::span<const PointPair> exchangeable(Kind kind);
 

@@ -10,8 +10,8 @@ namespace {
 
 constexpr unsigned table_bits = 16;
 
-/// An arm that has done nothing yet is believed to bring this by so much work: little, but no less
-/// than a dull one.
+/// The assumed reward and work of an arm without results: little, but not less than that of an
+/// unproductive one.
 constexpr double first_reward = 1.0;
 constexpr double first_work = 100.0;
 

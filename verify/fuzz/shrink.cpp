@@ -29,7 +29,8 @@ std::uint64_t hash_of(const Query& query) {
 
 double with_sign_of(double x, double magnitude) { return x < 0.0 ? 0.0 - magnitude : magnitude; }
 
-/// The decimals of so many digits below and above a positive number; itself if it has no more.
+/// The decimals of this number of digits below and above a positive number; the number itself if it
+/// has no more digits.
 std::array<double, 2> with_digits(double x, int digits) {
   const Decimal decimal = shortest_decimal(x);
   const int dropped = decimal.count - digits;
@@ -39,7 +40,7 @@ std::array<double, 2> with_digits(double x, int digits) {
           from_decimal(down + 1, decimal.exponent + dropped)};
 }
 
-/// The nearest decimal of so many digits, of any number.
+/// The nearest decimal with this number of digits.
 double to_digits(double x, int digits) {
   if (x == 0.0) return 0.0;
   const auto [down, up] = with_digits(std::abs(x), digits);
@@ -49,10 +50,10 @@ double to_digits(double x, int digits) {
 /// Numbers of digits to try, fewest first; then one fewer than there are.
 constexpr std::array digit_counts{1, 2, 3, 4, 5, 6, 8, 10, 12, 14};
 
-/// What roundings of sums leave of a decimal, with them removed.
+/// A decimal without the roundings of sums.
 constexpr int digits_of_sums = 14;
 
-/// Numbers to try in the place of a positive one, the plainest first.
+/// Numbers to try in place of a positive one, the plainest first.
 std::vector<double> plainer_numbers(double magnitude) {
   std::vector<double> result{0.0, 1.0, 2.0, 3.0, 0.5};
   const Decimal decimal = shortest_decimal(magnitude);
@@ -145,8 +146,8 @@ class Shrinker {
 
   // ---- The whole ----
 
-  /// By powers of two: to the original's size or one near it, if that is everyday; else to any that is,
-  /// those near 1 first, or some of the way.
+  /// Scales by powers of two: to the original's size or a similar one, if that is everyday; else to
+  /// any everyday size, those close to 1 first, or part of the way.
   void scale() {
     const int size = size_exponent(query_);
     for (const int target : {0, 1, -1, 2, -2, 3, -3, 4, -4, 6, -6, 9, -9}) scale_by(target - size);
@@ -176,7 +177,7 @@ class Shrinker {
     attempt_axis(axis, [](double x) { return x * 2.0; });
   }
 
-  /// So that some point's coordinate becomes 0.
+  /// Translates such that a coordinate of some point becomes 0.
   void translate() {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
       const double origin = query_.coordinates[i];
@@ -186,7 +187,7 @@ class Shrinker {
     }
   }
 
-  /// Seen from a point: it rests, the others move relative to it.
+  /// Changes to the frame of a point: it rests, the others move relative to it.
   void follow_points() {
     for (std::size_t point = 0; point < moving_points; ++point) {
       for (std::size_t axis = 0; axis < point_axes; ++axis) {
@@ -200,8 +201,8 @@ class Shrinker {
     }
   }
 
-  /// All coordinates, and those of each axis, to so many digits, and to so many places of the greatest
-  /// one. Equal ones stay equal, and the order too.
+  /// Rounds all coordinates, and those of each axis, to a number of digits, and to a number of
+  /// places of the greatest one. Equality and order are preserved.
   void round_all() {
     for (std::size_t axis = 0; axis <= point_axes; ++axis) {
       double greatest = 0.0;
@@ -214,7 +215,7 @@ class Shrinker {
         Query shorter = query_, on_grid = query_;
         for_each_of(axis, shorter, [&](double& x) { x = to_digits(x, digits); });
         for_each_of(axis, on_grid, [&](double& x) {
-          // No −0, and no digits that the product has by rounding.
+          // Avoids −0 and digits that come from the rounding of the product.
           x = to_digits(std::nearbyint(x / unit) * unit + 0.0, digits);
         });
         if (attempt(on_grid) || attempt(shorter)) break;
@@ -222,8 +223,8 @@ class Shrinker {
     }
   }
 
-  /// The values of all coordinates, and of those of each axis, in their order with equal steps between:
-  /// what is decided by order and equality stays so.
+  /// Spaces the values of all coordinates, and of those of each axis, evenly in their order: faults
+  /// that depend on order and equality remain.
   void space_evenly() {
     for (std::size_t axis = 0; axis <= point_axes; ++axis) {
       std::vector<double> values;
@@ -244,7 +245,7 @@ class Shrinker {
 
   void space_evenly(std::size_t axis, const std::vector<double>& values, std::uint64_t step,
                     int exponent) {
-    // What is 0 or next to it stays there.
+    // Values next to 0 stay there.
     const auto rank_of = [&](double x) {
       return std::ranges::lower_bound(values, x) - values.begin();
     };
@@ -259,7 +260,7 @@ class Shrinker {
     attempt(plainer);
   }
 
-  /// Calls use(x) for the coordinates of an axis, of all axes if it is behind the last one.
+  /// Calls use(x) for the coordinates of an axis, or of all axes for an index beyond the last one.
   template <class Use>
   static void for_each_of(std::size_t axis, Query& query, const Use& use) {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
@@ -290,8 +291,8 @@ class Shrinker {
     }
   }
 
-  /// Points in the place of another, at both ends or at one; at 0; at rest on an axis, which makes
-  /// elements some that are none.
+  /// Moves points to another one, at both ends or at one; to 0; to rest on an axis, which can make
+  /// degenerate elements proper.
   void simplify_points() {
     for (std::size_t to = 0; to < query_points; ++to) {
       Query at_zero = query_;
@@ -339,7 +340,7 @@ class Shrinker {
 
   // ---- Values ----
 
-  /// All coordinates of one magnitude together, longest first.
+  /// Changes all coordinates of one magnitude together, longest first.
   void simplify_values() {
     std::vector<double> all = magnitudes(query_);
     std::ranges::stable_sort(all, std::ranges::greater{}, writing_length);
@@ -361,7 +362,7 @@ class Shrinker {
     return attempt(plainer);
   }
 
-  /// Each coordinate alone, and where it is at rest at both ends.
+  /// Changes each coordinate alone, and at both ends if it is at rest.
   void simplify_coordinates() {
     for (std::size_t i = 0; i < coordinate_count; ++i) {
       for (const double candidate : candidates_for(i)) {
@@ -397,7 +398,7 @@ class Shrinker {
   Plainness of_original_;
   Query query_;
   Plainness plainness_;
-  /// Hashes of what has been asked. Where two are the same, a query is left out.
+  /// Hashes of the queries tried. A query with the same hash as an earlier one is skipped.
   std::unordered_set<std::uint64_t> seen_;
   std::uint64_t calls_ = 0;
   bool over_ = false;

@@ -1,27 +1,26 @@
 #pragma once
 
-/// \file
-/// The plainest query that still fails, found from one that does.
+/// \file Simplification of a failing query.
 ///
-/// A finding of a search has 24 long numbers, and most of them have nothing to do with the fault.
-/// Shrinking tries plainer queries (plainness.hpp), keeps each that still fails, and ends where no step
-/// leads to a plainer one that does. Steps, from those that change much to those that change little:
+/// A finding of a search has 24 long numbers, most of which are irrelevant to the fault. Shrinking
+/// tries plainer queries (plainness.hpp), keeps each that still fails, and ends when no step leads
+/// to a plainer one that fails. The steps, from large changes to small ones:
 ///
-/// - the whole: scaled by powers of two (all axes, or one) to everyday size, translated so that a point's
-///   coordinate becomes 0, seen from a point that moves, all coordinates or those of an axis rounded to
-///   fewer decimal digits, or evenly spaced in their order;
+/// - the whole: scaled by powers of two (all axes, or one) to everyday size, translated so that a
+///   point's coordinate becomes 0, changed to the frame of a moving point, all coordinates or those
+///   of an axis rounded to fewer decimal digits, or evenly spaced in their order;
 /// - axes: 0, at rest, like another axis; points: in the same place as another, at rest, exchanged
-///   where the kind does not care for their order;
-/// - values: all coordinates of one magnitude together become 0, another magnitude that occurs, or a
-///   decimal of fewer digits; then each coordinate alone, at one end or at both, which may also take
-///   the other end's value or lose its sign.
+///   if their order is irrelevant;
+/// - values: all coordinates of one magnitude together become 0, another occurring magnitude, or a
+///   decimal of fewer digits; then each coordinate alone, at one end or at both, which may also
+///   take the other end's value or lose its sign.
 ///
-/// Nothing is assumed of the fault: a step may round, and need not keep what is true of the query.
-/// Whether the result still fails is asked each time.
+/// There are no assumptions about the fault: a step may round and change the truth of the query.
+/// Each result is tested again.
 ///
-/// **Why it ends.** Each step that is kept lowers the plainness, which is a tuple of natural numbers in
-/// lexicographic order. **Never worse than the original**: no step is kept that is worse than the
-/// original by one of the first four of these numbers, whatever the others are.
+/// **Termination.** Each accepted step lowers the plainness, which is a tuple of natural numbers in
+/// lexicographic order. **Never worse than the original**: no accepted step is worse than the
+/// original in one of the first four of these numbers.
 
 #include <cstdint>
 #include <functional>
@@ -31,16 +30,16 @@
 namespace touchstone::verify::fuzz {
 
 struct ShrinkOptions {
-  /// So often still_fails is called at most; 0: never.
+  /// The maximum number of calls of still_fails; 0: none.
   std::uint64_t most_calls = 50'000;
-  /// May be null. Once true, no call is begun.
+  /// May be null. When it becomes true, no further call begins.
   std::function<bool()> must_end = nullptr;
 };
 
-/// The last of a chain of ever plainer queries for which `still_fails` holds; `query` itself if none
-/// is found. A function of the arguments alone, as long as still_fails is one and must_end does not end it.
-/// Never asks about `query`, nor twice about another one. \pre all coordinates are finite.
-/// \throws what still_fails throws.
+/// The last of a chain of ever plainer queries for which `still_fails` holds; `query` itself if
+/// none is found. A function of the arguments alone, if still_fails is one and must_end does not
+/// end it. It never tests `query` itself, nor another one twice. \pre all coordinates are finite.
+/// \throws the exceptions of still_fails.
 [[nodiscard]] Query shrink(Kind kind, const Query& query,
                            const std::function<bool(const Query&)>& still_fails,
                            const ShrinkOptions& options = {});

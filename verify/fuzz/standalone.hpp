@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// A wrong answer as a C++ program that includes nothing of this project: for the authors of a solver, who
-/// compile it beside their own code.
+/// \file A wrong answer as a self-contained C++ program, which the authors of a solver compile with
+/// their own code.
 
 #include <optional>
 #include <string>
@@ -12,9 +11,9 @@
 
 namespace touchstone::verify::fuzz {
 
-/// The interface through which such a program calls the solver.
+/// The interface with which such a program calls the solver.
 enum class CallInterface : std::uint8_t {
-  plugin,      ///< verify/plugin.h, of a library that is loaded
+  plugin,      ///< verify/plugin.h, of a loaded library
   ticcd,       ///< the public Tight-Inclusion: ticcd::vertexFaceCCD, edgeEdgeCCD
   ipc_toolkit  ///< the public IPC Toolkit: ipc::AdditiveCCD
 };
@@ -22,15 +21,16 @@ enum class CallInterface : std::uint8_t {
 /// "plugin", "ticcd" or "ipc-toolkit".
 [[nodiscard]] std::string_view to_string(CallInterface interface);
 
-/// The interface of that name, if there is one.
+/// The interface with that name, if there is one.
 [[nodiscard]] std::optional<CallInterface> call_interface_from_string(std::string_view name);
 
-/// That of the public code that a built-in method follows, if there is such code; else plugins'.
+/// The interface of the public code of a built-in method, if there is such code; otherwise that of
+/// plugins.
 [[nodiscard]] CallInterface usual_interface(const SolverCall& solver);
 
-/// The text of a C++17 program: it asks the one query, prints the answer beside the truth, and ends with
-/// 1 if the answer is wrong as it was found to be, 0 if it is not, and 2 if there is nothing to ask. Of
-/// crashes, hangs and such it ends with 0 where they do not happen.
+/// The text of a C++17 program: it solves the query, prints the answer and the truth, and its exit
+/// status is 1 if the answer is wrong as found, 0 if it is not, and 2 if the solver cannot be
+/// called. For crashes, hangs and the like the status is 0 if they do not happen.
 /// \pre all coordinates are finite
 [[nodiscard]] std::string as_main(const Reproduction& found, CallInterface interface);
 

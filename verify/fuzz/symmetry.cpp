@@ -65,8 +65,8 @@ void multiply(Random& random, Symmetry& symmetry) {
   for (double& factor : symmetry.factors) factor *= uniform ? common : draw();
 }
 
-/// By what brings some coordinate to 0, or by a power of two of the size of one: there sums are
-/// exact now and then.
+/// Shifts by a vector that brings some coordinate to 0, or by a power of two of similar size: then
+/// sums are sometimes exact.
 void shift(const Query& query, Random& random, Symmetry& symmetry) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (random.coin()) continue;

@@ -5,12 +5,11 @@
 ///
 /// - The points of a primitive may be renumbered, edges exchanged: the same sets of points.
 /// - Axes may be permuted and mirrored: an isometry in both norms, without a rounding.
-/// - Each axis may be multiplied by a power of two where nothing is lost: a linear map of full rank
-///   maps F
-///   to F = 0. It changes distances, so it needs separation 0.
-/// - Everything may be shifted by one vector where all sums are exact: F does not change.
-/// - Time may run backwards: the same set of places, so the same verdict, but another time of
-///   impact.
+/// - Each axis may be multiplied by a power of two without rounding: a linear map of full rank maps
+///   roots of F to roots. It changes distances, so it needs separation 0.
+/// - All points may be shifted by one vector if all sums are exact: F does not change.
+/// - Time may be reversed: the set of positions is the same, so the verdict is the same, but the
+///   time of impact is different.
 
 #include <array>
 #include <cstddef>
@@ -29,12 +28,12 @@ struct Symmetry {
   std::array<std::size_t, 3> axes{0, 1, 2};                   ///< image axis i is axis axes[i]
   std::array<double, 3> factors{1.0, 1.0, 1.0};  ///< of the image's axes: ± a power of two
   std::array<double, 3> shifts{};                ///< of the image's axes, after the factors
-  bool reversed = false;                         ///< Do start and end change places?
+  bool reversed = false;                         ///< true if start and end are exchanged
 
   friend bool operator==(const Symmetry&, const Symmetry&) = default;
 };
 
-/// The image of a query, or nothing if some coordinate of it would not be exact.
+/// The image of a query; empty if some coordinate of it would not be exact.
 [[nodiscard]] std::optional<Query> image(const Symmetry& symmetry, const Query& query);
 
 /// A random symmetry with an exact image of this query. Without powers of two if there is a
@@ -42,8 +41,8 @@ struct Symmetry {
 [[nodiscard]] Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separation,
                                      generate::Random& random);
 
-/// "points 0213, axes yxz, factors -1 1 0x1p+3, shifts 0 0 1, reversed": what it changes; "none" if
-/// nothing.
+/// "points 0213, axes yxz, factors -1 1 0x1p+3, shifts 0 0 1, reversed": the changes; "none" for
+/// the identity.
 [[nodiscard]] std::string to_text(const Symmetry& symmetry);
 
 }  // namespace touchstone::verify::fuzz

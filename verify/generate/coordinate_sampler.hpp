@@ -4,11 +4,10 @@
 /// Coordinates drawn from zones, with few bits or with full significands.
 ///
 /// Constructions are written in units of the scene, where everything lies within ±3.25: "the side
-/// at x in [−0.5, 0.5], the vertex at x in [1, 3]". The sampler multiplies by a scale of its own
-/// for each axis and rounds. Rounding is monotone and the zones are far apart against the
-/// roundings, so strict orders between zones survive; where two coordinates must be equal, the
-/// construction uses the one double twice. Truth is always derived from the doubles, never from the
-/// units.
+/// at x in [−0.5, 0.5], the vertex at x in [1, 3]". The sampler multiplies each axis by a separate
+/// scale and rounds. Rounding is monotone and the zones are far apart against the roundings, so
+/// strict orders between zones survive; where two coordinates must be equal, the construction uses
+/// the one double twice. Truth is always derived from the doubles, never from the units.
 
 #include <array>
 #include <cstddef>

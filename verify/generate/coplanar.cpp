@@ -3,8 +3,7 @@
 ///
 /// All eight points have the two heights z(0) and z(1), so F's z is zero and the x-y projections
 /// decide. There contact over an interval of time and contact at a single instant are both
-/// possible; the second is what a ground truth that looks for solution sets of positive measure
-/// would miss.
+/// possible; a ground truth that looks for solution sets of positive measure would miss the second.
 
 #include <array>
 
@@ -27,7 +26,7 @@ void share_height(Sampler& sampler, Query& query) {
 enum class Ending : std::uint8_t { passes, stops_short, arrives, starts_there };
 
 /// A line that passes `target`, stops one unit in the last place below it, ends on it, or starts on
-/// it and goes on.
+/// it and leaves it.
 Line approach(std::size_t axis, const Line& target, Ending ending, Sampler& sampler) {
   constexpr Zone before{-3.0, -1.0};
   constexpr Zone after{1.0, 1.5};

@@ -1,5 +1,4 @@
-/// \file
-/// Families of primitives that have collapsed to segments and points, on the integer grid.
+/// \file Families of primitives that are collapsed to segments and points, on the integer grid.
 ///
 /// *All on a line*: at time τ every point is P + k·g with a small integer k (its place on the
 /// line). The motion is rigid with det[g,r,s] ≠ 0, where s is one unit of the grid. A corner is
@@ -37,7 +36,7 @@ Contact contact_at_zero(Kind kind, const Places& places) {
   return {parameter_of_zero(places[0], places[1]), parameter_of_zero(places[2], places[3])};
 }
 
-/// The fate of the contact at place 0.
+/// The change of the contact at place 0.
 enum class Change : std::uint8_t { none, moved_off_line };
 
 /// The query with all points on a line at one moment; see the top of the file.
@@ -110,11 +109,11 @@ KnownQuery zero_area_triangle(Recipe& recipe) {
                    variant == 2 ? Change::moved_off_line : Change::none);
 }
 
-/// At τ some sides have length zero, before and after they have not. In z each primitive is flat
-/// (one height, one velocity for all of its points) and the heights are equal at τ only: contact
-/// happens at τ or never. In the plane, at τ, all points of the second primitive's collapsed part
-/// are P, and P is P itself or inside edge a; moved by a vector s that is not parallel to that edge
-/// it is on nothing. Variants: one side collapses, or everything does.
+/// At τ some sides have length zero, but not before or after. In z each primitive is flat (one
+/// height, one velocity for all of its points) and the heights are equal at τ only: contact happens
+/// at τ or never. In the plane, at τ, all points of the second primitive's collapsed part are P,
+/// and P is P itself or inside edge a; moved by a vector s that is not parallel to that edge it is
+/// on nothing. Variants: one side collapses, or everything does.
 KnownQuery zero_length_edges(Recipe& recipe) {
   const std::size_t variant = recipe.variant % 4;
   const bool all_collapse = variant == 1 || variant == 3;
@@ -149,11 +148,10 @@ KnownQuery zero_length_edges(Recipe& recipe) {
   return collision(query, moment.time.value(), Contact{along, Rational(0)});
 }
 
-/// All points stay on one line for all time, at places k(t) that are linear in t between integers
-/// (the line itself may move along with a common velocity). Each edge has a leading end; the other
-/// ends stay behind the leading ones. So the edges meet iff the gap between the leading ends
-/// closes, first at t = gap(0) / (gap(0) − gap(1)). On two parallel lines, one moved by s, they
-/// never do.
+/// All points stay on one line, at places k(t) that are linear in t between integers (the line
+/// itself may move along with a common velocity). Each edge has a leading end; the other ends stay
+/// behind the leading ones. So the edges meet iff the gap between the leading ends closes, first at
+/// t = gap(0) / (gap(0) − gap(1)). On two parallel lines, one moved by s, they never do.
 KnownQuery collinear_edges(Recipe& recipe) {
   Random& random = recipe.random;
   const std::size_t variant = recipe.variant % 5;

@@ -20,7 +20,7 @@ using exact::Rational;
 
 namespace {
 
-/// Where on the primitives the contact is.
+/// The place of the contact on the primitives.
 enum class Place : std::uint8_t { interior, boundary, corner, outside };
 
 /// u = first/total, v = second/total.
@@ -48,7 +48,7 @@ Weights draw_weights(Recipe& recipe, Place place) {
   return {first, random.between(1, most), total};
 }
 
-/// Puts the points so that the position (u,v) of both primitives is one point P at the moment.
+/// Places the points such that the position (u,v) of both primitives is one point P at the moment.
 void place_points(Recipe& recipe, const GridSize& size, const Weights& weights, Moment& moment) {
   const Vector p = draw_vector(recipe.random, size.position);
   const Vector g = draw_vector(recipe.random, size.shape);
@@ -79,8 +79,8 @@ Moment draw_rigid(Recipe& recipe, const Weights& weights, const DyadicTime& time
   return moment;
 }
 
-/// F has one root over all reals (det[E1,E2,r] ≠ 0), and it was put at (τ, u, v) with weights
-/// inside the domain (a collision) or with l2 = −1 (v < 0, a miss).
+/// F has one root over all reals (det[E1,E2,r] ≠ 0), at (τ, u, v) with weights inside the domain (a
+/// collision) or with l2 = −1 (v < 0, no collision).
 KnownQuery interior_dyadic(Recipe& recipe) {
   const bool inside = recipe.variant % 4 != 3;
   const Weights weights = draw_weights(recipe, inside ? Place::interior : Place::outside);
@@ -137,9 +137,9 @@ KnownQuery boundary_dyadic(Recipe& recipe, Place place) {
   return collision(to_query(recipe, moment), moment.time.value(), weights.contact());
 }
 
-/// The one root is put on a corner of the domain: vertex on vertex, or end on end. In every second
-/// query the first primitive is then moved by one unit of the grid, and the one root moves as
-/// Cramer's rule says.
+/// The only root is on a corner of the domain: vertex on vertex, or end on end. In every second
+/// query the first primitive is then moved by one unit of the grid, and the root moves by Cramer's
+/// rule.
 KnownQuery vertex_dyadic(Recipe& recipe) { return boundary_dyadic(recipe, Place::corner); }
 
 /// The same on an edge of the domain, v = 0: vertex on edge, or end of one edge inside the other.
@@ -157,9 +157,10 @@ KnownQuery contact_at_start(Recipe& recipe) {
   return collision(to_query(recipe, moment), Rational(0), weights.contact());
 }
 
-/// r = 0: nothing moves, or all moves alike, so F does not depend on t. The chosen (u,v) is a root
-/// at all times. In the misses it has v < 0 (and E1, E2 are independent, so no other (u,v) is a
-/// root), or the first primitive is moved by s off the common plane, det[E1,E2,s] ≠ 0.
+/// r = 0: nothing moves, or all points move alike, so F does not depend on t. The chosen (u,v) is a
+/// root at all times. In queries without collision it has v < 0 (and E1, E2 are independent, so no
+/// other (u,v) is a root), or the first primitive is moved by s off the common plane, det[E1,E2,s]
+/// ≠ 0.
 KnownQuery no_motion(Recipe& recipe) {
   static constexpr std::array<Place, 6> places{Place::interior, Place::outside,  Place::boundary,
                                                Place::corner,   Place::interior, Place::interior};

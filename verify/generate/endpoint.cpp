@@ -19,7 +19,7 @@ namespace {
 constexpr Zone lower{-1.5, -1.0};
 constexpr Zone upper{1.0, 1.5};
 
-/// Which points of a kind are the pair and the rest.
+/// The points of the pair and the rest, for a kind.
 struct Roles {
   std::size_t first = 0;
   std::size_t second;
@@ -107,10 +107,10 @@ KnownQuery start_left(Recipe& recipe) {
 }
 
 /// The pair's first point goes from p to q and its second from q to p, any doubles: in each
-/// coordinate their difference is d at t=0 and exactly −d at t=1, so they meet at t = 1/2, whatever
-/// rounds. In x p is left of q and the rest is beyond, so every corner has x < 0 before. In the
-/// misses y is shared instead, first above second by one unit in the last place, and the rest is
-/// apart in y: y separates.
+/// coordinate their difference is d at t=0 and exactly −d at t=1, so they meet at t = 1/2 for any
+/// rounding. In x p is left of q and the rest is beyond, so every corner has x < 0 before. In
+/// queries without collision y is shared instead, first above second by one unit in the last place,
+/// and the rest is apart in y: y separates.
 KnownQuery swap_at_half(Recipe& recipe) {
   const bool misses = recipe.variant % 3 == 2;
   const Roles roles(recipe.kind);

@@ -73,7 +73,7 @@ std::vector<Family> families_of(std::span<const Definition> definitions) {
   return list;
 }
 
-/// Every attempt at every query has its own stream, whatever was drawn for others.
+/// Every attempt at every query has a separate stream, independent of other queries.
 Random stream_of(std::string_view name, Kind kind, std::uint64_t seed, std::uint64_t index,
                  std::uint64_t attempt) {
   std::uint64_t state = mix(seed ^ hash(name));
@@ -82,7 +82,7 @@ Random stream_of(std::string_view name, Kind kind, std::uint64_t seed, std::uint
   return Random(mix(state + attempt));
 }
 
-/// Random significands end in zeros now and then: a query that is to be full but has too many of
+/// Random significands sometimes end in zeros: a query with full significands that has too many of
 /// those (about one in ten thousand) is drawn again.
 KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t index,
                  const Separation& separation) {
@@ -102,7 +102,7 @@ KnownQuery build(const Definition& definition, Kind kind, std::uint64_t seed, st
   }
 }
 
-/// The stream of queries behind open_family.
+/// The stream of queries of open_family.
 class FamilySource final : public data::QuerySource {
  public:
   FamilySource(const Definition& definition, Kind kind, std::uint64_t seed, std::uint64_t count,

@@ -1,23 +1,23 @@
 #pragma once
 
-/// \file
-/// The built-in set: degenerate queries made from a seed, whose truth is known by construction.
+/// \file The built-in set: degenerate queries from a seed, whose truth is known by construction.
 ///
-/// No oracle is asked for the truth of these queries, so they can judge one. Each family puts the
-/// contact (or its absence) there first and draws the coordinates around it; the family's `reason`
-/// says why that decides the verdict, and the comment above its function gives the argument.
+/// The truth of these queries does not come from an oracle, so they can judge one. Each family
+/// first chooses the contact (or its absence) and draws the coordinates around it; the family's
+/// `reason` states why that decides the verdict, and the comment above its function has the proof.
 ///
-/// Few-bit coordinates make every floating-point step exact and so catch no filter fault. Hence the
-/// queries with an odd index have full significands, at scales that are no powers of two (or, where
-/// sums must be exact, on a grid of some fifty bits); exactness then comes from equality: the same
-/// double in two places, an exact difference of two doubles, an integer sum below 2^53.
+/// With coordinates of few bits every floating-point step is exact, which hides faults of filters.
+/// Hence the queries with an odd index have full significands, at scales that are no powers of two
+/// (or, where sums must be exact, on a grid of some fifty bits); exactness then comes from
+/// equality: the same double in two places, an exact difference of two doubles, an integer sum
+/// below 2^53.
 ///
 /// Every query is then turned by a random exact symmetry (axes permuted and mirrored, the
-/// primitives' points renumbered), so that no place among the 24 coordinates is special.
+/// primitives' points renumbered), so that no position among the 24 coordinates is special.
 ///
-/// With a minimum separation there are further families, whose truth is about that separation: their
-/// odd queries have full significands only as far as the distance lets them. The claims of all other
-/// families stay what they are, about contact itself.
+/// With a minimum separation there are additional families, whose truth refers to that separation:
+/// their odd queries have full significands only as far as the distance permits. The truth of all
+/// other families still refers to distance 0.
 
 #include <array>
 #include <cstdint>
@@ -33,30 +33,31 @@
 
 namespace touchstone::verify::generate {
 
-/// Which verdicts occur in a family.
+/// The verdicts that occur in a family.
 enum class Verdicts : std::uint8_t { collisions, misses, both };
 
 /// A named kind of degeneracy.
 struct Family {
   /// Unique, kebab-case.
   std::string_view name;
-  /// Why the truth of its queries is known.
+  /// The reason why the truth of its queries is known.
   std::string_view reason;
-  /// Which verdicts occur among its queries.
+  /// The verdicts that occur among its queries.
   Verdicts verdicts;
 };
 
-/// A query and what its construction knows of it.
+/// A query with the truth that its construction provides.
 struct KnownQuery {
   Query query{};
   bool collides = false;
-  /// The exact time of impact, where the construction yields it: for nearly all collisions.
+  /// The exact time of impact, if the construction yields it: for nearly all collisions.
   std::optional<exact::Rational> toi;
-  /// (u,v) of a contact point at the toi, where the construction yields it: F(toi,u,v) = 0.
+  /// (u,v) of a contact point at the toi, if the construction yields it: F(toi,u,v) = 0.
   std::optional<std::array<exact::Rational, 2>> contact;
-  /// For some misses a direction d with d·F > 0 for all t in [0,1] and all (u,v) of the domain.
+  /// For some queries without collision a direction d with d·F > 0 for all t in [0,1] and all (u,v)
+  /// of the domain.
   std::optional<std::array<double, 3>> separating_direction;
-  /// Does it belong to the half with full significands.
+  /// True if it belongs to the half with full significands.
   bool full_significands = false;
 };
 
@@ -66,24 +67,24 @@ struct KnownQuery {
 /// All families about a separation, always in the same order.
 [[nodiscard]] std::span<const Family> separation_families();
 
-/// Have those families queries for this separation? For distances from 2^-1000 to 2^1000.
+/// True if those families have queries for this separation: for distances from 2^-1000 to 2^1000.
 [[nodiscard]] bool has_separation_families(const Separation& separation);
 
-/// The built-in set for a separation: families(), and behind them separation_families() where they
-/// have queries.
+/// The built-in set for a separation: families(), followed by separation_families() if they have
+/// queries.
 [[nodiscard]] std::vector<Family> families(const Separation& separation);
 
 /// The family of that name, about contact or about a separation.
 /// \throws std::invalid_argument if there is none.
 [[nodiscard]] const Family& family_from_name(std::string_view name);
 
-/// Does the family have queries of this kind? Nearly all have both kinds.
+/// True if the family has queries of this kind. Nearly all have both kinds.
 /// \throws std::invalid_argument if no family has the name of `family`.
 [[nodiscard]] bool supports(const Family& family, Kind kind);
 
-/// Query number `index` of a family: a function of the arguments and nothing else, the same on every
-/// machine. Families about contact do not look at the separation. \throws std::invalid_argument if
-/// the family does not support the kind or is unknown, or has no queries for the separation.
+/// Query number `index` of a family: a function of the arguments alone, the same on every machine.
+/// Families about contact ignore the separation. \throws std::invalid_argument if the family does
+/// not support the kind or is unknown, or has no queries for the separation.
 [[nodiscard]] KnownQuery make_query(const Family& family, Kind kind, std::uint64_t seed,
                                     std::uint64_t index, const Separation& separation = {});
 

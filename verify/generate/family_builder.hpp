@@ -21,32 +21,33 @@ struct Recipe {
   Kind kind;
   /// Number of the query in its family.
   std::uint64_t index;
-  /// Counts 0, 1, 2, … within the queries of one fullness: builders cycle their variants with it.
+  /// The number of the query among those with the same `full`, with which builders cycle their
+  /// variants.
   std::uint64_t variant;
   /// Full significands (else few bits).
   bool full;
-  /// The query's own stream of random numbers.
+  /// The query's stream of random numbers.
   Random random;
   /// Minimum separation, for families about it.
   Separation separation = {};
-  /// Set by a builder whose query must stay as it is printed in the paper: no symmetry is applied.
+  /// Set by a builder for a query that is printed in the paper: no symmetry is applied.
   bool as_printed = false;
 
-  /// Does the recipe ask for a vertex and a face?
+  /// True for a vertex and a face.
   [[nodiscard]] bool vertex_face() const { return kind == Kind::vertex_face; }
 };
 
-/// A family together with how it is made.
+/// A family with its builder.
 struct Definition {
   Family family;
-  /// Makes the query in its canonical position; sets everything but `full_significands`.
+  /// Builds the query in its canonical position; sets all fields but `full_significands`.
   KnownQuery (*build)(Recipe&);
   /// The kinds it has.
   bool vertex_face = true;
   bool edge_edge = true;
 };
 
-/// The definitions in dyadic.cpp, degenerate.cpp and so on, one list a file.
+/// The definitions in dyadic.cpp, degenerate.cpp and so on, one list for each file.
 [[nodiscard]] std::span<const Definition> dyadic_definitions();
 [[nodiscard]] std::span<const Definition> degenerate_definitions();
 [[nodiscard]] std::span<const Definition> silhouette_definitions();
@@ -57,7 +58,7 @@ struct Definition {
 [[nodiscard]] std::span<const Definition> published_definitions();
 [[nodiscard]] std::span<const Definition> scaled_definitions();
 
-/// The definitions of the families that are about a separation, in separated.cpp.
+/// The definitions of the families about a separation, in separated.cpp.
 [[nodiscard]] std::span<const Definition> separated_definitions();
 
 /// Every definition that does not build on another: all lists but the scaled ones.
@@ -71,7 +72,7 @@ using Contact = std::array<exact::Rational, 2>;
                                    std::optional<Contact> contact);
 [[nodiscard]] KnownQuery miss(const Query& query);
 
-/// A miss that F·axis proves: it is > 0 (direction +1) or < 0 (direction −1) for all t, u, v.
+/// No collision, proved by F·axis: it is > 0 (direction +1) or < 0 (direction −1) for all t, u, v.
 [[nodiscard]] KnownQuery miss_along(const Query& query, std::size_t axis, double direction);
 
 /// Coordinate `axis` of a corner at time t.
@@ -83,17 +84,18 @@ using Contact = std::array<exact::Rational, 2>;
                                                     const exact::Rational& t,
                                                     const std::array<std::size_t, 2>& axes);
 
-/// Do more than half of the different magnitudes among the coordinates need 45 bits or more, and do
-/// they have at least two binary exponents? Zeros do not count.
+/// True if more than half of the different magnitudes among the coordinates need 45 bits or more,
+/// and they have at least two binary exponents. Zeros are ignored.
 [[nodiscard]] bool uses_full_significands(const Query& query);
 
 /// Replaces a query by one of its mirror images: axes permuted and mirrored, the face's vertices or
-/// the edges' ends permuted, the two edges exchanged. Verdict and toi stay; (u,v) and the
-/// separating direction follow. Every coordinate keeps its significand.
+/// the edges' ends permuted, the two edges exchanged. Verdict and toi do not change; (u,v) and the
+/// separating direction are transformed. Every coordinate keeps its significand.
 void apply_random_symmetry(Kind kind, Random& random, KnownQuery& known);
 
-/// Multiplies every axis by its own power of two. Verdict, toi and (u,v) stay, since a diagonal map
-/// of full rank maps F to F; an exponent that would not be exact is replaced by its negative.
+/// Multiplies every axis by its own power of two. Verdict, toi and (u,v) do not change, since a
+/// diagonal map of full rank maps F to F; an exponent that would not be exact is replaced by its
+/// negative.
 void scale_axes(const std::array<int, 3>& exponents, KnownQuery& known);
 
 }  // namespace touchstone::verify::generate

@@ -33,11 +33,12 @@ using Vector = std::array<std::int64_t, 3>;
 /// The determinant of three vectors, exact.
 [[nodiscard]] exact::Integer determinant(const Vector& a, const Vector& b, const Vector& c);
 
-/// Are the vectors linearly dependent?
+/// True if the vectors are linearly dependent.
 [[nodiscard]] bool parallel(const Vector& a, const Vector& b);
 
 /// Bounds of the integers drawn for one query: the sizes of positions (up to 2^51 or 16), of shapes
-/// (up to 2^46 or 4) and of velocities (up to 2^46 or 4), none a power of two where full.
+/// (up to 2^46 or 4) and of velocities (up to 2^46 or 4), none a power of two for full
+/// significands.
 struct GridSize {
   explicit GridSize(Recipe& recipe);
   std::int64_t position;
@@ -51,7 +52,7 @@ struct GridSize {
 /// A vector other than 0 with components in {−1, 0, 1}: one unit of the grid.
 [[nodiscard]] Vector draw_unit_shift(Random& random);
 
-/// A time in [0,1] with a power of two below.
+/// A time in [0,1] whose denominator is a power of two.
 struct DyadicTime {
   std::int64_t numerator;
   int log_denominator;
@@ -83,7 +84,7 @@ void move_rigidly(Recipe& recipe, const GridSize& size, Moment& moment);
 /// Moves the first primitive (the vertex, or the edge a) by `shift` at all times.
 void shift_first(Kind kind, const Vector& shift, Moment& moment);
 
-/// The query of a moment, each axis at a random power of two that brings it near 1.
+/// The query of a moment, each axis multiplied by a random power of two that brings it close to 1.
 [[nodiscard]] Query to_query(Recipe& recipe, const Moment& moment);
 
 }  // namespace touchstone::verify::generate

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// A point that moves on a straight line, and when it first comes within a distance of the origin:
-/// the closed form that decides the families about a separation, in rationals.
+/// \file The first time at which a point on a straight line comes within a distance of the origin:
+/// the closed form, in rationals, that decides the families about a separation.
 ///
 /// In L∞ each coordinate is within d during an interval of t, and the first common time is the
 /// greatest of their beginnings. In L2 the squared distance minus d² is a quadratic in t that opens
@@ -23,14 +22,14 @@ struct Offset3 {
   std::array<exact::Rational, 3> end;
 };
 
-/// Does the point come near enough, and when first.
+/// The first time of approach, if any.
 struct Arrival {
   bool comes = false;
-  /// Where it is rational.
+  /// The time if it is rational.
   std::optional<exact::Rational> time;
 };
 
-/// When the point first comes within the separation of the origin, t in [0,1].
+/// The first t in [0,1] at which the point is within the separation of the origin.
 [[nodiscard]] Arrival arrival(const Offset3& offset, const Separation& separation);
 
 }  // namespace touchstone::verify::generate

@@ -17,15 +17,16 @@
 
 namespace touchstone::verify::generate {
 
-/// Where the projections meet: inside both; the vertex on a side of the face (the end of edge a
-/// inside edge b); the vertex on a vertex (end on end). The last two are on the silhouette in x.
+/// The common place of the projections: inside both; the vertex on a side of the face (the end of
+/// edge a inside edge b); the vertex on a vertex (end on end). The last two are on the silhouette
+/// in x.
 enum class Spot : std::uint8_t { interior, edge, corner };
 
-/// The silhouette spots as they are, or the first primitive moved in x by one unit in the last
-/// place: away from the second primitive, or into it. The interior spot knows no offset.
+/// The offset of the silhouette places: none, or the first primitive moved in x by one unit in the
+/// last place, away from the second primitive or into it. The interior place has no offset.
 enum class Offset : std::uint8_t { none, outside, inside };
 
-/// Zones in units that every plan uses.
+/// Zones, in units, of every plan.
 inline constexpr Zone centre{-0.5, 0.5};
 inline constexpr Zone right{2.0, 3.0};
 inline constexpr Zone left{-3.0, -2.0};
@@ -34,13 +35,13 @@ inline constexpr Zone left{-3.0, -2.0};
 /// that x separates them strictly at all times.
 void draw_plan(Kind kind, Spot spot, Offset offset, Sampler& sampler, Query& query);
 
-/// The sign of F's x for all t where the plan is Offset::outside.
+/// The sign of F's x for all t if the plan is Offset::outside.
 [[nodiscard]] double outside_direction(Kind kind);
 
 /// Sets z of all points.
 void set_heights(Kind kind, const Line& first, const Line& second, Query& query);
 
-/// The outcome of heights and plan. The heights are different at t=0, or meet there.
+/// The outcome for heights and plan. The heights differ at t=0, or meet there.
 [[nodiscard]] KnownQuery level_outcome(Kind kind, Offset offset, const Line& first,
                                        const Line& second, const Query& query);
 

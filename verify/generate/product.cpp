@@ -11,7 +11,8 @@
 /// last corner (for edge_edge the last two), the determinant is αβγ up to sign too. While α ≠ 0
 /// only the last corner(s) have x = 0, and zero is in their hull iff β = 0 and their z have no
 /// common strict sign. When α = 0 all x are zero, and y1 and β of one strict sign (or β = 0, y1 ≠
-/// 0, which leaves the last corner(s)) exclude zero. So such a query misses whatever the roots are.
+/// 0, which leaves the last corner(s)) exclude zero. So such a query does not collide for any
+/// roots.
 
 #include <algorithm>
 #include <array>
@@ -99,8 +100,8 @@ struct Triangular {
   }
 };
 
-/// Is zero in the polygon (α,0), (p,β), [edge_edge: (p+q−α, β+r),] (q,r)? With β and r of opposite
-/// sign the line y = 0 leaves the polygon at (α,0) and at (x,0) on the opposite boundary.
+/// True if zero is in the polygon (α,0), (p,β), [edge_edge: (p+q−α, β+r),] (q,r). With β and r of
+/// opposite sign the line y = 0 leaves the polygon at (α,0) and at (x,0) on the opposite boundary.
 bool section_contains_zero(Kind kind, const Triangular& w) {
   if (w.beta == 0 && w.r == 0) {
     const Rational far = kind == Kind::edge_edge ? Rational(w.p + w.q - w.alpha) : w.q;
@@ -172,7 +173,7 @@ Query avoiding(Kind kind, const Pairs& pairs, Sampler& sampler) {
   return query;
 }
 
-/// The condition at the top of the file under which avoiding corners miss.
+/// The condition at the top of the file for avoiding corners.
 bool avoids(Kind kind, const Pairs& pairs, const Query& query) {
   const auto all = corners(kind);
   const auto alpha_root = meeting_time(pairs[0].base, pairs[0].other);
@@ -206,8 +207,8 @@ KnownQuery two_roots(Recipe& recipe) {
   return from_pairs(recipe, pairs, false, sampler);
 }
 
-/// Triangular corners, where α = 0 is always a contact but may not be the first one; or avoiding
-/// ones.
+/// Triangular corners, for which α = 0 is always a contact but possibly not the first one; or
+/// avoiding ones.
 KnownQuery three_roots(Recipe& recipe) {
   Sampler sampler(recipe);
   const Pairs pairs{draw_pair(0, true, sampler), draw_pair(1, true, sampler),
@@ -223,7 +224,7 @@ KnownQuery double_root(Recipe& recipe) {
   return from_pairs(recipe, pairs, false, sampler);
 }
 
-/// α, β and γ have the same root: triangular corners, where it is a contact, or avoiding ones.
+/// α, β and γ have the same root: triangular corners, for which it is a contact, or avoiding ones.
 KnownQuery triple_root(Recipe& recipe) {
   Sampler sampler(recipe);
   const Pairs pairs = draw_common_root({0, 1, 2}, recipe.variant % 2 == 1, sampler);

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Random numbers that are the same on every machine, which those of std:: distributions are not: for
-/// generated queries, methods that try random directions, and tests.
+/// \file Random numbers that are the same on every machine, unlike those of std:: distributions,
+/// for generated queries, methods with random directions, and tests.
 
 #include <cstdint>
 #include <string_view>

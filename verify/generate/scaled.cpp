@@ -37,7 +37,7 @@ KnownQuery scaled_by_200(Recipe& recipe) {
   return known;
 }
 
-/// Every axis by a power of two of its own.
+/// Every axis multiplied by a separate power of two.
 KnownQuery mixed_scales(Recipe& recipe) {
   KnownQuery known = build_base(recipe);
   std::array<int, 3> exponents{};

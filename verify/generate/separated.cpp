@@ -1,5 +1,4 @@
-/// \file
-/// Families about a separation d: the primitives come to exactly d, or pass by it, known by
+/// \file Families about a separation d: the primitives come exactly to d, or pass it, known by
 /// construction in either norm.
 ///
 /// **Level.** All of the first primitive is at height p(t), all of the second at q(t), and their
@@ -7,17 +6,18 @@
 /// somewhere: the distance is |p − q| in both norms.
 ///
 /// **Dominated.** One point of F is o(t) ≥ 0, componentwise, and all others are ≥ o(t) on all axes.
-/// So the distance is ‖o‖ in both norms. With the vertex (end) at A and a vertex (end) of the other
-/// primitive at B, o = A − B, all other points of the first are A plus something and of the second B
-/// minus something; rounding is monotone, so that holds of the rounded sums. Or on the x axis the
-/// primitives reach past each other, F_x = 0 somewhere on the nearest lines, and only y and z count.
+/// Hence the distance is ‖o‖ in both norms. With the vertex (end) at A and a vertex (end) of the
+/// other primitive at B, o = A − B, all other points of the first are A plus a nonnegative vector,
+/// and of the second B minus one; rounding is monotone, so this also holds for the rounded sums.
+/// Alternatively, on the x axis the primitives overlap, F_x = 0 somewhere on the nearest lines, and
+/// only y and z matter.
 ///
 /// **Tilted.** The face, or the two edges' directions, lie in the plane of integer vectors g and h
 /// with n·g = n·h = 0, and the first primitive is λ(t) n above it, all times a unit s. In L2 the
-/// nearest point of F is λ n s, in L∞ it is that of the plane with all components of one magnitude
-/// (0 where n is), λ s |n|² / ‖n‖₁: less is impossible, ‖x‖∞ ≥ |n·x| / ‖n‖₁. Both lie inside
-/// F(t,·,·), which reaches far enough along g and h. Coordinates are integers below 2^53 times a
-/// power of two, a common translation included.
+/// nearest point of F is λ n s, in L∞ it is the point of the plane with all components of one
+/// magnitude (0 for zero components of n), λ s |n|² / ‖n‖₁: less is impossible, ‖x‖∞ ≥ |n·x| /
+/// ‖n‖₁. Both lie inside F(t,·,·), which reaches far enough along g and h. Coordinates are integers
+/// below 2^53 times a power of two, a common translation included.
 
 #include <algorithm>
 #include <array>
@@ -67,7 +67,7 @@ double draw_neighbour(Random& random, double value) {
   return value;
 }
 
-/// The scene at a scale of its own, or at that of the separation.
+/// The scene at an independent scale, or at that of the separation.
 Sampler draw_scene(Recipe& recipe) {
   if (recipe.random.coin()) return Sampler(recipe);
   const auto exponent = static_cast<int>(recipe.random.between(-2, 6));
@@ -80,7 +80,7 @@ KnownQuery outcome(const Query& query, const Arrival& arrived) {
   return arrived.comes ? collision(query, arrived.time, std::nullopt) : miss(query);
 }
 
-/// A difference of two coordinates, given by the one or by the other, or half by each.
+/// A difference of two coordinates, assigned to one of them, or half to each.
 struct Split {
   double first;
   double second;
@@ -93,7 +93,7 @@ constexpr std::array<Split, 3> splits{{{1, 0}, {0, -1}, {0.5, -0.5}}};
 
 // ---- Level ------------------------------------------------------------------------------------
 
-/// The height goes from one value to another, both doubles.
+/// The height moves from one double to another.
 KnownQuery level(Recipe& recipe, const Line& height) {
   static constexpr std::array<Spot, 3> spots{Spot::interior, Spot::edge, Spot::corner};
   Query query{};
@@ -108,8 +108,8 @@ KnownQuery level(Recipe& recipe, const Line& height) {
   return outcome(query, arrival(offset, recipe.separation));
 }
 
-/// From above d to 0 or below: 2d and 4d at the start put the contact at ½, ¾, ¼ or ⅜; any other
-/// height s at the start and 0 at the end at 1 − d/s.
+/// The height moves from above d to 0 or below: with 2d and 4d at the start the contact is at ½, ¾,
+/// ¼ or ⅜; with any other height s at the start and 0 at the end it is at 1 − d/s.
 KnownQuery approach(Recipe& recipe) {
   const double d = recipe.separation.distance;
   if (recipe.variant % 3 == 2) {
@@ -134,7 +134,7 @@ KnownQuery endpoint(Recipe& recipe) {
 
 // ---- Dominated --------------------------------------------------------------------------------
 
-/// An offset at exactly d in one norm or the other, or nearly.
+/// An offset of exactly or nearly d in one of the norms.
 Vector3 draw_offset(Recipe& recipe) {
   const double d = recipe.separation.distance;
   const auto times = [](double unit, const Vector3& v) {
@@ -174,7 +174,7 @@ Vector3 draw_side_offset(Recipe& recipe) {
   }
 }
 
-/// The offset of the nearest points, and how it is given to the two primitives.
+/// The offset of the nearest points, and its assignment to the two primitives.
 struct Nearest {
   Vector3 start;
   Vector3 end;
@@ -197,7 +197,7 @@ struct Nearest {
   }
 };
 
-/// The offset on a course, one component moved to a neighbouring double now and then.
+/// The offset on a course, one component sometimes moved to a neighbouring double.
 Nearest draw_nearest(Recipe& recipe, Vector3 offset) {
   double& component = offset.at(static_cast<std::size_t>(recipe.random.between(0, 2)));
   if (component > 0) component = draw_neighbour(recipe.random, component);
@@ -210,7 +210,7 @@ Nearest draw_nearest(Recipe& recipe, Vector3 offset) {
   return nearest;
 }
 
-/// Are the primitives whole, or shrunk to points and segments?
+/// Whole primitives, or primitives that are shrunk to points and segments.
 enum class Shape : std::uint8_t { whole, degenerate };
 
 bool belongs_to_first(Kind kind, std::size_t point) {
@@ -315,7 +315,7 @@ constexpr std::array<Plane, 3> planes{{{{3, 4, 0}, 5, 7, {4, -3, 0}, {0, 0, 1}},
                                        {{2, 3, 6}, 7, 11, {3, -2, 0}, {0, 2, -1}},
                                        {{1, 2, 2}, 3, 5, {2, -1, 0}, {0, 1, -1}}}};
 
-/// Multiples of g and of h: where a point is in the plane.
+/// The position of a point in the plane, as multiples of g and h.
 struct Place2 {
   std::int64_t g;
   std::int64_t h;
@@ -362,7 +362,7 @@ Rational distance_of_plane(const Plane& plane, Norm norm) {
   return ratio;
 }
 
-/// s as near to exactly d as the grid has it, or one step more.
+/// The multiple of the grid closest to d, or the next one.
 Grid draw_grid(Recipe& recipe, const Rational& distance) {
   const double d = recipe.separation.distance;
   const int exponent = std::ilogb(d) - (recipe.full ? 40 : 4);

@@ -20,7 +20,7 @@ Offset offset_of(std::uint64_t variant) {
   return offsets.at(variant % offsets.size());
 }
 
-/// The heights cross, and the plan says where and whether the projections meet.
+/// The heights cross, and the plan determines whether and where the projections meet.
 KnownQuery crossing(Recipe& recipe, Spot spot) {
   Sampler sampler(recipe);
   const Offset offset = offset_of(recipe.variant);

@@ -6,9 +6,9 @@
 /// of the face has the height ζ + 2b'(t−τ) (m + d'(t−τ)) / 2m. The vertex is above it by
 ///     b'(t−τ) − b'(t−τ) (m + d'(t−τ)) / m  =  −(b'd'/m) (t−τ)²:
 /// it touches the plane at τ only. In x the vertex stays between 1/4 and 3/4 of the face's width
-/// (16 |d| ≤ m/2), and in y the zones keep it strictly inside, so contact is where the plane is
-/// met. edge_edge: edge a in the place of the face, from (a, ζ) to (a + 2m, ·), and edge b, along y
-/// across it, in the place of the vertex.
+/// (16 |d| ≤ m/2), and in y the zones keep it strictly inside, so there is contact when the vertex
+/// is in the plane. edge_edge: edge a in the place of the face, from (a, ζ) to (a + 2m, ·), and
+/// edge b, along y across it, in the place of the vertex.
 ///
 /// With the vertex moved by ε in z its height is ε − (b'd'/m)(t−τ)². For ε b'd' < 0 it is never 0.
 /// For ε b'd' > 0 it has the sign of ε at τ and the other one at t=0 or at t=1, if b'd' δ² > |ε| m
@@ -93,7 +93,8 @@ Moment draw_moment(Recipe& recipe, const Tangency& tangency) {
   return moment;
 }
 
-/// Touching, or with what touches moved one unit through the plane or away from it.
+/// Tangential contact, or with the vertex (edge) moved by one unit through the plane or away from
+/// it.
 KnownQuery tangential(Recipe& recipe) {
   const Tangency tangency = draw_tangency(recipe);
   Moment moment = draw_moment(recipe, tangency);

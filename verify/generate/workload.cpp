@@ -28,7 +28,7 @@ constexpr double perturbation = 0.2;  // of each vertex' way, on each axis
 /// Height of the bowl's rim above its bottom, in units of the patch's side.
 constexpr double bowl = 0.02;
 
-/// Where the cells of a side begin and how wide they are, as multiples of the side.
+/// The beginnings and widths of the cells of a side, as multiples of the side.
 class Side {
  public:
   explicit Side(const PatchOptions& options) : places_{-0.5} {
@@ -116,7 +116,7 @@ void add_faces(int cells, int first_vertex, Random& random, std::vector<fast::Fa
 /// A coordinate of an end contact.
 double coordinate(const EndContactOptions& options, Random& random) {
   if (!options.two_decimals) return options.scale * (2.0 * random.unit() - 1.0);
-  // A quotient of whole numbers is rounded as the decimal is.
+  // A quotient of whole numbers is rounded like the decimal.
   const double parts = std::round(100.0 / std::min(options.scale, 1.0));
   const auto most = static_cast<std::int64_t>(std::round(options.scale * parts));
   return static_cast<double>(random.between(-most, most)) / parts;

@@ -1,15 +1,14 @@
 #pragma once
 
-/// \file
-/// The built-in workload of the benchmark: two patches of triangle mesh that move through each
-/// other in one step, as cloth does when its step is too long, and the generated hard set. And the
-/// plainest contacts there are, at any scale, for the report.
+/// \file The built-in workload of the benchmark: two patches of triangle mesh that move through
+/// each other in one step, as cloth does when its step is too long, and the built-in set. Also
+/// simple contacts at t=1, at any scale, for the report.
 ///
 /// The patches are square grids of cells, each cut into two triangles, bent like shallow bowls with
 /// their bottoms towards each other, one turned against the other so that no edges are parallel.
 /// Vertices are displaced at random from the grid, and each moves a little differently from its
-/// neighbours. As in a simulation, the candidates are whatever the broad phase leaves, pairs inside
-/// one patch included.
+/// neighbours. As in a simulation, the candidates are those of the broad phase, including pairs
+/// within one patch.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,8 +24,8 @@ struct PatchOptions {
   /// Cells along a side of a patch, at least 1. The default gives well over 100,000 candidates of
   /// each kind, some per cent of which collide, with any seed.
   int cells = 60;
-  /// The last cells along a side are so many times as wide as the first, at least 1. All lengths above
-  /// are in units of a cell's width where a vertex is.
+  /// The ratio of the widths of the last and the first cells along a side, at least 1. All lengths
+  /// above are in units of the cell's width at a vertex.
   double grading = 1.0;
 };
 
@@ -34,23 +33,23 @@ struct PatchOptions {
 /// \throws std::invalid_argument for options out of range.
 [[nodiscard]] mesh::MovingMesh moving_patches(const PatchOptions& options = {});
 
-/// All queries of one kind of the generated hard set for a separation (verify/generate/families.hpp),
-/// `count` a family.
+/// All queries of one kind of the generated hard set for a separation
+/// (verify/generate/families.hpp), `count` for each family.
 [[nodiscard]] data::QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
                                         const Separation& separation = {});
 
 struct EndContactOptions {
   /// No coordinate is greater in magnitude; positive and finite.
   double scale = 1.0;
-  /// Coordinates are doubles next to multiples of a hundredth of min(scale, 1), as people type them;
-  /// else they have full significands. \pre then 1/scale is whole, or scale is.
+  /// True for coordinates that are doubles next to multiples of a hundredth of min(scale, 1), as
+  /// people type them; otherwise they have full significands. \pre then 1/scale or scale is whole.
   bool two_decimals = false;
   std::uint64_t seed = 2021;
   std::size_t count = 1000;
 };
 
-/// Contacts at t=1 at the latest, exact by equality: there a vertex of one primitive has, double for
-/// double, the place of a vertex of the other. All other coordinates are uniform.
+/// Contacts at t=1 at the latest, exact by equality: there a vertex of one primitive has the same
+/// coordinates as a vertex of the other. All other coordinates are uniform.
 [[nodiscard]] data::QueryGroup end_contacts(Kind kind, const EndContactOptions& options);
 
 }  // namespace touchstone::verify::generate

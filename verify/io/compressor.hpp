@@ -1,7 +1,7 @@
 #pragma once
 
-/// \file
-/// Compression of a stream as it is written, and back as it is read (Zstandard, RFC 8878 [rfc8878]).
+/// \file Compression of a stream while writing, and decompression while reading (Zstandard, RFC
+/// 8878 [rfc8878]).
 
 #include <cstddef>
 #include <memory>
@@ -18,11 +18,11 @@ class Compressor {
   /// \throws std::runtime_error if there is no memory for it.
   Compressor();
 
-  /// Takes bytes; returns what is ready, which may be nothing.
+  /// Consumes bytes; returns the finished output, which may be empty.
   /// \throws std::runtime_error if the library fails.
   [[nodiscard]] std::string compress(std::string_view bytes);
 
-  /// All that is left. To be called once, as the last call.
+  /// The rest of the output. Must be called once, as the last call.
   /// \throws std::runtime_error if the library fails.
   [[nodiscard]] std::string finish();
 
@@ -35,18 +35,18 @@ class Compressor {
   std::unique_ptr<void, Free> context_;
 };
 
-/// Any number of frames. Memory is bounded, whatever a frame says of itself.
+/// Any number of frames, in bounded memory, independent of the sizes that frames declare.
 class Decompressor {
  public:
   /// \throws std::runtime_error if there is no memory for it.
   Decompressor();
 
-  /// Takes compressed bytes, which it removes from the front, and writes what they stand for. Returns how many bytes
-  /// it has written; if they fill the room there may be more.
+  /// Consumes compressed bytes from the front, and writes the decompressed ones. Returns the number
+  /// of bytes written; if they fill the buffer there may be more.
   /// \throws std::runtime_error with the reason if the bytes are no such stream.
   [[nodiscard]] std::size_t decompress(std::string_view& bytes, std::span<char> room);
 
-  /// Is all that was begun complete?
+  /// True if every frame is complete.
   [[nodiscard]] bool is_complete() const { return is_complete_; }
 
  private:

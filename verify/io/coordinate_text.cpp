@@ -17,7 +17,7 @@ namespace {
 using Part = CoordinateError::Part;
 constexpr int double_bits = std::numeric_limits<double>::digits;
 
-/// The text as a machine integer, or nothing if it is none or does not fit.
+/// The text as a machine integer; empty if it is none or does not fit.
 template <class Number>
 std::optional<Number> machine_integer(std::string_view text) {
   if (text.starts_with('+')) {
@@ -31,7 +31,8 @@ std::optional<Number> machine_integer(std::string_view text) {
   return number;
 }
 
-/// The quotient by machine arithmetic, or nothing where this file's comment does not cover it.
+/// The quotient by machine arithmetic; empty for pairs that the comment of the header does not
+/// cover.
 std::optional<double> machine_quotient(std::string_view numerator, std::string_view denominator) {
   const auto n = machine_integer<std::int64_t>(numerator);
   const auto d = machine_integer<std::uint64_t>(denominator);
@@ -47,7 +48,7 @@ std::optional<double> machine_quotient(std::string_view numerator, std::string_v
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The text as an integer of any length, or nothing if it is none.
+/// The text as an integer of any length; empty if it is none.
 std::optional<exact::Integer> any_integer(std::string_view text) {
   const bool has_sign = text.starts_with('-') || text.starts_with('+');
   const std::string_view digits = text.substr(has_sign ? 1 : 0);
@@ -56,7 +57,7 @@ std::optional<exact::Integer> any_integer(std::string_view text) {
   return text.starts_with('-') ? exact::Integer(-magnitude) : magnitude;
 }
 
-/// Is it NaN or infinity, as the standard library and NumPy write them?
+/// True for NaN or infinity as the standard library and NumPy write them.
 bool is_not_finite(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;

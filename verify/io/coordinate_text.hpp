@@ -5,11 +5,12 @@
 /// decimal of any length, whose quotient is a double. A coordinate in one field has the denominator
 /// 1.
 ///
-/// Most pairs are integers, a numerator of at most 63 bits over a power of two of at most 63, and for these
-/// machine integers are enough: n / 2^k with n = odd · 2^j is a double if `odd` has at most 53
-/// bits, since |n| / 2^k lies in [2^-63, 2^63], far from both ends of the range. Longer powers of
-/// two, small coordinates, need the same comparison of bits on long integers. All other pairs, and
-/// all decimals, go through rationals, where the nearest double is compared with the number itself.
+/// Most pairs are integers, a numerator of at most 63 bits over a power of two of at most 63, and
+/// machine integers suffice for these: n / 2^k with n = odd · 2^j is a double if `odd` has at most
+/// 53 bits, since |n| / 2^k lies in [2^-63, 2^63], far from both ends of the range. Longer powers
+/// of two, small coordinates, need the same comparison of bits on long integers. All other pairs,
+/// and all decimals, go through rationals, where the nearest double is compared with the number
+/// itself.
 
 #include <stdexcept>
 #include <string>
@@ -17,17 +18,17 @@
 
 namespace touchstone::verify::io {
 
-/// A coordinate and whether the double is the number that was written.
+/// A coordinate, and whether the double equals the written number.
 struct ParsedCoordinate {
   /// Finite, and +0 if it is zero; the nearest double where not exact.
   double value;
   bool exact;
 };
 
-/// A pair that is no coordinate.
+/// The error for a pair that is not a coordinate.
 class CoordinateError : public std::invalid_argument {
  public:
-  /// Which of the two numbers is at fault.
+  /// The invalid number of the two.
   enum class Part { numerator, denominator };
 
   CoordinateError(Part part, const std::string& reason)
@@ -38,15 +39,15 @@ class CoordinateError : public std::invalid_argument {
   Part part_;
 };
 
-/// The quotient of two numbers: an optional sign, then digits, among them perhaps a point, then
-/// perhaps an exponent ("-1.25e-3") of at most 10000; nothing else.
-/// \throws CoordinateError if one is no such number, the denominator is zero, or the double nearest
-/// to the quotient is infinite.
+/// The quotient of two numbers: an optional sign, digits with an optional point, and an optional
+/// exponent ("-1.25e-3") of at most 10000; nothing else.
+/// \throws CoordinateError if one is not such a number, the denominator is zero, or the double
+/// nearest to the quotient is infinite.
 [[nodiscard]] ParsedCoordinate parse_coordinate(std::string_view numerator,
                                                 std::string_view denominator);
 
-/// Does a text stand for a number, well-formed or not: does it begin like one, or is it NaN or
-/// infinity?
+/// True if a text is meant as a number, well-formed or not: it begins like one, or is NaN or
+/// infinity.
 [[nodiscard]] bool is_numeric(std::string_view text);
 
 /// Appends "numerator,denominator" in lowest terms, denominator positive; −0 is written as "0,1".

@@ -1,12 +1,11 @@
 #pragma once
 
-/// \file
-/// Comma-separated values as RFC 4180 has them: a field with a comma, a quote or a line end in it
-/// stands in quotes, and quotes in it are doubled.
+/// \file Comma-separated values by RFC 4180: a field with a comma, a quote or a line end is quoted,
+/// and quotes in it are doubled.
 ///
-/// The output is printable (printable.hpp), and no formula to a spreadsheet: a text that begins with
-/// = + - or @ and is no number gets an apostrophe in front, and so does one that begins with
-/// apostrophes and then with one of these.
+/// The output is printable (printable.hpp) and contains no formulas for spreadsheets: a text that
+/// begins with = + - or @ and is not a number is preceded by an apostrophe, and so is one that
+/// begins with apostrophes followed by one of these.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,25 +16,25 @@
 
 namespace touchstone::verify::io {
 
-/// The text as one field: printable, no formula, in quotes where it needs them.
+/// The text as one field: printable, not a formula, quoted if necessary.
 [[nodiscard]] std::string csv_field(std::string_view text);
 
 /// The texts as a record, with its line end.
 [[nodiscard]] std::string csv_row(const std::vector<std::string>& texts,
                                   std::string_view line_end = "\n");
 
-/// A number with as many digits as give the same double again; nothing where it is NaN.
+/// A number with the digits that reproduce the double; empty for NaN.
 [[nodiscard]] std::string csv_number(double number);
 
-/// The printable text that a field, given without its quotes, stands for: without the apostrophe that
-/// csv_field() put in front of a formula. Of what others wrote, the text made printable.
+/// The printable text of a field without its quotes: without the apostrophe that csv_field() put
+/// before a formula. Fields of other programs are made printable.
 [[nodiscard]] std::string text_of_field(std::string_view field);
 
 /// The result of split_csv.
 struct CsvSplit {
   enum class Fault : std::uint8_t {
     none,
-    open_quote,        ///< a quoted field does not end: the record goes on in the next line
+    open_quote,        ///< a quoted field does not end: the record continues in the next line
     text_after_quote,  ///< a quoted field is followed by something other than a comma
   };
 

@@ -134,7 +134,7 @@ void LineReader::pass_over_line() {
   } while (fill());
 }
 
-/// Moves what is unread to the front and reads a chunk behind it; false at the end of the file.
+/// Moves the unread bytes to the front and reads a chunk after them; false at the end of the file.
 bool LineReader::fill() {
   std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
   end_ -= begin_;

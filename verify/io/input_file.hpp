@@ -1,11 +1,10 @@
 #pragma once
 
-/// \file
-/// Files read front to back in bounded memory.
+/// \file Sequential reading of files in bounded memory.
 ///
 /// LineReader keeps no more of its file than one chunk and one line, and a line has an upper limit:
-/// a file without line ends cannot fill the memory, it is one line that is too long. A line may be passed
-/// over up to a second limit: a device without an end is an error.
+/// a file without line ends cannot fill the memory; it is a line that is too long. Such a line is
+/// skipped up to a second limit, beyond which it is an error, as for a device without an end.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +22,7 @@ namespace touchstone::verify::io {
 /// A file open for reading. Owns its descriptor.
 class InputFile {
  public:
-  /// Does not wait for the writer of a pipe: read() does.
+  /// Does not wait for the writer of a pipe, but read() does.
   /// \throws DatasetError if the file cannot be opened or is a folder.
   explicit InputFile(std::filesystem::path path);
   InputFile(const InputFile&) = delete;
@@ -33,13 +32,13 @@ class InputFile {
   ~InputFile();
 
   /// Reads at least one byte into the buffer, or none at the end of the file. Returns how many.
-  /// \throws DatasetError if the system reports an error; the file then counts as ended, so that a
-  /// reader that keeps going cannot stay at the same error for ever. Interrupted (terminal.hpp) if
-  /// the user interrupts, also while there is nothing to read yet.
+  /// \throws DatasetError if the system reports an error; the file is then treated as ended, so
+  /// that a reader with keep_going cannot repeat the same error forever. Interrupted (terminal.hpp)
+  /// if the user interrupts, also during a wait for input.
   [[nodiscard]] std::size_t read(std::span<char> buffer);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Size in bytes when the file was opened; 0 where it has none (a pipe).
+  /// Size in bytes when the file was opened; 0 if it has none (a pipe).
   [[nodiscard]] std::uint64_t size() const { return size_; }
   /// The system's handle, valid as long as this object.
   [[nodiscard]] int descriptor() const { return descriptor_; }
@@ -60,7 +59,7 @@ struct Line {
   std::string_view text;
   /// Counted from 1.
   std::uint64_t number;
-  /// Longer than LineReader::longest_line; its text was passed over.
+  /// True if longer than LineReader::longest_line; its text was skipped.
   bool too_long;
 };
 
@@ -68,15 +67,15 @@ struct Line {
 /// no lines; all others are.
 class LineReader {
  public:
-  /// Bytes that a line may have without its line end.
+  /// Maximum length of a line in bytes, without its line end.
   static constexpr std::size_t longest_line = std::size_t{1} << 20U;
-  /// Bytes that a line without an end may have that is passed over.
+  /// Maximum length of a skipped line in bytes.
   static constexpr std::size_t longest_passed_line = std::size_t{64} << 20U;
 
   /// \throws DatasetError if the file cannot be opened.
   explicit LineReader(std::filesystem::path path);
 
-  /// The next line, or nothing at the end.
+  /// The next line; empty at the end.
   /// \throws DatasetError if the system reports an error on reading, or the file has a line longer
   /// than longest_passed_line. Interrupted as InputFile::read.
   [[nodiscard]] std::optional<Line> next();
@@ -100,8 +99,8 @@ class LineReader {
 
   InputFile file_;
   std::optional<Decompressor> decompressor_;
-  std::string compressed_;            ///< as much as was read at once
-  std::string_view compressed_left_;  ///< of that
+  std::string compressed_;            ///< the last chunk read
+  std::string_view compressed_left_;  ///< the unread part of it
   std::unique_ptr<char[]> buffer_;    // NOLINT(modernize-avoid-c-arrays): std::vector would fill it
   std::size_t begin_ = 0;
   std::size_t end_ = 0;

@@ -31,7 +31,7 @@ fs::path temporary_name(const fs::path& target, unsigned attempt) {
          (std::string(data::beginning(name, longest - ending.size())) + ending);
 }
 
-/// Does it have the form of the names above?
+/// True if it has the form of the temporary names.
 bool is_temporary_name(std::string_view name) {
   const std::size_t at = name.rfind(temporary_extension);
   if (at == std::string_view::npos) return false;
@@ -44,7 +44,7 @@ bool is_temporary_name(std::string_view name) {
          is_number(numbers.substr(dash + 1));
 }
 
-/// Is the open file an ordinary one, and still the one of that name?
+/// True if the open file is a regular one, and still the one of that name.
 bool has_name(int descriptor, const fs::path& path) {
   struct stat opened {
   }, named{};
@@ -109,21 +109,21 @@ void OutputFile::overwrite(std::uint64_t offset, std::string_view bytes) {
 
 /// Takes the lock; false if another process has found the file abandoned, and removes it.
 bool OutputFile::lock() const {
-  // Where there are no locks nobody removes anything.
+  // On file systems without locks no temporary file is removed.
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
   struct stat status {};
   const bool is_unlinked = ::fstat(descriptor_, &status) == 0 && status.st_nlink == 0;
   return !is_unlinked || has_name(descriptor_, temporary_);
 }
 
-void OutputFile::close() {
+void OutputFile::close_as(const std::filesystem::path& path) {
   flush();
   // The lock is held through a second descriptor until the file has its name.
   const int lock = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
   if (lock < 0) fail();
   // Some file systems report a full disk or quota only here.
   const bool is_closed = ::close(std::exchange(descriptor_, lock)) == 0;
-  if (!is_closed || ::rename(temporary_.c_str(), path_.c_str()) != 0) fail();
+  if (!is_closed || ::rename(temporary_.c_str(), path.c_str()) != 0) fail();
   temporary_.clear();
   ::close(std::exchange(descriptor_, -1));
 }

@@ -42,7 +42,10 @@ class OutputFile {
 
   /// Writes all that is left and gives the file its name. To be called once, as the last call.
   /// \throws DatasetError if either fails; the target is then as it was.
-  void close();
+  void close() { close_as(path_); }
+
+  /// The same with another name in the target's folder; the target stays as it was.
+  void close_as(const std::filesystem::path& path);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 

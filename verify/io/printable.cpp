@@ -56,8 +56,8 @@ void append_written_out(std::string& text, const Character& character, std::stri
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-/// Could the character at `i` of printable text be markup? An underscore within a word is none, and a
-/// colon only in front of the slashes of an address.
+/// True if the character at `i` of printable text could be markup. An underscore within a word is
+/// not, and a colon only in front of the slashes of an address.
 bool is_markup(std::string_view text, std::size_t i) {
   static constexpr std::string_view marks = "\\`*[]<>|~&$";
   const char c = text[i];
@@ -67,7 +67,7 @@ bool is_markup(std::string_view text, std::size_t i) {
   return marks.find(c) != std::string_view::npos;
 }
 
-/// The text with its quotes and backslashes escaped, and what is not printable as octal bytes of three
+/// The text with its quotes and backslashes escaped, and other characters as octal bytes of three
 /// digits, which C++ and shells read alike.
 std::string escaped_within(char quote, std::string_view text) {
   std::string result;

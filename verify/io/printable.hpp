@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Text from outside (names of files and plugins, labels, messages of the system) made fit to be
-/// printed on a terminal and put into tables.
+/// \file External text (names of files and plugins, labels, messages of the system), made safe for
+/// terminals and tables.
 ///
 /// A name may hold any bytes: escape codes that move the cursor, line ends that forge a row of a table,
 /// marks that reverse the direction of writing, markup. *Printable* text is one line of well-formed
@@ -22,7 +21,7 @@
 
 namespace touchstone::verify::io {
 
-/// A character in front of a text.
+/// The first character of a text.
 struct Character {
   /// In bytes; 0 if the text does not begin with a well-formed UTF-8 sequence.
   std::size_t length = 0;
@@ -32,17 +31,17 @@ struct Character {
 /// The character that a text begins with.
 [[nodiscard]] Character first_character(std::string_view text);
 
-/// May the character stand in printable text?
+/// True if the character is allowed in printable text.
 [[nodiscard]] bool is_printable(const Character& character);
 
-/// Is the text printable as it stands?
+/// True if the text is printable.
 [[nodiscard]] bool is_printable(std::string_view text);
 
-/// The text with everything that may not stand in printable text written out: \xHH for a byte that is
-/// no UTF-8 and for an ASCII character, \uHHHH or \UHHHHHHHH for any other character.
+/// The text with all other characters escaped: \xHH for a byte that is not UTF-8 and for an ASCII
+/// character, \uHHHH or \UHHHHHHHH for any other character.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// Printable text as it stands in Markdown, in a cell of a table too: what could be markup is escaped.
+/// Printable text in Markdown, also in a cell of a table: possible markup is escaped.
 [[nodiscard]] std::string markdown_escaped(std::string_view text);
 
 /// Printable text as a code span of Markdown.
@@ -51,10 +50,11 @@ struct Character {
 /// Printable text as a code block of Markdown, of one line.
 [[nodiscard]] std::string markdown_code_block(std::string_view text);
 
-/// Printable text as it stands in HTML, in an attribute too.
+/// Printable text in HTML, also in an attribute.
 [[nodiscard]] std::string html_escaped(std::string_view text);
 
-/// The bytes as a word of a shell; printable. What is not printable stands in $'…', as bash and zsh have it.
+/// The bytes as a word of a shell; printable. Other characters are written in $'…', as in bash and
+/// zsh.
 [[nodiscard]] std::string shell_word(std::string_view text);
 
 /// The bytes as a string literal of C++; printable.

@@ -34,7 +34,7 @@ static_assert(std::atomic<bool>::is_always_lock_free &&
                   std::atomic<int>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
               "a signal handler may touch nothing else");
 
-/// Of a clock that only goes forward, and that a signal handler may read.
+/// Milliseconds of a monotone clock that a signal handler may read.
 std::int64_t milliseconds() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -159,7 +159,7 @@ int open_for_appending(const std::string& path) {
   static constexpr int look_again_milliseconds = 20;
   int descriptor = ::open(path.c_str(), flags | O_NONBLOCK);
   while (descriptor < 0 && errno == ENXIO && is_pipe(path)) {
-    // It has no reader yet, and the system tells nobody when one comes.
+    // The pipe has no reader yet, and the system does not report the arrival of one.
     wait_for(-1, 0, look_again_milliseconds);
     descriptor = ::open(path.c_str(), flags | O_NONBLOCK);
   }

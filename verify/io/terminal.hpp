@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// The terminal: printing, progress, and stopping at an interrupt.
+/// \file The terminal: output, progress and interrupts.
 
 #include <atomic>
 #include <chrono>
@@ -13,17 +12,18 @@
 
 namespace touchstone::verify::io {
 
-/// Prints on standard output or standard error. Never throws: whoever reads the output may have gone,
-/// and the files of the run matter more. Once standard output has failed, no more is printed there.
+/// Prints on standard output or standard error. Never throws: the reader of the output may have
+/// closed it, and the files of the run are more important. After a failure of standard output,
+/// nothing more is printed there.
 void print(std::FILE* stream, std::string_view text);
 
-/// Writes out what is printed but still buffered, as the last step of a program.
-/// \throws std::runtime_error if standard output did not take all that was printed; a reader that has
-/// closed its end of a pipe (as head does) has seen enough, and is no error.
+/// Flushes the buffered output, as the last step of a program.
+/// \throws std::runtime_error if standard output did not accept the whole output; a closed pipe (as
+/// by head) is not an error.
 void finish_printing();
 
-/// A progress line on standard error: only on a terminal, only for what takes over a second,
-/// redrawn at most ten times a second, gone when the object is.
+/// A progress line on standard error: only on a terminal, only after a second, redrawn at most ten
+/// times a second, removed with the object.
 class ProgressBar {
  public:
   /// \param title made printable (printable.hpp)
@@ -37,7 +37,7 @@ class ProgressBar {
   /// \param fraction done so far, 0 to 1
   void update(double fraction);
 
-  /// Takes the line away until the next update, for other output.
+  /// Removes the line until the next update, for other output.
   void clear();
 
  private:
@@ -52,27 +52,27 @@ class ProgressBar {
 /// The line that a progress bar draws: title, bar of 30 characters, percentage, seconds left.
 [[nodiscard]] std::string progress_line(const std::string& title, double fraction, double seconds);
 
-/// Signals closer than this to the first one are the same interrupt: timeout(1) and some shells send
-/// each to the process and to its group.
+/// Signals within this time after the first one are the same interrupt: timeout(1) and some shells
+/// send each signal both to the process and to its group.
 inline constexpr int same_interrupt_milliseconds = 200;
 
-/// Turns true at the first interrupt, termination or hangup signal after this function was first called;
-/// the next one (later than `same_interrupt_milliseconds`) ends the process at once, as if the
-/// function had never been called. A hangup that is ignored (as nohup has it) stays ignored.
+/// Turns true at the first interrupt, termination or hangup signal after this function was first
+/// called; the next one (later than `same_interrupt_milliseconds`) ends the process immediately, as
+/// by default. An ignored hangup (as with nohup) stays ignored.
 [[nodiscard]] const std::atomic<bool>& interrupted();
 
-/// Replaces the clock that tells interrupts apart, for tests: milliseconds that only go forward, positive. Called in a
-/// signal handler.
+/// Replaces the clock that separates interrupts, for tests: monotone, positive milliseconds. Called
+/// in a signal handler.
 void set_interrupt_clock(std::int64_t (*milliseconds)());
 
-/// Thrown where an interrupt ends a wait for input.
+/// Thrown if an interrupt ends a wait for input.
 class Interrupted : public std::runtime_error {
  public:
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-/// Waits until a read from the descriptor does not block: there is something to read, the end or an
-/// error. Without a call of interrupted() before, signals act on the process as they ever do.
+/// Waits until a read from the descriptor does not block: there is input, the end or an error.
+/// Without an earlier call of interrupted(), signals have their default effect.
 /// \throws Interrupted if interrupted() is true or becomes so.
 void wait_for_input(int descriptor);
 

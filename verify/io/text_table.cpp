@@ -11,7 +11,7 @@ namespace {
 
 using Align = TextColumn::Align;
 
-/// In characters, as fmt counts them: what it adds to fill a width says how wide the text is.
+/// The width in characters as fmt counts them, from the padding that fmt adds.
 std::size_t width_of(std::string_view text) {
   return 2 * text.size() - fmt::formatted_size("{:<{}}", text, text.size());
 }

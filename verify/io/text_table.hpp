@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Tables of text in aligned columns, and the numbers in them, as all commands print them.
+/// \file Text tables with aligned columns, and the numbers in them, for all commands.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,12 +21,12 @@ struct TextColumn {
   Align align = Align::right;
 };
 
-/// A column of words, which begin one below the other.
+/// A column of left-aligned words.
 [[nodiscard]] TextColumn word_column(std::string name, std::size_t least_width = 0);
 
 using TextRow = std::vector<std::string>;
 
-/// A line of column names and one for each row; two spaces stand between columns.
+/// A line of column names and one for each row, with two spaces between columns.
 class TextTable {
  public:
   explicit TextTable(std::vector<TextColumn> columns);
@@ -53,10 +52,10 @@ template <class Element>
   return all;
 }
 
-/// The number in a format of fmt's, such as "{:.1f}"; "-" where it is unknown (nothing, or NaN).
+/// The number in a format of fmt's, such as "{:.1f}"; "-" if it is unknown (empty or NaN).
 [[nodiscard]] std::string number_text(std::optional<double> number, std::string_view format);
 
-/// An error of a time of impact: "2.50e-01", "-" where it is unknown.
+/// An error of a time of impact: "2.50e-01", "-" if it is unknown.
 [[nodiscard]] std::string error_text(double error);
 
 }  // namespace touchstone::verify::io

@@ -13,7 +13,7 @@
 namespace touchstone::verify::jobs {
 namespace {
 
-/// Fraction of the work that is done, in steps of which all take about as long.
+/// The completed fraction of the work, in steps of about equal duration.
 class Steps {
  public:
   Steps(std::size_t steps, const std::function<void(double)>& tell)
@@ -33,7 +33,7 @@ class Steps {
   const std::function<void(double)>& tell_;
 };
 
-/// One run, a method for each part of it.
+/// One run, with a function for each part.
 class Run {
  public:
   Run(const data::QueryGroup& group, std::span<const solvers::Solver* const> solvers,
@@ -103,7 +103,7 @@ class Run {
 
   // ---- Judging ----------------------------------------------------------------------------------
 
-  /// Queries that any solver does not answer no, at most as many as are judged of a sample.
+  /// Queries for which some solver's answer is not no, at most as many as the judged sample.
   [[nodiscard]] std::vector<std::size_t> called_collisions() const {
     std::vector<bool> is_called(result_.queries);
     for (const TimedSolver& timed : timed_) {
@@ -176,7 +176,7 @@ class Run {
   Steps steps_;
   BenchResult result_;
   std::size_t pass_calls_ = 0;
-  /// Written to so that the reading has a result.
+  /// Receives the result of the memory pass.
   volatile std::uint64_t checksum_ = 0;
 };
 

@@ -18,7 +18,7 @@ PairCounts count_candidates(const fast::Step& step) {
   return result;
 }
 
-/// The earliest impact of all pairs that touch, as fast::Step::earliest has it.
+/// The earliest impact of all pairs that collide, as from fast::Step::earliest.
 std::optional<fast::StepImpact> earliest_of(const std::vector<fast::StepCollision>& collisions) {
   if (collisions.empty()) return std::nullopt;
   fast::StepImpact impact{.toi_lower = std::numeric_limits<double>::infinity(),

@@ -1,10 +1,11 @@
 #pragma once
 
-/// \file
-/// A step of a simulation between two frames: what touches on the way, when, and for how much of the step nothing does.
+/// \file A step of a simulation between two frames: its collisions with their times, and the part
+/// of the step without any.
 ///
-/// Every vertex moves on the straight line from one frame to the next. Frames that intersect themselves are found
-/// by find_piercings: an edge may be in a face from the start to the end of a step and touch nothing.
+/// Every vertex moves on the straight line from one frame to the next. Frames that intersect
+/// themselves are found by find_piercings: an edge may be in a face from the start to the end of a
+/// step without a new contact.
 
 #include <array>
 #include <cstddef>
@@ -19,20 +20,20 @@
 
 namespace touchstone::verify::jobs {
 
-/// What is asked about a step.
+/// The question about a step.
 enum class StepQuestion : std::uint8_t {
-  all,       ///< every pair that touches
+  all,       ///< every pair that collides
   earliest,  ///< the earliest impact and the pairs that realise it
-  free,      ///< does anything touch?
+  free,      ///< only whether there is a collision
 };
 
 struct StepCheckOptions {
   StepQuestion question = StepQuestion::all;
   fast::StepOptions step = {};
-  /// Instead of the whole step, the one that a simulator takes with this step size: to the rounded
-  /// positions x0 + α (x1 − x0) (fast::Step::scaled).
+  /// Replaces the whole step by the one with this step size: to the rounded positions x0 + α (x1 −
+  /// x0) (fast::Step::scaled).
   std::optional<double> alpha = std::nullopt;
-  /// If there is a place for its text: a certificate of the step is written.
+  /// If set, receives the text of a certificate of the step.
   StepProofOptions proof = {};
 };
 
@@ -40,29 +41,29 @@ struct StepCheckOptions {
 inline constexpr std::array pair_kinds{fast::PairKind::vertex_face, fast::PairKind::edge_edge,
                                        fast::PairKind::vertex_edge, fast::PairKind::vertex_vertex};
 
-/// So many pairs of each kind, in that order.
+/// Numbers of pairs of each kind, in that order.
 using PairCounts = std::array<std::uint64_t, pair_kinds.size()>;
 
 struct StepCheck {
   /// Pairs whose swept boxes are within the separation.
   PairCounts candidates{};
   bool is_free = true;
-  /// Nothing where only freedom was asked for, or nothing touches.
+  /// Empty if the question was `free`, or there is no collision.
   std::optional<fast::StepImpact> earliest;
-  /// Those that touch, if all were asked for; by kinds, then by numbers.
+  /// The pairs that collide, if the question was `all`; by kinds, then by numbers.
   std::optional<std::vector<fast::StepCollision>> collisions;
-  /// With alpha: a step size as large as can be that is free (fast::Step::free_step_size); nothing
-  /// if something touches at the start.
+  /// With alpha: a maximal step size that is free (fast::Step::free_step_size); empty if there is
+  /// contact at the start.
   std::optional<double> free_alpha;
-  /// What was proved, if it was asked for.
+  /// The proof, if requested.
   std::optional<StepProof> proof;
-  /// Boxes, their trees and all candidates, counted.
+  /// Time of boxes, trees and the count of all candidates.
   WorkTime broad_phase;
-  /// The answer, with the trees there.
+  /// Time of the answer, given the trees.
   WorkTime narrow_phase;
 };
 
-/// How many of the pairs are of each kind.
+/// The number of pairs of each kind.
 [[nodiscard]] PairCounts counts_of(const std::vector<fast::StepCollision>& collisions);
 
 /// \param before, after the vertices at the ends of the step: as many as the mesh has

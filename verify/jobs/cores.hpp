@@ -9,7 +9,7 @@
 
 namespace touchstone::verify::jobs {
 
-/// The cores that an option asks for, at most 1024; 0: all of them.
+/// The number of cores of an option, at most 1024; 0: all of them.
 [[nodiscard]] inline int cores_for(unsigned threads) {
   constexpr unsigned most = 1024;
   return threads == 0 ? oneapi::tbb::info::default_concurrency()

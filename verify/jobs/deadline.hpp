@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Until when work may go on: by a clock that a test can replace, or until somebody stops it.
+/// \file The end of work: a deadline on a clock that a test can replace, or a stop from outside.
 
 #include <algorithm>
 #include <atomic>
@@ -12,7 +11,7 @@
 
 namespace touchstone::verify::jobs {
 
-/// Is the work to stop? Null: nobody can stop it.
+/// True if the work must stop. Null: never.
 [[nodiscard]] inline bool is_stopped(const std::atomic<bool>* stop) {
   return stop != nullptr && stop->load();
 }
@@ -25,13 +24,13 @@ using SecondsClock = std::function<double()>;
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// A moment of a clock, or no limit at all.
+/// A moment of a clock, or no limit.
 class Deadline {
  public:
   /// Never over.
   Deadline() = default;
 
-  /// \param seconds from now on, ≥ 0; infinite: never over
+  /// \param seconds from now, ≥ 0; infinite: no limit
   /// \pre the clock is not null.
   explicit Deadline(double seconds, SecondsClock clock = steady_seconds)
       : clock_(std::move(clock)), end_(clock_() + seconds) {}
@@ -40,14 +39,14 @@ class Deadline {
   [[nodiscard]] double seconds_left() const { return std::max(0.0, end_ - clock_()); }
   [[nodiscard]] bool is_over() const { return !(seconds_left() > 0.0); }
 
-  /// The earlier of this one and so many seconds from now.
+  /// The earlier of this deadline and one this number of seconds from now.
   [[nodiscard]] Deadline at_most(double seconds) const {
     Deadline result = *this;
     result.end_ = std::min(end_, clock_() + seconds);
     return result;
   }
 
-  /// The later of this one and so many seconds from now.
+  /// The later of this deadline and one this number of seconds from now.
   [[nodiscard]] Deadline at_least(double seconds) const {
     Deadline result = *this;
     result.end_ = std::max(end_, clock_() + seconds);

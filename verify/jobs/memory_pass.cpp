@@ -14,9 +14,8 @@ using Bits = std::uint64_t;
 constexpr std::size_t lanes = 24;
 using Block = std::array<Bits, lanes>;
 
-/// Places that are read at the same time: the processor fetches ahead of each of them, which keeps
-/// more of memory busy than one place does (a quarter of the time less than with one; eight are no
-/// better than four).
+/// The number of places that are read in parallel: the processor prefetches each of them, which
+/// uses memory better than one place (a quarter less time; eight are no better than four).
 constexpr std::size_t places = 4;
 
 [[gnu::always_inline]] inline void read(const std::byte* from, std::size_t size, Block& sums) {

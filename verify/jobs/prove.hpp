@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Certificates of a source's queries, in the order of the queries, made on all cores.
+/// \file Certificates of a source's queries, in the order of the queries, computed on all cores.
 
 #include <atomic>
 #include <cstddef>
@@ -30,7 +29,7 @@ struct ProofCounts {
   std::map<std::size_t, std::uint64_t> pieces = {};
   std::uint64_t bytes = 0;   ///< of the certificates' text
   double nanoseconds = 0.0;  ///< processor time of proving and writing, the oracle's not included
-  /// Why there is no certificate, for each query without one: it would exceed the format's limits.
+  /// The reasons for queries without certificate: it would exceed the format's limits.
   std::vector<std::string> beyond_limits = {};
 
   [[nodiscard]] std::uint64_t certificates() const;
@@ -41,12 +40,12 @@ struct ProofCounts {
 /// "path/to/file.csv:17", query number 17 counted from 0: the label of a query's certificate.
 [[nodiscard]] std::string certificate_label(std::string_view source, std::uint64_t index);
 
-/// Appends the certificate of a query to the text, and counts it; the time it takes is not counted.
+/// Appends the certificate of a query to the text, and counts it, without its time.
 void append_certificate(Kind kind, const Query& query, const exact::Verdict& verdict,
                         std::string_view label, const exact::ProveOptions& options,
                         std::string& text, ProofCounts& counts);
 
-/// The counts as the lines that a user reads.
+/// The counts as text.
 [[nodiscard]] std::string to_text(const ProofCounts& counts);
 
 /// The counts as members of an object.
@@ -60,10 +59,10 @@ struct SourceProofOptions {
   exact::ProveOptions proof = {};
   /// Called with whole certificates, in the order of the queries, never from two threads at once.
   std::function<void(std::string_view)> on_certificates = nullptr;
-  /// Called now and then with the fraction of the source that is done; never from two threads at
-  /// once.
+  /// Called occasionally with the completed fraction of the source; never from two threads at once.
   std::function<void(double)> on_progress = nullptr;
-  /// Once true, no further queries are read and the result is that of those proved so far.
+  /// When it becomes true, no further queries are read, and the result is that of the queries
+  /// proved so far.
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -71,13 +70,14 @@ struct SourceProofOptions {
 struct SourceProof {
   ProofCounts counts = {};
   double oracle_nanoseconds = 0.0;  ///< processor time of the oracle, summed over the queries
-  std::uint64_t skipped = 0;        ///< queries in error, left out
+  std::uint64_t skipped = 0;        ///< invalid queries, skipped
   std::uint64_t rounded = 0;        ///< coordinates rounded to double
-  /// The error that ended the reading before the source's end; all of the above holds up to there.
+  /// The error that ended the reading before the source's end; the other fields are for the queries
+  /// before it.
   std::optional<std::string> reading_error = std::nullopt;
   bool interrupted = false;
 
-  /// Adds what became of another source, but for its error.
+  /// Adds the results of another source, except its error.
   SourceProof& operator+=(const SourceProof& other);
 };
 

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Numbers about many numbers, and samples that stand for all.
+/// \file Statistics, and representative samples.
 
 #include <cstddef>
 #include <vector>
@@ -16,8 +15,8 @@ namespace touchstone::verify::jobs {
 
 /// `count` of the positions 0 … size−1, all if there are no more, ascending and evenly spread.
 /// Always the same ones, and those of a smaller count are among them. They are the first multiples,
-/// modulo the size, of a stride near the golden section of it: unlike every n-th position they fall
-/// into step with no order of the queries.
+/// modulo the size, of a stride near the golden section of it: unlike every n-th position they are
+/// independent of any order of the queries.
 [[nodiscard]] std::vector<std::size_t> spread_sample(std::size_t size, std::size_t count);
 
 }  // namespace touchstone::verify::jobs

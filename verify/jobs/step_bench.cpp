@@ -15,7 +15,7 @@
 namespace touchstone::verify::jobs {
 namespace {
 
-/// The times of one part of a step, a repetition each.
+/// The times of one part of a step, one for each repetition.
 class Repetitions {
  public:
   template <class Work>
@@ -35,7 +35,7 @@ class Repetitions {
   std::vector<double> processor_;
 };
 
-/// The times of all repetitions with so many threads.
+/// The times of all repetitions with this number of threads.
 struct Series {
   int threads = 1;
   Repetitions trees = {};
@@ -122,7 +122,7 @@ class StepRun {
                 std::ranges::count(collisions_, kind, &fast::StepCollision::kind))};
   }
 
-  /// The earliest impact is promised to be that of the collisions.
+  /// The earliest impact must be that of the collisions.
   [[nodiscard]] bool earliest_agrees() const {
     if (collisions_.empty() || !earliest_) return collisions_.empty() && !earliest_;
     return earliest_->toi_lower ==

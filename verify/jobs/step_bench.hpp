@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// The time of a whole step of a scene (fast/step.hpp) and of its parts, beside that of reading the
-/// mesh once.
+/// \file The time of a whole step of a scene (fast/step.hpp) and of its parts, and for comparison
+/// that of reading the mesh once.
 
 #include <atomic>
 #include <cstddef>
@@ -20,22 +19,22 @@ namespace touchstone::verify::jobs {
 struct StepBenchOptions {
   /// At least 1.
   std::size_t repetitions = 5;
-  /// Timed with one thread and with so many; 0: all cores.
+  /// Timed with one thread and with this number of threads; 0: all cores.
   unsigned threads = 0;
   /// max_threads is set by the benchmark.
   fast::StepOptions step = {};
-  /// Called now and then with the fraction of the repetitions that is done, from this thread.
+  /// Called occasionally with the completed fraction of the repetitions, from this thread.
   std::function<void(double)> on_progress = nullptr;
-  /// Once true, no further repetition is begun.
+  /// When it becomes true, no further repetition begins.
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// The times with so many threads, medians over the repetitions.
+/// The times with this number of threads, medians over the repetitions.
 struct StepTimes {
   int threads = 0;
   WorkTime trees;       ///< making the step: copies of the vertices, boxes and trees of them
   WorkTime candidates;  ///< finding all candidates, which are counted and not stored
-  WorkTime collisions;  ///< all pairs that touch with their times of impact, the search included
+  WorkTime collisions;  ///< all collisions with their times of impact, including the search
   WorkTime earliest;    ///< the earliest impact alone, the search included
 };
 
@@ -55,13 +54,13 @@ struct StepResult {
   StepCounts edge_edge;
   /// Reading the vertices and the elements once, in one thread: the median.
   WorkTime memory_pass;
-  /// With one thread, then with as many as asked for if these are more.
+  /// With one thread, then with the requested number if it is greater.
   std::vector<StepTimes> times;
-  /// The earliest impact; nothing if nothing touches.
+  /// The earliest impact; empty if there is no collision.
   std::optional<fast::StepImpact> earliest;
-  /// Is it that of the collisions, as fast::Step promises?
+  /// True if it equals that of the collisions, as fast::Step promises.
   bool earliest_agrees = true;
-  /// Then there are fewer repetitions or, if there was none, no times.
+  /// If true, there are fewer repetitions or, without any, no times.
   bool interrupted = false;
 };
 

@@ -20,7 +20,7 @@ std::int64_t enlarged(const exact::Rational& x, int shift) {
   return result.get_si();
 }
 
-/// Corners at the start, then as many at the end; relative to each other as they are in space.
+/// Corners at the start, then the same number at the end, up to a common translation.
 struct Corners {
   std::array<Eigen::Vector3d, 8> points;
   std::size_t count = 0;
@@ -34,7 +34,7 @@ const Eigen::Vector3d& lowest(std::span<const Eigen::Vector3d> points, const Eig
   return *std::ranges::min_element(points, {}, [&](const Eigen::Vector3d& w) { return w.dot(d); });
 }
 
-/// The direction d such that the least d·w is positive, if Gilbert's method comes to one.
+/// A direction d with a positive least d·w, if Gilbert's method finds one.
 std::optional<Eigen::Vector3d> nearest(std::span<const Eigen::Vector3d> points) {
   constexpr int most_iterations = 48, more_iterations = 4;
   Eigen::Vector3d x = points.front();

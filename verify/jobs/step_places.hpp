@@ -1,13 +1,13 @@
 #pragma once
 
-/// \file
-/// Where the vertices of a step are in integers, as the checker of certificates has them, and
-/// directions of small integers that keep two primitives apart (exact/CERTIFICATES.md, "Steps").
+/// \file The positions of a step's vertices in integers, as in the checker of certificates, and
+/// directions of small integers that separate two primitives (exact/CERTIFICATES.md, "Steps").
 ///
-/// A direction is looked for in doubles, among the corners w = a − b of two primitives a and b at the
-/// start and at the end: the vector from the origin to the hull's nearest point, by Gilbert's method,
-/// and the normals of the triangle or parallelogram of the corners. It is then rounded to as small
-/// integers as keep them apart; that is decided in integers. Where none is found there may be one.
+/// A direction is searched in doubles, from the corners w = a − b of two primitives a and b at the
+/// start and at the end: the vector from the origin to the hull's nearest point, by Gilbert's
+/// method, and the normals of the triangle or parallelogram of the corners. It is then rounded to
+/// the smallest integers that separate them, which is decided in integers. The search is not
+/// complete.
 
 #include <array>
 #include <cstddef>
@@ -29,16 +29,15 @@ class StepPlaces {
   /// A direction's components are at most this.
   static constexpr std::int64_t greatest_component = 1023;
 
-  /// On the way from t=0 to t=end. Refers to the vertices.
+  /// The motion from t=0 to t=end. Refers to the vertices.
   StepPlaces(const fast::MovingVertices& vertices, double distance, const exact::Rational& end);
 
-  /// A length, in the step's coordinates, by which the integers may show primitives nearer than they
-  /// are, rounded up.
+  /// An upper bound, in the step's coordinates, of the reduction of distances by the integers.
   [[nodiscard]] double uncertainty() const { return uncertainty_; }
 
-  /// Does the checker see that the direction keeps the primitive of vertices a above that of b?
+  /// True if for the checker the direction keeps the primitive of vertices a above that of b.
   [[nodiscard]] bool is_above(Vertices a, Vertices b, const Direction& d) const;
-  /// Does it see that a coordinate axis keeps them apart?
+  /// True if for the checker a coordinate axis separates them.
   [[nodiscard]] bool is_axis_between(Vertices a, Vertices b) const;
   /// A direction that keeps a above b.
   [[nodiscard]] std::optional<Direction> direction(Vertices a, Vertices b) const;

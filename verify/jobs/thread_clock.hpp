@@ -1,13 +1,13 @@
 #pragma once
 
-/// \file
-/// Processor time: the clock that all times of solvers and of the oracle are taken with.
+/// \file Processor time: the clock for all times of solvers and of the oracle.
 
 #include <ctime>
 
 namespace touchstone::verify::jobs {
 
-/// Processor time of the calling thread so far, in nanoseconds. A call takes some hundred of them.
+/// Processor time of the calling thread so far, in nanoseconds. A call takes some hundred
+/// nanoseconds.
 [[nodiscard]] inline double thread_nanoseconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -13,13 +13,13 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-/// Shorter work is done several times at once.
+/// Shorter work is repeated within one measurement.
 constexpr double least_nanoseconds = 2e6;
-/// The first guess at a solver's pace is made on so many queries, the next on at most so many times as
-/// many.
+/// The number of queries for the first estimate of a solver's speed, and the greatest factor to the
+/// next estimate.
 constexpr std::size_t first_sample = 16;
 constexpr double most_growth = 64.0;
-/// Of the time that a sample may take, the share that is aimed at.
+/// The targeted share of the time limit of a sample.
 constexpr double aimed_share = 0.9;
 constexpr int sweeps = 3;
 constexpr int clock_readings = 10'000;
@@ -64,12 +64,12 @@ void TimedSolver::take(std::size_t count) {
 void TimedSolver::choose_sample(const SampleLimits& limits) {
   const std::size_t most = std::min(limits.most, samples_->group().queries().size());
   std::size_t count = solver_->only_as_a_whole() ? most : std::min(first_sample, most);
-  // The pace varies from query to query, so a small sample says little.
+  // The speed varies from query to query, so a small sample is not significant.
   for (;;) {
     take(count);
     double growth = possible_growth(limits);
     if (count == most || is_stopped(limits.stop)) return;
-    // The first time a sample is solved its memory is touched for the first time too.
+    // The first run of a sample also accesses its memory for the first time.
     if (growth < 2.0) growth = possible_growth(limits);
     if (growth < 2.0 || is_stopped(limits.stop)) return;
     count = std::min(count * std::bit_floor(static_cast<std::size_t>(growth)), most);

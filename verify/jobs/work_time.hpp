@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// How long a piece of work takes, of all threads together.
+/// \file The duration of work, for all threads together.
 
 #include <chrono>
 
@@ -22,7 +21,7 @@ struct WorkTime {
   friend WorkTime operator+(WorkTime a, const WorkTime& b) { return a += b; }
 };
 
-/// Does the work and says how long it took.
+/// Runs the work and returns its duration.
 template <class Work>
 [[nodiscard]] WorkTime work_time_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();

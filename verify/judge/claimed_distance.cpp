@@ -24,7 +24,8 @@ std::array<double, 3> greatest_coordinates(const Query& query) {
   return greatest;
 }
 
-/// A weight near x, such that 1 − x is exact, and sums of two are: a multiple of 2^-52 in [0,1].
+/// A weight close to x for which 1 − x and sums of two weights are exact: a multiple of 2^-52 in
+/// [0,1].
 double weight(double x) { return std::clamp((x + 1.0) - 1.0, 0.0, 1.0); }
 
 /// F on one axis, up to the filter. \pre all are weights, and u + v ≤ 1 if need be.
@@ -40,7 +41,7 @@ double value_on_axis(Kind kind, const Query& query, std::size_t axis, double t, 
 
 Separation stated_distance(const fast::Answer& answer, const Separation& separation) {
   const double sum = answer.tolerance + separation.distance;
-  // The sum with 0 is exact, and 0 is what exact solvers claim.
+  // The sum with 0, the claim of exact solvers, is exact.
   const bool is_exact = answer.tolerance == 0.0 || separation.distance == 0.0;
   return {.distance = is_exact ? sum : up(sum), .norm = separation.norm};
 }
@@ -51,8 +52,8 @@ Separation tight_inclusion_distance(Kind kind, const Query& query, const fast::A
   if (std::max(std::ranges::max(x_max), separation) > greatest_unscaled) {
     return {.distance = infinity, .norm = Norm::linf};
   }
-  // The published filter bounds the errors of the released order of operations too, and is not below
-  // the released one: so what a yes with the released filter claims follows from it.
+  // The published filter bounds the errors of the released order of operations too, and is not
+  // below the released one, so it implies the claim of a yes with the released filter.
   if (model == fast::ErrorModel::released) model = fast::ErrorModel::published;
   const double filter = std::ranges::max(fast::error_filter(kind, x_max, separation, model));
   return {.distance = up(up(up(answer.tolerance) + separation) + 2.0 * filter), .norm = Norm::linf};
@@ -83,7 +84,7 @@ bool is_seen_within(Kind kind, const Query& query, double t, double distance) {
     };
     return is_within_on(0) && is_within_on(1) && is_within_on(2);
   };
-  // The closest points in L2 are found faster, and are mostly close enough.
+  // The closest points in L2 are faster to find, and mostly sufficient.
   return is_within(Norm::l2) || is_within(Norm::linf);
 }
 

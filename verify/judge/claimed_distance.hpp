@@ -1,19 +1,18 @@
 #pragma once
 
-/// \file
-/// The check of the distance that a yes with a tolerance claims.
+/// \file The check of the distance claimed by a yes with a tolerance.
 ///
-/// In general (verify/plugin.h): a yes with tolerance τ, asked for the separation d in a norm, claims that the
-/// primitives come within d + τ of each other in that norm at some time.
+/// In general (verify/plugin.h), a yes with tolerance τ for the separation d in a norm claims that
+/// the primitives come within d + τ of each other in that norm at some time.
 ///
-/// **Claim of Tight-Inclusion,** which works in L∞ and leaves rounding errors out of its tolerance. A
-/// yes with tolerance τ, asked for the separation d, means that the primitives come
-/// within τ + d + 2ε of each other in L∞ at some time, ε being the greatest filter of an axis.
-/// Proof: the answer's box of parameters was not dropped, so on each axis not all corner values are
-/// beyond d + ε on one side; and either the box is at most τ wide, so that no corner value is beyond
-/// d + ε + τ, or all are within d + ε. Computed values are within ε of F, so |F| ≤ τ + d + 2ε on each
-/// axis at every corner, of which the one with the lowest parameters is in the domain. The width is
-/// the rounded difference of two values, hence one step more than τ.
+/// **Claim of Tight-Inclusion,** which works in L∞ and leaves rounding errors out of its tolerance.
+/// A yes with tolerance τ for the separation d means that the primitives come within τ + d + 2ε of
+/// each other in L∞ at some time, ε being the greatest filter of an axis. Proof: the answer's box
+/// of parameters was not dropped, so on each axis not all corner values are beyond d + ε on one
+/// side; and either the box is at most τ wide, so that no corner value is beyond d + ε + τ, or all
+/// are within d + ε. Computed values are within ε of F, so |F| ≤ τ + d + 2ε on each axis at every
+/// corner, of which the one with the lowest parameters is in the domain. The width is the rounded
+/// difference of two values, hence one spacing more than τ.
 
 #include <optional>
 
@@ -23,18 +22,18 @@
 
 namespace touchstone::verify::judge {
 
-/// The distance, in units of the coordinates and in a norm, within which the primitives come at some time by what
-/// a yes to the query claims, rounded up. Infinite, hence no valid separation, where it claims
-/// nothing: without a tolerance, and with a filter for coordinates or separations beyond 2^1016,
-/// which Tight-Inclusion scales down first.
+/// The distance, in a norm and rounded up, within which the primitives come at some time according
+/// to a yes. Infinite, hence not a valid separation, if the yes claims nothing: without a
+/// tolerance, and with a filter for coordinates or separations beyond 2^1016, which Tight-Inclusion
+/// scales down first.
 /// \param filter that the method's tolerances do not include (fast::MethodInfo::filter)
-/// \param separation that the method was asked for
+/// \param separation the requested one
 [[nodiscard]] Separation claimed_distance(std::optional<fast::ErrorModel> filter, Kind kind,
                                           const Query& query, const fast::Answer& answer,
                                           const Separation& separation);
 
-/// Is it seen at a glance, in floating point with proved bounds, that the primitives are within the
-/// distance in L∞ at time t? False says nothing.
+/// True if a quick test, in floating point with proved bounds, shows that the primitives are within
+/// the distance in L∞ at time t. False is no information.
 [[nodiscard]] bool is_seen_within(Kind kind, const Query& query, double t, double distance);
 
 }  // namespace touchstone::verify::judge

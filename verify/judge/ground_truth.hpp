@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// The truth about a query, as answers are compared with it: the oracle's verdict (exact/oracle.hpp) in
-/// doubles.
+/// \file The truth about a query for comparisons with answers: the oracle's verdict
+/// (exact/oracle.hpp) in doubles.
 
 #include <cstdint>
 #include <optional>
@@ -17,15 +16,17 @@ namespace touchstone::verify::judge {
 struct GroundTruth {
   std::uint64_t index;
   bool collides;
-  /// On collision neighbouring doubles around the exact time of impact, or the double that it is.
+  /// With a collision: the exact time of impact if it is a double, else the neighbouring doubles
+  /// around it.
   std::optional<exact::DoubleInterval> toi;
 };
 
-/// The truth about query number `index` of its source, of which this is the verdict.
+/// The truth of query number `index` of its source from the oracle's verdict.
 [[nodiscard]] GroundTruth truth_of(std::uint64_t index, const exact::Verdict& verdict);
 
-/// "no collision", "collision at 0.5" or "collision after 0.1 and before 0.2", both excluded: so that a
-/// time of impact that differs from the exact one by less than a spacing of doubles is seen to be wrong.
+/// "no collision", "collision at 0.5" or "collision after 0.1 and before 0.2", both exclusive, so
+/// that a time of impact that differs from the exact one by less than a spacing of doubles is
+/// visibly wrong.
 [[nodiscard]] std::string to_text(const GroundTruth& truth);
 
 }  // namespace touchstone::verify::judge

@@ -16,7 +16,7 @@ namespace {
 
 namespace tbb = oneapi::tbb;
 
-/// Queries decided between two reports of progress.
+/// The number of queries between two reports of progress.
 constexpr std::size_t step = 4096;
 
 }  // namespace

@@ -12,12 +12,12 @@
 namespace touchstone::verify::judge {
 namespace {
 
-/// A bucket holds the doubles ≥ 0 whose patterns agree but for these low bits; the largest of them
-/// is its upper end.
+/// A bucket contains the doubles ≥ 0 whose bit patterns agree except for these low bits; the
+/// largest of them is its upper end.
 constexpr unsigned low_bits = 52 - 6;
 
 std::uint32_t bucket_of(double error) {
-  // Zero has the first bucket to itself.
+  // Zero has a separate bucket, the first.
   if (error == 0.0) return 0;
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(error) >> low_bits) + 1;
 }
@@ -76,7 +76,7 @@ double ToiErrors::quantile(double fraction) const {
   std::uint64_t up_to_here = 0;
   for (const auto& [bucket, count] : buckets_) {
     up_to_here += count;
-    // Infinity's bucket has a NaN for its end, which this order of arguments passes over.
+    // The end of infinity's bucket is a NaN, which this order of arguments ignores.
     if (static_cast<double>(up_to_here) >= rank) return std::min(max_, upper_end(bucket));
   }
   return max();
@@ -116,11 +116,11 @@ void Judgement::add(const GroundTruth& truth, const fast::Answer& answer,
 
 void Judgement::add_toi(const GroundTruth& truth, const fast::Answer& answer) {
   const auto [lower, upper] = truth.toi.value();
-  // No comparison holds of a NaN, the mark of what a method does not give.
+  // No comparison holds for a NaN, which marks a missing field.
   if (answer.toi_lower > lower) add_fault(Fault::late_toi, truth, answer);
   if (answer.toi_upper < upper) add_fault(Fault::early_toi_upper, truth, answer);
   if (std::isnan(answer.toi_lower)) return;
-  // Of the two ends of the truth the farther one, so that no error is understated.
+  // The farther of the two ends of the truth, so that no error is understated.
   toi_errors.add(std::max(upper - answer.toi_lower, answer.toi_lower - lower));
 }
 

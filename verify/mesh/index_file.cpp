@@ -16,7 +16,7 @@ void write_index_pairs(const std::filesystem::path& path,
   io::OutputFile file(path);
   static constexpr std::array<std::uint64_t, 1> extents{2};
   file.write(data::npy_header_text("<i4", pairs.size(), extents));
-  // The writer keeps what it is given at once in a buffer.
+  // The writer buffers each call as a whole.
   static constexpr std::size_t part = 4096;
   for (; !pairs.empty(); pairs = pairs.subspan(std::min(part, pairs.size()))) {
     const auto bytes = pairs.first(std::min(part, pairs.size()));

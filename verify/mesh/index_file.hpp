@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Pairs of indices as NumPy's .npy files: little-endian int32 of shape (N, 2), in C order. They say
-/// which primitives of a mesh a query is about.
+/// \file Pairs of indices as NumPy's .npy files: little-endian int32 of shape (N, 2), in C order.
+/// They identify the primitives of a mesh in each query.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +10,7 @@
 
 namespace touchstone::verify::mesh {
 
-/// Writes such a file; it appears whole or not at all.
+/// Writes such a file, which appears completely or not at all.
 /// \throws DatasetError if it cannot be written.
 void write_index_pairs(const std::filesystem::path& path,
                        std::span<const std::array<std::int32_t, 2>> pairs);

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// A step of a simulation as the benchmark takes it: the mesh before and after, and what may touch
-/// in between.
+/// \file A step of a simulation for benchmarks: the mesh before and after, and the candidates
+/// between them.
 
 #include <filesystem>
 #include <span>
@@ -23,8 +22,8 @@ struct MovingMesh {
 };
 
 /// The step from one mesh file to another.
-/// \throws DatasetError if one cannot be read, or they are not the same mesh but for the places of
-/// its vertices.
+/// \throws DatasetError if one cannot be read, or the meshes differ in more than the positions of
+/// their vertices.
 [[nodiscard]] MovingMesh read_step(const std::filesystem::path& before,
                                    const std::filesystem::path& after);
 
@@ -34,7 +33,7 @@ struct MovingMesh {
                                                            int max_threads = 0,
                                                            double min_separation = 0.0);
 
-/// Pairs of a kind with what their indices mean; refers to the mesh and to the pairs.
+/// Pairs of a kind with the arrays of their indices; refers to the mesh and to the pairs.
 [[nodiscard]] fast::Candidates candidates_of(const MovingMesh& mesh, Kind kind,
                                              std::span<const fast::IndexPair> pairs);
 

@@ -86,7 +86,7 @@ auto with_type(Scalar type, const Use& use) {
   }
 }
 
-/// The file as lines and as bytes, and where in it an error is.
+/// The file as lines and as bytes, with the position of errors.
 class Input {
  public:
   explicit Input(const std::filesystem::path& path) : file_(path), buffer_(buffer_size) {}
@@ -276,7 +276,7 @@ class TextValues {
     if (!word_.empty()) input_.fail("too many values");
   }
 
-  /// Is there anything but blank lines left?
+  /// True if anything but blank lines is left.
   [[nodiscard]] bool at_end() {
     while (auto line = input_.line()) {
       if (!take_word(*line).empty()) return false;
@@ -317,7 +317,7 @@ class BinaryValues {
   bool swap_;
 };
 
-/// Reads what the header announces.
+/// Reads the elements of the header.
 template <class Values>
 class BodyReader {
  public:

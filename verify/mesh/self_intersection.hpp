@@ -3,17 +3,19 @@
 /// \file
 /// Edges that pierce faces in a frame.
 ///
-/// A mesh can intersect itself with nothing touching at any time of a step: an edge through a face from the start to the
-/// end. So a step is safe only if its first frame is free of such pairs *and* nothing touches on the way. Two surfaces
-/// of triangles intersect iff an edge of one meets a triangle of the other.
+/// A mesh can intersect itself without a collision of considered pairs in a step: an edge may be in
+/// a face from the start to the end. So a step is safe only if its first frame is free of such
+/// pairs *and* no pair collides. Two surfaces of triangles intersect iff an edge of one meets a
+/// triangle of the other.
 ///
-/// **What counts.** An edge without a vertex in common with a face pierces it iff the closed segment and the closed
-/// triangle have a point in common. (Where this is a touch only, the step finds a contact at t=0 as well.) An edge that
-/// starts at a corner of the face pierces it iff they have a further point in common: then the edge lies in the face's
-/// plane and points into the angle at the corner. An edge of the face itself never counts.
+/// **Definition.** An edge without a vertex in common with a face pierces it iff the closed segment
+/// and the closed triangle have a point in common. (If they only touch, the step also finds a
+/// contact at t=0.) An edge that starts at a corner of the face pierces it iff they have a further
+/// point in common: then the edge lies in the face's plane and points into the angle at the corner.
+/// An edge of the face itself never counts.
 ///
-/// **Exact.** Signs of orientations in CGAL's kernel of exact predicates. The broad phase (fast/step.hpp) chooses the
-/// pairs: those whose boxes overlap, exactly.
+/// **Exactness.** The signs of orientations come from CGAL's kernel of exact predicates. The pairs
+/// come from the broad phase (fast/step.hpp): exactly those whose boxes overlap.
 
 #include <functional>
 #include <span>
@@ -32,7 +34,7 @@ struct Piercing {
   friend auto operator<=>(const Piercing&, const Piercing&) = default;
 };
 
-/// Which pairs count: called with the numbers of an edge and a face; empty: all.
+/// Selects the pairs to test: called with the numbers of an edge and a face; empty: all.
 using PiercingFilter = std::function<bool(std::int32_t edge, std::int32_t face)>;
 
 /// All pairs of an edge and a face that it pierces, in ascending order.

@@ -1,7 +1,6 @@
 #pragma once
 
-/// \file
-/// Lines of text as the mesh formats have them: words between blanks, some of them numbers.
+/// \file Lines of text in mesh formats: words between blanks, some of them numbers.
 
 #include <charconv>
 #include <optional>
@@ -10,13 +9,13 @@
 
 namespace touchstone::verify::mesh {
 
-/// Takes the next word from the front of a line; empty at its end. Words are separated by spaces,
+/// Removes the next word from the front of a line; empty at its end. Words are separated by spaces,
 /// tabs and carriage returns.
 [[nodiscard]] std::string_view take_word(std::string_view& line);
 
-/// The number that a text is, or nothing if it is none, is not whole where `Number` is, or is beyond
-/// the range of `Number`. Decimal, also with an exponent; a '+' may stand in front; "nan" and "inf"
-/// are numbers of floating-point types.
+/// The number of a text; empty if it is none, is not whole for an integer type, or is out of range
+/// of `Number`. Decimal, optionally with an exponent and a leading '+'; "nan" and "inf" are numbers
+/// of floating-point types.
 template <class Number>
 [[nodiscard]] std::optional<Number> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);

@@ -23,7 +23,8 @@ using generate::operator+;
 using generate::Random;
 using generate::Vector;
 
-/// The frame's size is 2^this at most, and its coordinates up to 1.6 times 2^this.
+/// The base-2 logarithm of the maximum size of the frame. Its coordinates are up to 1.6 times the
+/// size.
 constexpr int log_frame = 50;
 constexpr double greatest_distance = 0x1p14;
 constexpr int most_attempts = 16;
@@ -92,25 +93,25 @@ std::size_t index_of(const Hardness& hardness) {
                                   all.begin());
 }
 
-/// The properties of a sort of queries, in the units of the frame.
+/// The properties of a class of queries, in units of the frame.
 struct Setup {
   explicit Setup(const HardSort& sort);
 
-  bool near = false;         ///< Do collisions overlap by the gap only?
+  bool near = false;         ///< true if collisions overlap by the gap only
   std::int64_t size = 0;     ///< of the scene
-  std::int64_t gap = 0;      ///< of misses, and overlap of near collisions
+  std::int64_t gap = 0;      ///< gap without collision, and overlap of near collisions
   std::int64_t breadth = 0;  ///< height of the triangle, length of edge b
-  std::int64_t descent = 0;  ///< the first primitive goes down by so much at most
+  std::int64_t descent = 0;  ///< maximum descent of the first primitive
   std::int64_t least_descent = 0;
-  std::int64_t drift = 0;       ///< how far other motion goes
+  std::int64_t drift = 0;       ///< extent of other motion
   std::int64_t offset = 0;      ///< from the origin
   int log_angle = 0;            ///< of the angle's tangent; 0: far from parallel
   std::int64_t separation = 0;  ///< along z, rounded
-  bool passes_beside = true;    ///< May a scene be decided beside the border?
+  bool passes_beside = true;    ///< true if a scene may be decided beside the border
   int exponent = 0;             ///< of the factor from the frame to the world
 };
 
-/// So much must the scene be enlarged to be at least 16 times the separation.
+/// The factor that enlarges the scene to at least 16 times the separation.
 int enlargement(double distance) {
   if (distance == 0.0) return 0;
   return std::max(0, std::ilogb(distance) + 5);
@@ -119,7 +120,7 @@ int enlargement(double distance) {
 Setup::Setup(const HardSort& sort) {
   const std::size_t index = index_of(*sort.hardness);
   const int level = sort.level;
-  // The frame has room for what is longer than the size.
+  // The frame has a margin for lengths beyond the size.
   const int log_size = index == Index::speed    ? log_frame - std::max(level, 0)
                        : index == Index::offset ? log_frame - level - 1
                                                 : log_frame;
@@ -144,7 +145,7 @@ Setup::Setup(const HardSort& sort) {
   exponent = larger - log_size + (index == Index::scale ? level : 0);
 }
 
-/// Makes one scene.
+/// Builds one scene.
 class Scene {
  public:
   Scene(const Setup& setup, Kind kind, bool collides, Random& random)
@@ -160,7 +161,7 @@ class Scene {
     move_all();
   }
 
-  /// In the world, but for the exact symmetry.
+  /// The query in world coordinates, before the exact symmetry.
   [[nodiscard]] Query query() const {
     Query result{};
     for (std::size_t end = 0; end < 2; ++end) {
@@ -177,7 +178,7 @@ class Scene {
   }
 
  private:
-  /// Collisions at the border are for the near ones, while the triangle is wide enough.
+  /// True if collisions may be at the border: for near ones, if the triangle is wide enough.
   [[nodiscard]] bool may_graze() const { return setup_.near && setup_.gap <= setup_.size / 8; }
 
   /// Between two fractions of a length.
@@ -258,7 +259,7 @@ class Scene {
     }
   }
 
-  /// Everything away from the origin, and along.
+  /// Moves all points away from the origin, with a common motion.
   void move_all() {
     const auto away = [&] {
       const std::int64_t length = draw(0.5, 1.0, setup_.offset);
@@ -291,7 +292,8 @@ fuzz::TouchTime draw_time(std::size_t index, int level, Random& random) {
   return random.coin() ? fuzz::TouchTime::at_start : fuzz::TouchTime::at_end;
 }
 
-/// Misses are by one unit, and by more from attempt to attempt until nothing can touch.
+/// Queries without collision have a clearance of one unit, increased with each attempt until no
+/// contact is possible.
 std::int64_t clearance_of(const fuzz::EverydayScene& scene, double separation_in_units,
                           int attempt) {
   const std::int64_t growing = fuzz::power_of_ten(scene.digits * attempt / (most_attempts - 2));
@@ -306,7 +308,7 @@ Query decimal_query(const HardSort& sort, bool collides, const Separation& separ
   fuzz::EverydayScene scene{.digits = index == Index::digits ? sort.level : usual_digits,
                             .exponent = decimal_exponent,
                             .time = draw_time(index, sort.level, random)};
-  // A power of two leaves contact what it is. The scene is enlarged as others are.
+  // A power of two does not change contact. The scene is enlarged like others.
   const int larger = enlargement(sort.separation.distance) == 0
                          ? 0
                          : enlargement(sort.separation.distance) - 3 * decimal_exponent;
@@ -322,7 +324,7 @@ Query decimal_query(const HardSort& sort, bool collides, const Separation& separ
   return query;
 }
 
-/// Queries of integers in a frame of its own, or of decimals.
+/// Queries of integers in a frame, or of decimals.
 Query draw_query(const HardSort& sort, bool collides, const Separation& separation, int attempt,
                  Random& random) {
   if (index_of(*sort.hardness) >= Index::everyday_scale) {
@@ -346,7 +348,7 @@ void check(const HardSort& sort) {
   }
 }
 
-/// One number for all that tells the sorts apart.
+/// A number that identifies the class.
 std::uint64_t key_of(const HardSort& sort, std::uint64_t seed, std::uint64_t index) {
   std::uint64_t key = generate::mix(seed ^ generate::hash(sort.hardness->name));
   key = generate::mix(key + static_cast<std::uint64_t>(sort.level));

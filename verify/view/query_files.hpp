@@ -1,14 +1,14 @@
 #pragma once
 
-/// \file
-/// Queries to be looked at, from files: rows of datasets, findings of the fuzzer, certificates, and the points of one query.
+/// \file Queries for a view, from files: rows of datasets, findings of the fuzzer, certificates,
+/// and the points of one query.
 ///
 ///   - .csv, .npy: a dataset (verify/data/dataset.hpp);
-///   - .json: the report of `fuzz --json`, whose findings are read, or one of them, or the JSON that a view copies: an
-///     object of `coordinates`, 24 numbers or texts of numbers, `kind`, and perhaps `separation`; or a list of such
-///     objects;
+///   - .json: the report of `fuzz --json`, whose findings are read, or one of them, or the JSON
+///     that a view copies: an object of `coordinates`, 24 numbers or texts of numbers, `kind`, and
+///     optionally `separation`; or a list of such objects;
 ///   - .cert, .cert.zst: a stream of certificates of queries (exact/CERTIFICATES.md);
-///   - .obj: eight lines `v x y z`, as ipc-toolkit writes a query, which do not say the kind.
+///   - .obj: eight lines `v x y z`, as ipc-toolkit writes a query, without the kind.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,26 +24,26 @@
 
 namespace touchstone::verify::view {
 
-/// Which queries of a file to read.
+/// The queries of a file to read.
 struct QueryFileOptions {
   /// Positions in the file, counted from 0, each read once, in the order of the file; empty: from the first on.
   std::vector<std::uint64_t> indices = {};
-  /// At most so many.
+  /// The maximum number of queries.
   std::size_t most = 100;
-  /// Of queries whose file does not say it.
+  /// The kind of queries whose file does not specify it.
   std::optional<Kind> kind = std::nullopt;
-  /// Accept coordinates of datasets that are no doubles, as the nearest double.
+  /// Round coordinates of datasets that are not doubles to the nearest double.
   bool round = false;
 };
 
 /// Reads the queries.
-/// \throws DatasetError if the file's format is unknown, it cannot be read or is in error, it has none of
-/// the queries asked for, or nothing says the kind.
+/// \throws DatasetError if the file's format is unknown, it cannot be read or is in error, it has
+/// none of the requested queries, or the kind is unknown.
 [[nodiscard]] std::vector<ViewedQuery> read_queries(const std::filesystem::path& path,
                                                     const QueryFileOptions& options);
 
-/// A query, or a finding of the fuzzer, as JSON has it (above).
-/// \param kind of a query that does not say it
+/// A query, or a finding of the fuzzer, from JSON (above).
+/// \param kind of a query that does not specify it
 /// \throws std::logic_error or nlohmann::json::exception if it is none.
 [[nodiscard]] ViewedQuery query_from_json(const nlohmann::json& json, std::string label,
                                           std::optional<Kind> kind = std::nullopt);
@@ -53,7 +53,8 @@ struct QueryFileOptions {
 /// \throws std::invalid_argument if it is none, or not finite.
 [[nodiscard]] double parse_number(std::string_view text);
 
-/// 24 numbers in the order of Query, between them spaces, commas, semicolons, brackets or lines.
+/// 24 numbers in the order of Query, separated by spaces, commas, semicolons, brackets or line
+/// ends.
 /// \throws std::invalid_argument if they are not 24 numbers.
 [[nodiscard]] Query parse_points(std::string_view text);
 

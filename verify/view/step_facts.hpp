@@ -1,7 +1,7 @@
 #pragma once
 
-/// \file
-/// What a view says about a step: the mesh before and after, and the pairs that touch, by their time.
+/// \file The contents of a view of a step: the mesh before and after, and the colliding pairs by
+/// time.
 
 #include <array>
 #include <cstddef>
@@ -18,39 +18,40 @@
 
 namespace touchstone::verify::view {
 
-/// A step with what touches in it.
+/// A step with its collisions.
 struct ViewedStep {
-  std::string label;  ///< where it is from
+  std::string label;  ///< its origin
   mesh::Vertices before, after;
   std::vector<fast::Face> faces;
-  std::vector<fast::Edge> codimensional_edges;  ///< those of no face
+  std::vector<fast::Edge> codimensional_edges;  ///< the edges of no face
   Separation separation = {};
   std::vector<fast::StepCollision> collisions;  ///< in the order of toi_lower
-  /// Of each of these, as a query.
+  /// Each collision as a query.
   std::vector<Query> queries;
-  /// And the numbers of the query's four points.
+  /// The numbers of each query's four points.
   std::vector<std::array<std::int32_t, 4>> points;
 };
 
-/// Finds what touches.
+/// Finds the collisions.
 /// \param mesh the elements of both frames
-/// \param alpha instead of the whole step, the one that a simulator takes with this step size (fast::Step::scaled)
-/// \throws what fast::Step throws
+/// \param alpha replaces the whole step by the one with this step size (fast::Step::scaled)
+/// \throws the exceptions of fast::Step
 [[nodiscard]] ViewedStep find_collisions(std::string label, const mesh::Mesh& mesh,
                                          mesh::Vertices before, mesh::Vertices after,
                                          const fast::StepOptions& options,
                                          std::optional<double> alpha = std::nullopt);
 
-/// The first pairs that touch, at most so many, as queries to be looked at.
+/// The first colliding pairs, at most this number, as queries for a view.
 [[nodiscard]] std::vector<ViewedQuery> first_queries(const ViewedStep& step, std::size_t most);
 
-/// A page lists at most so many pairs.
+/// The maximum number of pairs in the list of a page.
 inline constexpr std::size_t most_listed_pairs = 20'000;
 
-/// As the script of a page reads it: an object of `label`, `before`, `after`, `faces`, `edges` (arrays of
-/// little-endian doubles, and of 32-bit integers, in base 64), `pairs`, a list of the first
-/// most_listed_pairs of `kind` (of the query), `name`, `points` (of the query, by their numbers), `toi` (lower and upper),
-/// `place` (u and v), `total`, how many touch, and `min_separation` and `norm`.
+/// The input of a page's script: an object of `label`, `before`, `after`, `faces`, `edges` (arrays
+/// of little-endian doubles, and of 32-bit integers, in base 64), `pairs`, a list of the first
+/// most_listed_pairs of `kind` (of the query), `name`, `points` (of the query, by their numbers),
+/// `toi` (lower and upper), `place` (u and v), `total`, the number of collisions, and
+/// `min_separation` and `norm`.
 [[nodiscard]] nlohmann::json step_facts(const ViewedStep& step);
 
 }  // namespace touchstone::verify::view

@@ -15,7 +15,7 @@ constexpr long limb_bits = 64;
 constexpr std::uint64_t low(WideLimb x) { return static_cast<std::uint64_t>(x); }
 constexpr std::uint64_t high(WideLimb x) { return static_cast<std::uint64_t>(x >> limb_bits); }
 
-/// 1/x modulo 2^64, by Newton's iteration: x is right in 3 bits, each step doubles them.
+/// 1/x modulo 2^64, by Newton's iteration: x is correct in 3 bits, each step doubles their number.
 /// \pre x is odd.
 constexpr std::uint64_t inverse(std::uint64_t x) {
   std::uint64_t result = x;
@@ -100,8 +100,8 @@ std::uint64_t BigInteger::residue(std::uint64_t modulus) const {
   return negative_ && magnitude != 0 ? modulus - magnitude : magnitude;
 }
 
-// From the lowest limb up: the lowest limb of what is left, over the divisor's, modulo 2^64, is the
-// next limb of the quotient.
+// From the lowest limb up: the lowest limb of the remainder, divided by the divisor's modulo 2^64,
+// is the next limb of the quotient.
 BigInteger BigInteger::divided_exactly(const BigInteger& divisor) const {
   if (size_ == 0) return {};
   const long zeros = divisor.trailing_zeros();
@@ -232,8 +232,8 @@ BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   return product;
 }
 
-// Newton's iteration for the inverse x of d: x + x (1 − x d), which doubles the bits that are right.
-// Here d is b / 2^length, with a magnitude in [1/2, 1), and x is in units of 2^-known.
+// Newton's iteration for the inverse x of d: x + x (1 − x d), which doubles the number of correct
+// bits. Here d is b / 2^length, with a magnitude in [1/2, 1), and x is in units of 2^-known.
 BigInteger approximate_quotient(const BigInteger& a, const BigInteger& b, long bits) {
   if (b.sign() == 0) return 0;
   const auto leading = [](const BigInteger& x, long count) {

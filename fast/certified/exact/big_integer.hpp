@@ -1,11 +1,10 @@
 #pragma once
 
-/// \file
-/// Integers of any size, with the few operations that exact decisions need: no division that leaves
-/// a remainder.
+/// \file Integers of any size, with the operations of exact decisions: all divisions are without
+/// remainder.
 ///
 /// Sign and magnitude; the magnitude is limbs of 64 bits, the least significant first. Up to
-/// `inline_limbs` of them lie in the object itself, so that usual numbers cost no allocation.
+/// `inline_limbs` of them are stored in the object, so that common numbers need no allocation.
 
 #include <array>
 #include <cstddef>
@@ -14,14 +13,14 @@
 
 namespace touchstone::fast::exact_stage {
 
-/// significand · 2^exponent, near a number: relative error below 2^-52. The significand is 0 or has
-/// a magnitude in [1/2, 1]. A guess, never a proof.
+/// significand · 2^exponent, an approximation with a relative error below 2^-52. The significand is
+/// 0 or has a magnitude in [1/2, 1]. For guesses, not for proofs.
 struct Approximation {
   double significand = 0.0;
   long exponent = 0;
 };
 
-/// a / b; 0 if b is 0. As large as a double can be if the quotient is not one.
+/// a / b; 0 if b is 0. The greatest double if the quotient exceeds it.
 [[nodiscard]] double quotient(const Approximation& a, const Approximation& b);
 
 /// An integer of any size.
@@ -37,7 +36,7 @@ class BigInteger {
     if (size_ == 0) return 0;
     return negative_ ? -1 : 1;
   }
-  /// Of the magnitude: 0 for 0, else 1 + the index of the highest bit.
+  /// The length of the magnitude: 0 for 0, else 1 + the index of the highest bit.
   [[nodiscard]] long bit_length() const;
   /// The index of the lowest bit that is set. \pre not 0.
   [[nodiscard]] long trailing_zeros() const;
@@ -74,7 +73,7 @@ class BigInteger {
   }
   /// Makes the magnitude `size` limbs long; new ones are 0.
   void resize(std::size_t size);
-  /// Takes zeros off the top.
+  /// Removes leading zeros.
   void trim();
   [[nodiscard]] int compare_magnitude(const BigInteger& other) const;
   BigInteger& add(const BigInteger& other, bool negative);
@@ -83,12 +82,12 @@ class BigInteger {
   void set_difference(const BigInteger& larger, const BigInteger& smaller);
 
   std::array<std::uint64_t, inline_limbs> few_{};
-  std::vector<std::uint64_t> many_;  // in use once the number has not fitted into few_
+  std::vector<std::uint64_t> many_;  // used once the number did not fit into few_
   std::size_t size_ = 0;             // limbs of the magnitude; the top one is not 0
   bool negative_ = false;
 };
 
-/// Near 2^bits a/b: wrong by less than 2 if |a| ≤ |b|. 0 if b is 0. \pre bits ≥ 0.
+/// An approximation of 2^bits a/b, with an error below 2 if |a| ≤ |b|. 0 if b is 0. \pre bits ≥ 0.
 [[nodiscard]] BigInteger approximate_quotient(const BigInteger& a, const BigInteger& b, long bits);
 
 }  // namespace touchstone::fast::exact_stage

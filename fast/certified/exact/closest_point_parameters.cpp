@@ -20,19 +20,19 @@ struct Polygon {
   [[nodiscard]] Eigen::Vector3d at(const Parameters& x) const { return r - x.u * p - x.v * q; }
 };
 
-/// At time t, scaled.
+/// The vectors at time t, scaled.
 Polygon polygon_at(Kind kind, const Query& query, double t) {
   const auto [start, end] = scaled_vectors(kind, query);
   return {kind, (1.0 - t) * start.r + t * end.r, (1.0 - t) * start.p + t * end.p,
           (1.0 - t) * start.q + t * end.q};
 }
 
-/// The best of the points of the domain that it is shown.
+/// Keeps the best of the points of the domain that are considered.
 class Search {
  public:
   Search(const Polygon& polygon, Norm norm) : polygon_(polygon), norm_(norm) {}
 
-  /// Points outside by more than rounding, and NaN, are not looked at.
+  /// Ignores NaN and points that are outside by more than rounding.
   void consider(const Parameters& x) {
     constexpr double slack = 0x1p-40;
     const double farthest = polygon_.kind == Kind::vertex_face ? x.u + x.v : std::max(x.u, x.v);
@@ -62,7 +62,7 @@ struct DomainSide {
   }
 };
 
-/// Between neighbouring corners; a triangle's fourth is the point (0,0).
+/// The sides between neighbouring corners; a triangle's fourth is the point (0,0).
 constexpr std::array<DomainSide, 4> sides_between(std::span<const Corner> all) {
   const auto parameters = [&](std::size_t i) {
     const Corner& corner = all[i % all.size()];
@@ -79,7 +79,7 @@ std::array<DomainSide, 4> sides(Kind kind) {
   return kind == Kind::vertex_face ? of_face : of_edges;
 }
 
-/// The rows a · (u,v) = b.
+/// Solves the rows a · (u,v) = b.
 Parameters solve(const std::array<Eigen::Vector3d, 2>& rows) {
   const double determinant = rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0];
   return {(rows[0][2] * rows[1][1] - rows[0][1] * rows[1][2]) / determinant,
@@ -98,8 +98,8 @@ void search_euclidean(const Polygon& polygon, Search& search) {
   }
 }
 
-/// Where component i and `sign` times component k of F are equal, for all that are not the same; and
-/// where component i is 0, as i = k and sign = −1.
+/// The lines on which component i and `sign` times component k of F are equal, for all pairs that
+/// differ; i = k and sign = −1 gives the line on which component i is 0.
 template <class Visit>
 void visit_equalities(Visit&& visit) {
   for (Eigen::Index i = 0; i < 3; ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 
-/// \file
-/// When a moving polygon holds the origin, in signs of polynomials in time; over any integers.
+/// \file Conditions under which a moving polygon contains the origin, as signs of polynomials in
+/// time; for any integer type.
 ///
 /// F = r − u p − v q, where for vertex_face r = v − f0, p = f1 − f0, q = f2 − f0 and Ω is the
 /// triangle u, v ≥ 0, u + v ≤ 1; for edge_edge r = ea0 − eb0, p = ea0 − ea1, q = eb1 − eb0 and Ω is
@@ -16,26 +16,27 @@
 /// Proof. If r = u p + v q then D = 0, U = u N and V = v N; so with N ≠ 0 there is at most one
 /// (u,v), it is U_k/N_k, V_k/N_k, and the bounds say that it lies in Ω. Conversely D = 0 with N ≠ 0
 /// puts r into the plane of p and q. If N = 0, then r = u p + v q implies U = V = 0. N = U = V = 0
-/// says that r, p and q, and so the corners, lie on one line through the origin. These sides
-/// are a path on it through all corners and cover all between the outermost ones, hence the polygon;
-/// and a side on a line through the origin holds it iff the product of its ends is not positive. ∎
+/// means that r, p and q, and hence the corners, lie on one line through the origin. These sides
+/// are a path on that line through all corners and cover the segment between the outermost ones,
+/// hence the polygon; and a side on a line through the origin contains it iff the product of its
+/// ends is not positive. ∎
 ///
-/// **Theorem 2** (the first contact). The first time of contact in [0,1], if there is one, is 0 or
-/// a root of one of the `events`:
+/// **Theorem 2** (the first contact). The first time of contact in [0,1], if it exists, is 0 or a
+/// root of one of the `events`:
 ///   - D ≢ 0: D.
 ///   - D ≡ 0, N_k ≢ 0: N_k and the components k of the bounds.
 ///   - D ≡ 0, N ≡ 0, a component of U or V ≢ 0: that component.
 ///   - D ≡ N ≡ U ≡ V ≡ 0: w_i · w_j for every side but the last.
-/// (Events that are identically zero are left out.)
-/// Proof. In the first and third case every contact is at a root of the event, by theorem 1 (N = 0
-/// implies D = 0). In the others no sign that theorem 1 asks for changes between neighbouring roots
-/// of the events, so the answer is the same at all times strictly between them. The set of times of
-/// contact is closed, so if it holds such an interval then also its lower end. ∎
+/// (Events that are identically zero are left out.) Proof. In the first and third case every
+/// contact is at a root of the event, by theorem 1 (N = 0 implies D = 0). In the others no sign in
+/// theorem 1 changes between neighbouring roots of the events, so the answer is the same at all
+/// times strictly between them. The set of times of contact is closed, so if it contains such an
+/// interval, it contains its lower end. ∎
 ///
 /// Times are pairs (x,y) with t = y/(x+y), and polynomials of degree n are forms Σ c_k x^(n−k) y^k:
 /// a point that moves from a to b is the form (a,b), a product is a convolution, and the signs of
-/// c_k speak for all of [0,1] (Descartes: as many positive roots y/x as sign changes, or fewer by
-/// an even number).
+/// c_k bound the number of roots in [0,1] (Descartes: as many positive roots y/x as sign changes,
+/// or fewer by an even number).
 
 #include <algorithm>
 #include <array>
@@ -52,7 +53,7 @@ namespace touchstone::fast::exact_stage {
 template <class Number, std::size_t degree>
 using Form = std::array<Number, degree + 1>;
 
-/// The coordinates of a vector that moves: a form a axis.
+/// The coordinates of a moving vector, a form for each axis.
 template <class Number>
 using MovingVector = std::array<Form<Number, 1>, 3>;
 
@@ -61,15 +62,16 @@ using Square = decltype(Number() * Number());
 template <class Number>
 using Cube = decltype(Square<Number>() * Number());
 
-/// r, p and q. For numbers of fixed size: the greatest coordinate must be at most a quarter of what
-/// the type holds; then everything below fits into Square and Cube. (With coordinates up to 2^b,
-/// two products make up 2^(2b+1), a coefficient of N, U, V or a bound 2^(2b+2), of a product of
-/// corners 6·2^2b, and one of D, three determinants of vectors of length up to √3·2^b, 16·2^3b.)
+/// r, p and q. For numbers of fixed size the greatest coordinate must be at most a quarter of the
+/// type's maximum; then all values below fit into Square and Cube. (With coordinates up to 2^b, two
+/// products add up to 2^(2b+1), a coefficient of N, U, V or a bound to 2^(2b+2), of a product of
+/// corners to 6·2^2b, and one of D, three determinants of vectors of length up to √3·2^b, to
+/// 16·2^3b.)
 template <class Number>
 struct Motion {
   Kind kind = Kind::vertex_face;
   MovingVector<Number> r, p, q;
-  /// The coordinates of an axis are in units of 2^this: of no matter but for guesses.
+  /// The exponent of the unit of each axis; only guesses use it.
   std::array<int, 3> unit{};
 };
 
@@ -78,7 +80,7 @@ template <class AnyForm>
   return std::ranges::all_of(form, [](const auto& c) { return c.sign() == 0; });
 }
 
-// Sums and differences are those of forms, and of vectors of forms.
+// Sums and differences of forms and of vectors of forms.
 template <class Part, std::size_t size>
 std::array<Part, size>& operator+=(std::array<Part, size>& a, const std::array<Part, size>& b) {
   for (std::size_t k = 0; k < size; ++k) a[k] += b[k];
@@ -106,11 +108,11 @@ template <class A, std::size_t a_size, class B, std::size_t b_size>
   return product;
 }
 
-/// What the signs of a form's coefficients on an interval tell.
+/// The sign pattern of a form's coefficients on an interval.
 struct IntervalSigns {
-  int changes = 0;  ///< of sign, zeros left out
-  int first = 0;    ///< the sign near the lower end; 0 if all are 0
-  int last = 0;     ///< near the upper end
+  int changes = 0;  ///< sign changes, without zeros
+  int first = 0;    ///< the sign next to the lower end; 0 if all are 0
+  int last = 0;     ///< the sign next to the upper end
 };
 
 [[nodiscard]] inline IntervalSigns interval_signs(std::span<const int> coefficients) {
@@ -157,7 +159,7 @@ template <class Number>
   return dot(normal, motion.r);
 }
 
-/// Component k of N and of its bounds, the first of which are U and V.
+/// Component k of N and of its bounds, which begin with U and V.
 template <class AnyForm>
 struct Bounds {
   AnyForm n;
@@ -165,8 +167,8 @@ struct Bounds {
   std::size_t count = 0;  ///< of bounds
 };
 
-/// Theorem 1 at a time when D = 0 and this component of N, n, is not: does every bound have its sign
-/// or 0? `sign_of` gives the sign of a form at that time.
+/// Theorem 1 at a time with D = 0 and n ≠ 0, where n is this component of N: true if every bound
+/// has the sign of n or is 0. `sign_of` gives the sign of a form at that time.
 template <class AnyForm, class SignOf>
 [[nodiscard]] bool is_in_bounds(const Bounds<AnyForm>& in, int sign_of_n, SignOf&& sign_of) {
   for (std::size_t i = 0; i < in.count; ++i) {
@@ -205,17 +207,17 @@ template <class Number>
   return result;
 }
 
-/// (u,v) = (u/denominator, v/denominator); (0,0) where the denominator is 0.
+/// (u,v) = (u/denominator, v/denominator); (0,0) if the denominator is 0.
 template <class AnyForm>
 struct ContactForms {
   AnyForm u, v, denominator;
 };
-/// Of a motion in these numbers.
+/// The parameters of a motion in these numbers.
 template <class Number>
 using ContactOf = ContactForms<Form<Square<Number>, 2>>;
 
-/// (u,v) of the origin on the side from a to b, which lie on one line through it: it divides the
-/// side as w_a·(w_a − w_b) to w_b·(w_b − w_a).
+/// (u,v) of the origin on the side from a to b, which is on a line through it: the origin divides
+/// the side in the ratio w_a·(w_a − w_b) to w_b·(w_b − w_a).
 template <class Number>
 [[nodiscard]] ContactOf<Number> contact_on_side(const MovingCorner<Number>& a,
                                                 const MovingCorner<Number>& b) {
@@ -230,7 +232,7 @@ template <class Number>
   return {weighted(a.u, b.u), weighted(a.v, b.v), dot(side, side)};
 }
 
-/// Theorem 1 where N = 0.
+/// Theorem 1 for N = 0.
 template <class Number, class SignOf>
 [[nodiscard]] std::optional<ContactOf<Number>> contact_on_line(const Motion<Number>& motion,
                                                                SignOf&& sign_of) {
@@ -239,8 +241,8 @@ template <class Number, class SignOf>
     if (sign_of(cross(motion.p, motion.r, k)) != 0) return std::nullopt;
   }
   const auto corner = moving_corners(motion);
-  // A side of length 0 can be the first to hold the origin only as the first of all, from (0,0): if
-  // both ends of another are 0, the side before it ends there.
+  // A side of length 0 can be the first that contains the origin only if it is the first side, from
+  // (0,0): if both ends of another side are 0, the side before it ends there.
   for (std::size_t i = 0; i + 1 < corner.size(); ++i) {
     const auto &a = corner[i], &b = corner[i + 1];
     if (sign_of(dot(a.w, b.w)) <= 0) return contact_on_side(a, b);
@@ -248,7 +250,7 @@ template <class Number, class SignOf>
   return std::nullopt;
 }
 
-/// Theorem 1 at a time when D = 0. `sign_of` gives the sign of a quadratic form at that time.
+/// Theorem 1 at a time with D = 0. `sign_of` gives the sign of a quadratic form at that time.
 template <class Number, class SignOf>
 [[nodiscard]] std::optional<ContactOf<Number>> contact_in_plane(const Motion<Number>& motion,
                                                                 const MovingNormal<Number>& normal,
@@ -263,7 +265,7 @@ template <class Number, class SignOf>
   return contact_on_line(motion, sign_of);
 }
 
-/// The events of theorem 2 where D ≡ 0.
+/// The events of theorem 2 for D ≡ 0.
 template <class Number>
 [[nodiscard]] std::vector<Form<Square<Number>, 2>> events_in_plane(
     const Motion<Number>& motion, const MovingNormal<Number>& normal) {

@@ -17,7 +17,7 @@
 namespace touchstone::fast::exact_stage {
 namespace {
 
-/// A form whose coefficients have so many limbs.
+/// A form whose coefficients have this number of limbs.
 template <std::size_t limbs, std::size_t degree>
 using Fixed = Form<FixedInteger<limbs>, degree>;
 
@@ -45,7 +45,7 @@ AnyTime as(const Time& t) {
   return {t.x, t.y};
 }
 
-/// The double of these bits, if its denominator is not too large.
+/// The double with these bits, if its denominator is not too large.
 template <class AnyTime>
 std::optional<AnyTime> time_of(std::uint64_t bits) {
   using Weight = decltype(AnyTime::x);
@@ -55,7 +55,7 @@ std::optional<AnyTime> time_of(std::uint64_t bits) {
   return AnyTime{static_cast<Weight>((Weight{1} << static_cast<unsigned>(-exponent)) - y), y};
 }
 
-/// Is the time later than the double of these bits? A time that is not 0 is at least 2^-62.
+/// True if the time is later than the double with these bits. A nonzero time is at least 2^-62.
 bool is_later(const Time& t, std::uint64_t bits) {
   const auto other = time_of<FineTime>(bits);
   return other ? compare(t, *other) > 0 : t.y != 0;
@@ -91,7 +91,7 @@ std::array<int, count> signs_on(const FilteredForm<limbs, count>& b, const AnyTi
   return signs;
 }
 
-/// What they tell.
+/// The pattern of these signs.
 template <std::size_t limbs, std::size_t count, class AnyTime>
 IntervalSigns signs_between(const FilteredForm<limbs, count>& b, const AnyTime& lower,
                             const AnyTime& upper) {
@@ -100,7 +100,7 @@ IntervalSigns signs_between(const FilteredForm<limbs, count>& b, const AnyTime& 
 
 // ---- Signs at roots ----------------------------------------------------------------------------
 
-/// The form with x and y exchanged, and the time with 1 − t for t.
+/// The form with x and y exchanged, and the time 1 − t.
 template <std::size_t limbs, std::size_t count>
 std::array<FixedInteger<limbs>, count> reversed(std::array<FixedInteger<limbs>, count> form) {
   std::ranges::reverse(form);
@@ -132,8 +132,8 @@ int sign_at_root(const Fixed<limbs, 1>& line, const Fixed<q_limbs, 2>& q) {
 /// The sign of q at f's only root α in the open interval, if q has one root β there. The linear
 /// form is f(β) times the sign of `factor` at β.
 ///
-/// If the linear form changes its sign, the sign of q at its root says on which side of that β is.
-/// So the sign of f(β) is known, and with it on which side of α β is.
+/// If the linear form changes its sign, the sign of q at its root determines the side of that root
+/// on which β is. This gives the sign of f(β), and hence the side of α on which β is.
 template <std::size_t limbs, std::size_t q_limbs, class Weight>
 std::optional<int> sign_by_remainder(const Fixed<limbs, 1>& line, int factor,
                                      const IntervalSigns& of_f, const Fixed<q_limbs, 2>& q,
@@ -152,8 +152,8 @@ std::optional<int> sign_by_remainder(const Fixed<limbs, 1>& line, int factor,
   return at_beta * factor == of_f.last ? of_q.first : of_q.last;
 }
 
-/// The sign of q at the only root of f in the open interval, a simple one. Nothing if q is not
-/// known to have one root or none there. (f and q not by Bernstein coefficients.)
+/// The sign of q at the only root of f in the open interval, a simple one. Empty unless q is known
+/// to have at most one root there. (f and q are not given by Bernstein coefficients.)
 template <std::size_t f_limbs, std::size_t q_limbs, class Weight>
 std::optional<int> sign_at_root(const Fixed<f_limbs, 1>& f, const Fixed<q_limbs, 2>& q,
                                 const BasicTime<Weight>& /*lower*/,
@@ -185,15 +185,15 @@ std::optional<int> sign_at_root(const Fixed<f_limbs, 3>& f, const Fixed<q_limbs,
                            lower, upper);
 }
 
-/// What is special about the roots of a cubic form.
+/// Special properties of the roots of a cubic form.
 template <std::size_t limbs>
 struct CubicRoots {
   bool is_one = false;         ///< only one is real, and it is simple
-  int multiplicity = 1;        ///< of a multiple root, if it has one
+  int multiplicity = 1;        ///< of the multiple root, if it has one
   Fixed<limbs, 1> multiple{};  ///< a linear form with that
 };
 
-/// A multiple root is one that both derivatives, by x and by y, share: they are proportional, or
+/// A multiple root is a common root of both derivatives, by x and by y: they are proportional, or
 /// their resultant m_02² − m_01 m_12 is 0 and the root is that of their remainder. The resultant is
 /// a negative multiple of the discriminant.
 template <std::size_t limbs>
@@ -213,7 +213,7 @@ CubicRoots<2 * limbs> cubic_roots(const Fixed<limbs, 3>& f) {
 
 // ---- Guesses -----------------------------------------------------------------------------------
 
-/// Guesses of roots, none, one or more.
+/// Guesses of roots.
 struct Guesses {
   std::array<double, 4> t{};
   std::size_t count = 0;
@@ -223,7 +223,7 @@ struct Guesses {
   }
 };
 
-/// Roots of b0 (1−t)² + 2 b1 t (1−t) + b2 t², a double one as one.
+/// Roots of b0 (1−t)² + 2 b1 t (1−t) + b2 t², a double root once.
 Guesses quadratic_roots(double b0, double b1, double b2) {
   Guesses roots;
   const double square = b1 * b1, discriminant = square - b0 * b2;
@@ -243,7 +243,7 @@ Guesses quadratic_roots(const std::array<double, 3>& b) {
   return quadratic_roots(b[0], b[1], b[2]);
 }
 
-/// A root where the form of these coefficients changes its sign between two times.
+/// A root of the form with these coefficients that changes its sign between two times.
 double guess_root(const std::array<double, 2>& b, double /*lower*/, double /*upper*/) {
   return b[0] / (b[0] - b[1]);
 }
@@ -274,25 +274,25 @@ double guess_root(const std::array<double, 4>& b, double lower, double upper) {
     ((at > 0.0) == rises ? upper : lower) = t;
     double next = t - at / slope(t);
     if (!(next > lower && next < upper)) next = 0.5 * (lower + upper);
-    // As it converges, the next step would be of the square.
+    // The convergence is quadratic: the next step would be the square of this one.
     if (std::abs(next - t) <= 0x1p-40 * t) return next;
     t = next;
   }
   return t;
 }
 
-/// Where a split may be of use: roots of quadratic events, extrema of a cubic one.
+/// Useful places for a split: roots of quadratic events, extrema of a cubic one.
 Guesses landmarks(const std::array<double, 3>& b) { return quadratic_roots(b); }
 Guesses landmarks(const std::array<double, 4>& b) {
   return quadratic_roots(b[1] - b[0], b[2] - b[1], b[3] - b[2]);
 }
 
-/// The first fraction of the continued fraction of t that is t up to rounding, if one has a small
-/// denominator.
+/// The first convergent of the continued fraction of t that equals t up to rounding, if it has a
+/// small denominator.
 std::optional<Time> small_fraction(double t) {
   constexpr double largest_denominator = 0x1p12, accuracy = 0x1p-44;
   double numerator = 0.0, denominator = 1.0;            // of this convergent
-  double last_numerator = 1.0, last_denominator = 0.0;  // of the one before
+  double last_numerator = 1.0, last_denominator = 0.0;  // of the previous one
   double rest = t;
   for (;;) {
     if (std::abs(t * denominator - numerator) <= accuracy * denominator) break;
@@ -326,7 +326,7 @@ std::optional<Time> dyadic_between(double lower, double upper) {
 // ---- The decision ------------------------------------------------------------------------------
 
 enum class Outcome : std::uint8_t {
-  none,     ///< no first contact here
+  none,     ///< no first contact in the interval
   decided,  ///< the answer is known
   unknown   ///< to be handed on
 };
@@ -336,7 +336,7 @@ template <std::size_t limbs, std::size_t degree>
 using Event = FilteredForm<limbs, degree + 1>;
 
 /// A form with the same roots inside (0,1), each simple: a double root of c_0 x² + c_1 x y + c_2 y²
-/// is the one of its derivative c_1 x + 2 c_2 y. Nothing if no root is real.
+/// is the one of its derivative c_1 x + 2 c_2 y. Empty if no root is real.
 template <std::size_t limbs>
 std::optional<Fixed<limbs, 2>> simple(const Fixed<limbs, 2>& c) {
   const auto twice = c[2] + c[2];
@@ -350,8 +350,8 @@ bool is_inside(const Time& t, const Time& lower, const Time& upper) {
   return compare(lower, t) < 0 && compare(t, upper) < 0;
 }
 
-/// A time strictly inside at which to go on: a root (or extremum) that is a small fraction, or one
-/// after the first landmark and before the next, or one near the middle.
+/// A time strictly inside for a split: a root (or extremum) that is a small fraction, or a time
+/// between the first landmark and the next, or a time close to the middle.
 template <std::size_t limbs, std::size_t count>
 std::optional<Time> split(std::span<const FilteredForm<limbs, count>> events, const Time& lower,
                           const Time& upper) {
@@ -377,7 +377,7 @@ std::optional<Time> split(std::span<const FilteredForm<limbs, count>> events, co
   return middle;
 }
 
-/// The decision of one motion in such coordinates.
+/// The decision for one motion in such coordinates.
 template <class Number>
 class Decision {
  public:
@@ -403,9 +403,10 @@ class Decision {
   using SpaceEvent = Event<cube_limbs, 3>;
 
   static constexpr int deepest = 12;
-  /// Clusters are looked at where splitting has not separated the roots.
+  /// The depth of splitting from which roots are treated as clusters.
   static constexpr int deep = 2;
-  /// In wider enclosures signs are less often clear, and (u,v) are interpolated in them.
+  /// A limit of the width of enclosures: in wider ones fewer signs are certain, and (u,v) are
+  /// interpolated in them.
   static constexpr std::uint64_t widest_step = 1U << 12U;
 
   Outcome first() {
@@ -454,7 +455,7 @@ class Decision {
     return outcome;
   }
 
-  /// Where the determinant has only a multiple root in the open interval, or no root.
+  /// The case in which the determinant has only a multiple root in the open interval, or none.
   std::optional<Outcome> in_cluster(std::span<const SpaceEvent> events, int changes,
                                     const Time& lower, const Time& upper) {
     const auto roots = cubic_roots(events[0].form());
@@ -466,7 +467,8 @@ class Decision {
     return at_root(Event<2 * cube_limbs, 1>(roots.multiple), lower, upper);
   }
 
-  /// Where every event has one root in the open interval or none: the roots in ascending order.
+  /// The case in which every event has at most one root in the open interval: the roots in
+  /// ascending order.
   std::optional<Outcome> in_cluster(std::span<const PlaneEvent> events, int /*changes*/,
                                     const Time& lower, const Time& upper) {
     std::vector<const PlaneEvent*> active;
@@ -475,7 +477,7 @@ class Decision {
       if (changes > 1) return std::nullopt;
       if (changes == 1) active.push_back(&event);
     }
-    // The root of f is before that of g iff g has there the sign that it begins with.
+    // The root of f is before that of g iff g has its initial sign there.
     std::ranges::sort(active, [&](const PlaneEvent* f, const PlaneEvent* g) {
       return sign_at_root(f->form(), g->form(), lower, upper) ==
              signs_between(*g, lower, upper).first;
@@ -503,7 +505,7 @@ class Decision {
     return bounds_[k];
   }
 
-  /// Do N_k and a bound keep opposite signs in the open interval?
+  /// True if N_k and a bound keep opposite signs in the open interval.
   bool is_separated(const Time& lower, const Time& upper) {
     for (const std::size_t k : axes_at(0.5 * (lower.guess() + upper.guess()))) {
       const IntervalSigns on_normal = signs_between(n_at(k), lower, upper);
@@ -518,7 +520,7 @@ class Decision {
     return false;
   }
 
-  /// Theorem 1 at a time when D = 0; the first of `axes` with N_k ≠ 0 is taken for k.
+  /// Theorem 1 at a time with D = 0; k is the first of `axes` with N_k ≠ 0.
   template <class SignOf>
   std::optional<Contact> contact_by(const SignOf& sign_of,
                                     const std::array<std::size_t, 3>& axes = {0, 1, 2}) {
@@ -535,7 +537,7 @@ class Decision {
     return Contact{Filtered(contact->u), Filtered(contact->v), Filtered(contact->denominator)};
   }
 
-  /// A time that is known exactly, after 0.
+  /// Decides at a time > 0 that is known exactly.
   Outcome at_time(const Time& t) {
     if (determinant_.sign_at(t) != 0) return Outcome::none;
     if (is_later(t, latest_)) return Outcome::decided;
@@ -545,7 +547,7 @@ class Decision {
     return found(*contact, t, enclose(t.guess(), step_, is_above));
   }
 
-  /// The only root of any event in the open interval, a simple one of this event.
+  /// Decides at the only root of any event in the open interval, a simple root of this event.
   template <class AnyEvent>
   Outcome at_root(const AnyEvent& event, const Time& lower, const Time& upper) {
     const double root = guess_root(event.rounded(), lower.guess(), upper.guess());
@@ -556,7 +558,7 @@ class Decision {
     return at_irrational<Time>(event, root, lower, upper);
   }
 
-  /// The same for a root that is perhaps irrational, with doubles as times of a type.
+  /// The same for a root that may be irrational, with doubles as times of a type.
   template <class AnyTime, class AnyEvent>
   Outcome at_irrational(const AnyEvent& event, double root, const Time& lower, const Time& upper) {
     const int sign_below = signs_between(event, lower, upper).first;
@@ -587,12 +589,12 @@ class Decision {
     return outcome;
   }
 
-  /// A root of this event in a cell of doubles: the only one of any event strictly between `low` and
-  /// `high`, or `high` itself.
+  /// Decides at a root of this event in a cell of doubles: the only root of any event strictly
+  /// between `low` and `high`, or `high` itself.
   template <class AnyTime, class AnyEvent>
   Outcome in_cell(const AnyEvent& event, const BitInterval& cell, const AnyTime& low,
                   const AnyTime& high, bool is_high) {
-    // The secant is good for a digit more.
+    // The secant is about one digit more accurate than this.
     constexpr double variation = 0x1p-41;
     bool unsure = false;
     const auto sign_of = [&](const Filtered& form) {
@@ -619,7 +621,7 @@ class Decision {
     return Outcome::decided;
   }
 
-  /// Which part of the interval is before its form's root, as a secant through these values guesses.
+  /// The part of the interval before its form's root, guessed by a secant through these values.
   static double secant(double at_low, double at_high) {
     const double part = at_low / (at_low - at_high);
     return part >= 0.0 && part <= 1.0 ? part : 0.5;
@@ -632,14 +634,14 @@ class Decision {
     return value;
   }
 
-  /// The same between two times that are nearer to the root, as it is guessed by a secant; if need
-  /// be, once more.
+  /// The same between two times closer to the root, guessed by a secant; repeated once if
+  /// necessary.
   template <class AnyTime, class AnyEvent>
   Outcome in_narrow_cell(const AnyEvent& event, const BitInterval& cell, const AnyTime& low,
                          const AnyTime& high) {
     constexpr bool again = std::is_same_v<AnyTime, Time>;
     constexpr std::int64_t whole = std::int64_t{1} << (again ? 36U : 26U), slack = 4;
-    // Weights are mixed below, not times: one division less.
+    // Weights are interpolated below instead of times, which saves a division.
     const auto value = [&](const AnyTime& t) {
       return divided(event.value_at(t).rounded(), t, event.degree - 1);
     };
@@ -661,8 +663,8 @@ class Decision {
     return outcome;
   }
 
-  /// The axes, that first on which the normal's component is the greatest: along it r, p and q are seen
-  /// best, and (u,v) vary least.
+  /// The axes, beginning with the one of the normal's greatest component, on which the projection
+  /// is best conditioned and (u,v) vary least.
   std::array<std::size_t, 3> axes_at(double t) {
     const auto& unit = motion_.unit;
     const int greatest = std::max({unit[0], unit[1], unit[2]});
@@ -700,8 +702,8 @@ class Decision {
   std::uint64_t step_;
   MovingNormal<Number> normal_;
   SpaceEvent determinant_;
-  std::array<std::optional<Filtered>, 3> n_;  ///< the components that are known: see n_at
-  std::array<Bounds<Filtered>, 3> bounds_{};  ///< with these: see bounds_at
+  std::array<std::optional<Filtered>, 3> n_;  ///< the computed components: see n_at
+  std::array<Bounds<Filtered>, 3> bounds_{};  ///< the bounds of these components: see bounds_at
   std::optional<Impact> impact_;
 };
 

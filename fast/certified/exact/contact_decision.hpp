@@ -1,25 +1,25 @@
 #pragma once
 
-/// \file
-/// The first contact where coordinates are integers of at most 125 bits and things are as they
-/// usually are, in numbers of fixed size and without allocation. What is unusual is handed on.
+/// \file The first contact if coordinates are integers of at most 125 bits, in numbers of fixed
+/// size and without allocation. Rare cases are left to the general decision.
 ///
-/// *Search.* An interval without a root of an event holds no first contact (theorem 2), nor does
-/// one on which N_k and one of its bounds keep opposite signs (theorem 1). An interval with one root
-/// of one event is decided at that root. Any other interval is split, between guesses of its roots
-/// or at one: there most degenerate contacts are, because their times are mostly fractions of small
-/// numbers, and at a fraction every sign is the sign of an integer. A guess comes from floating
-/// point and decides nothing but where to look.
+/// *Search.* An interval without a root of an event has no first contact (theorem 2), nor has one
+/// on which N_k and one of its bounds keep opposite signs (theorem 1). An interval with one root of
+/// one event is decided at that root. Any other interval is split, between guesses of its roots or
+/// at one. Most degenerate contacts are at such guesses, because their times are mostly fractions
+/// of small numbers, and at a fraction every sign is the sign of an integer. Guesses come from
+/// floating point and determine only the places of splits.
 ///
-/// *At a root that is no small fraction* the signs come from the forms on the enclosure that is the
-/// result anyway; where one changes its sign there, from its remainder by the event, or from a narrower
-/// enclosure. What is still open then is handed on.
+/// *At a root that is no small fraction* the signs come from the forms on the resulting enclosure;
+/// for a form that changes its sign there, from its remainder by the event, or from a narrower
+/// enclosure. Queries that are still open then are left to the general decision.
 ///
-/// Why beside the general decision: without this one `touchstone bench handcrafted --method certified`
-/// takes 7 (vertex-face) and 8 times (edge-edge) as long (medians of three runs a program, 23 November
-/// 2026), since one query in 27 gets here.
+/// *Reason.* Without this decision, with the general one alone, `touchstone bench handcrafted
+/// --method certified` takes 7 (vertex-face) and 8 times (edge-edge) as long (medians of three runs
+/// of each program, 23 November 2026), because one query in 27 reaches this stage.
 ///
-/// *Signs* are exact. Floating point, with a bound, gives most of them (floating_point_filter.hpp).
+/// *Signs* are exact. Floating point with an error bound decides most of them
+/// (floating_point_filter.hpp).
 
 #include <cstdint>
 #include <optional>
@@ -30,10 +30,10 @@
 
 namespace touchstone::fast::exact_stage {
 
-/// What the decision came to.
+/// The outcome of the decision.
 struct FixedSizeAnswer {
   bool decided = false;
-  std::optional<Impact> impact;  ///< if decided: the first, if there is one
+  std::optional<Impact> impact;  ///< if decided: the first contact, if there is one
 };
 
 /// The first contact not later than the double in [0,1] of bits `latest`. Its enclosure is at most

@@ -20,7 +20,7 @@ Vector vector_of(const std::array<std::array<BigInteger, degree>, 3>& v) {
           Polynomial(v[2].begin(), v[2].end())};
 }
 
-/// a (x + y): the same function of time with a degree more.
+/// a (x + y): the same function of time in one higher degree.
 Polynomial raised(Polynomial a) {
   a.push_back(a.back());
   for (std::size_t k = a.size() - 2; k > 0; --k) a[k] += a[k - 1];
@@ -32,7 +32,7 @@ Polynomial raised(Polynomial a) {
 /// Signs of the spreads of a separator; 0 if unknown.
 using Signs = std::array<int, 3>;
 
-/// A direction's forms: every value minus every sum of the spreads with signs. Where the signs of the
+/// A direction's forms: every value minus every signed sum of the spreads. If the signs of the
 /// spreads are known, the sum of their magnitudes is the greatest. For l2 there are no spreads, and
 /// the values are the forms.
 struct Separator {
@@ -68,7 +68,7 @@ void add_both(std::vector<Separator>& to, Separator separator) {
   to.push_back(std::move(opposite));
 }
 
-/// What the separators are made of.
+/// The parts of the separators.
 struct Setting {
   Setting(const Motion<BigInteger>& motion, const ScaledDistance& d)
       : kind(motion.kind), distance(d.numerator), exponent(d.exponent) {
@@ -143,7 +143,7 @@ std::vector<Separator> cube_separators(const Setting& setting) {
   return result;
 }
 
-/// w_i·w_k, the numbers that the directions of vertices and sides are made of.
+/// w_i·w_k, the terms of the directions of vertices and sides.
 class Gram {
  public:
   explicit Gram(const std::vector<Vector>& w) : size_(w.size()), products_(size_ * size_) {
@@ -179,7 +179,7 @@ Side side(const Setting& setting, const Gram& gram, std::size_t i) {
   return {std::move(square), std::move(area), std::move(other), std::move(beyond)};
 }
 
-/// What the separators for l2 are made of.
+/// The parts of the separators for l2.
 struct BallParts {
   explicit BallParts(const Setting& setting) : gram(setting.corners) {
     for (std::size_t i = 0; i < setting.corners.size(); ++i) {
@@ -213,7 +213,7 @@ std::vector<Separator> low_ball_separators(const Setting& setting, const BallPar
   return result;
 }
 
-/// Those vertices and sides as in theorem 1 whose first forms are positive at the time.
+/// The vertices and sides of theorem 1 whose first forms are positive at the time.
 std::vector<Separator> ball_separators_at(Instant& now, const Setting& setting,
                                           const BallParts& parts) {
   std::vector<Separator> result;
@@ -238,8 +238,8 @@ std::vector<Separator> ball_separators_at(Instant& now, const Setting& setting,
 
 // ---- The walk -----------------------------------------------------------------------------------
 
-/// Do all forms pass the test? Where signs are known, only the least form; where they are not, that
-/// with each.
+/// True if all forms pass the test. If the signs are known, only the least form is tested,
+/// otherwise the forms with all signs.
 template <class Test>
 bool all_forms(const Separator& separator, std::size_t value, Signs signs, Test&& test) {
   for (std::size_t i = 0; i < separator.spreads.size(); ++i) {
@@ -251,7 +251,7 @@ bool all_forms(const Separator& separator, std::size_t value, Signs signs, Test&
   return test(separator.form(value, signs));
 }
 
-/// Is every form positive? Every value is the mean of forms, so values are asked first.
+/// True if every form is positive. Every value is the mean of forms, so values are tested first.
 bool holds(const Separator& separator, Instant& at) {
   const auto is_positive = [&](const Polynomial& form) { return at.sign_of(form) > 0; };
   if (!std::ranges::all_of(separator.values, is_positive)) return false;
@@ -263,12 +263,12 @@ bool holds(const Separator& separator, Instant& at) {
   return true;
 }
 
-/// Until when a separator holds; beyond the horizon if nothing.
+/// The end of the time in which a separator holds; empty if it is beyond the horizon.
 using End = std::optional<Instant>;
 
 /// Makes `end` the first root of the form between `from` and the horizon, if that is earlier.
 void shorten(End& end, Instant& from, const Dyadic& horizon, const Polynomial& form) {
-  // The sign first: to find it narrows the end, and up to there the form is looked at.
+  // The sign is computed first: this narrows the end, up to which the form is examined.
   if (end && end->sign_of(form) > 0 && is_positive_between(form, from.upper(), end->lower()))
     return;
   End root = first_root_after(from, horizon, form);
@@ -276,8 +276,9 @@ void shorten(End& end, Instant& from, const Dyadic& horizon, const Polynomial& f
   if (root && (!end || compare(*root, *end) < 0)) end = std::move(root);
 }
 
-/// The first root of the forms of a separator that holds at `from`. The forms that are least at first
-/// are asked first; until the time that they give, most signs are known and no others are needed.
+/// The first root of the forms of a separator that holds at `from`. The forms that are least at the
+/// beginning are examined first; up to the time that they give, most signs are known and no others
+/// are needed.
 End end_of(const Separator& separator, Instant& from, const Dyadic& horizon) {
   End end;
   const Signs first = separator.signs_between(from.lower(), from.upper());
@@ -297,10 +298,10 @@ End end_of(const Separator& separator, Instant& from, const Dyadic& horizon) {
   return end;
 }
 
-/// What the separators that hold at a time say.
+/// The result of the separators that hold at a time.
 struct Reach {
-  bool separated = false;  ///< does one hold?
-  End end;                 ///< the end of one that reaches far
+  bool separated = false;  ///< true if one holds
+  End end;                 ///< the end of one that holds long
 };
 
 Reach reach(const std::vector<Separator>& separators, Instant& from, const Dyadic& horizon) {
@@ -313,7 +314,7 @@ Reach reach(const std::vector<Separator>& separators, Instant& from, const Dyadi
     if (!holds(separator, from)) continue;
     End end = end_of(separator, from, horizon);
     if (!end) return {true, {}};
-    // Which of two that are this near is farther does not matter.
+    // The order of two ends that are this close is irrelevant.
     if (!result.end || compare(end->lower(), result.end->lower()) > 0) result.end = std::move(end);
     result.separated = true;
   }
@@ -362,7 +363,7 @@ std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
   if (compare(end->upper(), {0, 0}) == 0) return BitInterval{bits_of_zero, bits_of_zero};
   const auto is_above = [&](std::uint64_t bits) { return end->is_above(bits); };
   const BitInterval found = enclose(end->guess(), step, is_above);
-  // A step is not small beside a subnormal time.
+  // A step is not small compared with a subnormal time.
   if (found.upper >= bits_of_least_normal) return found;
   return enclose(std::bit_cast<double>(found.upper), 1, is_above);
 }

@@ -15,36 +15,38 @@
 ///   - side, a = |e|² w_i − (w_i·e) e:  C − d²|e|², and for every other k  a·w_k and
 ///     (a·w_k)² − d²|e|²C;
 ///   - face, a = ±N:  (N·w_0)² − d²|N|².
-/// Proof. The maximum of a·b is d|a|. For the vertex the forms say just a·w_k > d|a|; the first says it
-/// for k = i. For the side a·w_i = a·w_j = C and |a|² = |e|²C, so a·w_i > d|a| iff C > d²|e|² (which
-/// needs C > 0). All corners have the same N·w_k. So what holds separates. Now let P(t) not meet B and
-/// x be its point nearest to the origin, |x| > d. P(t) lies in the half-space x·w ≥ |x|² > d|x|, so the
-/// direction x separates. x is inside a vertex, a side or the face of P(t); it is orthogonal to that
-/// feature, hence the direction that the feature has above, up to a positive factor: |e|²x, or N
-/// times a number not 0. Where the polygon has no area its sides cover it, and where a side has no
-/// length its ends do; so features with e = 0 or N = 0, which never hold, are not needed. ∎
+/// Proof. The maximum of a·b is d|a|. For the vertex the forms say just a·w_k > d|a|; the first
+/// says it for k = i. For the side a·w_i = a·w_j = C and |a|² = |e|²C, so a·w_i > d|a| iff C >
+/// d²|e|² (which needs C > 0). All corners have the same N·w_k. So a separator that holds
+/// separates. Now let P(t) not meet B and x be its point nearest to the origin, |x| > d. P(t) lies
+/// in the half-space x·w ≥ |x|² > d|x|, so the direction x separates. x is in the relative interior
+/// of a vertex, a side or the face of P(t); it is orthogonal to that feature, hence the feature's
+/// direction above up to a positive factor: |e|²x, or N times a nonzero number. A polygon without
+/// area is covered by its sides, and a side without length by its ends; so features with e = 0 or N
+/// = 0, which never hold, are not needed. ∎
 ///
 /// **Theorem 2** (linf). P(t) does not meet B iff a·w_k − d(σ·a) > 0 for all corners k and all sign
-/// vectors σ, for a one of ±e_c, ±N, ±(e_c × e), e_c a coordinate axis and e a side.
-/// Proof. The maximum of a·b is d(|a_x| + |a_y| + |a_z|), the greatest of the d(σ·a). P(t) and B meet
-/// iff the origin is in the polytope Q = B ⊕ −P(t). It is full-dimensional if d > 0, and then the
+/// vectors σ, for a one of ±e_c, ±N, ±(e_c × e), e_c a coordinate axis and e a side. Proof. The
+/// maximum of a·b is d(|a_x| + |a_y| + |a_z|), the greatest of the d(σ·a). P(t) and B meet iff the
+/// origin is in the polytope Q = B ⊕ −P(t). It is full-dimensional if d > 0, and then the
 /// intersection of the half-spaces of its facets; a facet of a sum is the sum of faces of both, and
-/// its normal is that of a facet of B, that of P(t), or orthogonal to an edge of each. If d = 0, P(t)
-/// misses some cube with d > 0 too, and what holds for that holds for 0. ∎
+/// its normal is that of a facet of B, that of P(t), or orthogonal to an edge of each. If d = 0 and
+/// P(t) does not meet B, P(t) does not meet some cube with d > 0 either, and its separator also
+/// holds for 0. ∎
 ///
-/// **Theorem 3** (the walk). Begin at t = 0. If no separator holds at t, t is the answer. Else take one
-/// that holds and go on to the first root of its forms later than t; if there is none, the polygon
-/// never comes near. This ends with the first time when P(t) meets B.
-/// Proof. From t up to that root (not included) the separator's forms stay positive, so nothing before
-/// the new t is an answer; if no separator holds there, it is one by theorem 1 or 2. Every step goes
-/// to a later one of finitely many roots. ∎
+/// **Theorem 3** (the walk). Begin at t = 0. If no separator holds at t, t is the answer. Otherwise
+/// take one that holds and go to the first root of its forms later than t; if there is none, the
+/// polygon never meets B. The walk ends at the first time at which P(t) meets B. Proof. From t up
+/// to that root (exclusive) the separator's forms stay positive, so no time before the new t is the
+/// answer; if no separator holds there, it is the answer by theorem 1 or 2. Every step goes to a
+/// later one of finitely many roots. ∎
 ///
-/// Any separator that holds will do: the one that reaches farthest is taken. More directions that
-/// separate may stand before those of the theorems: here for l2 the coordinate axes, and with few
-/// and low forms
+/// Every separator that holds is correct; the one that holds longest is taken. Other separating
+/// directions may be tried before those of the theorems: here for l2 the coordinate axes, and with
+/// few forms of low degree
 ///   - vertex: |w_i|² − d², and w_i·w_k − |w_i|² for every other k;
 ///   - side: C − d²|e|², and a·w_k − C for another k,
-/// which imply those above. They fail where theorem 1 is needed only when the polygon degenerates.
+/// which imply those above. They fail in place of theorem 1 only if the polygon degenerates.
 
 #include <cstdint>
 #include <optional>
@@ -62,9 +64,10 @@ struct ScaledDistance {
   long exponent = 0;  ///< not negative
 };
 
-/// The first time, not later than the double in [0,1] of bits `latest`, at which the motion's polygon
-/// is within the distance of the origin: doubles around it at most `step` spacings apart, one if `upper`
-/// is subnormal (lower < time ≤ upper, or both 0 if the time is 0), or nothing if there is none.
+/// The first time, not later than the double in [0,1] of bits `latest`, at which the motion's
+/// polygon is within the distance of the origin: doubles around it at most `step` spacings apart,
+/// one if `upper` is subnormal (lower < time ≤ upper, or both 0 if the time is 0); empty if there
+/// is no such time.
 /// \pre all axes of the motion have the same unit; 1 ≤ step.
 [[nodiscard]] std::optional<BitInterval> first_approach(const Motion<BigInteger>& motion,
                                                         const ScaledDistance& distance, Norm norm,

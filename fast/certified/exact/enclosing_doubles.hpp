@@ -1,11 +1,10 @@
 #pragma once
 
-/// \file
-/// Doubles as integers, so that no floating-point arithmetic, with its rounding modes and flushed
-/// subnormals, takes part.
+/// \file Doubles as integers, without floating-point arithmetic and hence without effects of
+/// rounding modes and flushed subnormals.
 ///
-/// The bits of doubles that are not negative, read as integers, have the order of the doubles. So a
-/// number can be enclosed between doubles by comparisons with doubles alone.
+/// The bits of doubles that are not negative, read as integers, have the order of the doubles. So
+/// comparisons with doubles suffice to enclose a number.
 
 #include <algorithm>
 #include <bit>
@@ -17,11 +16,11 @@ namespace touchstone::fast::exact_stage {
 /// Bits of 0 and of 1.
 inline constexpr std::uint64_t bits_of_zero = 0;
 inline constexpr std::uint64_t bits_of_one = std::bit_cast<std::uint64_t>(1.0);
-/// Of 2^-1022; those below, but for 0, are of subnormal doubles.
+/// The bits of 2^-1022, the least normal double.
 inline constexpr std::uint64_t bits_of_least_normal =
     std::bit_cast<std::uint64_t>(std::numeric_limits<double>::min());
 
-/// The bits of the double in [0,1] nearest to the guess; of 0 for NaN.
+/// The bits of the double in [0,1] nearest to the guess; those of 0 for NaN.
 [[nodiscard]] inline std::uint64_t unit_bits(double guess) {
   const auto bits = std::bit_cast<std::uint64_t>(guess);
   constexpr std::uint64_t infinity = 0x7FF0000000000000U;
@@ -36,8 +35,8 @@ struct BitInterval {
 };
 
 /// Doubles around a number α with 0 < α ≤ 1: lower < α ≤ upper, and `step` or fewer spacings apart.
-/// `is_above(bits)` says whether α is above that double. Fast if α is near the guess, right in any
-/// case. \pre step ≥ 1, and at most 2^52.
+/// `is_above(bits)` is true if α is above that double. Fast if α is close to the guess, correct in
+/// any case. \pre step ≥ 1, and at most 2^52.
 template <class IsAbove>
 [[nodiscard]] BitInterval enclose(double guess, std::uint64_t step, IsAbove&& is_above) {
   BitInterval cell;
@@ -79,8 +78,8 @@ struct BinaryFraction {
 
 inline constexpr int significand_bits = std::numeric_limits<double>::digits;
 
-/// A finite double as a fraction; its numerator is below 2^53 in magnitude. By its bits, so that flushed
-/// subnormals take no part.
+/// A finite double as a fraction; its numerator is below 2^53 in magnitude. Computed from its bits,
+/// so that flushed subnormals have no effect.
 [[nodiscard]] inline BinaryFraction binary_fraction(double x) {
   constexpr int stored_bits = significand_bits - 1, exponent_bias = 1075;
   constexpr std::uint64_t hidden_bit = std::uint64_t{1} << stored_bits, exponent_mask = 0x7FF;

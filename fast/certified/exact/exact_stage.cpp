@@ -21,7 +21,8 @@ namespace {
 
 using namespace exact_stage;
 
-/// Coordinates below 2^60 have differences below 2^61, and so on.
+/// The limits of bits of coordinates for each type. Coordinates below 2^60 have differences below
+/// 2^61, and likewise for the others.
 constexpr int one_limb_bits = 60, two_limb_bits = 124;
 
 /// The eight coordinates of one axis.
@@ -40,7 +41,7 @@ Axis axis_of(const Query& query, std::size_t axis) {
     for (std::size_t i = 0; i < moving_points; ++i) {
       const BinaryFraction x = result.x[end][i] = binary_fraction(query.at(end, i, axis));
       if (x.numerator == 0) continue;
-      // As many zeros as its magnitude ends in.
+      // The number of trailing zeros of its magnitude.
       const int zeros = std::countr_zero(static_cast<std::uint64_t>(x.numerator));
       result.lowest = std::min(result.lowest, x.exponent + zeros);
       result.highest = std::max(result.highest, x.exponent + significand_bits);
@@ -118,8 +119,9 @@ std::optional<Impact> first_impact_of(Kind kind, const Query& query, std::uint64
   return first_impact(motion_of<BigInteger, BigInteger>(kind, axes), latest);
 }
 
-/// Contact is an approach: the first approach is not later. So where nothing is near until just before
-/// the first contact, that is where it is. For small distances this is so as a rule.
+/// Contact at distance 0 implies contact at the distance, so the first contact at the distance is
+/// not later. If there is none at the distance until just before the first contact at 0, the
+/// enclosure of that one is the result. For small distances this is the common case.
 std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
                                              const Separation& separation, std::uint64_t latest,
                                              std::uint64_t step) {
@@ -136,8 +138,8 @@ std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
   return before ? before : contact->time;
 }
 
-/// How many spacings of doubles wide an enclosure may be that is `tolerance` wide, relative to its
-/// upper end: spacings are at most 2^-52 of a normal number.
+/// The maximum width, in spacings of doubles, of an enclosure with the relative width `tolerance`:
+/// spacings are at most 2^-52 of a normal number.
 std::uint64_t step_of(double tolerance) {
   constexpr double widest = 0x1p-12;
   if (!(tolerance > 0.0)) return 1;
@@ -145,9 +147,9 @@ std::uint64_t step_of(double tolerance) {
                   std::uint64_t{1});
 }
 
-/// The nearest point of the domain, roughly; exactly inside.
+/// An approximation of the nearest point of the domain, exactly inside it.
 void move_into_domain(Kind kind, double& u, double& v) {
-  constexpr double least = 0x1p-200;  // what is below counts as 0, so that no sum is subnormal
+  constexpr double least = 0x1p-200;  // smaller values count as 0: no sum is subnormal
   u = u >= least ? std::min(u, 1.0) : 0.0;
   v = v >= least ? std::min(v, 1.0) : 0.0;
   if (kind == Kind::edge_edge) return;

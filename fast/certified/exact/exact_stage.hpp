@@ -4,8 +4,9 @@
 /// The last stage of the certified solver: any query of finite doubles, decided in integers.
 ///
 /// The coordinates of each axis are multiplied by a power of two that makes them integers, which
-/// changes no (t,u,v) of a contact. contact_conditions.hpp then says which polynomials decide. With a
-/// minimum separation all axes have the same power of two, and distance_decision.hpp says it.
+/// changes no (t,u,v) of a contact. contact_conditions.hpp then defines the polynomials that
+/// decide. With a minimum separation all axes have the same power of two, and distance_decision.hpp
+/// defines them.
 
 #include <optional>
 
@@ -21,18 +22,18 @@ struct ExactImpact {
   double v = 0.0;
 };
 
-/// The first contact with a time of impact of at most t_max, or nothing if there is none: the truth
-/// for every query of finite doubles. The enclosure of the time of impact is at most toi_tolerance
-/// wide, relative to its upper end, or one spacing of doubles; its upper end may be above t_max. Where
-/// contact is not at a single point, (u,v) is any point of the overlap. Independent of the
-/// floating-point environment (rounding mode, flushed subnormals).
+/// The first contact with a time of impact of at most t_max, or empty if there is none: exact for
+/// every query of finite doubles. The enclosure of the time of impact is at most toi_tolerance
+/// wide, relative to its upper end, or one spacing of doubles; its upper end may be above t_max. If
+/// there are several contact points, (u,v) is one of them. Independent of the floating-point
+/// environment (rounding mode, flushed subnormals).
 /// \pre all coordinates are finite; 0 ≤ toi_tolerance; 0 ≤ t_max ≤ 1.
 [[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
                                                         double toi_tolerance, double t_max);
 
-/// The same for the collision at a distance: the first time at which the primitives are as near as
-/// the separation says, and (u,v) near the parameters of their nearest points then, in the domain.
-/// (u,v) is a guess without a bound. At distance 0 this is the function above.
+/// The same for the collision at a distance: the first time at which the primitives are within the
+/// separation, and approximate parameters (u,v), in the domain, of their nearest points at that
+/// time, without an error bound. At distance 0 this is the function above.
 /// \pre as above, and the separation is valid.
 [[nodiscard]] std::optional<ExactImpact> decide_exactly(Kind kind, const Query& query,
                                                         const Separation& separation,

@@ -1,11 +1,10 @@
 #pragma once
 
-/// \file
-/// Integers of a fixed number of bits, for decisions whose numbers are known to be small.
+/// \file Integers of a fixed number of bits, for decisions with numbers of bounded size.
 ///
 /// Two's complement in limbs of 64 bits, the least significant first. A product is as long as its
-/// factors together, so it cannot overflow; sums can, and whoever adds must know that they do not
-/// (contact_conditions.hpp says how large each polynomial's coefficients are).
+/// factors together, so it cannot overflow. Sums can overflow, and the caller must ensure that they
+/// do not (contact_conditions.hpp bounds each polynomial's coefficients).
 
 #include <array>
 #include <cmath>
@@ -14,13 +13,13 @@
 
 namespace touchstone::fast::exact_stage {
 
-// Only a typedef can say that the extension is meant.
+// A typedef, because only it permits the extension without a warning.
 // NOLINTNEXTLINE(modernize-use-using)
 __extension__ typedef unsigned __int128 WideLimb;
 // NOLINTNEXTLINE(modernize-use-using)
 __extension__ typedef __int128 SignedWideLimb;
 
-/// An integer of `size` limbs; without an initialiser, of any value.
+/// An integer of `size` limbs, uninitialised by default.
 template <std::size_t size>
 class FixedInteger {
  public:
@@ -88,7 +87,7 @@ class FixedInteger {
     return a * FixedInteger<2>(x) + b * FixedInteger<2>(y);
   }
 
-  /// Near the number: relative error below 2^-50, in any rounding mode. \pre below 2^1023.
+  /// An approximation with a relative error below 2^-50, in any rounding mode. \pre below 2^1023.
   [[nodiscard]] double rounded() const {
     FixedInteger magnitude;
     std::uint64_t carry = sign_mask() & 1U;
@@ -101,7 +100,7 @@ class FixedInteger {
     while (top > 0 && magnitude.limb_[top] == 0) --top;
     auto value = static_cast<double>(magnitude.limb_[top]);
     if (top > 0) value = value * 0x1p64 + static_cast<double>(magnitude.limb_[top - 1]);
-    // What is further below is less than 2^-64 of it.
+    // Lower limbs are less than 2^-64 of it.
     for (std::size_t i = 1; i < top; ++i) value *= 0x1p64;
     return std::copysign(value, static_cast<double>(static_cast<std::int64_t>(limb_[size - 1])));
   }
@@ -111,7 +110,8 @@ class FixedInteger {
   friend class FixedInteger;
 
   [[nodiscard]] bool is_negative() const { return (limb_[size - 1] >> 63U) != 0; }
-  /// All bits of a negative number, else none: signs are not for branches, nobody can predict them.
+  /// All bits set for a negative number, else none. A mask instead of a branch, because signs are
+  /// unpredictable.
   [[nodiscard]] std::uint64_t sign_mask() const {
     return std::uint64_t{0} - (limb_[size - 1] >> 63U);
   }
@@ -159,13 +159,13 @@ class FixedInteger {
       }
       product.limb_[i + other_size] = carry;
     }
-    // A negative factor was read as itself plus 2^(64 limbs).
+    // A negative factor was read with 2^(64 limbs) added.
     product.subtract_above(size, b, sign_mask());
     product.subtract_above(other_size, *this, b.sign_mask());
     return product;
   }
 
-  /// Of two limbs each: the upper one is signed, and a product with it fits into two.
+  /// The product of two limbs each: the upper limb is signed, and a product with it fits into two.
   [[nodiscard]] FixedInteger<4> times_of_two(const FixedInteger<2>& b) const {
     const auto upper = static_cast<std::int64_t>(limb_[1]);
     const auto b_upper = static_cast<std::int64_t>(b.limb_[1]);
@@ -181,7 +181,7 @@ class FixedInteger {
     return product;
   }
 
-  /// Subtracts 2^(64 places) times a number that is that much shorter, or 0, as the mask says.
+  /// Subtracts 2^(64 places) times a correspondingly shorter number, masked by the mask.
   template <std::size_t other_size>
   void subtract_above(std::size_t places, const FixedInteger<other_size>& other,
                       std::uint64_t mask) {

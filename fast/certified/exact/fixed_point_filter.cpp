@@ -11,7 +11,7 @@ constexpr std::int64_t one = std::int64_t{1} << FixedPointForm::fraction_bits;
 
 using Coefficients = std::array<std::int64_t, FixedPointForm::largest_degree + 1>;
 
-/// One step of de Casteljau's on the first `size` coefficients, which leaves one fewer.
+/// One de Casteljau step on the first `size` coefficients, which reduces their number by one.
 void step(Coefficients& b, std::size_t size, std::int64_t t) {
   for (std::size_t k = 0; k + 1 < size; ++k) {
     const SignedWideLimb sum = SignedWideLimb{b[k]} * (one - t) + SignedWideLimb{b[k + 1]} * t;
@@ -47,8 +47,9 @@ int FixedPointForm::sign(std::size_t k) const {
   return b_[k] < -error ? -1 : 0;
 }
 
-// Between coefficients of two signs there is one change, or three and more, if there is one in doubt:
-// so at most one may be in doubt there, and none between coefficients of one sign or outermost.
+// Coefficients of uncertain sign are harmless only singly between two of opposite signs: with one
+// of them there is one change in any case. Several of them, or one between equal signs or at an
+// end, leave the number of changes open.
 std::optional<IntervalSigns> FixedPointForm::signs() const {
   IntervalSigns result;
   int doubts = 0;

@@ -1,24 +1,25 @@
 #pragma once
 
-/// \file
-/// Signs of forms at times, exact, and as a rule from floating point.
+/// \file Exact signs of forms at times, mostly from floating point.
 ///
-/// Times are t = y/(x+y), and a form of degree n is known by its Bernstein coefficients b_i, times a
-/// factor. With weights x, y of n times, de Casteljau's steps, b_i ← b_i x + b_{i+1} y for one time
-/// after the other, lead to its *blossom* at these times, up to a positive factor: at n times t to its
-/// value there, and at k times e and n−k times s to its Bernstein coefficient k on [s,e].
+/// Times are t = y/(x+y), and a form of degree n is known by its Bernstein coefficients b_i, times
+/// a factor. With weights x, y of n times, de Casteljau's steps, b_i ← b_i x + b_{i+1} y for one
+/// time after the other, yield its *blossom* at these times, up to a positive factor: for n times t
+/// its value there, and for k times e and n−k times s its Bernstein coefficient k on [s,e].
 ///
-/// **Bound.** Let the same be done in doubles, from rounded b_i, x and y, and with |b_i| for b_i too,
-/// which leads to m. For n ≤ 3 the value found is wrong by less than 2^-47 m, in any rounding mode.
-/// Proof. With v = 2^-52, every operation and conversion is wrong by a factor 1+δ, |δ| ≤ v, if nothing
-/// is subnormal or overflows, and b_i by at most 5v (FixedInteger::rounded). Each term of the sum that
-/// the value is goes through at most one rounded weight, product and sum a step: its factor has at most
-/// 5 + 3n ≤ 14 of these, so it is wrong by less than 15v of its magnitude. m is the sum of these
-/// magnitudes, and computed at least 1 − 15v of it; 15v / (1 − 15v) < 2^-48. Nothing but 0 is below 1
-/// where all are integers; what overflows makes m infinite, and then no sign is told. ∎
+/// **Bound.** Let the steps run in doubles, from rounded b_i, x and y, and also with |b_i| for b_i,
+/// which yields m. For n ≤ 3 the error of the computed value is less than 2^-47 m, in any rounding
+/// mode. Proof. With v = 2^-52, every operation and conversion has a relative error δ, |δ| ≤ v,
+/// without subnormals and overflow, and b_i one of at most 5v (FixedInteger::rounded). The value is
+/// a sum of terms, each with at most one rounded weight, product and sum for each step: it has at
+/// most 5 + 3n ≤ 14 factors 1+δ, so its error is less than 15v of its magnitude. m is the sum of
+/// these magnitudes, and computed at least 1 − 15v of it; 15v / (1 − 15v) < 2^-48. All numbers are
+/// integers, so none but 0 is below 1; an overflow makes m infinite, and then the sign is unknown.
+/// ∎
 ///
-/// Why beside the integers: without it `touchstone bench handcrafted --method certified` takes 1.2
-/// (vertex-face) and 1.6 times (edge-edge) as long (medians of three runs a program, 23 November 2026).
+/// **Reason.** With integers alone `touchstone bench handcrafted --method certified` takes 1.2
+/// (vertex-face) and 1.6 times (edge-edge) as long (medians of three runs of each program, 23
+/// November 2026).
 
 #include <algorithm>
 #include <array>
@@ -30,8 +31,9 @@
 
 namespace touchstone::fast::exact_stage {
 
-/// t = y/(x+y). \pre x, y ≥ 0, and x + y is positive and at most a quarter of what the type holds:
-/// then a mean of two coefficients, weighted with x and y, fits into the weight's limbs more.
+/// t = y/(x+y). \pre x, y ≥ 0, and x + y is positive and at most a quarter of the type's maximum:
+/// then a mean of two coefficients, weighted with x and y, needs only the weight's limbs in
+/// addition.
 template <class Weight>
 struct BasicTime {
   Weight x, y;
@@ -47,7 +49,7 @@ struct BasicTime {
   [[nodiscard]] double guess() const { return rounded_y / (rounded_x + rounded_y); }
 };
 
-/// A step of de Casteljau's: the form with one of its arguments set to a time.
+/// A de Casteljau step: the form with one of its arguments set to a time.
 template <std::size_t limbs, std::size_t count, class Weight>
 auto blended(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<Weight>& t) {
   std::array<decltype(blend(b[0], t.x, b[0], t.y)), count - 1> result;
@@ -55,7 +57,7 @@ auto blended(const std::array<FixedInteger<limbs>, count>& b, const BasicTime<We
   return result;
 }
 
-/// The blossom, exactly.
+/// The exact blossom.
 template <std::size_t limbs>
 FixedInteger<limbs> blossom(const std::array<FixedInteger<limbs>, 1>& b) {
   return b[0];
@@ -73,16 +75,16 @@ struct RoundedBlossom {
   double value;
   double magnitude;  ///< m
 
-  /// Its sign if that is sure, else 0.
+  /// Its sign if certain, else 0.
   [[nodiscard]] int sign() const {
     if (!(std::abs(value) > rounding * magnitude)) return 0;
     return value > 0.0 ? 1 : -1;
   }
-  /// Is the value near the true one, for what needs no proof?
+  /// True if the value is accurate enough for uses without proof.
   [[nodiscard]] bool is_near() const { return std::abs(value) > 0x1p-3 * magnitude; }
 };
 
-/// A form of degree up to 3 by its coefficients.
+/// A form of degree up to 3, given by its coefficients.
 template <std::size_t limbs, std::size_t count>
 class FilteredForm {
   static_assert(2 <= count && count <= 4);
@@ -91,7 +93,8 @@ class FilteredForm {
   static constexpr std::size_t degree = count - 1;
 
   FilteredForm() = default;
-  /// Of Σ c_k x^(n−k) y^k, whose Bernstein coefficients are c_k / binomial(n,k); here times n.
+  /// From Σ c_k x^(n−k) y^k, whose Bernstein coefficients are c_k / binomial(n,k); here multiplied
+  /// by n.
   explicit FilteredForm(const std::array<FixedInteger<limbs>, count>& c) : form_(c) {
     for (std::size_t i = 0; i < count; ++i) rounded_[i] = c[i].rounded();
     rounded_.front() *= end_factor;
@@ -107,7 +110,7 @@ class FilteredForm {
   [[nodiscard]] const std::array<double, count>& rounded() const { return rounded_; }
   [[nodiscard]] int coefficient_sign(std::size_t i) const { return form_[i].sign(); }
 
-  /// The blossom's sign at as many times as the degree.
+  /// The sign of the blossom; the number of times is the degree.
   template <class... Times>
   [[nodiscard]] int sign(const Times&... times) const {
     static_assert(sizeof...(times) == count - 1);
@@ -119,7 +122,7 @@ class FilteredForm {
   [[nodiscard]] int sign_at(const Time& t) const {
     return at_all(t, [this](const auto&... times) { return this->sign(times...); });
   }
-  /// Up to the sum of the weights to the power of the degree.
+  /// The value multiplied by a power of the sum of the weights, whose exponent is the degree.
   template <class Time>
   [[nodiscard]] RoundedBlossom rounded_value_at(const Time& t) const {
     return at_all(t, [this](const auto&... times) { return this->rounded_blossom(times...); });
@@ -142,7 +145,7 @@ class FilteredForm {
     return b;
   }
 
-  /// function(t, …, t), as many as the degree.
+  /// function(t, …, t) with as many arguments as the degree.
   template <class Time, class Function>
   static auto at_all(const Time& t, const Function& function) {
     if constexpr (count == 2) {

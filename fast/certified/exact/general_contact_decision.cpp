@@ -11,7 +11,7 @@ using BigMotion = Motion<BigInteger>;
 using Normal = MovingNormal<BigInteger>;
 using Contact = ContactOf<BigInteger>;
 
-/// What a motion's decision needs in many places.
+/// Common data of a motion's decision.
 struct Problem {
   const BigMotion& motion;
   Normal normal;
@@ -27,14 +27,14 @@ Impact impact_at(Instant& instant, const Contact& contact, const BitInterval& ti
   return impact;
 }
 
-/// Contact at a time when D = 0.
+/// Contact at a time with D = 0.
 std::optional<Contact> contact_at(const Problem& problem, Instant& instant) {
   return contact_in_plane(problem.motion, problem.normal,
                           [&](const Form<BigInteger, 2>& form) { return instant.sign_of(form); });
 }
 
-/// Replaces `best` if the instant, a time after 0 when D = 0, is one of contact and earlier.
-/// Returns whether later instants need not be looked at.
+/// Replaces `best` if the instant, a time > 0 with D = 0, is an earlier contact. Returns true if
+/// later instants need no examination.
 bool consider(const Problem& problem, Instant& instant, std::uint64_t& latest,
               std::optional<Impact>& best) {
   if (instant.is_above(latest)) return true;

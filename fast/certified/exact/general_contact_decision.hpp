@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// The first contact of any motion with integer coordinates of any size. What contact_decision.hpp does not decide
-/// comes here.
+/// \file The first contact of any motion with integer coordinates of any size, for the cases that
+/// contact_decision.hpp does not decide.
 
 #include <cstdint>
 #include <optional>
@@ -13,16 +12,16 @@
 
 namespace touchstone::fast::exact_stage {
 
-/// A contact and when it is.
+/// A contact with its time.
 struct Impact {
   /// Doubles: lower < time ≤ upper, or both 0 if the time is 0.
   BitInterval time;
-  /// Near the contact's parameters; possibly outside of their domain, by rounding.
+  /// Approximate parameters of the contact; possibly outside of their domain, by rounding.
   double u = 0.0, v = 0.0;
 };
 
-/// The first contact not later than the double in [0,1] of these bits, between neighbouring
-/// doubles, or nothing if there is none.
+/// The first contact not later than the double in [0,1] with these bits, between neighbouring
+/// doubles; empty if there is none.
 [[nodiscard]] std::optional<Impact> first_impact(const Motion<BigInteger>& motion,
                                                  std::uint64_t latest);
 

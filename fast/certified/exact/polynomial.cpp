@@ -10,7 +10,7 @@
 namespace touchstone::fast::exact_stage {
 namespace {
 
-/// Takes out the power of two that divides all coefficients.
+/// Divides by the greatest power of two that divides all coefficients.
 void remove_twos(Polynomial& c) {
   long zeros = -1;
   for (const BigInteger& x : c) {
@@ -25,7 +25,8 @@ void drop_top_zeros(Polynomial& c) {
   while (!c.empty() && c.back().sign() == 0) c.pop_back();
 }
 
-/// b's top coefficient to the power of one more than the difference of degrees, times a, modulo b.
+/// The pseudo-remainder: a times b's top coefficient to the power 1 + the difference of degrees,
+/// modulo b.
 /// \pre a is not of lower degree than b.
 Polynomial pseudo_remainder(Polynomial a, const Polynomial& b) {
   for (std::size_t left = a.size() - b.size() + 1; left-- > 0;) {
@@ -39,8 +40,9 @@ Polynomial pseudo_remainder(Polynomial a, const Polynomial& b) {
   return a;
 }
 
-/// b's top coefficient times a/b. It has integer coefficients: with b = c h and h primitive, a/h has
-/// them, and the top of b over c is that of h. \pre b divides a.
+/// b's top coefficient times a/b. Its coefficients are integers: with b = c h and h primitive, a/h
+/// has integer coefficients, and the top coefficient of b divided by c is that of h. \pre b divides
+/// a.
 Polynomial scaled_quotient(Polynomial a, const Polynomial& b) {
   Polynomial quotient(a.size() - b.size() + 1);
   for (BigInteger& x : a) x = x * b.back();
@@ -60,8 +62,8 @@ BigInteger power(const BigInteger& x, std::size_t exponent) {
   return result;
 }
 
-/// A multiple of the greatest common divisor: the last of the subresultants [brown1971], which
-/// keep short because what must divide them is divided out. \pre a is not of lower degree than b.
+/// A multiple of the greatest common divisor: the last of the subresultants [brown1971], which stay
+/// short because their known common factors are divided out. \pre a is not of lower degree than b.
 Polynomial last_subresultant(Polynomial a, Polynomial b) {
   BigInteger g = 1, h = 1;
   for (;;) {

@@ -3,12 +3,14 @@
 /// \file
 /// Polynomials whose coefficients are integers of any size, and their common divisors.
 ///
-/// A polynomial is a form Σ c_k x^(n−k) y^k at t = y/(x+y), as in contact_conditions.hpp, of any degree n.
-/// It is an *inner* one if its first and last coefficients are not 0: then it has no roots at t=0 and t=1.
+/// A polynomial is a form Σ c_k x^(n−k) y^k at t = y/(x+y), as in contact_conditions.hpp, of any
+/// degree n. It is *inner* if its first and last coefficients are not 0: then it has no roots at
+/// t=0 and t=1.
 ///
 /// The divisor is seldom needed: if the polynomials have no common factor modulo some prime that
-/// does not divide the first one's top coefficient, they have none. For a primitive factor's top
-/// coefficient divides that one, so it keeps its degree modulo the prime, where it divides both.
+/// does not divide the first one's top coefficient, they have none. Indeed, the top coefficient of
+/// a primitive common factor divides that coefficient, so the factor keeps its degree modulo the
+/// prime, where it divides both.
 
 #include <span>
 #include <vector>
@@ -20,7 +22,7 @@ namespace touchstone::fast::exact_stage {
 /// c_0, …, c_n.
 using Polynomial = std::vector<BigInteger>;
 
-// Of polynomials of one degree.
+// Sums and differences of polynomials of the same degree.
 Polynomial& operator+=(Polynomial& a, const Polynomial& b);
 Polynomial& operator-=(Polynomial& a, const Polynomial& b);
 [[nodiscard]] Polynomial operator-(Polynomial a, const Polynomial& b);
@@ -33,12 +35,12 @@ Polynomial& operator-=(Polynomial& a, const Polynomial& b);
 /// The form without its roots at t=0 and t=1; empty for zero.
 [[nodiscard]] Polynomial inner_polynomial(std::span<const BigInteger> form);
 
-/// Do the polynomials certainly have no common factor? False if that is not known.
+/// True if the polynomials certainly have no common factor.
 /// \pre both are inner ones and not zero.
 [[nodiscard]] bool surely_coprime(const Polynomial& a, const Polynomial& b);
 
-/// The greatest common divisor, up to a constant that keeps it as short as about the longer one of
-/// the two. \pre as above.
+/// The greatest common divisor, up to a constant factor, with coefficients about as long as those
+/// of the longer polynomial. \pre as above.
 [[nodiscard]] Polynomial common_divisor(Polynomial a, Polynomial b);
 
 /// A polynomial with the same roots, each simple. \pre as above.

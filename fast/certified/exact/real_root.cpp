@@ -36,8 +36,9 @@ Dyadic from_one(const Dyadic& t) {
   return {(BigInteger(1) << t.exponent) - t.numerator, t.exponent};
 }
 
-/// lower + (upper − lower) · part, without its bits below 2^-64 times the length and times the unit of
-/// `part`, which is in (0,1): so that numbers are as long as their intervals are short, and no longer.
+/// lower + (upper − lower) · part, truncated below 2^-64 times the length and times the unit of
+/// `part`, which is in (0,1). The length of numbers is thus proportional to the precision of their
+/// intervals.
 Dyadic between(const Dyadic& lower, const Dyadic& upper, const Dyadic& part) {
   constexpr long kept_bits = 64;
   const long exponent = std::max(lower.exponent, upper.exponent);
@@ -80,7 +81,7 @@ Polynomial restricted(std::span<const BigInteger> c, const Time& lower, const Ti
   return value;
 }
 
-/// In parameters that are linear in t: x + y is the same at both ends.
+/// The same in parameters that are linear in t: x + y is equal at both ends.
 Polynomial restricted(std::span<const BigInteger> c, const Dyadic& lower, const Dyadic& upper) {
   const long exponent = std::max(lower.exponent, upper.exponent);
   const auto time = [&](const Dyadic& t) {
@@ -97,7 +98,7 @@ IntervalSigns signs_of(const Polynomial& c) {
 
 // ---- What fixed point says, or else the integers ------------------------------------------------
 
-/// In the units of FixedPointForm.
+/// A time in the units of FixedPointForm.
 std::int64_t in_fixed_point(const Dyadic& t) {
   return t.numerator.truncated(FixedPointForm::fraction_bits - t.exponent);
 }
@@ -126,8 +127,8 @@ int sign_at(std::span<const BigInteger> c, const Dyadic& t) {
 
 // ---- Guesses ------------------------------------------------------------------------------------
 
-/// A form on an interval, roughly. Its coefficients may be further apart than doubles reach: beside two
-/// roots that are hardly apart, the first ones are next to nothing.
+/// An approximation of a form on an interval. Its coefficients may differ by more than the range of
+/// doubles: next to two very close roots the first ones nearly vanish.
 using Guess = std::vector<Approximation>;
 
 Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper) {
@@ -148,9 +149,9 @@ Guess local_guess(const Polynomial& f, const Dyadic& lower, const Dyadic& upper)
   return result;
 }
 
-/// significand · 2^exponent; 0 far below what a double holds.
+/// significand · 2^exponent; 0 far below the range of doubles.
 double scaled(double significand, long exponent) {
-  // As std::ldexp, and faster, where the power of two is a double.
+  // As std::ldexp, but faster if the power of two is a double.
   if (exponent >= -1022 && exponent <= 1023) {
     return significand * std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
   }
@@ -166,7 +167,7 @@ Approximation difference(const Approximation& a, double a_divisor, const Approxi
           top};
 }
 
-/// A number in [0,1]: the double of these bits, divided by 2^exponent.
+/// A number in [0,1]: the double with these bits, divided by 2^exponent.
 struct Position {
   std::uint64_t bits = bits_of_zero;
   long exponent = 0;
@@ -178,7 +179,7 @@ Dyadic dyadic_of(const Position& position) {
   return result;
 }
 
-/// The form at y in (0,1), x = 1 − y, times a power of two that brings it near 1.
+/// The form at y in (0,1), x = 1 − y, times a power of two that brings it close to 1.
 double value_at(const Guess& c, const Position& at) {
   int y_exponent = 0;
   const double y = std::bit_cast<double>(at.bits), significand = std::frexp(y, &y_exponent);
@@ -199,8 +200,8 @@ double value_at(const Guess& c, const Position& at) {
   return value;
 }
 
-/// Where in (0,1) the form changes its sign, by bisection over the doubles: first over those with the
-/// usual exponents, and as long as it is below them, over those 2^-1000 times as large.
+/// The place in (0,1) of the form's sign change, by bisection over the doubles: first over those
+/// with common exponents, and while it is below them, over those 2^-1000 times as large.
 Position guess_root(const Guess& c, int sign_below) {
   constexpr auto least = std::bit_cast<std::uint64_t>(0x1p-1000);
   constexpr long most = 1000000;
@@ -215,8 +216,8 @@ Position guess_root(const Guess& c, int sign_below) {
   }
 }
 
-/// Where in (0,1) a form that is positive at 0 is least, if it has one extremum. With Bernstein's
-/// coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
+/// The place in (0,1) of the minimum of a form that is positive at 0, if it has one extremum. With
+/// Bernstein's coefficients b_k = c_k / binomial(n,k), its derivative has n (b_(k+1) − b_k).
 Position guess_minimum(const Guess& c) {
   const auto degree = static_cast<double>(c.size() - 1);
   Guess derivative;
@@ -234,7 +235,7 @@ Position guess_minimum(const Guess& c) {
 
 // ---- Isolation of roots -------------------------------------------------------------------------
 
-/// By t, of a form in x and y: the derivative by y less that by x.
+/// The derivative by t of a form in x and y: the derivative by y minus the one by x.
 Polynomial derivative(const Polynomial& f) {
   const auto degree = static_cast<std::int64_t>(f.size() - 1);
   Polynomial result;
@@ -245,15 +246,15 @@ Polynomial derivative(const Polynomial& f) {
   return result;
 }
 
-/// Where roots may be.
+/// An interval that may contain roots.
 struct Interval {
   Dyadic lower, upper;
-  bool guess = true;      ///< may a guess say where to split it?
-  bool isolates = false;  ///< is there just one root inside?
+  bool guess = true;      ///< true if a guess may choose the place of a split
+  bool isolates = false;  ///< true if there is exactly one root inside
 };
 
-/// What is before and after a guess by so many spacings of doubles, in an interval; nothing if that is
-/// beyond its ends.
+/// The times in an interval that are this number of spacings of doubles before and after a guess;
+/// empty if they are beyond its ends.
 struct Around {
   Dyadic before, after;
 };
@@ -265,13 +266,13 @@ std::optional<Around> around(const Position& guess, std::uint64_t slack, const D
                 between(from, to, dyadic_of({rounded + 2 * slack, guess.exponent}))};
 }
 
-/// Between which numbers a guess says that the form's roots are close together, if it does.
+/// The numbers between which a guess finds a cluster of the form's roots, if any.
 std::optional<Around> cluster(const Polynomial& f, const Interval& in) {
   constexpr std::uint64_t slack = std::uint64_t{1} << 12U;
   return around(guess_minimum(local_guess(f, in.lower, in.upper)), slack, in.lower, in.upper);
 }
 
-/// Intervals still to be searched for roots of f, the first last.
+/// The intervals that remain to be searched for roots of f, the first one last.
 class RootSearch {
  public:
   RootSearch(Polynomial f, Dyadic lower, Dyadic upper)
@@ -292,8 +293,8 @@ class RootSearch {
   }
 
  private:
-  /// Searches the parts of an interval. Roots that are still together after some divisions may be one,
-  /// or so near to each other that only the extremum between them can be told apart from both.
+  /// Searches the parts of an interval. Roots that are not separated after some divisions may be a
+  /// single one, or so close that only the extremum between them separates them.
   void divide(const Interval& interval, const IntervalSigns& local) {
     constexpr int patience = 3;
     if (++divisions_ == patience) f_ = squarefree(f_);
@@ -316,7 +317,7 @@ class RootSearch {
     open_.push_back({interval.lower, close->before, false});
   }
 
-  /// At the extrema, where f is squarefree: between neighbours is one root or none.
+  /// Splits at the extrema if f is squarefree: there is at most one root between neighbours.
   void divide_at_extrema(const Interval& interval, const IntervalSigns& local) {
     std::vector<Interval> parts;
     Dyadic start = interval.lower;
@@ -400,7 +401,7 @@ bool Instant::cut(const Dyadic& t) {
 bool Instant::narrow_by_guess() {
   constexpr std::uint64_t slack = std::uint64_t{1} << 8U;
   Guess local = local_guess(f_, lower_, upper_);
-  // From the nearer end: doubles are dense near 0 only.
+  // Relative to the closer end, because doubles are dense only near 0.
   const bool from_upper =
       value_at(local, {std::bit_cast<std::uint64_t>(0.5), 0}) * sign_below_ > 0.0;
   if (from_upper) std::ranges::reverse(local);
@@ -413,7 +414,7 @@ bool Instant::narrow_by_guess() {
 }
 
 bool Instant::narrow_by_secant() {
-  // The values in one unit.
+  // The values in a common unit.
   const auto degree = static_cast<long>(f_.size() - 1);
   const BigInteger at_lower = evaluate(f_, time_of(lower_)) << degree * upper_.exponent;
   const BigInteger at_upper = evaluate(f_, time_of(upper_)) << degree * lower_.exponent;
@@ -483,7 +484,7 @@ int compare(Instant& a, Instant& b) {
     if (compare(a.upper_, b.lower_) <= 0) return -1;
     if (compare(b.upper_, a.lower_) <= 0) return 1;
     if (round == patience && a.shares_root(b)) return 0;
-    // What takes many steps is no reason for the other to get ahead.
+    // The two are refined alternately, so that many steps of one do not delay the other.
     const long gain = std::min(a.gain_, b.gain_);
     if (a.gain_ == gain) a.narrow();
     if (b.gain_ == gain) b.narrow();

@@ -1,30 +1,32 @@
 #pragma once
 
-/// \file
-/// Instants in [0,1] that are roots of polynomials, and exact signs of other polynomials there.
+/// \file Instants in [0,1] that are roots of polynomials, and exact signs of other polynomials at
+/// them.
 ///
-/// Polynomials here are inner ones (polynomial.hpp): roots at t=0 and t=1 are asked for by themselves.
-/// On an interval from (x0,y0) to (x1,y1) it becomes the form f(X x0 + Y x1, X y0 + Y y1), whose sign
-/// changes bound the number of roots inside (Descartes), and equal it if they are none or one,
-/// multiples counted. Of a squarefree polynomial, intervals that are small enough have none or one
-/// (Vincent), so bisection finds all roots in ascending order. Where roots are hardly apart, a guess
-/// of the extremum between them is where to look closer. What three divisions do not separate is cut at
-/// the roots of the derivative, which are found the same way: between neighbouring ones f is monotone, and
-/// has a root iff its signs beside them differ.
+/// Polynomials here are inner ones (polynomial.hpp): roots at t=0 and t=1 are treated separately.
+/// On an interval from (x0,y0) to (x1,y1) a polynomial becomes the form f(X x0 + Y x1, X y0 + Y
+/// y1), whose sign changes bound the number of roots inside (Descartes), counted with multiplicity,
+/// and equal it if they are at most one. For a squarefree polynomial, intervals that are small
+/// enough have at most one sign change (Vincent), so bisection finds all roots in ascending order.
+/// If roots are very close, the interval is divided at a guess of the extremum between them.
+/// Intervals that three divisions do not resolve are cut at the roots of the derivative, which are
+/// found in the same way: between neighbouring ones f is monotone, and has a root iff its signs at
+/// them differ.
 ///
 /// An instant α is a dyadic number or the only root, a simple one, of f in an open dyadic interval.
 /// The sign of q(α): if q's form on the interval has no sign change, the sign of its coefficients.
 /// Otherwise it is 0 iff gcd(f,q) has a root in the interval, that is iff its form there has an odd
-/// number of sign changes; if it is not 0, halving the interval brings the first case about. Two
+/// number of sign changes; if it is not 0, halving the interval leads to the first case. Two
 /// instants are equal iff the divisor of their polynomials has a root in both intervals.
 ///
-/// Most signs are seen in fixed point already: fixed_point_filter.hpp.
+/// Fixed-point arithmetic decides most signs (fixed_point_filter.hpp).
 ///
-/// Narrowing guesses the root and asks for two exact signs around it; a wrong guess costs a bisection
-/// instead and nothing else. The first guesses are in floating point and make the interval 2^-40 times as
-/// long. Then it is so short that f is nearly linear there, and the secant through its values at both
-/// ends errs by about the square of the length: each step makes the interval 2^-k times as long, with k
-/// twice that of the step before [abbott2006]. So two roots that are 2^-50000 apart take some ten steps.
+/// Narrowing guesses the root and computes two exact signs around it; a wrong guess only costs a
+/// bisection instead. The first guesses are in floating point and shorten the interval by the
+/// factor 2^-40. Then f is nearly linear on it, and the error of the secant through its values at
+/// both ends is about the square of the length: each step shortens the interval by 2^-k, with k
+/// twice that of the step before [abbott2006]. So two roots that are 2^-50000 apart take some ten
+/// steps.
 
 #include <cstdint>
 #include <functional>
@@ -43,9 +45,9 @@ struct Dyadic {
   long exponent = 0;
 };
 
-/// A number strictly between them that halves the interval, or halves the logarithm of the ratio of
-/// its ends (or of their distances from 1) where these are far apart: so a root near 0 or 1 takes no
-/// more steps than the logarithm of its exponent. \pre lower < upper.
+/// A number strictly between the ends that halves the interval, or halves the logarithm of the
+/// ratio of its ends (or of their distances from 1) if these are far apart. So a root close to 0 or
+/// 1 needs no more steps than the logarithm of its exponent. \pre lower < upper.
 [[nodiscard]] Dyadic split(const Dyadic& lower, const Dyadic& upper);
 
 /// The sign of a − b.
@@ -56,26 +58,26 @@ class Instant {
  public:
   /// A dyadic number.
   explicit Instant(Dyadic value);
-  /// The only root of f in the open interval. \pre f has just one there, and it is simple.
+  /// The only root of f in the open interval. \pre f has exactly one root there, and it is simple.
   Instant(Polynomial f, Dyadic lower, Dyadic upper);
 
-  /// The sign of a form at this time. Narrows as far as that takes.
+  /// The sign of a form at this time. Narrows as far as necessary.
   [[nodiscard]] int sign_of(std::span<const BigInteger> q);
 
-  /// The sign of a − b. Narrows both as far as that takes.
+  /// The sign of a − b. Narrows both as far as necessary.
   friend int compare(Instant& a, Instant& b);
 
   /// This time is not before lower() and not after upper(); strictly between if they differ.
   [[nodiscard]] const Dyadic& lower() const { return lower_; }
   [[nodiscard]] const Dyadic& upper() const { return upper_; }
 
-  /// Makes the interval much shorter, as a rule by 2^-40 at least, and by more each time.
+  /// Shortens the interval, usually by at least 2^-40, and by more each time.
   void narrow();
 
-  /// Is this time later than the double of these bits (enclosing_doubles.hpp)?
+  /// True if this time is later than the double with these bits (enclosing_doubles.hpp).
   [[nodiscard]] bool is_above(std::uint64_t bits);
 
-  /// Near this time; a guess.
+  /// An approximation of this time, for guesses.
   [[nodiscard]] double guess() const;
 
   /// numerator/denominator at this time, to about the accuracy of a double (absolute, below 1).
@@ -86,33 +88,34 @@ class Instant {
  private:
   [[nodiscard]] bool narrow_by_guess();
   [[nodiscard]] bool narrow_by_secant();
-  /// Is this time later than `t`, which lies inside the interval? Notes what it finds.
+  /// True if this time is later than `t`, which lies inside the interval. Narrows the interval
+  /// accordingly.
   [[nodiscard]] bool cut(const Dyadic& t);
   /// The sign of this time minus `t`.
   [[nodiscard]] int compare_with(const Dyadic& t);
-  /// Do both polynomials have a root where the intervals overlap?
+  /// True if both polynomials have a common root in the intersection of the intervals.
   [[nodiscard]] bool shares_root(const Instant& other) const;
   [[nodiscard]] bool is_dyadic() const { return f_.empty(); }
 
   Polynomial f_;  // empty: the time is lower_
   Dyadic lower_, upper_;
   int sign_below_ = 0;  // of f_, between lower_ and the root
-  /// The next step is to make the interval 2^gain_ times as short: twice the bits of the last one, if
-  /// that did, else half. Steps of more than guess_gain bits are secants.
+  /// The next step is to shorten the interval by the factor 2^-gain_: twice the bits of the last
+  /// one if that succeeded, else half. Steps of more than guess_gain bits are secants.
   static constexpr long guess_gain = 40, least_gain = guess_gain / 2;
   long gain_ = least_gain;
 };
 
-/// Calls `visit` for every root of f in the open interval (0,1), ascending and once each, until it
-/// returns true. Returns whether it did. \pre f is not zero.
+/// Calls `visit` once for every root of f in the open interval (0,1), ascending, until it returns
+/// true. Returns true if it did. \pre f is not zero.
 bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit);
 
-/// 1 if the form is seen not to be negative anywhere between the times, −1 if it is seen not to be
-/// positive, else 0.
+/// 1 if the form is proved to be nowhere negative between the times, −1 if it is proved to be
+/// nowhere positive, else 0.
 [[nodiscard]] int weak_sign_between(std::span<const BigInteger> form, const Dyadic& from,
                                     const Dyadic& to);
 
-/// Is the form positive from `from` to `to`? False if that is not seen.
+/// True if the form is proved to be positive from `from` to `to`.
 [[nodiscard]] bool is_positive_between(std::span<const BigInteger> form, const Dyadic& from,
                                        const Dyadic& to);
 
@@ -121,7 +124,7 @@ bool visit_roots(Polynomial f, const std::function<bool(Instant&)>& visit);
 [[nodiscard]] std::optional<Instant> first_root_after(Instant& from, const Dyadic& end,
                                                       std::span<const BigInteger> form);
 
-/// The double in [0,1] of these bits (enclosing_doubles.hpp).
+/// The double in [0,1] with these bits (enclosing_doubles.hpp).
 [[nodiscard]] Dyadic dyadic_of(std::uint64_t bits);
 
 }  // namespace touchstone::fast::exact_stage

@@ -4,12 +4,12 @@
 /// Stage 1, axis (docs/theory.md, section 6.2).
 ///
 /// **Theorem.** If on some coordinate axis all corners w_i are on the same side of 0 at t=0, and on
-/// that side at t=1, there is no contact: they move linearly, so they are on that side all the
-/// time. With a minimum separation D, they have to be farther than D from 0.
+/// that side at t=1, there is no contact: they move linearly, so they are always on that side. With
+/// a minimum separation D, they have to be farther than D from 0.
 ///
-/// The corners are the differences of the two primitives' points, so this compares coordinates.
-/// Nothing has to be bounded: signs of differences are comparisons, and a rounded difference
-/// greater than D is truly greater, as rounding is monotone and leaves D as it is.
+/// The corners are the differences of the two primitives' points, so the test compares coordinates.
+/// No error bound is needed: signs of differences are comparisons, and a rounded difference greater
+/// than D comes from an exact one greater than D, because rounding is monotone and D is a double.
 
 #include <array>
 #include <cstddef>
@@ -60,7 +60,8 @@ class AxisStage {
     }
   }
 
-  /// Does an axis separate the query? No for coordinates that are not finite, which others report.
+  /// True if an axis separates the query. False for coordinates that are not finite, which later
+  /// stages report.
   static bool is_separated(const Points& points, const Row& distance) {
     std::array<Row, query_points> rows;
     for (std::size_t k = 0; k + 1 < query_points; ++k) rows[k] = Row::load(points[k]);
@@ -69,12 +70,13 @@ class AxisStage {
     const Sides end = sides(rows[4], rows[5], rows[6], rows[7], distance);
     const Row sum =
         ((rows[0] + rows[1]) + (rows[2] + rows[3])) + ((rows[4] + rows[5]) + (rows[6] + rows[7]));
-    // Not &&: no processor can predict which queries end here.
+    // Without && because the branch is unpredictable.
     const bool on_one_side = ((start.above & end.above) | (start.below & end.below)).any();
     return on_one_side & sum.is_finite();
   }
 
-  /// On which axes the first primitive is above the second, and below, by more than the distance.
+  /// The axes on which the first primitive is above the second by more than the distance, and those
+  /// on which it is below.
   struct Sides {
     RowMask above;
     RowMask below;

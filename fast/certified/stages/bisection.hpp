@@ -3,10 +3,10 @@
 /// \file
 /// Stage 6, bisection (docs/theory.md, section 6.7).
 ///
-/// Intervals of time are examined in ascending order (orientation.hpp). One without contact is left
-/// behind. A contact proved in one ends the search: there is none before, and the zero of det in it
-/// is the only one there, so that it is the time of impact. Any other interval is halved. Queries
-/// whose intervals become too short, or too many, are left to the exact stage.
+/// Intervals of time are examined in ascending order (orientation.hpp). An interval without contact
+/// is skipped. A proved contact ends the search: there is none before, and the zero of det in the
+/// interval is the only one there, so it is the time of impact. Any other interval is halved.
+/// Queries whose intervals become too short or too numerous remain for the exact stage.
 
 #include <array>
 #include <cstddef>
@@ -84,7 +84,7 @@ inline void load_moving(const KernelInput& input, const Indices& indices,
   }
 }
 
-/// Runs `width` queries at a time, each with an interval of its own; a lane that is done takes the
+/// Runs `width` queries at a time, each with its own interval; a lane that is finished takes the
 /// next query.
 template <class Lanes, Kind kind>
 class Bisection {
@@ -108,16 +108,16 @@ class Bisection {
   static constexpr std::size_t width = Lanes::width;
 
   /// Intervals are not halved below `least_length`, and at most `most_steps` of them are examined:
-  /// beyond that the exact stage takes less time.
+  /// beyond these limits the exact stage is faster.
   static constexpr double least_length = 0x1p-12;
-  /// The same where the sign of det is not clear at an end of the interval, so that no part at this
+  /// The limit if the sign of det at an end of the interval is uncertain, so that no part at this
   /// end can be decided.
   static constexpr double least_length_at_zero = 0x1p-1;
   static constexpr double most_steps = 150;
 
   // ---- Lanes ----
 
-  /// Gives the lane the next query, if there is one.
+  /// Assigns the next query to the lane, if there is one.
   void take(std::size_t lane) {
     active_ &= ~(1U << lane);
     if (next_ == moving_.indices->count) return;
@@ -147,11 +147,11 @@ class Bisection {
 
   // ---- What follows ----
 
-  /// Goes on to the next interval where this one has no contact, to its first half elsewhere; the
-  /// lanes that are done take other queries.
+  /// Goes on to the next interval in lanes without contact, and to the first half in the others;
+  /// finished lanes take other queries.
   void advance(const Mask& rejected, unsigned contact, const Value& least) {
     const Value begin = load(begin_), length = load(length_), end = begin + length;
-    // The next interval is as long as its place in the dyadic order allows, at most twice this.
+    // The next interval is as long as its dyadic position allows, at most twice this one.
     const Value doubled = length + length, places = end / doubled, shift(0x1p52);
     const Mask can_double = ((places + shift) - shift) == places;
     const Value steps = load(steps_) + Value(1.0);
@@ -186,7 +186,7 @@ class Bisection {
   alignas(sizeof(Numbers<Lanes>)) Numbers<Lanes> steps_{};
   std::array<std::uint32_t, width> index_{};
   unsigned active_ = 0;   ///< the lanes that hold a query
-  std::size_t next_ = 0;  ///< of the queries
+  std::size_t next_ = 0;  ///< index of the next query
   const KernelInput& input_;
   const Moving<Lanes, kind>& moving_;
   Crossings& contacts_;

@@ -1,19 +1,18 @@
 #pragma once
 
-/// \file
-/// The point of a polygon that is closest to the origin, and the direction that separates them
-/// best, in lanes. Nothing is proved here: the users of a direction or a point bound their own
-/// errors.
+/// \file The point of a polygon that is closest to the origin, and the direction that separates
+/// them best, in lanes. It is an approximation: the users of a direction or a point bound its
+/// effect.
 ///
 /// In L2 the nearest point x is inside the polygon, on a side or at a corner, and its direction is
-/// N or x itself. (x − (x·e) e/|e|² for a side e: where x is short, rounding would tilt it against
-/// the side, and the far end would seem much nearer.)
+/// N or x itself. (The direction for a side e is x − (x·e) e/|e|²: if x is short, rounding would
+/// tilt x against the side, and the far end would appear much closer.)
 ///
 /// In L∞ the directions are the facet normals of the Minkowski sum of the cube and the mirrored
-/// polygon: coordinate axes, N, and e_k × e for the axes e_k and sides e. That of the greatest
-/// distance is taken. It shows where the polygon touches a cube around the origin: a corner of the
-/// polygon touches a face of the cube, its inside touches a corner of the cube, or one of its sides
-/// an edge of the cube.
+/// polygon: coordinate axes, N, and e_k × e for the axes e_k and sides e. The one with the greatest
+/// distance is chosen. It determines the contact of the polygon with a cube around the origin: of a
+/// corner of the polygon with a face of the cube, of its interior with a corner of the cube, or of
+/// a side with an edge of the cube.
 
 #include <array>
 #include <cstddef>
@@ -26,8 +25,7 @@
 
 namespace touchstone::fast::kernel {
 
-/// Directions are scaled to a dual norm of at most this: 1, with room for the rounding of the
-/// scaling.
+/// The maximum dual norm of scaled directions: 1, with a margin for the rounding of the scaling.
 inline constexpr double unit_length = 1.0 + 0x1p-50;
 
 template <class Lanes, Kind kind, Norm norm>
@@ -39,9 +37,9 @@ class NearestPoint {
   static constexpr std::size_t corners = kind == Kind::vertex_face ? 3 : 4;
   using Corners = std::array<Vector, corners>;
 
-  /// Its dual norm is at most unit_length; NaN where no direction separates.
+  /// Its dual norm is at most unit_length; NaN if no direction separates.
   Vector direction{};
-  /// Parameters of the point, in F's domain but for rounding.
+  /// Parameters of the point, in F's domain up to rounding.
   Value u{0.0};
   Value v{0.0};
 
@@ -80,7 +78,7 @@ class NearestPoint {
     }
   }
 
-  /// Takes a point of the side i, j where `is_better`.
+  /// Takes a point of the side i, j in the lanes of `is_better`.
   void take_on_side(const Mask& is_better, std::size_t i, std::size_t j, const Value& part) {
     const auto from = parameters(i), to = parameters(j);
     u = select(is_better, Value(from[0]) + Value(to[0] - from[0]) * part, u);
@@ -134,7 +132,7 @@ class NearestPoint {
     search_inside(w);
   }
 
-  /// Is the origin's projection in the polygon?
+  /// The lanes in which the origin's projection is in the polygon.
   void search_inside(const Corners& w) {
     const Vector n = filters::cross(minus(w[1], w[0]), minus(w[last], w[0]));
     const Value square = filters::dot(n, n), zero(0.0);
@@ -156,7 +154,7 @@ class NearestPoint {
   // ---- L∞ ----
 
   void search_linf(const Corners& w) {
-    // Of the best direction: distance times length, and length.
+    // The best direction's distance times length, and its length.
     Value gap(-1.0), length(0.0);
     const auto is_better = [&](const Value& other_gap, const Value& other_length) {
       const Mask better = other_gap * length > gap * other_length;
@@ -194,7 +192,8 @@ class NearestPoint {
     }
   }
 
-  /// The direction e_axis × e for a side e from corner i; of a parallelogram two sides have it.
+  /// The direction e_axis × e for a side e from corner i, and for the opposite side of a
+  /// parallelogram.
   template <class IsBetter>
   void try_side(const Corners& w, std::size_t i, std::size_t axis, const IsBetter& is_better) {
     const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3, j = (i + 1) % corners;
@@ -214,7 +213,7 @@ class NearestPoint {
     d[y] = select(is_above, negative(e_z), e_z);
     d[z] = select(is_above, e_y, negative(e_y));
     direction = chosen(better, d, direction);
-    // The side that is nearer, and on it the point on the cube's edge.
+    // The closer side, and its point on the cube's edge.
     const Mask is_here = abs(here) <= abs(there);
     const Value start_y = select(is_here, w[i][y], w[to][y]);
     const Value start_z = select(is_here, w[i][z], w[to][z]);

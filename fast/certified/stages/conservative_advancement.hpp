@@ -1,14 +1,14 @@
 #pragma once
 
-/// \file
-/// Stage 8, conservative advancement (docs/theory.md, section 6.10), for a minimum separation D > 0
-/// that is large compared with rounding: it follows the moving polygon from t=0 on, in lanes.
+/// \file Stage 8, conservative advancement (docs/theory.md, section 6.10), for a minimum separation
+/// D > 0 that is large compared with rounding: the stage follows the moving polygon from t=0, in
+/// lanes.
 ///
 /// [0,begin] has no contact. An interval [begin,end] is examined by the theorem of
-/// moving_polygon.hpp, with the directions of the polygon's closest points at both ends. If it has
-/// no contact either, it is left behind; if nothing is proved, it is halved. Newton's method
+/// moving_polygon.hpp, with the directions of the polygon's closest points at both ends. If it
+/// provably has no contact, the search continues at `end`; otherwise it is halved. Newton's method
 /// predicts the contact from the closest point's velocity, so that steps can be nearly as long as
-/// the way to it. Near the contact, distance_enclosure.hpp encloses the time of impact.
+/// the time to it. Close to the contact, distance_enclosure.hpp encloses the time of impact.
 
 #include <array>
 #include <cstddef>
@@ -57,7 +57,7 @@ struct PolygonRows {
 template <class Lanes>
 using PolygonLanes = std::array<PolygonRows<Lanes>, groups_of_block<Lanes>>;
 
-/// Follows `width` queries at a time, each at a time of its own; a lane that is done takes the next
+/// Follows `width` queries at once, each at its own time; a lane that is finished takes the next
 /// query.
 template <class Lanes, Kind kind, Norm norm>
 class Advance {
@@ -83,10 +83,10 @@ class Advance {
   static constexpr std::size_t width = Lanes::width;
 
   static constexpr double most_steps = 60;
-  /// A step goes so far on the way to the predicted contact.
+  /// The fraction of the time to the predicted contact that a step advances.
   static constexpr double part_of_way = 1.0 - 0x1p-10;
-  /// The contact is near where the rest of the way is this part of the time, or the gap is so many
-  /// bounds.
+  /// The contact is close if the remaining time is at most this part of its time, or the gap at
+  /// most this number of bounds.
   static constexpr double near_in_time = 0x1p-12;
   static constexpr double near_in_bounds = 0x1p12;
 
@@ -101,8 +101,9 @@ class Advance {
     active_ |= 1U << lane;
   }
 
-  /// What a lane knows of its query, by rows of `state_`: no contact in [0, begin]; the end of the
-  /// interval to examine; the best direction at `begin`, and the closest point's parameters.
+  /// The state of a lane's query, as rows of `state_`: the end `begin` of [0, begin], which has no
+  /// contact; the end of the interval to examine; the best direction at `begin`, and the closest
+  /// point's parameters.
   enum State : std::size_t { begin, end, steps, parameter_u, parameter_v, direction };
 
   [[nodiscard]] Value load(State row) const { return Value::load(state_[row].data()); }
@@ -139,7 +140,7 @@ class Advance {
            Value(0.5);
   }
 
-  /// \param seen The contact as predicted from the end of the time that is proved to have none.
+  /// \param seen The contact as predicted from the end of the time without contact.
   void go_on(const Mask& apart, const typename Polygon::Prediction& seen, const Value& bound) {
     const Value one(1.0), a = load(begin), b = load(end), step = load(steps);
     const Value from = select(apart, b, a);
@@ -185,7 +186,7 @@ class Advance {
   alignas(sizeof(Numbers<Lanes>)) std::array<Numbers<Lanes>, 8> state_{};
   std::array<std::uint32_t, width> index_{};
   unsigned active_ = 0;   ///< the lanes that hold a query
-  std::size_t next_ = 0;  ///< of the queries
+  std::size_t next_ = 0;  ///< index of the next query
   const KernelInput& input_;
   const Indices& queries_;
   const PolygonLanes<Lanes>& polygons_;

@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// Zeros of the determinant that are known to be the only one in an interval of times, and how they
-/// are approximated. Nothing is proved of the approximation.
+/// \file Zeros of the determinant that are the only one in an interval of times, and their
+/// approximation, which has no error bound.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +11,7 @@
 
 namespace touchstone::fast::kernel {
 
-/// A zero of det, the only one in [begin, begin + length], and no contact before.
+/// An interval [begin, begin + length] with exactly one zero of det and no contact before it.
 struct Crossing {
   std::uint32_t index;
   double begin;
@@ -28,7 +27,7 @@ class Intervals {
  public:
   using Value = typename Lanes::Value;
 
-  /// Those of the places from `first` on, a multiple of the width.
+  /// The crossings from place `first` on, a multiple of the width.
   void store(std::size_t first, const Value& begin, const Value& length,
              const std::array<Value, 4>& coefficients) {
     Rows& rows = groups_[first / Lanes::width];
@@ -70,8 +69,8 @@ struct Cubic {
     return max(max(abs(c[0]), abs(c[1])), max(abs(c[2]), abs(c[3])));
   }
 
-  /// Its zero by Newton's method, with bisection where a step would leave the interval. A lane
-  /// stops when its last step was at most `enough`: its result does not depend on the other lanes.
+  /// Its zero by Newton's method, with bisection if a step would leave the interval. A lane stops
+  /// after a step of at most `enough`, so its result does not depend on the other lanes.
   [[nodiscard]] Value zero(double enough) const {
     using Mask = MaskOf<Value>;
     constexpr int most_steps = 8;
@@ -101,7 +100,7 @@ struct CrossingLanes {
   std::array<std::uint32_t, Lanes::width> indices;
   Value begin{0.0};
   Value length{0.0};
-  Value sign{0.0};  ///< that makes det rise
+  Value sign{0.0};  ///< the sign with which det rises
   Cubic<Value> cubic{};
 
   CrossingLanes(const Crossing* crossings, std::size_t count) {

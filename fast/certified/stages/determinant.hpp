@@ -5,11 +5,11 @@
 ///
 /// **Theorem.** det = r·(p×q) vanishes at each contact. On an interval of times it stays in the
 /// hull of its Bernstein coefficients there. So there is no contact if all of them are beyond their
-/// error bound on one side of 0. If they change sign once, certainly, det has exactly one zero in
-/// the interval (Descartes' rule of signs).
+/// error bound on one side of 0. If they certainly change sign exactly once, det has exactly one
+/// zero in the interval (Descartes' rule of signs).
 ///
-/// This stage looks at [0,1], in one pass with the stage direction. Later stages use the test on
-/// parts of it.
+/// This stage tests [0,1], in one pass with the stage direction. Later stages use the test on parts
+/// of it.
 
 #include <array>
 #include <cstddef>
@@ -21,14 +21,14 @@
 
 namespace touchstone::fast::kernel {
 
-/// An upper bound of what underflow adds to an error: too small to matter in any scene.
+/// An upper bound of the underflow part of an error: negligible in any scene.
 inline constexpr double determinant_underflow =
     filters::measured_determinant_middle_double.underflow(greatest_difference);
-// One bound serves all Bernstein coefficients: that of the middle ones is greater.
+// The bound of the middle Bernstein coefficients, which is the greatest, serves for all.
 static_assert(filters::measured_determinant_end_double.rounding() <=
               filters::measured_determinant_middle_double.rounding());
 
-/// The error bound of det by the magnitudes of r, p and q: `shift` is that of a value or of
+/// The error bound of det by the magnitudes of r, p and q: `shift` is the one of a value or of
 /// coefficients.
 template <bool separated, class Value>
 inline Value determinant_bound(const std::array<Value, 3>& magnitudes, double rounding,
@@ -77,7 +77,7 @@ inline std::array<Value, 4> determinant_coefficients(const Ends<Value>& at,
           filters::dot(at[r][1], n.b)};
 }
 
-/// What is proved of det on an interval.
+/// Proved properties of det on an interval.
 template <class Value>
 struct DeterminantTest {
   MaskOf<Value> one_sided;     ///< no zero
@@ -95,7 +95,7 @@ struct DeterminantTest {
   }
 };
 
-/// The stages direction and determinant. \param mixed The queries that neither ends.
+/// The stages direction and determinant. \param mixed The queries that neither decides.
 template <class Lanes, bool separated, Kind kind, class Source>
 inline void direction_and_determinant_stage(const KernelInput& input, const Indices& open,
                                             Indices& mixed, KernelOutput& output) {

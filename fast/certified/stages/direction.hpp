@@ -5,7 +5,7 @@
 ///
 /// **Theorem.** Let d be a fixed direction and n ≥ ‖d‖*, its dual norm. If d·w_i > D n for all
 /// corners w_i at t=0 and at t=1, where D is the minimum separation or 0, there is no contact: each
-/// d·w_i is linear in t, so it is greater than D n all the time.
+/// d·w_i is linear in t, so it is always greater than D n.
 ///
 /// d is the sum of the corners. The computed values have to exceed the error bound of their
 /// expression (filters::ProjectedGap, filters::AdvancedGap).
@@ -18,7 +18,7 @@
 
 namespace touchstone::fast::kernel {
 
-// Upper bounds of what underflow adds to an error: too small to matter in any scene.
+// Upper bounds of the underflow part of an error: negligible in any scene.
 inline constexpr double gap_underflow =
     filters::measured_projected_gap_double.underflow(greatest_direction);
 inline constexpr double advanced_gap_underflow =
@@ -34,7 +34,7 @@ struct Differences {
   static constexpr std::size_t seconds = kind == Kind::vertex_face ? 2 : 1;
 
   std::array<std::array<Vector<Value>, 2>, firsts> a;
-  std::array<std::array<Vector<Value>, 2>, seconds> b;  ///< and the origin, which is a b too
+  std::array<std::array<Vector<Value>, 2>, seconds> b;  ///< with the origin, which is a b too
 
   explicit Differences(const std::array<Vector<Value>, query_points>& x) {
     constexpr std::size_t origin = kind == Kind::vertex_face ? 1 : 2;
@@ -111,8 +111,8 @@ class DirectionTest {
     return gap > bound;
   }
 
-  /// By more than the distance: d·w − D n as filters::AdvancedGap, with the sum of d's components,
-  /// rounded up, for n: it is an upper bound of each norm.
+  /// The test with a distance: d·w − D n as filters::AdvancedGap. n is the sum of the magnitudes of
+  /// d's components, rounded up, an upper bound of both norms.
   static MaskOf<Value> separates_by(const Vector<Value>& d, const Value& gap,
                                     const Value& magnitude, const Value& distance) {
     constexpr double above_rounding = 1.0 + 0x1p-50;
@@ -123,7 +123,8 @@ class DirectionTest {
     return gap - n * distance > bound;
   }
 
-  /// Every coordinate is in the sum of the corners, which is not finite if one of them is not.
+  /// The sum of the corners has every coordinate as a term, so it is not finite if one of them is
+  /// not.
   static MaskOf<Value> is_number(const Vector<Value>& sum) {
     const Value zero(0.0);
     const Value difference = ((sum[0] - sum[0]) + (sum[1] - sum[1])) + (sum[2] - sum[2]);

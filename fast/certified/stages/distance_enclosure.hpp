@@ -1,16 +1,15 @@
 #pragma once
 
-/// \file
-/// The enclosure of the time of impact with a minimum separation D > 0 (docs/theory.md, section
-/// 6.10), for queries that the stages refinement and conservative advancement have followed up to
-/// just before the contact.
+/// \file The enclosure of the time of impact with a minimum separation D > 0 (docs/theory.md,
+/// section 6.10), for queries that the stages refinement and conservative advancement followed
+/// until just before the contact.
 ///
 /// **Theorem.** The time of impact is in [lower,upper] if there is no contact in [0,lower] (the
 /// theorem of moving_polygon.hpp, on the interval from the time up to which this is known) and
 /// contact at `upper`: some (u,v) of the domain with ‖F(upper,u,v)‖ ≤ D. The closest point's
 /// parameters are tried.
 ///
-/// The two times are so near to each other that the last coefficient and F need double-double.
+/// The two times are so close that the last coefficient and F need double-double.
 
 #include <array>
 #include <cstddef>
@@ -25,7 +24,7 @@
 
 namespace touchstone::fast::kernel {
 
-/// No contact in [0, begin], and one near `time`, or before.
+/// A query without contact in [0, begin], and with one close to `time` or before.
 struct Approach {
   std::uint32_t index;
   double begin;
@@ -52,7 +51,7 @@ class PreciseProof {
   using Vector = std::array<Value, 3>;
   using Precise = filters::DoubleDouble<Value>;
 
-  /// \param magnitude Of all differences of points.
+  /// \param magnitude The greatest of all differences of points.
   PreciseProof(const std::array<Vector, query_points>& points, const Value& magnitude,
                double distance)
       : magnitude_(max(magnitude, Value(distance))), points_(points), distance_(distance) {}
@@ -81,7 +80,7 @@ class PreciseProof {
     return least - bound * Value(1.001);
   }
 
-  /// Is ‖F(time,u,v)‖ ≤ D? \pre (u,v) is in the domain.
+  /// The lanes with ‖F(time,u,v)‖ ≤ D. \pre (u,v) is in the domain.
   [[nodiscard]] Mask is_within(const Value& time, const Value& u, const Value& v) const {
     const std::array<Precise, 4> weights{filters::exact_difference(Value(1.0), time), exact(time),
                                          exact(u), exact(v)};
@@ -126,7 +125,7 @@ class PreciseProof {
 
   static Precise exact(const Value& x) { return {x, Value(0.0)}; }
 
-  /// ContactComponent's, with D = 0.
+  /// The coordinates of ContactComponent with D = 0.
   [[nodiscard]] std::array<Precise, 7> coordinates(std::size_t axis) const {
     std::array<Precise, 7> x;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -138,8 +137,9 @@ class PreciseProof {
     return x;
   }
 
-  /// Let y be the exact vector, from which x differs by at most `error` on each axis. If
-  /// D² − |x|² ≥ 4 D error + 4 error², then |x| ≤ D and |y| ≤ |x| + √3 error, so that
+  /// The lanes with |y| ≤ D, where y is the exact vector, from which x differs by at most `error`
+  /// on each axis. If D² − |x|² ≥ 4 D error + 4 error², then |x| ≤ D and |y| ≤ |x| + √3 error, so
+  /// that
   /// |y|² ≤ |x|² + 2√3 D error + 3 error² ≤ D².
   [[nodiscard]] Mask is_short(const std::array<Precise, 3>& x, const Value& error) const {
     const Value size =
@@ -158,7 +158,7 @@ class PreciseProof {
   double distance_;
 };
 
-/// The closest parameters that are exactly in F's domain: multiples of 2^-52, so that 1 − u is
+/// The closest parameters exactly in F's domain that are multiples of 2^-52, so that 1 − u is
 /// exact.
 template <Kind kind, class Value>
 inline std::array<Value, 2> in_domain(const Value& u, const Value& v) {
@@ -182,10 +182,10 @@ class Arrival {
     Value upper;
     Value u;
     Value v;
-    Value corrected;  ///< where the time of impact seems to be, by the proof's own values
+    Value corrected;  ///< estimate of the time of impact from the values of the proof
     Mask proved;
 
-    /// This in the lanes where it is proved, the other elsewhere.
+    /// This enclosure in the lanes in which it is proved, the other one elsewhere.
     [[nodiscard]] Found or_else(const Found& other) const {
       return {select(proved, lower, other.lower),
               select(proved, upper, other.upper),
@@ -200,7 +200,7 @@ class Arrival {
           const Value& begin, const Value& half_width)
       : polygon_(polygon), precise_(precise), begin_(begin), half_width_(half_width) {}
 
-  /// By two steps of Newton's method; 0 stays 0.
+  /// The time corrected by two steps of Newton's method; 0 stays 0.
   [[nodiscard]] Value corrected(Value time) const {
     const Mask is_start = time <= Value(0.0);
     for (int i = 0; i < 2; ++i) {
@@ -225,7 +225,7 @@ class Arrival {
     const Value start = Polygon::Projections::at_point(of_lower.start, at_lower.u, at_lower.v);
     const Value end = Polygon::Projections::at_point(of_lower.end, at_lower.u, at_lower.v);
     const Value rate = start - end;
-    // The contact may end within the margin, but not before the polygon has moved on by D/2.
+    // The contact may end within the margin, but not before the polygon has moved by D/2.
     const Value through = precise_.distance() * Value(0.5) / rate;
     const Value upper =
         min(time + select(rate > Value(0.0), min(margin, through), margin), Value(1.0));
@@ -284,7 +284,7 @@ class DistanceEnclosure {
         Value::load(rows[0].data()), Value(0.4 * input.toi_tolerance));
     auto found = arrival.template around<norm>(arrival.corrected(Value::load(rows[1].data())));
     if (valid_bits(found.proved, count) != first_lanes<Lanes>(count)) {
-      // In L∞ other points may be as close, and easier to find by their distance in L2.
+      // In L∞ other points may have the same distance, and are easier to find in L2.
       found = found.or_else(arrival.template around<Norm::l2>(found.corrected));
     }
     const unsigned proved = valid_bits(found.proved, count);

@@ -1,18 +1,17 @@
 #pragma once
 
-/// \file
-/// What the stages of the kernel share: lists of queries, marks of places in them, and loading the
-/// queries' points into lanes.
+/// \file Common parts of the kernel's stages: lists of queries, marks of places in them, and
+/// loading the queries' points into lanes.
 ///
 /// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has
 /// - Value and Mask: a number and a truth value in each of its `width` lanes, one query a lane;
 /// - Row and RowMask: the same for the three coordinates of one point;
-/// - load and load_backwards: the points at `width` addresses. load may read one number behind a
+/// - load and load_backwards: the points at `width` addresses. load may read one number after a
 ///   point, load_backwards one before it.
 ///
-/// Templates on Lanes or its Value are local to that file too. So is everything in the stages that
-/// is more than an expression: code for an instruction set must not be what other files link.
-/// Function templates are `inline` because GCC then copies more of them into their callers.
+/// Templates on Lanes or its Value are local to that file too, as is all code in the stages apart
+/// from expressions, so that no other file links code for its instruction set. Function templates
+/// are `inline` because GCC then copies more of them into their callers.
 
 #include <array>
 #include <cstddef>
@@ -24,11 +23,11 @@
 
 namespace touchstone::fast::kernel {
 
-/// Points of a query may be this far from one of them on each axis: squares and cubes of their
-/// differences are far from overflow. The kernel does not decide queries that are larger.
+/// The maximum distance of a query's points from one of them on each axis: squares and cubes of the
+/// differences do not overflow. The kernel does not decide larger queries.
 inline constexpr double greatest_distance = 0x1p100;
 /// Upper bounds of the differences of any two points, and of sums of differences or of products of
-/// two: with room for rounding.
+/// two, with a margin for rounding.
 inline constexpr double greatest_difference = 0x1p102;
 inline constexpr double greatest_direction = 0x1p210;
 
@@ -48,7 +47,7 @@ class Marks {
   static constexpr std::size_t word_size = 64;
 
   void set_word(std::size_t first, std::uint64_t word) { words_[first / word_size] = word; }
-  /// Adds places from `first` on, no more than are left in its word.
+  /// Adds places from `first` on, at most to the end of its word.
   void add(std::size_t first, unsigned bits) {
     words_[first / word_size] |= std::uint64_t{bits} << (first % word_size);
   }
@@ -76,13 +75,13 @@ inline void append_marked(Indices& list, const Indices& from, const Marks<Lanes>
   marks.for_each([&](std::size_t place) { append<Lanes>(list, from.items[place]); });
 }
 
-/// How many of `count` items the lanes take from `first` on.
+/// The number of `count` items that the lanes take from `first` on.
 template <class Lanes>
 inline std::size_t taken(std::size_t first, std::size_t count) {
   return count - first < Lanes::width ? count - first : Lanes::width;
 }
 
-/// How many times the lanes have to be filled for a block.
+/// The number of times that the lanes are filled for a block.
 template <class Lanes>
 inline constexpr std::size_t groups_of_block = (kernel_block + Lanes::width - 1) / Lanes::width;
 
@@ -105,7 +104,7 @@ inline void for_each_lane(unsigned lanes, const Function& function) {
   }
 }
 
-/// Those of the first `count` lanes that are in the mask.
+/// The lanes of the mask among the first `count`.
 template <class Mask>
 inline unsigned valid_bits(const Mask& mask, std::size_t count) {
   return mask.bits() & ((1U << count) - 1U);
@@ -151,7 +150,7 @@ inline Value greatest(const Vector<Value>& a) {
   return max(max(abs(a[0]), abs(a[1])), abs(a[2]));
 }
 
-/// The same of a vector that moves between two.
+/// The same for a vector that moves between two.
 template <class Value>
 inline Value magnitude(const std::array<Vector<Value>, 2>& moving) {
   return max(greatest(moving[0]), greatest(moving[1]));
@@ -177,9 +176,9 @@ struct FromArray {
     for (std::size_t k = 0; k < query_points; ++k) result[k] = first + 3 * k;
     return result;
   }
-  /// The memory behind a query's last point may belong to others.
+  /// The memory after a query's last point may belong to other objects.
   static constexpr bool may_read_behind = false;
-  /// Memory is faster when read at several places at once.
+  /// Memory is faster if several places are read at once.
   static constexpr std::size_t places_at_once = 4;
 };
 
@@ -206,7 +205,7 @@ struct FromPairs {
     return result;
   }
   static constexpr bool may_read_behind = true;
-  /// Neighbours share vertices, and these come from the cache.
+  /// One place at a time, because neighbours share vertices, which are in the cache.
   static constexpr std::size_t places_at_once = 1;
 };
 

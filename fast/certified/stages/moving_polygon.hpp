@@ -1,8 +1,7 @@
 #pragma once
 
-/// \file
-/// The moving polygon P(t) = conv{w_i(t)} of a query with a minimum separation D > 0, in lanes, and
-/// when it has no contact (docs/theory.md, section 6.10).
+/// \file The moving polygon P(t) = conv{w_i(t)} of a query with a minimum separation D > 0, in
+/// lanes, and a condition for no contact (docs/theory.md, section 6.10).
 ///
 /// **Theorem.** Let c_a and c_b be directions of dual norm at most n. For s from 0 at a to 1 at b,
 /// c = (1−s) c_a + s c_b has a dual norm of at most n, and c·w_i − D n is quadratic with the
@@ -10,11 +9,11 @@
 ///
 ///     c_a·w_i(a) − D n,    ½ ((c_a·w_i(b) − D n) + (c_b·w_i(a) − D n)),    c_b·w_i(b) − D n.
 ///
-/// If they are positive for all corners, each point of P is farther away than D, all the time: no
+/// If they are positive for all corners, each point of P is always farther away than D: there is no
 /// contact in [a,b].
 ///
-/// With the directions that are best at a and at b, little is lost: the middle coefficient takes
-/// account of the turn in between.
+/// With the best directions at a and at b the condition is nearly sharp, because the middle
+/// coefficient accounts for the rotation in between.
 
 #include <array>
 #include <cstddef>
@@ -27,12 +26,12 @@
 
 namespace touchstone::fast::kernel {
 
-/// The vectors that MovingPolygon is made of: the first primitive's points, then the second's, as
-/// differences from the second's first point, which is left out; each at t=0 and t=1.
+/// The input of MovingPolygon: the first primitive's points, then the second's, as differences from
+/// the second's first point, which is omitted; each at t=0 and t=1.
 template <class Value, Kind kind>
 struct PolygonVectors {
   std::array<std::array<Vector<Value>, 2>, 3> vectors;
-  Value magnitude;  ///< of their coordinates
+  Value magnitude;  ///< greatest of their coordinates
 
   explicit PolygonVectors(const std::array<Vector<Value>, query_points>& points) {
     const Differences<Value, kind> of_points(points);
@@ -43,7 +42,7 @@ struct PolygonVectors {
   }
 };
 
-/// The corners while they move, and what is proved of them.
+/// The moving corners and their proved properties.
 template <class Lanes, Kind kind, Norm norm>
 class MovingPolygon {
  public:
@@ -52,12 +51,12 @@ class MovingPolygon {
   using Vector = std::array<Value, 3>;
   using Nearest = NearestPoint<Lanes, kind, norm>;
   static constexpr std::size_t corners = Nearest::corners;
-  /// Differences of points, rounded: what corners are differences of.
+  /// Rounded differences of points, whose differences are the corners.
   static constexpr std::size_t differences = 3;
   static constexpr std::size_t rows = 6 * differences;
 
   /// \param points As in PolygonVectors.
-  /// \param magnitude Of their coordinates.
+  /// \param magnitude The greatest of their coordinates.
   MovingPolygon(const std::array<std::array<Vector, 2>, differences>& points,
                 const Value& magnitude, double distance)
       : points_(points),
@@ -87,7 +86,7 @@ class MovingPolygon {
     std::array<Value, corners> start;
     std::array<Value, corners> end;
 
-    /// At the point with these parameters.
+    /// The value at the point with these parameters.
     [[nodiscard]] static Value at_point(const std::array<Value, corners>& of_corners,
                                         const Value& u, const Value& v) {
       const Value& origin = of_corners[0];
@@ -122,8 +121,8 @@ class MovingPolygon {
   /// magnitudes.
   [[nodiscard]] const Value& bound() const { return bound_; }
 
-  /// Are the first two coefficients on [a,b] positive, for all corners? `weight` is 1 if 1−b is
-  /// exact, else 2.
+  /// The lanes in which the first two coefficients on [a,b] are positive for all corners. `weight`
+  /// is 1 if 1−b is exact, else 2.
   [[nodiscard]] Mask begins_apart(const Projections& c_a, const Projections& c_b, const Value& a,
                                   const Value& b, double weight) const {
     const Value enough = bound_ * Value(2.001 * weight);
@@ -134,7 +133,7 @@ class MovingPolygon {
     return result;
   }
 
-  /// Is the last coefficient on [a,b] positive, for all corners?
+  /// The lanes in which the last coefficient on [a,b] is positive for all corners.
   [[nodiscard]] Mask ends_apart(const Projections& c_b, const Value& b) const {
     Mask result = Mask::all();
     for (std::size_t k = 0; k < corners; ++k) result = result & (gap(c_b, k, b) > bound_);
@@ -144,8 +143,8 @@ class MovingPolygon {
   /// The contact as Newton's method predicts it from the closest point at a time.
   struct Prediction {
     Value gap;     ///< to the distance D, at the time
-    Value time;    ///< of contact
-    Mask is_near;  ///< it comes nearer
+    Value time;    ///< predicted time of contact
+    Mask is_near;  ///< the polygon approaches
   };
 
   [[nodiscard]] Prediction predict(const Projections& c, const Value& u, const Value& v,
@@ -157,12 +156,12 @@ class MovingPolygon {
     return {now, time + now / rate, rate > Value(0.0)};
   }
 
-  /// Sizes are below this: the stage takes queries whose points are nearer to each other.
+  /// An upper bound of sizes: the stage takes only smaller queries.
   static constexpr double greatest_size = 0x1p102;
 
  private:
-  /// The places of the two differences whose difference is the corner; the second is `differences`
-  /// if the corner is the first itself.
+  /// The indices of the two differences whose difference is the corner; the second is `differences`
+  /// if the corner equals the first.
   static constexpr std::array<std::size_t, 2> points_of(std::size_t corner) {
     if constexpr (kind == Kind::vertex_face) {
       constexpr std::array<std::array<std::size_t, 2>, 3> all{{{0, 3}, {0, 1}, {0, 2}}};

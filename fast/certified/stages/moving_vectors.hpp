@@ -1,19 +1,19 @@
 #pragma once
 
-/// \file
-/// The vectors that determinant and orientations are made of, in lanes, and how their bounds cover
-/// a minimum separation.
+/// \file The vectors in determinant and orientations, in lanes, and their bounds with a minimum
+/// separation.
 ///
 /// F = r − u p − v q (filters/polynomial_expressions.hpp): r, p, q and, for the orientations of
-/// corners, two more. They move linearly, and so they do on each interval of times.
+/// corners, two more. They move linearly on each interval of times.
 ///
-/// **With a minimum separation** D, "no contact" has to be proved of the polygon shifted by any x
-/// with ‖x‖ ≤ D: r becomes r − x, and so does the vector in its place in an orientation. Let |·| be
+/// **With a minimum separation** D, "no contact" must be proved for the polygon shifted by every x
+/// with ‖x‖ ≤ D: r becomes r − x, as does the corresponding vector in an orientation. Let |·| be
 /// the greatest magnitude of a component. A determinant of three vectors with components ±1 is at
 /// most 4, so the shift changes det by at most D ‖N‖₁ ≤ 4 D |p| |q|, and an orientation x·(d × y)
-/// by at most 4 D |d| |y|. The middle coefficients, as they are computed, are three times the
-/// Bernstein coefficients of det and twice those of an orientation, and so is their change.
-/// `widened` adds these to the bounds, 12 for all coefficients (docs/theory.md, section 6.9).
+/// by at most 4 D |d| |y|. The computed middle coefficients are three times the Bernstein
+/// coefficients of det and twice those of an orientation, and their changes are multiplied
+/// likewise. `widened` adds these to the bounds, 12 for all coefficients (docs/theory.md, section
+/// 6.9).
 
 #include <array>
 #include <cstddef>
@@ -63,9 +63,9 @@ inline Ends<Value> between(const Ends<Value>& unit, const Value& begin, const Va
   return at;
 }
 
-/// The magnitude of r, or of the vector in its place, that makes a polynomial's bound cover the
-/// shift by the distance too. `rounding` is the factor of the magnitudes in the bound, `shift` that
-/// of the distance.
+/// The increased magnitude of r, or of the corresponding vector, with which a polynomial's bound
+/// also covers the shift by the distance. `rounding` is the factor of the magnitudes in the bound,
+/// `shift` the factor of the distance.
 template <bool separated, class Value>
 inline Value widened(const Value& magnitude, double rounding, const Value& distance, double shift) {
   if constexpr (separated) return magnitude + distance * Value(shift / rounding);

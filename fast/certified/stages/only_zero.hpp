@@ -3,11 +3,11 @@
 /// \file
 /// Stage 5, the only zero of the determinant (docs/theory.md, section 6.6).
 ///
-/// If det has exactly one zero on [0,1], certainly, only that zero can be a contact. Newton's
-/// method approximates it; nothing is proved of the approximation. On a short interval around it
-/// the tests of orientation.hpp are repeated. If det changes sign once there, certainly, the zero
-/// is in the interval, and the orientations decide: opposite signs reject the query, equal ones
-/// prove that the zero is the time of impact.
+/// If det certainly has exactly one zero on [0,1], only that zero can be a contact. Newton's method
+/// approximates it without an error bound. On a short interval around it the tests of
+/// orientation.hpp are repeated. If det certainly changes sign once there, the zero is in the
+/// interval, and the orientations decide: opposite signs reject the query, equal ones prove that
+/// the zero is the time of impact.
 
 #include <array>
 #include <cstddef>
@@ -19,19 +19,19 @@
 
 namespace touchstone::fast::kernel {
 
-/// Half the lengths of the two intervals. Where the first is not short enough, the second may be;
-/// where it is not either, bisection would not come to an end.
+/// Half the lengths of the two intervals. If the first is not short enough, the second may be; if
+/// neither is, bisection would not end.
 inline constexpr std::array<double, 2> halves_around_zero{0x1p-10, 0x1p-32};
 
-/// Rounded to a multiple of 2^-44, so that it and 1 minus it are exact.
+/// The time rounded to a multiple of 2^-44, so that it and 1 minus it are exact.
 template <class Value>
 inline Value to_short(const Value& time) {
   const Value shift(0x1p8);
   return (time + shift) - shift;
 }
 
-/// One of the intervals. \param unclear The queries whose zero is in it and whose orientations
-/// prove nothing. \param undecided Those whose zero is not known to be in it.
+/// Tests one of the intervals. \param unclear The queries whose zero is in it but whose
+/// orientations prove nothing. \param undecided The queries whose zero may be outside.
 template <class Lanes, bool separated, Kind kind, class Source>
 inline void zero_stage(const KernelInput& input, double half, const Crossings& zeros,
                        Crossings& contacts, Crossings& unclear, Indices& undecided, Indices& far,
@@ -73,7 +73,7 @@ inline void zero_stage(const KernelInput& input, double half, const Crossings& z
   append_marked(far, all, of_far);
 }
 
-/// Both intervals. \param hopeless The queries that bisection would not decide either.
+/// Tests both intervals. \param hopeless The queries that bisection would not decide either.
 template <class Lanes, bool separated, Kind kind, class Source>
 inline void zero_stages(const KernelInput& input, const Crossings& zeros, Crossings& contacts,
                         Indices& undecided, Indices& hopeless, Indices& far, KernelOutput& output) {

@@ -5,16 +5,16 @@
 ///
 /// **Theorem.** Let d be a fixed direction and o_i = d·(w_i × w_{i+1}) the orientations of
 /// consecutive corners. If 0 = Σ λ_i w_i with barycentric λ ≥ 0, each o_i is a nonnegative multiple
-/// of d·N, so that in a contact they all have one sign:
+/// of d·N, so at a contact they all have one sign:
 ///
 /// 1. If two of them keep opposite signs on an interval of times, there is no contact in it.
 /// 2. If all of them keep one sign (not 0), so does d·N, the sum of three of them or of two
-///    opposite ones. Hence N ≠ 0, and each zero of det in the interval is a contact, in the inside
-///    of the primitives.
+///    opposite ones. Hence N ≠ 0, and each zero of det in the interval is a contact of the
+///    interiors of the primitives.
 ///
 /// They are quadratic in t and stay in the hull of their Bernstein coefficients. d is the normal in
-/// the middle of the interval. This stage looks at [0,1]; only_zero.hpp and bisection.hpp look at
-/// parts of it.
+/// the middle of the interval. This stage tests [0,1]; only_zero.hpp and bisection.hpp test parts
+/// of it.
 
 #include <array>
 #include <cstddef>
@@ -27,11 +27,11 @@
 
 namespace touchstone::fast::kernel {
 
-/// An upper bound of what underflow adds to an error: too small to matter in any scene.
+/// An upper bound of the underflow part of an error: negligible in any scene.
 inline constexpr double orientation_underflow =
     filters::measured_orientation_middle_double.underflow(greatest_direction);
 static_assert(greatest_direction <= filters::measured_orientation_middle_double.greatest_x);
-// One bound serves all Bernstein coefficients: that of the middle ones is greater.
+// The bound of the middle Bernstein coefficients, which is the greatest, serves for all.
 static_assert(filters::measured_orientation_end_double.rounding() <=
               filters::measured_orientation_middle_double.rounding());
 
@@ -52,7 +52,7 @@ consteval auto orientations() {
   }
 }
 
-/// What the bounds of queries need: that of det, and for each orientation the product of its
+/// The inputs of the queries' bounds: the bound of det, and for each orientation the product of its
 /// vectors' magnitudes.
 template <class Value, Kind kind>
 struct Bounds {
@@ -74,7 +74,7 @@ inline Bounds<Value, kind> bounds_of(const Ends<Value>& unit, const Value& dista
   return bounds;
 }
 
-/// What is proved of the orientations on an interval.
+/// Proved properties of the orientations on an interval.
 template <class Value>
 struct OrientationTest {
   MaskOf<Value> opposed;  ///< two keep opposite signs
@@ -107,7 +107,7 @@ inline OrientationTest<Value> test_orientations(const Vector<Value>& d, const En
   return {any_positive & any_negative, all_positive | all_negative};
 }
 
-/// What is proved on an interval.
+/// Proved properties on an interval.
 template <class Value>
 struct Examination {
   std::array<Value, 4> coefficients;  ///< of det
@@ -132,8 +132,8 @@ inline Examination<Value> examine(const Ends<Value>& at, const Bounds<Value, kin
           test_orientations<kind>(normals.middle(), at, bounds)};
 }
 
-/// Where the distance times this exceeds the size of a query, a shift by it is too large for the
-/// widened bounds to prove much.
+/// If the distance times this factor exceeds the size of a query, the widened bounds prove too
+/// little.
 inline constexpr double greatest_shift = 0x1p16;
 
 /// The lanes whose distance is too large a shift.
@@ -145,9 +145,9 @@ inline unsigned far_lanes(const KernelInput& input, const Ends<Value>& unit) {
 }
 
 /// \param contacts The queries whose time of impact is the only zero of det.
-/// \param zeros Those of which only that zero can be a contact.
-/// \param undecided Those of which nothing is known.
-/// \param far Those whose distance is too large a shift.
+/// \param zeros The queries of which only that zero can be a contact.
+/// \param undecided The queries of which nothing is proved.
+/// \param far The queries whose distance is too large a shift.
 template <class Lanes, bool separated, Kind kind, class Source>
 inline void orientation_stage(const KernelInput& input, const Indices& mixed, Crossings& contacts,
                               Crossings& zeros, Indices& undecided, Indices& far,

@@ -5,17 +5,17 @@
 ///
 /// The time of impact is the only zero of det in an interval (crossing.hpp). Newton's method
 /// approximates it. An enclosure of the requested width around it, clipped to the interval, is
-/// right if det, in double-double, has at its ends the signs that it has at the ends of the
-/// interval, beyond the error bound. If not, the line through these two values tells where a second
-/// try is better.
+/// correct if det, in double-double, has the signs of the interval's ends at its own ends, beyond
+/// the error bound. If not, a second enclosure is tried around the zero of the line through these
+/// two values.
 ///
-/// **With a minimum separation** D, let b be the most that a shift by D changes det by
+/// **With a minimum separation** D, let b be the greatest change of det by a shift of D
 /// (moving_vectors.hpp). det, det + b and det − b cross zero once each on an interval on which the
 /// coefficients of det, with widened bounds, change sign once. So there is no contact up to a time
 /// at which det is still more than b away from 0, and the zero of det is a contact, at distance 0.
-/// If the enclosure holds with bounds widened by b, it has the time of impact too. If not, the time
-/// of impact is earlier by more than the enclosure is wide: det only proves a time up to which
-/// there is no contact, and distance_enclosure.hpp continues from there.
+/// If the enclosure holds with bounds widened by b, it contains the time of impact. If not, the
+/// time of impact is earlier by more than the width of the enclosure: det proves only a time up to
+/// which there is no contact, and distance_enclosure.hpp continues from there.
 
 #include <array>
 #include <cstddef>
@@ -32,7 +32,7 @@
 
 namespace touchstone::fast::kernel {
 
-/// An upper bound of what underflow adds to an error: too small to matter in any scene.
+/// An upper bound of the underflow part of an error: negligible in any scene.
 inline constexpr double double_double_underflow =
     filters::determinant_end_double_double.underflow(greatest_difference);
 static_assert(greatest_difference <= filters::determinant_end_double_double.greatest_x);
@@ -165,10 +165,10 @@ class Refinement {
     }
   }
 
-  /// Up to where det proves that there is no contact, as its value there is less than −b: by more
-  /// than the bound of its coefficients and the error of their sum. The weights of the sum add up
-  /// to 1, of 12 u of which rounding takes less than 2^-48; and the time is wrong by up to 3 ·
-  /// 2^-53, over which det moves by 18 · 2^-53 coefficients for an interval of length 1.
+  /// The time up to which det proves that there is no contact: its value there is less than −b by
+  /// more than the bound of its coefficients and the error of their sum. The weights of the sum add
+  /// up to 1, with a rounding error of 12 u, less than 2^-48; and the error of the time is up to 3
+  /// · 2^-53, in which det changes by 18 · 2^-53 coefficients for an interval of length 1.
   static void keep_approaches(const CrossingLanes<Lanes>& lanes, const Determinant& determinant,
                               const Value& zero, unsigned bits, Approaches& approaches) {
     const Value bound = determinant.rough_bound() +
@@ -191,7 +191,7 @@ class Refinement {
     Value upper;
     Value at_lower;  ///< det there, made rising
     Value at_upper;
-    Mask proved;  ///< it has the zero
+    Mask proved;  ///< the zero is in it
 
     Enclosure(const Determinant& determinant, const CrossingLanes<Lanes>& lanes,
               const Value& around, const Value& half_width)
@@ -203,13 +203,13 @@ class Refinement {
           proved((at_lower < Value(0.0) - determinant.bound()) & (at_upper > determinant.bound())) {
     }
 
-    /// Where the line through det's values at the ends is zero.
+    /// The zero of the line through det's values at the ends.
     [[nodiscard]] Value corrected() const {
       const Value rise = at_upper - at_lower;
       return select(rise > Value(0.0), lower - at_lower * (upper - lower) / rise, toi);
     }
 
-    /// This in the lanes where it is proved, the other elsewhere.
+    /// This enclosure in the lanes in which it is proved, the other one elsewhere.
     [[nodiscard]] Enclosure or_else(const Enclosure& other) const {
       Enclosure result = other;
       result.toi = select(proved, toi, other.toi);

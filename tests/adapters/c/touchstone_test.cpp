@@ -182,9 +182,46 @@ TEST(CInterface, SaysWhatIsWrong) {
   mesh.before = nullptr;
   EXPECT_EQ(touchstone_step_new(&mesh, nullptr), nullptr);
   expect_error("before is null");
-  std::int32_t is_free = 0;
-  EXPECT_EQ(touchstone_step_is_free(nullptr, &is_free), 2);
+}
+
+/// A step, or an output, that is null: the outputs that are there stay as they were.
+TEST(CInterface, WritesNothingWithAnError) {
+  const Scene scene;
+  const TouchstoneMesh mesh = scene.mesh();
+  TouchstoneStep* const step = touchstone_step_new(&mesh, nullptr);
+  ASSERT_NE(step, nullptr) << touchstone_last_error();
+  const TouchstoneCollision* collisions = nullptr;
+  std::size_t count = 0;
+  ASSERT_EQ(touchstone_step_collisions(step, &collisions, &count), 0);
+  const TouchstoneCollision first = collisions[0];
+
+  const TouchstoneCollision untouched{};
+  const TouchstoneCollision* written = &untouched;
+  std::size_t number = 77;
+  EXPECT_EQ(touchstone_step_collisions(step, &written, nullptr), 2);
+  expect_error("count is null");
+  EXPECT_EQ(touchstone_step_collisions(step, nullptr, &number), 2);
+  expect_error("collisions is null");
+  EXPECT_EQ(touchstone_step_collisions(nullptr, &written, &number), 2);
   expect_error("step is null");
+  EXPECT_EQ(written, &untouched);
+  EXPECT_EQ(number, 77U);
+  EXPECT_EQ(collisions[0].toi_lower, first.toi_lower) << "what was handed out is valid still";
+
+  std::int32_t is_free = 77;
+  EXPECT_EQ(touchstone_step_is_free(nullptr, &is_free), 2);
+  EXPECT_EQ(touchstone_step_is_free(step, nullptr), 2);
+  EXPECT_EQ(is_free, 77);
+  TouchstoneImpact impact{};
+  impact.verdict = 77;
+  EXPECT_EQ(touchstone_step_earliest(nullptr, &impact), 2);
+  EXPECT_EQ(touchstone_step_earliest(step, nullptr), 2);
+  EXPECT_EQ(impact.verdict, 77);
+  double alpha = 77.0;
+  EXPECT_EQ(touchstone_step_free_step_size(nullptr, &alpha), 2);
+  EXPECT_EQ(touchstone_step_free_step_size(step, nullptr), 2);
+  EXPECT_EQ(alpha, 77.0);
+  touchstone_step_free(step);
 }
 
 TEST(CInterface, KeepsTheErrorsOfThreadsApart) {

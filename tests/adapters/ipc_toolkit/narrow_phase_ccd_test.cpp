@@ -109,7 +109,6 @@ TEST(IpcAdapter, AnswersForPointsAndEdgesInTwoAndThreeDimensions) {
   EXPECT_NEAR(toi, 0.5, 1e-12);
   EXPECT_FALSE(ccd.point_edge_ccd(Vector3d(3, 0, 1), Vector3d(0, 0, 0), Vector3d(2, 0, 0),
                                   Vector3d(3, 0, -1), Vector3d(0, 0, 0), Vector3d(2, 0, 0), toi));
-  EXPECT_THROW(static_cast<void>(NarrowPhaseCCD(2.0)), std::invalid_argument);
 }
 
 TEST(IpcAdapter, StopsWhatIsNotFinite) {
@@ -117,6 +116,30 @@ TEST(IpcAdapter, StopsWhatIsNotFinite) {
   query.coordinates[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(ask(NarrowPhaseCCD(), Kind::vertex_face, query).hit);
   EXPECT_EQ(ask(NarrowPhaseCCD(), Kind::vertex_face, query).toi, 0.0);
+}
+
+/// Whatever the points: also where they are apart by 0, in contact, or not finite.
+TEST(IpcAdapter, RefusesBadArgumentsAndLeavesTheTime) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(static_cast<void>(NarrowPhaseCCD(2.0)), std::invalid_argument);
+  const NarrowPhaseCCD ccd;
+  for (const double height : {0.0, 1.0, nan}) {
+    const Query query = falling(height);
+    for (const double min_distance : {-1.0, -1e-300, nan, infinity}) {
+      EXPECT_THROW(ask(ccd, Kind::vertex_face, query, min_distance), std::invalid_argument);
+    }
+    for (const double tmax : {-0.5, 1.5, nan}) {
+      EXPECT_THROW(ask(ccd, Kind::vertex_face, query, 0.0, tmax), std::invalid_argument);
+    }
+  }
+  double toi = 7.0;
+  const Vector2d p(0, 0), q(2, 0);
+  const Vector3d r(1, 1, 1), s(1, -1, 1);
+  EXPECT_THROW(ccd.point_point_ccd(p, r, p, s, toi), std::invalid_argument);
+  EXPECT_THROW(ccd.point_point_ccd(p, q, p, s, toi), std::invalid_argument);
+  EXPECT_THROW(ccd.point_edge_ccd(r, p, q, s, p, q, toi), std::invalid_argument);
+  EXPECT_THROW(ccd.point_point_ccd(p, q, p, q, toi, -1.0), std::invalid_argument);
+  EXPECT_EQ(toi, 7.0);
 }
 
 }  // namespace

@@ -75,6 +75,11 @@ TEST(TightInclusionAdapter, ATimeOfZeroIsAContactAtZero) {
   EXPECT_EQ(ask(Kind::vertex_face, query).toi, 0.0);
 }
 
+// As a program asks that knows both libraries.
+#if !defined(TIGHT_INCLUSION_WITH_DOUBLE_PRECISION) || !defined(TIGHT_INCLUSION_VER)
+#error "the macros of config.hpp are not there"
+#endif
+
 TEST(TightInclusionAdapter, StopsWhatIsNotFinite) {
   Query query{{9, 9, 9, 0, 0, 0, 4, 0, 0, 0, 4, 0, 9, 9, 8, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
   EXPECT_FALSE(ask(Kind::vertex_face, query).hit);
@@ -85,6 +90,23 @@ TEST(TightInclusionAdapter, StopsWhatIsNotFinite) {
   query.coordinates[0] = 9;
   EXPECT_THROW(static_cast<void>(ask(Kind::vertex_face, query, -1.0)), std::invalid_argument);
   EXPECT_THROW(static_cast<void>(ask(Kind::vertex_face, query, 0.0, 2.0)), std::invalid_argument);
+}
+
+/// δ / (3 κ), with κ the greatest change of F along t, u or v ([wang2021], section 4.2).
+TEST(TightInclusionAdapter, HasTheTolerancesOfTheParameters) {
+  const Vector3 o(0, 0, 0), a(4, 0, 0), b(0, 0, -8), v(1, 1, 0), below(1, -15, 0);
+  static_assert(ticcd::DEFAULT_CCD_DISTANCE_TOL == 1e-6);
+  const ticcd::Array3 of_face =
+      ticcd::compute_vertex_face_tolerances(v, o, a, b, below, o, a, b, 48.0);
+  EXPECT_TRUE((of_face == ticcd::Array3(1.0, 4.0, 2.0)).all()) << of_face;
+  EXPECT_TRUE(
+      (of_face == ticcd::compute_face_vertex_tolerances(v, o, a, b, below, o, a, b, 48.0)).all());
+  const ticcd::Array3 of_edges =
+      ticcd::compute_edge_edge_tolerances(o, a, v, below, o, a, v, below, 48.0);
+  EXPECT_TRUE((of_edges == ticcd::Array3(std::numeric_limits<double>::infinity(), 4.0, 1.0)).all())
+      << of_edges;
+  EXPECT_EQ(ticcd::compute_edge_edge_tolerances(o, a, v, below, o, a, v, below)[1], 1e-6 / 12.0);
+  EXPECT_EQ(ticcd::return_queue_size(), 0);
 }
 
 }  // namespace

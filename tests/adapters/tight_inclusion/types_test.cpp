@@ -11,6 +11,9 @@ namespace touchstone::adapters::types_test {
 namespace {
 
 static_assert(std::is_same_v<ticcd::Scalar, float>);
+#ifdef TIGHT_INCLUSION_WITH_DOUBLE_PRECISION
+#error "single precision is not configured"
+#endif
 static_assert(std::is_same_v<ticcd::Vector3, Eigen::Vector3f>);
 static_assert(std::is_same_v<ticcd::Array3, Eigen::Array3f>);
 

@@ -118,12 +118,23 @@ TEST(Command, TellsAnEmptyOrCutStreamFromACompleteOne) {
   EXPECT_EQ(run(corpus + "miscounted.cert").status, 1);
 }
 
+TEST(Command, DemandsAClaimAndASeparation) {
+  const std::string features = corpus + "features.cert";
+  EXPECT_EQ(run("--claim no_collision " + features).status, 0);
+  EXPECT_EQ(run("--claim collision " + features).status, 1);
+  const auto [status, output] = run("--claim free --separation 1e-8 --norm l2 " + features);
+  EXPECT_EQ(status, 1);
+  EXPECT_NE(output.find("the claim is not the one demanded: "), std::string::npos) << output;
+}
+
 TEST(Command, KnowsItsUsage) {
   const auto [status, help] = run("--help");
   EXPECT_EQ(status, 0);
-  EXPECT_TRUE(help.starts_with("usage: touchstone-check FILE|- [SCENES]\n"));
+  EXPECT_TRUE(help.starts_with("usage: touchstone-check [OPTIONS] FILE|- [SCENES]\n"));
   EXPECT_NE(help.find("Example: "), std::string::npos);
-  for (const std::string arguments : {"", "--version", "-x", "a b c", "- -", "''"}) {
+  for (const std::string arguments :
+       {"", "--version", "-x", "a b c", "- -", "''", "--claim", "--claim nonsense a", "--norm l2 a",
+        "--separation 1 --norm l1 a", "--separation x a"}) {
     EXPECT_EQ(run(arguments).status, 2) << arguments;
   }
 }

@@ -129,15 +129,39 @@ TEST(Places, FindsEveryPairThatNoAxisKeepsApart) {
         if (!is_apart) expected.emplace(i, j);
       }
     }
-    for (const std::size_t axis : {0U, 1U, 2U}) {
-      Pairs found;
-      std::int64_t comparisons_left = 16 * 16;
-      places.find_near(some, is_same ? some : others, axis, comparisons_left,
-                       [&](const Element& a, const Element& b) {
-                         EXPECT_TRUE(found.emplace(a.first, b.first).second);
-                       });
-      EXPECT_EQ(found, expected);
+    Pairs found;
+    // No more than the pairs of all nodes.
+    std::int64_t comparisons_left = 17 * 17;
+    places.find_near(some, is_same ? some : others, comparisons_left,
+                     [&](const Element& a, const Element& b) {
+                       EXPECT_TRUE(found.emplace(a.first, b.first).second);
+                     });
+    EXPECT_EQ(found, expected);
+  }
+}
+
+// However the points of a scene lie, those that are apart cost no more than some comparisons each.
+TEST(Places, ComparesNotAllWithAllWherePointsShareACoordinate) {
+  Random random(4);
+  constexpr std::int32_t count = 20'000;
+  for (const unsigned shared : {0U, 1U, 2U, 3U, 4U, 5U, 6U}) {
+    std::vector<Motion> vertices(count);
+    Elements points;
+    for (std::int32_t i = 0; i < count; ++i) {
+      Motion& x = vertices[std::size_t(i)];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const bool is_shared = ((shared >> axis) & 1U) != 0;
+        x.at(axis) = is_shared ? 1.0 : random.uniform(-1, 1);
+        x.at(axis + 3) = x.at(axis);
+      }
+      points[i] = {i, i, i};
     }
+    std::int64_t comparisons_left = std::int64_t{200} * count;
+    int met = 0;
+    Places(vertices, 0.0, 1)
+        .find_near(points, points, comparisons_left,
+                   [&](const Element&, const Element&) { ++met; });
+    EXPECT_EQ(met, 0) << shared;
   }
 }
 

@@ -191,7 +191,7 @@ TEST(Separation, IsSeenByHalvesWhateverTheDegree) {
     EXPECT_EQ(outcome(turning_face(h)), "no_collision");
     EXPECT_EQ(outcome(passing_edge(h)), "no_collision");
   }
-  EXPECT_EQ(outcome(turning_face("0")), "12: a polynomial is not positive at a point");
+  EXPECT_EQ(outcome(turning_face("0x0p+0")), "12: a polynomial is not positive at a point");
   EXPECT_EQ(outcome(passing_edge("0")), "12: a polynomial is not positive at a point");
 }
 
@@ -477,7 +477,8 @@ TEST(TimeOfImpact, IsEnclosed) {
 TEST(TimeOfImpact, MayBeZero) {
   const std::string on = over_triangle("1 1 0", "1 1 -1"), place = "triangle 0 1 2 z";
   EXPECT_EQ(outcome(on + time_of_impact("0 0", "", "time 0", place)), "time_of_impact");
-  EXPECT_EQ(outcome(on + time_of_impact("0/7 0x0p+0", "", "time -0", place)), "time_of_impact");
+  EXPECT_EQ(outcome(on + time_of_impact("0/7 0x0p+0", "", "time -0x0p+0", place)),
+            "time_of_impact");
   EXPECT_EQ(outcome(on + time_of_impact("0 0", "separate 0 0 face +\n", "time 0", place)),
             "12: expected 'contact', found 'separate'");
   EXPECT_EQ(outcome(on + time_of_impact("0 1/2", "", "time 0", place)), "11: there is no piece");
@@ -560,7 +561,7 @@ TEST(Distance, IsANumberThatIsNotNegativeWithANorm) {
                     proof = no_collision("separate 0 1 face +");
   EXPECT_EQ(outcome(above + separation("-1", "l2") + proof), "11: a distance below 0");
   EXPECT_EQ(outcome(above + separation("-1/1000", "linf") + proof), "11: a distance below 0");
-  EXPECT_EQ(outcome(above + separation("-0", "l2") + proof), "no_collision");
+  EXPECT_EQ(outcome(above + separation("-0x0p+0", "l2") + proof), "no_collision");
   EXPECT_EQ(outcome(above + separation("1", "l1") + proof), "11: unknown word: 'l1'");
   EXPECT_EQ(outcome(above + "separation 1\n" + proof), "11: the line has too few words");
   EXPECT_EQ(outcome(above + "separation l2\n" + proof), "11: not a number: 'l2'");

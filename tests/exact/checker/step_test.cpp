@@ -59,7 +59,7 @@ TEST(Step, SaysWhatItProves) {
   const Report report = check(in);
   ASSERT_EQ(report.steps.size(), 1U);
   EXPECT_EQ(report.steps[0],
-            "step a label\n6 vertices, 6 edges, 2 faces\nseparation 0 linf\nclaim no_contact 1\n");
+            "step a label\n6 vertices, 6 edges, 2 faces\nseparation 0\nclaim no_contact 1\n");
   EXPECT_EQ(report.accepted(), 1U);
 }
 
@@ -194,7 +194,7 @@ TEST(Step, HoldsGroupsApart) {
   const std::string none = "sweep x\nvertex_face\nedge_edge\nvertex_edge\nvertex_vertex\nend\n";
   const std::string groups = "groups 6\n4\n4\n4\n7\n7\n7\napart 1\n7 4\n";
   const std::string apart = replaced(scene, "groups 0\napart 0\n", groups);
-  EXPECT_EQ(refusal(stream(step(scene, none))), "no argument for vertex_face 3 0");
+  EXPECT_EQ(refusal(stream(step(scene, none))), "no argument for vertex_face 4 0");
   EXPECT_EQ(refusal(stream(step(apart, none))), "");
   EXPECT_NE(refusal(stream(step(replaced(apart, "7 4\n", "7 7\n"), none))), "");
 }
@@ -279,33 +279,96 @@ TEST(Step, OfWhichALineIsAlteredIsRefused) {
 }
 
 TEST(Step, IsBounded) {
-  const auto refusal_within = [](const std::string& text, std::int64_t comparisons,
+  const auto refusal_within = [](const std::string& text, std::int64_t comparisons_per_byte,
                                  std::int64_t bits) {
     std::istringstream in(text);
-    const Report report = check(in, {.max_comparisons = comparisons, .max_step_work_bits = bits});
+    const Report report =
+        check(in, {.max_comparisons_per_byte = comparisons_per_byte, .max_step_work_bits = bits});
     return report.all_accepted() ? "" : report.rejections.at(0).reason;
-  };
-  /// The least limit within which the step is accepted.
-  const auto least = [&](const auto& is_enough) {
-    std::int64_t limit = 0;
-    while (!is_enough(limit)) ++limit;
-    return limit;
   };
   constexpr std::int64_t many = 1 << 20;
   const std::string text = stream(step());
-  const std::int64_t comparisons =
-      least([&](std::int64_t x) { return refusal_within(text, x, many).empty(); });
-  const std::int64_t bits =
-      least([&](std::int64_t x) { return refusal_within(text, many, x).empty(); });
-  // At most each of 8 with each, and each of 6 edges with each.
-  EXPECT_GT(comparisons, 9);
-  EXPECT_LE(comparisons, 8 * 7 / 2 + 6 * 5 / 2);
+  EXPECT_EQ(refusal_within(text, 1, many), "") << "fewer comparisons than bytes";
+  EXPECT_EQ(refusal_within(text, 0, many), "the search for pairs takes too many comparisons");
+  // The least limit within which the step is accepted.
+  std::int64_t bits = 0;
+  while (!refusal_within(text, 1, bits).empty()) ++bits;
   EXPECT_GT(bits, 0);
-  EXPECT_EQ(refusal_within(text, comparisons - 1, many),
-            "the search for pairs takes too many comparisons");
-  EXPECT_EQ(refusal_within(text, many, bits - 1), "the proof takes too much work");
-  // The limits are of a step, and not of a stream.
-  EXPECT_EQ(refusal_within(stream(step() + step(), 2), comparisons, bits), "");
+  EXPECT_EQ(refusal_within(text, 1, bits - 1), "the proof takes too much work");
+  EXPECT_EQ(refusal_within(stream(step() + step(), 2), 1, bits), "")
+      << "the limit is of a step, not of a stream";
+}
+
+// ---- Demands ------------------------------------------------------------------------------------
+
+TEST(Step, IsPrintedInOneForm) {
+  const std::string zeros(1'100, '0');
+  const auto printed = [](const std::string& text) {
+    std::istringstream in(text);
+    const Report report = check(in);
+    return report.steps.empty() ? report.rejections.at(0).reason : report.steps[0];
+  };
+  const std::string original = stream(step());
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = original;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  // 0x1.00…0p-90 is 2^-90; a reader of its first digits would take it for 1.
+  EXPECT_NE(printed(with("separation 0", "separation 0x1." + zeros + "p-90"))
+                .find("\nseparation 0x1p-90 linf\n"),
+            std::string::npos);
+  EXPECT_NE(printed(with("claim no_contact 1", "claim no_contact 0x1." + zeros + "p+0"))
+                .find("\nclaim no_contact 1\n"),
+            std::string::npos);
+  EXPECT_EQ(printed(with("step a label", "step " + std::string(1'100, 'a'))),
+            "more than 1024 bytes in a label");
+}
+
+TEST(Step, ProvesWhatIsDemandedAndNothingElse) {
+  const auto refusal_of = [](const std::string& claim, const std::string& separation) {
+    std::istringstream in(stream(step()));
+    const Report report = check(in, {.claim = claim, .separation = separation});
+    return report.all_accepted() ? "" : report.rejections.at(0).reason;
+  };
+  EXPECT_EQ(refusal_of(demanded_claim("free"), demanded_separation("0", "l2")), "");
+  EXPECT_EQ(refusal_of(demanded_claim("no_contact 0x1p+0"), demanded_separation("0.0", "linf")),
+            "");
+  const std::string other_claim = "the claim is not the one demanded: no_contact 1";
+  for (const char* const claim :
+       {"earliest", "earliest 1/2 1", "no_contact 1/2", "no_collision", "time_of_impact"}) {
+    EXPECT_EQ(refusal_of(demanded_claim(claim), ""), other_claim) << claim;
+  }
+  const std::string other_separation = "the separation is not the one demanded: 0";
+  EXPECT_EQ(refusal_of("", demanded_separation("1e-8", "l2")), other_separation);
+  for (const char* const nonsense :
+       {"", "free 1", "no_contact", "earliest 1", "collision 0", "no_contact x"}) {
+    EXPECT_THROW(static_cast<void>(demanded_claim(nonsense)), Rejection) << nonsense;
+  }
+  EXPECT_THROW(static_cast<void>(demanded_separation("1", "l1")), Rejection);
+  EXPECT_THROW(static_cast<void>(demanded_separation("-1", "l2")), Rejection);
+  EXPECT_THROW(static_cast<void>(demanded_separation("nan", "l2")), Rejection);
+}
+
+TEST(Step, IntegersHaveOneForm) {
+  for (const auto& [from, to] :
+       {std::pair("\n0 1 2\n", "\n00 1 2\n"), std::pair("\n0 1 2\n", "\n-0 1 2\n"),
+        std::pair("\nvertices 6\n", "\nvertices 06\n"),
+        std::pair("no_contact 1\n", "no_contact 01\n"),
+        std::pair("no_contact 1\n", "no_contact 01/1\n"),
+        std::pair("separation 0 ", "separation -0 ")}) {
+    std::string text = stream(step());
+    text.replace(text.find(from), std::string(from).size(), to);
+    EXPECT_NE(refusal(text), "") << to;
+  }
+}
+
+// Who names scenes is told nothing of queries.
+TEST(Step, IsNoStreamOfQueriesWhereScenesAreNamed) {
+  std::istringstream in("touchstone-certificates 2\ncertificates 0\n"), scenes("");
+  const Report report = check(in, {.scenes = &scenes});
+  EXPECT_EQ(report.rejected, 1U);
+  EXPECT_EQ(report.rejections.at(0).reason,
+            "the first line is not 'touchstone-steps 1', as for scenes");
 }
 
 TEST(Step, OfAnEmptyStreamThereIsNone) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -60,9 +61,9 @@ Proved prove(const Scene& scene, const fast::StepOptions& step_options,
 }
 
 /// Why the checker refuses; empty if it does not.
-std::string refusal(const std::string& text) {
+std::string refusal(const std::string& text, const checker::Options& options = {}) {
   std::istringstream in(text);
-  const checker::Report report = checker::check(in);
+  const checker::Report report = checker::check(in, options);
   return report.all_accepted() ? "" : report.rejections.at(0).reason;
 }
 
@@ -106,10 +107,31 @@ void expect_true(const Scene& scene, const fast::StepOptions& options, const Ste
   EXPECT_EQ(std::nextafter(times[0], 2.0), times[1]) << proof.claim;
 }
 
+/// Is this claim at this separation what the checker finds proved, and at another not?
+void expect_demand_kept(const std::string& text, const fast::StepOptions& options,
+                        const StepProof& proof) {
+  std::ostringstream distance;
+  distance << std::hexfloat << options.separation.distance;
+  const bool is_l2 = options.separation.norm == Norm::l2;
+  const auto demand = [&](const std::string& norm) {
+    return checker::Options{.claim = checker::demanded_claim(proof.claim),
+                            .separation = checker::demanded_separation(distance.str(), norm)};
+  };
+  EXPECT_EQ(refusal(text, demand(is_l2 ? "l2" : "linf")), "");
+  if (options.separation.distance > 0.0) {
+    EXPECT_NE(refusal(text, demand(is_l2 ? "linf" : "l2")), "");
+  }
+  checker::Options other = demand(is_l2 ? "l2" : "linf");
+  other.separation = checker::demanded_separation("0x1p-1030", "l2");
+  EXPECT_NE(refusal(text, other), "");
+}
+
 TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
-  int proved = 0, free = 0, failed = 0;
+  const bool is_soak = std::getenv("TOUCHSTONE_SOAK") != nullptr;  // NOLINT(concurrency-mt-unsafe)
+  const std::uint64_t seeds = is_soak ? 400 : 25;
+  int proved = 0, free = 0, failed = 0, with_distance = 0;
   for (const tests::Shape& shape : tests::shapes()) {
-    for (std::uint64_t seed = 0; seed < 25; ++seed) {
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
       Random random(seed);
       const Scene scene =
           with_ordered_edges(tests::random_scene(random, shape, random.between(4, 14)));
@@ -126,12 +148,16 @@ TEST(ProveStep, ProvesWhatTheOracleSaysOfAllPairs) {
       ++proved;
       EXPECT_EQ(refusal(text), "") << shape.name << ' ' << seed;
       expect_true(scene, options, proof);
+      expect_demand_kept(text, options, proof);
       free += proof.claim.starts_with("no") ? 1 : 0;
+      with_distance += options.separation.distance > 0.0 ? 1 : 0;
     }
   }
   EXPECT_GT(proved, 200);
   EXPECT_GT(free, 20);
-  EXPECT_LT(failed, 20);
+  EXPECT_LT(failed, is_soak ? 320 : 20);
+  EXPECT_GT(with_distance, proved / 4);
+  RecordProperty("with_distance", with_distance);
 }
 
 /// Lines, and those that begin an argument.
