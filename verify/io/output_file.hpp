@@ -1,15 +1,13 @@
 #pragma once
 
-/// \file
-/// Files that appear whole or not at all.
+/// \file Files that appear whole or not at all.
 ///
-/// The data goes to a temporary name in the target's folder and takes the target's name when it is
-/// complete; a file that was there before stays as it was until then. The temporary name,
-/// <name>.touchstone.partial-<process>-<number> with <name> cut to what a file's name may have, has an
-/// extension of its own, so that a search for datasets does not find what a killed run left.
+/// The data is written to <name>.touchstone.partial-<process> beside the target, which takes the
+/// target's name when it is complete; an older file stays as it is until then. A search for datasets
+/// does not find such a name. The next run with the same target removes what a killed one left.
 ///
-/// Who writes a temporary file holds a lock (flock) on it, which ends with the process however that
-/// ends. Who begins to write into a folder removes the temporary files there that nobody holds.
+/// Devices and pipes, and all below /dev and /proc, are written to as they are; a symbolic link stays
+/// one.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +17,12 @@
 
 namespace touchstone::verify::io {
 
+/// The place of a file of this name: behind symbolic links, also where nothing is yet.
+[[nodiscard]] std::filesystem::path behind_links(std::filesystem::path path);
+
 /// A file open for writing, buffered. Without close() nothing remains of it.
 class OutputFile {
  public:
-  /// Also removes what killed runs left in the target's folder.
   /// \throws DatasetError if no file can be made in the target's folder.
   explicit OutputFile(std::filesystem::path path);
   OutputFile(const OutputFile&) = delete;
@@ -42,19 +42,20 @@ class OutputFile {
 
   /// Writes all that is left and gives the file its name. To be called once, as the last call.
   /// \throws DatasetError if either fails; the target is then as it was.
-  void close() { close_as(path_); }
-
-  /// The same with another name in the target's folder; the target stays as it was.
-  void close_as(const std::filesystem::path& path);
+  void close() { close_as(""); }
+  /// The same with an ending behind the name. A device has its name already.
+  void close_as(const std::string& ending);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] bool is_device() const { return temporary_.empty(); }
 
  private:
-  [[nodiscard]] bool lock() const;
+  void open_temporary();
   void flush();
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
+  /// Empty for a device, and for a file that has its name.
   std::filesystem::path temporary_;
   int descriptor_ = -1;
   std::string buffer_;

@@ -96,7 +96,7 @@ TEST_F(Tool, RefusesBadInputWithItsReason) {
       {{"nonsense"}, "no command nonsense; touchstone --help lists them"},
       {{"view", path("deep.json"), "--out", path("x.html")}, "nested more than 100 deep"},
       {{"certify", path("loop")}, "loop: cannot read: Too many levels of symbolic links"},
-      {{"certify", "--truth", path("loop")}, "loop: cannot be written: Too many levels"},
+      {{"certify", "--truth", path("loop")}, "loop: cannot write: Too many levels"},
       {{"certify", "--results", path("answers.csv"), "--count", "1"},
        "first line must be file,index,kind,verdict,toi_lower,toi_upper,tolerance[,failure]"}};
   for (const char* const option : {"--csv", "--json", "--prove", "--view"}) {
@@ -926,7 +926,7 @@ TEST_F(Tool, AFullDeviceEndsSolveEarly) {
   const Outcome solve = run({"solve", "--count", "100000000", "--plugin",
                              tests::plugin_library("box_overlap"), "--out", "/dev/full"});
   EXPECT_EQ(solve.status, 2) << solve.err;
-  EXPECT_TRUE(contains(solve.err, "/dev/full: cannot be written")) << solve.err;
+  EXPECT_TRUE(contains(solve.err, "/dev/full: cannot write")) << solve.err;
 }
 
 TEST_F(Tool, AnInterruptIsObeyedWhileASolverHangs) {
