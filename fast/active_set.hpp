@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The active set of a step: the pairs that a constrained solver has to keep apart, with the
+/// \file
+/// The active set of a step: the pairs that a constrained solver has to keep apart, with the
 /// time, the place and the direction of each contact ([wang2021], algorithm 3).
 ///
 /// A constraint of such a solver is n·(x − y) ≥ η at the end of the step, where x and y are points

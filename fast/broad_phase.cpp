@@ -109,11 +109,8 @@ class Search {
 template <class First, class Second>
 PairRules rules_of(const FloatBounds& bounds, const ExactTest<First, Second>& test,
                    bool are_edges) {
-  const bool is_exact = bounds.are_exact() && test.distance == 0.0;
   return {.of_edges = are_edges,
-          .distance_above = bounds.scaled_up(test.distance),
-          .distance_below = bounds.scaled_down(test.distance),
-          .certainty = is_exact ? Certainty::all : Certainty::unless_close,
+          .certainty = bounds.are_exact() ? Certainty::all : Certainty::unless_close,
           .confirms =
               [](const void* context, const IndexPair& pair) {
                 return (*static_cast<const ExactTest<First, Second>*>(context))(pair);
@@ -136,7 +133,7 @@ std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
   return with_threads(options.max_threads, [&] {
     std::vector<std::int32_t> points(vertices.size());
     std::iota(points.begin(), points.end(), 0);
-    const FloatBounds bounds(vertices);
+    const FloatBounds bounds(vertices, 1.0, options.min_separation);
     const PrimitiveGroups point_groups(bounds, std::span<const std::int32_t>(points));
     const PrimitiveGroups face_groups(bounds, faces);
     BoxTree<1> point_tree(point_groups), face_tree(face_groups);
@@ -155,7 +152,7 @@ std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
   require_finite(vertices);
   require_in_range(vertices, edges);
   return with_threads(options.max_threads, [&] {
-    const FloatBounds bounds(vertices);
+    const FloatBounds bounds(vertices, 1.0, options.min_separation);
     const PrimitiveGroups groups(bounds, edges);
     BoxTree<1> tree(groups);
     tree.fit(bounds);

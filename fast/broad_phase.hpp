@@ -18,10 +18,10 @@
 /// the coordinates: none is missed, and none is added by rounding. (Beyond the greatest double the
 /// rounded bound is that double, which no coordinate exceeds.)
 ///
-/// **How.** First in float: boxes rounded outwards, in trees of sixteen children a node, sixteen comparisons at a
-/// time (fast/broad_phase/). What overlaps in double overlaps there. What overlaps there does so in
-/// double as well if all coordinates are floats, or by more than the rounding; else the boxes
-/// above are compared. Primitives are split at the median of their centres along the axis where these spread
+/// **How.** First in float: boxes in trees of sixteen children a node, sixteen comparisons at a time
+/// (fast/broad_phase/). What overlaps in double overlaps there. What overlaps there does so in double as
+/// well if all coordinates are floats, or by more than the rounding; else the boxes above are
+/// compared. Primitives are split at the median of their centres along the axis where these spread
 /// most. Splitting by rank and not by place makes all trees equally deep, and memory proportional
 /// to the primitives, however large or clustered the boxes are.
 ///

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The distance of two primitives at a time, and the least distance in a scene, enclosed by
+/// \file
+/// The distance of two primitives at a time, and the least distance in a scene, enclosed by
 /// neighbouring doubles.
 ///
 /// Positions at a time t are exactly (1−t) x0 + t x1. Primitives are closed sets: the distance is 0

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The filter of inclusion-based methods: a bound, on each axis, of the error of computed
+/// \file
+/// The filter of inclusion-based methods: a bound, on each axis, of the error of computed
 /// values of F.
 
 #include <array>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The limit of a line search: the step size up to which all primitives stay at least p times
+/// \file
+/// The limit of a line search: the step size up to which all primitives stay at least p times
 /// as far apart as at the start ([wang2021], algorithm 4, without its corrections).
 ///
 /// **Theorem** (docs/theory.md, section 8.5). Let d > 0 be the distance at the start and s a double

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A moving mesh in the form that simulators use: vertices at the start and at the end of a
+/// \file
+/// A moving mesh in the form that simulators use: vertices at the start and at the end of a
 /// step, edges and faces as indices, and candidates as pairs of these. Pairs take an eighth of the
 /// memory of queries, and the vertices stay in the cache.
 

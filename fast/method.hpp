@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The interface of every solver: a description, and answers to a span of queries. verify/
+/// \file
+/// The interface of every solver: a description, and answers to a span of queries. verify/
 /// uses solvers through it alone.
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The certified solver for two primitives given by their points, as simulators call it.
+/// \file
+/// The certified solver for two primitives given by their points, as simulators call it.
 ///
 /// Each function takes the points at t=0 and then, in the same order, at t=1. They move on straight
 /// lines in between. A point is any vector of three floats or doubles (`Point`); floats are

@@ -19,11 +19,11 @@
 /// two edges leads. So the elements around a vertex may fold onto each other, and collapse.
 /// (An edge that meets a face at t=0 may do so until t=1, and nothing touches.)
 ///
-/// **How.** Boxes in float at both ends of the step, rounded outwards, in trees (fast/broad_phase/).
-/// A search finds the pairs that no axis separates at both ends the same way round. An axis that
-/// does so excludes a contact. So the broad phase does the work of the certified solver's first
-/// stage, for sixteen pairs at a time, before any pair is written. The certified solver decides the
-/// others in blocks as they are found. No list of candidates is kept: memory is that of the mesh and
+/// **How.** Boxes in float at both ends of the step, in trees (fast/broad_phase/). A search finds the
+/// pairs that no axis separates at both ends the same way round. An axis that does so excludes a
+/// contact. So the broad phase does the work of the certified solver's first stage, for sixteen pairs
+/// at a time, before any pair is written. The certified solver decides the others in blocks as they
+/// are found. No list of candidates is kept: memory is that of the mesh and
 /// of what touches. As soon as an impact is known, `earliest` searches up to that time alone.
 ///
 /// Answers are as exact as the certified solver's (fast/certified.hpp), and the same for any number

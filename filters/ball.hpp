@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Numbers of 106 bits, each with a bound of its error: for expressions without a derived
+/// \file
+/// Numbers of 106 bits, each with a bound of its error: for expressions without a derived
 /// bound, and for magnitudes that are known only at run time.
 ///
 /// A ball represents any real x with |x − center| ≤ radius. The sum, difference or product of two

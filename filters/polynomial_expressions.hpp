@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The filtered expressions of the certified solver: polynomials in t by their Bernstein
+/// \file
+/// The filtered expressions of the certified solver: polynomials in t by their Bernstein
 /// coefficients. (Rules for expressions: filters/expressions.hpp.)
 ///
 /// Both kinds of query are written F = r − u p − v q, each of r, p, q moving linearly:

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The filtered expressions of the certified solver with a minimum separation D > 0. (Rules
+/// \file
+/// The filtered expressions of the certified solver with a minimum separation D > 0. (Rules
 /// for expressions: filters/expressions.hpp; vectors and steps:
 /// filters/polynomial_expressions.hpp.)
 ///

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The assumptions of error bounds about the arithmetic, checked at compile time: IEEE 754
+/// \file
+/// The assumptions of error bounds about the arithmetic, checked at compile time: IEEE 754
 /// binary64 and binary32, each operation rounded once to its own format, no value-changing
 /// optimisation. Every file with a filtered expression includes this one.
 ///

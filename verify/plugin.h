@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The interface for solvers under test, for C99 and C++.
+/// \file
+/// The interface for solvers under test, for C99 and C++.
 ///
 /// A plugin is a shared library that defines the three functions at the end of this header; it
 /// needs no other header of Touchstone. `touchstone certify --plugin ./libsolver.so` loads it and

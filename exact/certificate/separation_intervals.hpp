@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The proof that there is no contact up to a time: the time is divided into pieces, each
+/// \file
+/// The proof that there is no contact up to a time: the time is divided into pieces, each
 /// with one direction that separates all corners from the ball of the distance throughout the
 /// piece.
 ///

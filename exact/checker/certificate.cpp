@@ -138,7 +138,7 @@ mpq_class parse_number(std::string_view word) {
 }
 
 std::string to_text(const mpq_class& number) {
-  const std::string fraction = number.get_str();
+  std::string fraction = number.get_str();
   const bool is_dyadic = mpz_popcount(number.get_den_mpz_t()) == 1;
   if (number == 0 || !is_dyadic) return fraction;
   // ± 1.H · 2^power; `digits` are those of 1H.
@@ -157,7 +157,7 @@ std::string to_text(const mpq_class& number) {
 
 std::string to_text(const Certificate& certificate) {
   static constexpr std::array names{"no_collision", "collision", "time_of_impact"};
-  const std::string name = names.at(std::size_t(certificate.claim));
+  std::string name = names.at(std::size_t(certificate.claim));
   if (certificate.claim != Claim::time_of_impact) return name;
   return name + ' ' + to_text(certificate.lower) + ' ' + to_text(certificate.upper);
 }

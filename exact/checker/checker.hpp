@@ -56,9 +56,9 @@ struct Options {
   /// The scenes that certificates of steps have to be about, in order, without labels; null: any.
   std::istream* scenes = nullptr;
   /// The claim that every certificate has to make, in the form of `demanded_claim`; empty: any.
-  std::string claim = "";
+  std::string claim = {};
   /// Its separation, in the form of `demanded_separation`; empty: any.
-  std::string separation = "";
+  std::string separation = {};
   /// How often boxes are compared in the search for the pairs of a step, at most: so many times a byte that
   /// was read up to its end.
   std::int64_t max_comparisons_per_byte = 256;

@@ -173,7 +173,7 @@ class Places {
   static std::size_t add_node(Tree& tree, Leaf first, Leaf last) {
     Node node = *first;
     if (last - first > 1) {
-      for (Leaf leaf = first; leaf != last; ++leaf) include(node, *leaf);
+      for (auto leaf = first; leaf != last; ++leaf) include(node, *leaf);
       std::size_t widest = 0;
       const auto spread = [&](std::size_t k) { return node.upper[k] - node.lower[k]; };
       for (std::size_t k = 1; k < 6; ++k) widest = spread(k) > spread(widest) ? k : widest;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The place of a contact at a given time, and the signs that prove it.
+/// \file
+/// The place of a contact at a given time, and the signs that prove it.
 ///
 /// P = conv{w_i} is the polygon of corners at that time. It contains the origin iff one of these
 /// parts does:

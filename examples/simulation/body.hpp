@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Bodies defined by formulas: blocks and rings of tetrahedra, cloth, and fixed obstacles.
+/// \file
+/// Bodies defined by formulas: blocks and rings of tetrahedra, cloth, and fixed obstacles.
 
 #include <Eigen/Core>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Continuous collision detection for a simulator, by any method: the limit of a line search,
+/// \file
+/// Continuous collision detection for a simulator, by any method: the limit of a line search,
 /// and the contacts of a constrained step.
 ///
 /// **Line search** ([wang2021], algorithm 4). With the certified solver this is

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Queries in files, with the oracle's truth: as CSV with a label in each row, the format of
+/// \file
+/// Queries in files, with the oracle's truth: as CSV with a label in each row, the format of
 /// the 2021 benchmark, or as a NumPy array with the labels in a separate file.
 
 #include <array>

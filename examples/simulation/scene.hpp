@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The scenes: bodies, their positions at the start, and the forces on them. All are defined
+/// \file
+/// The scenes: bodies, their positions at the start, and the forces on them. All are defined
 /// by formulas.
 
 #include <Eigen/Core>

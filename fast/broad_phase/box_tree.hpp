@@ -16,8 +16,8 @@
 /// the beginning and the end. Swept boxes that are apart are boxes apart at both ends, so two instants
 /// exclude all that one does, and more. What holds of primitives holds of groups: their boxes are around them.
 ///
-/// Bounds of boxes are minima and maxima of rounded-outward coordinates, which is the same as their minimum
-/// and maximum rounded outwards. The floating-point environment must be the default one.
+/// Bounds of boxes are minima and maxima of rounded coordinates, which is the same as their minimum and
+/// maximum rounded. The floating-point environment must be the default one.
 
 #include <array>
 #include <cstddef>

@@ -1,24 +1,33 @@
 #pragma once
 
 /// \file
-/// Where vertices are, in float, rounded outwards: what the boxes of the broad phase are made of.
+/// Where vertices are, in float: the numbers that the boxes of the broad phase are made of.
 ///
-/// Coordinates are multiplied by one power of two, so that they fit into float whatever their unit, and
-/// rounded down and up. Both are monotone. So where a rounded-down number is greater than a rounded-up
-/// one, the coordinates are in that order too: boxes that are apart in float are apart.
+/// Boxes are only compared. So instead of a coordinate any increasing function of it will do, and one
+/// is chosen that keeps coordinates of every size apart.
 ///
-/// The converse holds where no coordinate was rounded, as where all of them are floats, or
-/// wherever a comparison is decided by more than the rounding. Let a' be the greatest float up to a, and
-/// b' the least from b on, and let x⁺ be the float after x. Then a < a'⁺, and b is greater than
-/// the float before b'. So a'⁺⁺ ≤ b' implies a < b: two floats farther on, the comparison is sure.
+/// **Places.** Let a coordinate be ±2^(i−1074) (1+f), 0 ≤ f < 1, and N = 2^23. Its place is ±n(i+f), where
+///
+///     n(y) = N + y N/64                   for y < 64 j,
+///            N + (y − 63 j) N             for 64 j ≤ y < 64 j + 192, the *window*,
+///            190 N + y N/64               for y ≥ 64 j + 192,
+///
+/// and that of 0 is 0. n is increasing. All places are below 224 N, and whole numbers up to there are the
+/// places of floats in the order of all floats. A coordinate is rounded towards 0 to the float at a whole
+/// place. In the window that is the coordinate itself times a power of two, with 24 digits; elsewhere it
+/// has 18. j is chosen such that most coordinates are in the window. It depends on the vertices alone.
+///
+/// **Comparisons.** Let h and k be the halves of a distance d. (Where d is an odd multiple of the least
+/// double, these are the two multiples around d/2.) A lower bound is the float of fl(x − h), an upper one that of
+/// fl(y + k), where fl rounds to a double. All of these roundings are monotone. So a lower bound
+/// greater than an upper one implies x − h > y + k: boxes that are apart in float are more than d apart. A
+/// lower bound less than an upper one implies x − h < y + k: all other comparisons are sure as well, but
+/// those of equal floats. If d = 0 and no coordinate was rounded, these are sure too.
 ///
 /// **Part of a step.** The end of an interval [0, t] may be before 1. Where a point is then is
 /// computed with an error of at most e (filters::Position), so it is in [p − e, p + e]. The bound e
-/// is greater than what the rounding of p ∓ 2e and of scaled coordinates adds. So these are on
-/// either side, and are rounded to float as coordinates are.
-///
-/// The scale is 1 for scenes of a usual size. Else it brings the greatest coordinate to between 1 and 2,
-/// so nothing overflows; what underflows is rounded outwards as well.
+/// is greater than what the rounding of p ∓ 2e adds. So these are on either side, and take the place of
+/// x and y.
 
 #include <array>
 #include <bit>
@@ -50,11 +59,6 @@ namespace touchstone::fast {
 /// The float before x, likewise.
 [[nodiscard]] inline float float_before(float x) { return -float_after(-x); }
 
-/// The greatest float that is not above x; of minus infinity, itself.
-[[nodiscard]] float rounded_down(double x);
-/// The least float that is not below x.
-[[nodiscard]] inline float rounded_up(double x) { return -rounded_down(-x); }
-
 /// x, y, z and something else, side by side: compilers make one vector of it.
 using FloatRow = float __attribute__((vector_size(16)));
 
@@ -63,7 +67,7 @@ using FloatRow = float __attribute__((vector_size(16)));
   return a > b ? a : b;
 }
 
-/// A vertex at both ends of an interval of times, rounded down and up.
+/// A vertex at both ends of an interval of times: lower and upper bounds.
 struct alignas(64) VertexBounds {
   std::array<FloatRow, 2> lower;
   std::array<FloatRow, 2> upper;
@@ -73,26 +77,19 @@ class FloatBounds {
  public:
   /// Of the vertices at t=0 and at the time `end`, a power of two from 2^-52 to 1. Uses the threads
   /// of the task arena that it is called in.
+  /// \param distance d, finite and not negative.
   /// \pre their coordinates are finite.
-  explicit FloatBounds(const MovingVertices& vertices, double end = 1.0);
+  explicit FloatBounds(const MovingVertices& vertices, double end = 1.0, double distance = 0.0);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const VertexBounds& operator[](std::size_t i) const { return bounds_[i]; }
-  /// Are all bounds the coordinates themselves, times the scale? Not asked before t=1.
+  /// Are comparisons of equal bounds sure too? Not asked before t=1.
   [[nodiscard]] bool are_exact() const { return exact_; }
-  /// A distance, times what coordinates are multiplied with, rounded up and down; perhaps to infinity, and
-  /// to the greatest float.
-  [[nodiscard]] float scaled_up(double distance) const;
-  [[nodiscard]] float scaled_down(double distance) const;
 
  private:
-  /// Are the bounds of that vertex exact?
-  bool set(VertexBounds& bounds, const MovingVertex& vertex, double end) const;
-
   std::size_t size_;
   // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array of its own that nothing fills with zeros
   std::unique_ptr<VertexBounds[]> bounds_;
-  double scale_ = 1.0;  ///< a power of two
   bool exact_ = true;
 };
 

@@ -21,7 +21,7 @@ namespace touchstone::fast {
 enum class Certainty : std::uint8_t {
   /// No pair is sure: each is confirmed.
   none,
-  /// A pair is sure if it is found with boxes two floats smaller as well (float_bounds.hpp).
+  /// A pair is sure if it is found with open boxes as well (float_bounds.hpp).
   unless_close,
   /// Every pair is.
   all,
@@ -31,9 +31,6 @@ enum class Certainty : std::uint8_t {
 struct PairRules {
   /// Are both primitives edges? Else the first is a vertex.
   bool of_edges = false;
-  /// Boxes that come this near overlap: a float that is not below the distance, and one not above it.
-  float distance_above = 0.0F;
-  float distance_below = 0.0F;
   Certainty certainty = Certainty::all;
   /// Asked about each pair that is not sure, with the primitives' numbers.
   bool (*confirms)(const void* context, const IndexPair& pair) = nullptr;

@@ -12,10 +12,6 @@
 ///
 /// Within one tree a group meets itself and the groups behind it. Nodes in front of it are left out: a
 /// node's first group and its last one follow from its place.
-///
-/// **With a distance** d, the box that is compared is moved outwards by d: its lower bound becomes
-/// the float before fl(lower − d'), where d' ≥ d is a float. A difference is rounded to one of the two
-/// floats around it, so that is not above lower − d.
 
 #include <array>
 #include <cstddef>
@@ -74,39 +70,15 @@ class Search {
       own_body_ = rules_.some_bodies->bodies(1, group / group_size)[group % group_size];
     }
     if (rules_.certainty == Certainty::unless_close) set_inner();
-    if (rules_.distance_above > 0.0F) widen_own();
   }
 
-  void widen_own() {
-    widened_ = *own_;
-    own_ = &widened_;
-    const std::size_t lane = around_.lane;
-    widened_around_ = *around_.group;
-    around_ = {&widened_around_, lane};
-    for (std::size_t instant = 0; instant < instants; ++instant) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (Boxes* const boxes : {&widened_, &widened_around_}) {
-          for (float& x : boxes->lower[instant][axis]) x = float_before(x - rules_.distance_above);
-          for (float& x : boxes->upper[instant][axis]) x = float_after(x + rules_.distance_above);
-        }
-      }
-    }
-  }
-
-  /// Boxes that are so much smaller than the exact ones that whatever overlaps them, overlaps these.
+  /// Boxes without their bounds: what overlaps these, overlaps the exact ones.
   void set_inner() {
-    const float distance = rules_.distance_below;
     for (std::size_t instant = 0; instant < instants; ++instant) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t lane = 0; lane < group_size; ++lane) {
-          float lower = float_after(own_->lower[instant][axis][lane]);
-          float upper = float_before(own_->upper[instant][axis][lane]);
-          if (distance > 0.0F) {
-            lower = float_after(lower - distance);
-            upper = float_before(upper + distance);
-          }
-          inner_.lower[instant][axis][lane] = float_after(lower);
-          inner_.upper[instant][axis][lane] = float_before(upper);
+          inner_.lower[instant][axis][lane] = float_after(own_->lower[instant][axis][lane]);
+          inner_.upper[instant][axis][lane] = float_before(own_->upper[instant][axis][lane]);
         }
       }
     }
@@ -286,10 +258,8 @@ class Search {
     pairs_.count = static_cast<std::size_t>(end - pairs_.pairs.data());
   }
 
-  Boxes widened_;
-  Boxes widened_around_;
   Boxes inner_;
-  const Boxes* own_ = nullptr;  ///< perhaps widened
+  const Boxes* own_ = nullptr;
   Place around_{};
 
   const BoxTree<instants>& some_;

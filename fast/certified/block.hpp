@@ -1,7 +1,8 @@
 #pragma once
 
-/// \file A block of queries through all stages: the kernel, and the exact stage for the queries
-/// that the kernel leaves undecided.
+/// \file
+/// A block of queries through all stages: the kernel, and the exact stage for the queries that the
+/// kernel leaves undecided.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The floating-point stages of the certified solver, written once for lanes, with one query
+/// \file
+/// The floating-point stages of the certified solver, written once for lanes, with one query
 /// in each lane. Only the kernels include this file, one file for each instruction set
 /// (kernel_*.cpp).
 ///

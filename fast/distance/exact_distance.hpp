@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The distance of two primitives at a time, in integers: exact for all finite doubles.
+/// \file
+/// The distance of two primitives at a time, in integers: exact for all finite doubles.
 ///
 /// Coordinates are multiplied by one power of two that makes them integers. With t = n / 2^k the
 /// corners, multiplied by 2^k, are integers too. Theorem 1 and theorem 3 of polygon_features.hpp

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The filter of distances in L2 (filtered_distance.hpp), written once for lanes, with one
+/// \file
+/// The filter of distances in L2 (filtered_distance.hpp), written once for lanes, with one
 /// query in each lane. Only the kernels include this file, one file for each instruction set
 /// (filter_*.cpp).
 ///

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The distance of two primitives at a time, proved in floating point, or no answer.
+/// \file
+/// The distance of two primitives at a time, proved in floating point, or no answer.
 ///
 /// The expressions of polygon_features.hpp are evaluated in balls (filters/ball.hpp). The nearest
 /// feature is guessed in doubles. That feature's direction (theorem 2) or axis (theorem 3) proves

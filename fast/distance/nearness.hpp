@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A fast test for many pairs at rest, on lanes: which of them may be within a distance.
+/// \file
+/// A fast test for many pairs at rest, on lanes: which of them may be within a distance.
 ///
 /// Primitives at rest are within a distance iff a step without motion has contact at that
 /// separation. So the floating-point stages of the certified solver (fast/certified/kernel.hpp)

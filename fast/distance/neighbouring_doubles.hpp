@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The enclosure of a number ≥ 0 by neighbouring doubles, found by comparisons with doubles.
+/// \file
+/// The enclosure of a number ≥ 0 by neighbouring doubles, found by comparisons with doubles.
 
 #include <algorithm>
 #include <bit>

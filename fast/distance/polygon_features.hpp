@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The distance of two primitives at one time, in sums and products of numbers of any type.
+/// \file
+/// The distance of two primitives at one time, in sums and products of numbers of any type.
 ///
 /// P is the convex hull of the differences of the primitives' points, the corners w_i
 /// (exact/query.hpp). The distance is that of P from the origin. Corners that coincide at all times

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A self-check of the compiled arithmetic and of the floating-point environment.
+/// \file
+/// A self-check of the compiled arithmetic and of the floating-point environment.
 ///
 /// The bounds in filters/ assume operations that are rounded one by one, to nearest, with gradual
 /// underflow. A build that contracts a·b+c into one rounding, or a caller that changes the rounding

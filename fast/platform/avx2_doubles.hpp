@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Four doubles in a register of AVX2 and FMA, and masks of them, for the kernels. They are
+/// \file
+/// Four doubles in a register of AVX2 and FMA, and masks of them, for the kernels. They are
 /// local to the including file, so that no other file links code for these instructions.
 
 #include <immintrin.h>

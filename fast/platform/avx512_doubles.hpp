@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Eight doubles in a register of AVX-512's foundation and FMA, and masks of them, for the
+/// \file
+/// Eight doubles in a register of AVX-512's foundation and FMA, and masks of them, for the
 /// kernels. They are local to the including file, so that no other file links code for these
 /// instructions.
 

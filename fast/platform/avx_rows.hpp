@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A point in a vector of four, and four points transposed into vectors of x, y and z, for
+/// \file
+/// A point in a vector of four, and four points transposed into vectors of x, y and z, for
 /// the AVX2 and the AVX-512 kernel. They are templates on a type that is local to the including
 /// file, so that no other file links code for these instructions.
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The floating-point state of certified code, independent of its caller's.
+/// \file
+/// The floating-point state of certified code, independent of its caller's.
 
 #include <cfenv>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The instruction sets of kernels, and the choice among a kernel's implementations at run
+/// \file
+/// The instruction sets of kernels, and the choice among a kernel's implementations at run
 /// time.
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Work in a limited number of threads.
+/// \file
+/// Work in a limited number of threads.
 
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>

@@ -25,6 +25,13 @@ CertifiedOptions certified_options(const StepOptions& options) {
 }
 
 /// \throws as Step.
+CertifiedOptions with_separation(CertifiedOptions options, const Separation& separation) {
+  options.separation = separation;
+  require_valid(options);
+  return options;
+}
+
+/// \throws as Step.
 MovingVertices checked(MovingVertices vertices, const MeshElements& elements) {
   require_finite(vertices);
   require_in_range(vertices, elements.edges);
@@ -130,7 +137,7 @@ Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOp
     : vertices_(checked(std::move(vertices), elements)),
       certified_(certified_options(options)),
       search_(options.search != nullptr ? *options.search : best_search_kernel()),
-      bounds_(vertices_),
+      bounds_(vertices_, 1.0, certified_.separation.distance),
       mesh_(
           std::make_shared<const SceneMesh>(vertices_.size(), bounds_, elements, options.groups)) {}
 
@@ -141,13 +148,10 @@ Scene::Scene(MovingVertices vertices, const Scene& other)
 
 Scene::Scene(MovingVertices vertices, const Scene& other, const Separation& separation)
     : vertices_(checked(std::move(vertices), other)),
-      certified_(other.certified_),
+      certified_(with_separation(other.certified_, separation)),
       search_(other.search_),
-      bounds_(vertices_),
-      mesh_(other.mesh_) {
-  certified_.separation = separation;
-  require_valid(certified_);
-}
+      bounds_(vertices_, 1.0, separation.distance),
+      mesh_(other.mesh_) {}
 
 // ---- Searching ----------------------------------------------------------------------------------
 
@@ -158,7 +162,7 @@ Trees<instants> Scene::trees(double end) const {
   if (end == 1.0) {
     fit_all(result, bounds_);
   } else {
-    fit_all(result, FloatBounds(vertices_, end));
+    fit(result, end);
   }
   return result;
 }
@@ -166,7 +170,12 @@ Trees<instants> Scene::trees(double end) const {
 template Trees<1> Scene::trees<1>(double end) const;
 template Trees<2> Scene::trees<2>(double end) const;
 
-void Scene::fit(Trees<2>& trees, double end) const { fit_all(trees, FloatBounds(vertices_, end)); }
+template <std::size_t instants>
+void Scene::fit(Trees<instants>& trees, double end) const {
+  fit_all(trees, FloatBounds(vertices_, end, certified_.separation.distance));
+}
+
+template void Scene::fit(Trees<2>& trees, double end) const;
 
 std::vector<SearchPart> Scene::parts(std::size_t groups_of_part) const {
   std::vector<SearchPart> result;
@@ -184,11 +193,8 @@ std::vector<SearchPart> Scene::parts(std::size_t groups_of_part) const {
 
 template <std::size_t instants>
 PairRules Scene::rules(const Asked& asked) const {
-  const double distance = certified_.separation.distance;
-  const bool is_sure = instants == 2 || (bounds_.are_exact() && is_contact(certified_.separation));
+  const bool is_sure = instants == 2 || bounds_.are_exact();
   PairRules rules{.of_edges = asked.kind == PairKind::edge_edge,
-                  .distance_above = bounds_.scaled_up(distance),
-                  .distance_below = bounds_.scaled_down(distance),
                   .certainty = is_sure ? Certainty::all : Certainty::unless_close,
                   .confirms =
                       [](const void* context, const IndexPair& pair) {

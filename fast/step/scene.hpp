@@ -104,7 +104,8 @@ class Scene {
   template <std::size_t instants>
   [[nodiscard]] Trees<instants> trees(double end) const;
   /// Sets the boxes anew.
-  void fit(Trees<2>& trees, double end) const;
+  template <std::size_t instants>
+  void fit(Trees<instants>& trees, double end) const;
 
   /// Everything that there is to search for, kind by kind, in parts of at most so many groups.
   [[nodiscard]] std::vector<SearchPart> parts(std::size_t groups_of_part) const;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The inner loop of Tight-Inclusion: F at the eight corners of a box, and the properties
+/// \file
+/// The inner loop of Tight-Inclusion: F at the eight corners of a box, and the properties
 /// that follow.
 ///
 /// F is affine in each of t, u and v, so over a box it stays within the bounding box of its eight

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The table of all bounds, by each model, as `touchstone derive` prints it.
+/// \file
+/// The table of all bounds, by each model, as `touchstone derive` prints it.
 
 #include <cstdint>
 #include <functional>

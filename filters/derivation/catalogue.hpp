@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The list of all expressions. To add one, write its template in filters/expressions.hpp or
+/// \file
+/// The list of all expressions. To add one, write its template in filters/expressions.hpp or
 /// filters/polynomial_expressions.hpp and its line in catalogue.cpp; filters/README.md has an
 /// example.
 

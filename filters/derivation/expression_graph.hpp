@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file An expression as a graph of its operations, recorded by running its template on a scalar
+/// \file
+/// An expression as a graph of its operations, recorded by running its template on a scalar
 /// that records operations. All derivations start from this graph.
 
 #include <array>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file An expression as a script for Gappa, the prover of bounds on rounding errors [daumas2010]
+/// \file
+/// An expression as a script for Gappa, the prover of bounds on rounding errors [daumas2010]
 /// (Debian package `gappa`), as a check of the derivation that shares only the graph with it.
 ///
 /// Gappa's operators `add_rel<p>`, `sub_rel<p>` and `mul_rel<p>` are the model of

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The floating-point numbers of `filters/error_bounds.hpp`, rounded from the proved bounds.
+/// \file
+/// The floating-point numbers of `filters/error_bounds.hpp`, rounded from the proved bounds.
 ///
 /// The user evaluates the bound by Horner's rule in the same format, with k products and k sums,
 /// whose rounding must not lower it. Each operation rounds down by a factor of at least 1 − u, each

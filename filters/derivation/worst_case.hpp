@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A search for the input with the greatest error of an expression, which shows the tightness
+/// \file
+/// A search for the input with the greatest error of an expression, which shows the tightness
 /// of its bound.
 ///
 /// It draws random inputs and climbs from the best of them, repeatedly until the budget is spent.

@@ -99,7 +99,7 @@ endfunction()
 
 # faulty_bounds(NAME …): fast::NAME, the bounds of FloatBounds (vertex_bounds.cpp) with a fault in it.
 function(faulty_bounds name)
-  faulty(tests/faults/vertex_bounds.cpp "vertex_bounds;FloatBounds;rounded_down" fast/broad_phase/float_bounds.cpp ${name}
+  faulty(tests/faults/vertex_bounds.cpp "vertex_bounds;FloatBounds" fast/broad_phase/float_bounds.cpp ${name}
     ${ARGN})
 endfunction()
 

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,15 +29,15 @@ namespace touchstone::fast {
 #define TOUCHSTONE_PLANTED __attribute__((weak))
 
 // The bounds of FloatBounds, with which the broad phase begins.
-using MakeBounds = std::vector<VertexBounds>(const MovingVertices&, double end);
-extern MakeBounds TOUCHSTONE_PLANTED bounds_rounded_to_nearest, bounds_without_error;
+using MakeBounds = std::vector<VertexBounds>(const MovingVertices&, double end, double distance);
+extern MakeBounds TOUCHSTONE_PLANTED bounds_without_error, bounds_widened_inwards,
+    bounds_widened_on_one_side, bounds_in_disorder;
 
 // The search of the broad phase.
 extern const SearchKernel TOUCHSTONE_PLANTED search_of_open_boxes, search_apart_at_one_end,
     search_apart_either_way, search_without_axis, search_without_lane, search_with_empty_lanes,
-    search_widened_inwards, search_widened_on_one_side, search_without_own_node,
-    search_of_neighbours, search_too_sure, search_of_all_bodies, search_without_mixed_bodies,
-    division_by_another_rank, division_on_another_axis;
+    search_without_own_node, search_of_neighbours, search_too_sure, search_of_all_bodies,
+    search_without_mixed_bodies, division_by_another_rank, division_on_another_axis;
 
 // Tight-Inclusion's box test.
 extern const BoxKernel TOUCHSTONE_PLANTED box_of_wrong_sign, box_in_float, box_of_squared_width,

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Common parts of the tests of the baselines: the printed queries that distinguish the
+/// \file
+/// Common parts of the tests of the baselines: the printed queries that distinguish the
 /// methods, random queries with a collision in the middle, and a count of wrong answers.
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Tests of pages in a browser: headless Chromium loads a page from a file, runs its scripts
+/// \file
+/// Tests of pages in a browser: headless Chromium loads a page from a file, runs its scripts
 /// and returns the resulting document.
 
 #include <gtest/gtest.h>

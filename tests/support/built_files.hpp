@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Paths of the sources and of built programs, for tests that read files of the project or
+/// \file
+/// Paths of the sources and of built programs, for tests that read files of the project or
 /// run its programs. These paths are compiled into one file (built_files.cpp), so that the objects
 /// of the tests do not depend on the folder they were built in.
 

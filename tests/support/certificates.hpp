@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Certificates from the oracle to the checker, and the truth of accepted claims.
+/// \file
+/// Certificates from the oracle to the checker, and the truth of accepted claims.
 
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Certificates as text, and the checker's results.
+/// \file
+/// Certificates as text, and the checker's results.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The distance of two primitives at a time in rational numbers, for tests, by enumeration.
+/// \file
+/// The distance of two primitives at a time in rational numbers, for tests, by enumeration.
 ///
 /// A point of the polygon is a point of a triangle of three corners (with repetitions if it has
 /// fewer). On a triangle's plane, with parameters a and b,

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A second decision of minimum separation, for tests: every candidate is evaluated
+/// \file
+/// A second decision of minimum separation, for tests: every candidate is evaluated
 /// (docs/theory.md, section 3.6).
 ///
 /// At the time of impact the distance is d or the time is 0. So a polynomial of the conditions is

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Tests with a separate folder for their files.
+/// \file
+/// Tests with a separate folder for their files.
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Artificial measurements for tests of reports, few and with simple numbers.
+/// \file
+/// Artificial measurements for tests of reports, few and with simple numbers.
 
 #include <cstdint>
 #include <string>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A source of queries in memory, with faults on demand.
+/// \file
+/// A source of queries in memory, with faults on demand.
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Solvers for tests: a correct one from the oracle, and any other as a function.
+/// \file
+/// Solvers for tests: a correct one from the oracle, and any other as a function.
 
 #include <functional>
 #include <span>

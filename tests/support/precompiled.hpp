@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The common includes of test programs, for precompilation (tests/CMakeLists.txt). A test
+/// \file
+/// The common includes of test programs, for precompilation (tests/CMakeLists.txt). A test
 /// still includes the headers that it uses.
 
 #include <gmpxx.h>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Properties for RapidCheck as expectations of GoogleTest: the same cases in every run, from
+/// \file
+/// Properties for RapidCheck as expectations of GoogleTest: the same cases in every run, from
 /// the seed in the test, and failures are reduced to the simplest case before they are reported.
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The path of the public data, which is not part of the project and may be missing.
+/// \file
+/// The path of the public data, which is not part of the project and may be missing.
 
 #include <array>
 #include <cstdio>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Queries for tests: given point by point, or drawn at random from families with different
+/// \file
+/// Queries for tests: given point by point, or drawn at random from families with different
 /// difficulties.
 ///
 /// Random coordinates are hardly ever on a boundary, so most families force degeneracies: shared

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The exact number of instants of contact of a query. It shares only polynomials and
+/// \file
+/// The exact number of instants of contact of a query. It shares only polynomials and
 /// algebraic numbers with the oracle.
 
 #include <array>

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -71,6 +72,13 @@ struct Shape {
       {"coincident", [](Random& r) { return r.between(0, 1); }, none, 0.5},
       {"all scales", [](Random& r) { return r.finite_double() / 4; }, none, 1e300},
       {"huge", [](Random& r) { return 1e300 * r.between(-3, 3); }, none, 1e299},
+      {"mixed ranges",
+       [](Random& r) {
+         const double x = r.uniform(-1, 1);
+         const int range = r.between(0, 9);
+         return range > 1 ? x : range == 0 ? std::copysign(1e300, x) : 1e-300 * x;
+       },
+       none, 0.1},
       {"subnormal",
        [](Random& r) { return std::numeric_limits<double>::denorm_min() * r.between(-4, 4); }, none,
        std::numeric_limits<double>::denorm_min()},

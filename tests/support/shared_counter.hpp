@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A number that a test shares with its child processes.
+/// \file
+/// A number that a test shares with its child processes.
 
 #include <sys/mman.h>
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The public simulation steps with their labels, pair by pair: meshes before and after a
+/// \file
+/// The public simulation steps with their labels, pair by pair: meshes before and after a
 /// step, and the truth of the pairs that a conservative solver reported. Every other pair of the
 /// step does not collide.
 ///

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The number of random cases of a test.
+/// \file
+/// The number of random cases of a test.
 
 namespace touchstone::tests {
 

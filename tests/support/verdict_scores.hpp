@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Additions to baselines.hpp for baselines with verdicts alone.
+/// \file
+/// Additions to baselines.hpp for baselines with verdicts alone.
 
 #include <cmath>
 #include <cstdint>

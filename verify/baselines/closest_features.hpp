@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Squared distances of a point and a triangle, and of two segments, by their closest
+/// \file
+/// Squared distances of a point and a triangle, and of two segments, by their closest
 /// features, in the two ways that released methods compute them: from the closest points themselves
 /// (MSRF; [ericson2005], 5.1.5 and 5.1.9), and by the formula of the pair of features, with less
 /// cancellation near contact (ACCD; [li2020]).

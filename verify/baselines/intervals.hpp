@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Closed intervals of doubles with outward rounding (Boost.Interval), and the moving points
+/// \file
+/// Closed intervals of doubles with outward rounding (Boost.Interval), and the moving points
 /// of IRF and UIRF.
 ///
 /// **Theorem.** Replace each operation of an expression by one on intervals whose result contains

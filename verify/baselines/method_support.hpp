@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Common parts of the baselines as methods: the queries that they reject, their
+/// \file
+/// Common parts of the baselines as methods: the queries that they reject, their
 /// floating-point state, and the rule of the benchmark's harness that an exception of a method
 /// counts as a collision. ([wang2021]: CCD-Wrapper.)
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Polynomials in t and vectors of them, for moving points and their products, in power form
+/// \file
+/// Polynomials in t and vectors of them, for moving points and their products, in power form
 /// with ordinary rounding, as in the methods that use them.
 
 #include <algorithm>

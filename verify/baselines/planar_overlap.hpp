@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The overlap of a segment and a triangle in one plane: RP's fallback (docs/methods.md,
+/// \file
+/// The overlap of a segment and a triangle in one plane: RP's fallback (docs/methods.md,
 /// section 9).
 ///
 /// Both are projected along each coordinate axis and tested there, exactly. In a common plane they

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The times in [0,1] at which a polynomial has a required sign: the basis of FPRF.
+/// \file
+/// The times in [0,1] at which a polynomial has a required sign: the basis of FPRF.
 ///
 /// The sign of a polynomial can only change at its zeros, so its value in the middle between
 /// neighbouring ones decides. Zeros come from zeros_of() (rpoly.hpp) with their real parts alone:

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Methods whose answers are verdicts alone, with common rules for bad input and for
+/// \file
+/// Methods whose answers are verdicts alone, with common rules for bad input and for
 /// exceptions of the method.
 ///
 /// The published comparison wraps every method and treats every exception as "collision". This rule

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The CSV formats of the public benchmarks: eight rows for each query, in the order of
+/// \file
+/// The CSV formats of the public benchmarks: eight rows for each query, in the order of
 /// Query; a row contains x, y and z, and optionally a label, 1 for a collision, the same on all
 /// eight rows.
 ///

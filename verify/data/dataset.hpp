@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Recorded queries on disk: finding the files, determining their kind, opening them as
+/// \file
+/// Recorded queries on disk: finding the files, determining their kind, opening them as
 /// streams.
 ///
 /// Formats: CSV with eight rows for each query, each x, y and z as numbers or as numerator and

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The error of all dataset readers and writers: its place and its reason.
+/// \file
+/// The error of all dataset readers and writers: its place and its reason.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Recorded truth beside a dataset: labels in <name>_mma_bool.json, times of impact in
+/// \file
+/// Recorded truth beside a dataset: labels in <name>_mma_bool.json, times of impact in
 /// <name>_toi.csv.
 ///
 /// Both are read as streams in step with the queries: entries are requested by ascending number,

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Queries of one kind in memory, from one or several sources, that are measured together.
+/// \file
+/// Queries of one kind in memory, from one or several sources, that are measured together.
 
 #include <cstddef>
 #include <cstdint>

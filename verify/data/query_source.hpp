@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Sources of queries: the common interface of datasets and the built-in set.
+/// \file
+/// Sources of queries: the common interface of datasets and the built-in set.
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The file with the separation of the recorded answers of a dataset: `separation.json`,
+/// \file
+/// The file with the separation of the recorded answers of a dataset: `separation.json`,
 /// {"min_separation": "0x1.5798ee2308c3ap-27", "norm": "l2"}, in the dataset's folder or the one
 /// above it. Without one the separation is 0.
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Contacts of two edges for which all roundings of one coordinate have the same direction.
+/// \file
+/// Contacts of two edges for which all roundings of one coordinate have the same direction.
 ///
 /// At a contact the computed value of F = A − B is the sum of many rounding errors, and for random
 /// points it is far below a bound for all. Here the positions of edge a at the dyadic time c are

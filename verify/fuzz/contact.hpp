@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Queries with contact by construction: solvers fail close to them.
+/// \file
+/// Queries with contact by construction: solvers fail close to them.
 ///
 /// **On a grid.** All points are placed at a time n/2^k at integer positions: the vertex at an
 /// integer combination of the face, the edges through one point. With integer velocities e per 2^-k

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Coverage key: a coarse class of the query by verdicts and times, for the scheduler.
+/// \file
+/// Coverage key: a coarse class of the query by verdicts and times, for the scheduler.
 
 #include <cstdint>
 

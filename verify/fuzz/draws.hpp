@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Common random draws of the fuzzer's generators.
+/// \file
+/// Common random draws of the fuzzer's generators.
 
 #include <array>
 #include <cmath>

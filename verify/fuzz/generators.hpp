@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The sources of the fuzzer's queries. Each generator has one kind of difficulty; it draws
+/// \file
+/// The sources of the fuzzer's queries. Each generator has one kind of difficulty; it draws
 /// the scale, the closeness and all other parameters anew for each query.
 
 #include <array>

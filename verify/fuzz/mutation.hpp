@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Small perturbations of queries that solvers handled well or just failed.
+/// \file
+/// Small perturbations of queries that solvers handled well or just failed.
 
 #include <cstdint>
 

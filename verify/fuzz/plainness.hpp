@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The plainness of a query: the measure by which queries with the same fault are preferred.
+/// \file
+/// The plainness of a query: the measure by which queries with the same fault are preferred.
 ///
 /// A finding is more convincing if it looks like a query of practice: numbers between 1e-3 and 1e3
 /// with few decimal digits, few different ones, proper triangles and edges, and the scale at which

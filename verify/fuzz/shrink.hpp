@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Simplification of a failing query.
+/// \file
+/// Simplification of a failing query.
 ///
 /// A finding of a search has 24 long numbers, most of which are irrelevant to the fault. Shrinking
 /// tries plainer queries (plainness.hpp), keeps each that still fails, and ends when no step leads

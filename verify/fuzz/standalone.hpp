@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A wrong answer as a self-contained C++ program, which the authors of a solver compile with
+/// \file
+/// A wrong answer as a self-contained C++ program, which the authors of a solver compile with
 /// their own code.
 
 #include <optional>

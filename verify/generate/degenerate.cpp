@@ -1,4 +1,5 @@
-/// \file Families of primitives that are collapsed to segments and points, on the integer grid.
+/// \file
+/// Families of primitives that are collapsed to segments and points, on the integer grid.
 ///
 /// *All on a line*: at time τ every point is P + k·g with a small integer k (its place on the
 /// line). The motion is rigid with det[g,r,s] ≠ 0, where s is one unit of the grid. A corner is

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The built-in set: degenerate queries from a seed, whose truth is known by construction.
+/// \file
+/// The built-in set: degenerate queries from a seed, whose truth is known by construction.
 ///
 /// The truth of these queries does not come from an oracle, so they can judge one. Each family
 /// first chooses the contact (or its absence) and draws the coordinates around it; the family's

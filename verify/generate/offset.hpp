@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The first time at which a point on a straight line comes within a distance of the origin:
+/// \file
+/// The first time at which a point on a straight line comes within a distance of the origin:
 /// the closed form, in rationals, that decides the families about a separation.
 ///
 /// In L∞ each coordinate is within d during an interval of t, and the first common time is the

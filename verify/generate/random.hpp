@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Random numbers that are the same on every machine, unlike those of std:: distributions,
+/// \file
+/// Random numbers that are the same on every machine, unlike those of std:: distributions,
 /// for generated queries, methods with random directions, and tests.
 
 #include <cstdint>

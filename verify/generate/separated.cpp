@@ -1,4 +1,5 @@
-/// \file Families about a separation d: the primitives come exactly to d, or pass it, known by
+/// \file
+/// Families about a separation d: the primitives come exactly to d, or pass it, known by
 /// construction in either norm.
 ///
 /// **Level.** All of the first primitive is at height p(t), all of the second at q(t), and their

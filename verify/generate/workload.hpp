@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The built-in workload of the benchmark: two patches of triangle mesh that move through
+/// \file
+/// The built-in workload of the benchmark: two patches of triangle mesh that move through
 /// each other in one step, as cloth does when its step is too long, and the built-in set. Also
 /// simple contacts at t=1, at any scale, for the report.
 ///

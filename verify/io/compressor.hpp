@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Compression of a stream while writing, and decompression while reading (Zstandard, RFC
+/// \file
+/// Compression of a stream while writing, and decompression while reading (Zstandard, RFC
 /// 8878 [rfc8878]).
 
 #include <cstddef>

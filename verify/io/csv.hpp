@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Comma-separated values by RFC 4180: a field with a comma, a quote or a line end is quoted,
+/// \file
+/// Comma-separated values by RFC 4180: a field with a comma, a quote or a line end is quoted,
 /// and quotes in it are doubled.
 ///
 /// The output is printable (printable.hpp) and contains no formulas for spreadsheets: a text that

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Sequential reading of files in bounded memory.
+/// \file
+/// Sequential reading of files in bounded memory.
 ///
 /// LineReader keeps no more of its file than one chunk and one line, and a line has an upper limit:
 /// a file without line ends cannot fill the memory; it is a line that is too long. Such a line is

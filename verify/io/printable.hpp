@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file External text (names of files and plugins, labels, messages of the system), made safe for
+/// \file
+/// External text (names of files and plugins, labels, messages of the system), made safe for
 /// terminals and tables.
 ///
 /// A name may hold any bytes: escape codes that move the cursor, line ends that forge a row of a table,

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The terminal: output, progress and interrupts.
+/// \file
+/// The terminal: output, progress and interrupts.
 
 #include <atomic>
 #include <chrono>

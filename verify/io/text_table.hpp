@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Text tables with aligned columns, and the numbers in them, for all commands.
+/// \file
+/// Text tables with aligned columns, and the numbers in them, for all commands.
 
 #include <cstddef>
 #include <cstdint>

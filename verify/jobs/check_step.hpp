@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A step of a simulation between two frames: its collisions with their times, and the part
+/// \file
+/// A step of a simulation between two frames: its collisions with their times, and the part
 /// of the step without any.
 ///
 /// Every vertex moves on the straight line from one frame to the next. Frames that intersect

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The end of work: a deadline on a clock that a test can replace, or a stop from outside.
+/// \file
+/// The end of work: a deadline on a clock that a test can replace, or a stop from outside.
 
 #include <algorithm>
 #include <atomic>

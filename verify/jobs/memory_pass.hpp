@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A pass that only reads the input: a lower bound of every solver's time.
+/// \file
+/// A pass that only reads the input: a lower bound of every solver's time.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Certificates of a source's queries, in the order of the queries, computed on all cores.
+/// \file
+/// Certificates of a source's queries, in the order of the queries, computed on all cores.
 
 #include <atomic>
 #include <cstddef>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The certificate of a whole step: there is no collision up to a time, or the earliest
+/// \file
+/// The certificate of a whole step: there is no collision up to a time, or the earliest
 /// contact is between two neighbouring doubles (exact/CERTIFICATES.md, "Steps").
 ///
 /// The checker needs an argument for each pair that no axis separates until then. Most have a

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Statistics, and representative samples.
+/// \file
+/// Statistics, and representative samples.
 
 #include <cstddef>
 #include <vector>

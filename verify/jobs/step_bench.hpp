@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The time of a whole step of a scene (fast/step.hpp) and of its parts, and for comparison
+/// \file
+/// The time of a whole step of a scene (fast/step.hpp) and of its parts, and for comparison
 /// that of reading the mesh once.
 
 #include <atomic>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The positions of a step's vertices in integers, as in the checker of certificates, and
+/// \file
+/// The positions of a step's vertices in integers, as in the checker of certificates, and
 /// directions of small integers that separate two primitives (exact/CERTIFICATES.md, "Steps").
 ///
 /// A direction is searched in doubles, from the corners w = a − b of two primitives a and b at the

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Processor time: the clock for all times of solvers and of the oracle.
+/// \file
+/// Processor time: the clock for all times of solvers and of the oracle.
 
 #include <ctime>
 

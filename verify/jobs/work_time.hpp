@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The duration of work, for all threads together.
+/// \file
+/// The duration of work, for all threads together.
 
 #include <chrono>
 

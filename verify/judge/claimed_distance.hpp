@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The check of the distance claimed by a yes with a tolerance.
+/// \file
+/// The check of the distance claimed by a yes with a tolerance.
 ///
 /// In general (verify/plugin.h), a yes with tolerance τ for the separation d in a norm claims that
 /// the primitives come within d + τ of each other in that norm at some time.

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The truth about a query for comparisons with answers: the oracle's verdict
+/// \file
+/// The truth about a query for comparisons with answers: the oracle's verdict
 /// (exact/oracle.hpp) in doubles.
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The names of separations in reports, and conclusions from a claim about one separation
+/// \file
+/// The names of separations in reports, and conclusions from a claim about one separation
 /// about another.
 ///
 /// Contact at distance d is contact at any d' ≥ d, and ‖x‖∞ ≤ ‖x‖₂; so a recorded collision, and

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Pairs of indices as NumPy's .npy files: little-endian int32 of shape (N, 2), in C order.
+/// \file
+/// Pairs of indices as NumPy's .npy files: little-endian int32 of shape (N, 2), in C order.
 /// They identify the primitives of a mesh in each query.
 
 #include <array>

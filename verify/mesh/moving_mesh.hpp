@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file A step of a simulation for benchmarks: the mesh before and after, and the candidates
+/// \file
+/// A step of a simulation for benchmarks: the mesh before and after, and the candidates
 /// between them.
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Wavefront OBJ: lines of text, each a keyword and its words.
+/// \file
+/// Wavefront OBJ: lines of text, each a keyword and its words.
 ///
 /// The reader uses `v x y z` (without a following weight or colour), `f a b c`, `l a b …` and `p a
 /// …`. A corner is the number of a vertex, counted from 1, or backwards from the last vertex before

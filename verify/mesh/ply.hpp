@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file PLY, the Stanford polygon format: a text header with the elements, their numbers and their
+/// \file
+/// PLY, the Stanford polygon format: a text header with the elements, their numbers and their
 /// properties; then all elements in that order, as text or binary.
 ///
 /// The reader uses x, y, z of `vertex` with any type, the list `vertex_indices` (or `vertex_index`)

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Lines of text in mesh formats: words between blanks, some of them numbers.
+/// \file
+/// Lines of text in mesh formats: words between blanks, some of them numbers.
 
 #include <charconv>
 #include <optional>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Queries that are difficult in one respect, by a measured amount, and easy in all others.
+/// \file
+/// Queries that are difficult in one respect, by a measured amount, and easy in all others.
 ///
 /// Half of the queries of each class collide, as known by construction. A scene consists of
 /// integers in a frame in which its *size*, about the longest side of its triangle or edge, is 2^50

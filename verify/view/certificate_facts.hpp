@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The contents of a certificate for a view: its query, and the pieces of time with their
+/// \file
+/// The contents of a certificate for a view: its query, and the pieces of time with their
 /// separating directions. The checker (exact/checker/) reads and checks it, also if another program
 /// wrote it.
 

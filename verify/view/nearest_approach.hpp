@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The least distance of the primitives of a query without collision, decided by the oracle.
+/// \file
+/// The least distance of the primitives of a query without collision, decided by the oracle.
 ///
 /// The query collides at distance d in L2 iff the least distance is at most d (docs/theory.md,
 /// section 1.4), so bisection over the doubles encloses it between two neighbouring ones. The time

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file An HTML viewer of one query or a list of queries, without network access and other files.
+/// \file
+/// An HTML viewer of one query or a list of queries, without network access and other files.
 ///
 /// The page shows one query at a time: its primitives at a time that a slider chooses, with their
 /// traces; in a second picture the corners w_i(t) and the origin, which is in their convex hull iff

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The texts of a view, embedded in the tool at build time: the modules of verify/view/page/
+/// \file
+/// The texts of a view, embedded in the tool at build time: the modules of verify/view/page/
 /// with three.js as one script, and their style.
 
 #include <string_view>

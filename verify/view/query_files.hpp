@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Queries for a view, from files: rows of datasets, findings of the fuzzer, certificates,
+/// \file
+/// Queries for a view, from files: rows of datasets, findings of the fuzzer, certificates,
 /// and the points of one query.
 ///
 ///   - .csv, .npy: a dataset (verify/data/dataset.hpp);

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The contents of a view of a step: the mesh before and after, and the colliding pairs by
+/// \file
+/// The contents of a view of a step: the mesh before and after, and the colliding pairs by
 /// time.
 
 #include <array>

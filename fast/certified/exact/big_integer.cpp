@@ -219,6 +219,8 @@ BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   std::uint64_t* const result = product.limbs();
   const std::uint64_t *const x = a.limbs(), *const y = b.limbs();
   for (std::size_t i = 0; i < a.size_; ++i) {
+    // Sums of coordinates of very different size have many limbs that are 0.
+    if (x[i] == 0) continue;
     std::uint64_t carry = 0;
     for (std::size_t j = 0; j < b.size_; ++j) {
       const WideLimb sum = WideLimb{x[i]} * y[j] + result[i + j] + carry;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Integers of any size, with the operations of exact decisions: all divisions are without
+/// \file
+/// Integers of any size, with the operations of exact decisions: all divisions are without
 /// remainder.
 ///
 /// Sign and magnitude; the magnitude is limbs of 64 bits, the least significant first. Up to

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file An approximation, in floating point, of the parameters of the point of a polygon that is
+/// \file
+/// An approximation, in floating point, of the parameters of the point of a polygon that is
 /// nearest to the origin.
 ///
 /// The polygon is {r − u p − v q} over the triangle or the square of (u,v), as in

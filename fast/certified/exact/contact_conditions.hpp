@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Conditions under which a moving polygon contains the origin, as signs of polynomials in
+/// \file
+/// Conditions under which a moving polygon contains the origin, as signs of polynomials in
 /// time; for any integer type.
 ///
 /// F = r − u p − v q, where for vertex_face r = v − f0, p = f1 − f0, q = f2 − f0 and Ω is the

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The first contact if coordinates are integers of at most 125 bits, in numbers of fixed
+/// \file
+/// The first contact if coordinates are integers of at most 125 bits, in numbers of fixed
 /// size and without allocation. Rare cases are left to the general decision.
 ///
 /// *Search.* An interval without a root of an event has no first contact (theorem 2), nor has one

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Doubles as integers, without floating-point arithmetic and hence without effects of
+/// \file
+/// Doubles as integers, without floating-point arithmetic and hence without effects of
 /// rounding modes and flushed subnormals.
 ///
 /// The bits of doubles that are not negative, read as integers, have the order of the doubles. So

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Integers of a fixed number of bits, for decisions with numbers of bounded size.
+/// \file
+/// Integers of a fixed number of bits, for decisions with numbers of bounded size.
 ///
 /// Two's complement in limbs of 64 bits, the least significant first. A product is as long as its
 /// factors together, so it cannot overflow. Sums can overflow, and the caller must ensure that they

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Forms on intervals in fixed point with an error bound, which suffices for most signs.
+/// \file
+/// Forms on intervals in fixed point with an error bound, which suffices for most signs.
 ///
 /// With Bernstein's coefficients b_k = c_k / binomial(n,k), a form is Σ b_k binomial(n,k)
 /// (1−t)^(n−k) t^k. Its coefficients on an interval [s,e] come from them by de Casteljau's steps, which

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Exact signs of forms at times, mostly from floating point.
+/// \file
+/// Exact signs of forms at times, mostly from floating point.
 ///
 /// Times are t = y/(x+y), and a form of degree n is known by its Bernstein coefficients b_i, times
 /// a factor. With weights x, y of n times, de Casteljau's steps, b_i ← b_i x + b_{i+1} y for one

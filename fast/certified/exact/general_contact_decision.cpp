@@ -1,5 +1,6 @@
 #include "fast/certified/exact/general_contact_decision.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "fast/certified/exact/real_root.hpp"
@@ -58,9 +59,24 @@ std::vector<Polynomial> events(const Problem& problem) {
   return result;
 }
 
+/// Does a vertex miss another, of which this is seen without a root? If r is 0 at a time t, then
+/// (1−t) r(0) = −t r(1): these are parallel.
+bool is_vertex_beside_vertex(const BigMotion& motion) {
+  const auto is_no_vector = [](const MovingVector<BigInteger>& vector) {
+    return std::ranges::all_of(vector, [](const auto& form) { return is_zero(form); });
+  };
+  if (!is_no_vector(motion.p) || !is_no_vector(motion.q)) return false;
+  const auto& r = motion.r;
+  const auto are_parallel = [&r](std::size_t i, std::size_t k) {
+    return r[i].front() * r[k].back() == r[k].front() * r[i].back();
+  };
+  return !are_parallel(0, 1) || !are_parallel(1, 2) || !are_parallel(2, 0);
+}
+
 }  // namespace
 
 std::optional<Impact> first_impact(const BigMotion& motion, std::uint64_t latest) {
+  if (is_vertex_beside_vertex(motion)) return std::nullopt;
   Problem problem{motion, normal(motion), {}};
   problem.determinant = determinant(motion, problem.normal);
   if (problem.determinant.front().sign() == 0) {

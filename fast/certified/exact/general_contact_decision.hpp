@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The first contact of any motion with integer coordinates of any size, for the cases that
+/// \file
+/// The first contact of any motion with integer coordinates of any size, for the cases that
 /// contact_decision.hpp does not decide.
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Instants in [0,1] that are roots of polynomials, and exact signs of other polynomials at
+/// \file
+/// Instants in [0,1] that are roots of polynomials, and exact signs of other polynomials at
 /// them.
 ///
 /// Polynomials here are inner ones (polynomial.hpp): roots at t=0 and t=1 are treated separately.

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The point of a polygon that is closest to the origin, and the direction that separates
+/// \file
+/// The point of a polygon that is closest to the origin, and the direction that separates
 /// them best, in lanes. It is an approximation: the users of a direction or a point bound its
 /// effect.
 ///

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Stage 8, conservative advancement (docs/theory.md, section 6.10), for a minimum separation
+/// \file
+/// Stage 8, conservative advancement (docs/theory.md, section 6.10), for a minimum separation
 /// D > 0 that is large compared with rounding: the stage follows the moving polygon from t=0, in
 /// lanes.
 ///

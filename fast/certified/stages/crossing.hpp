@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Zeros of the determinant that are the only one in an interval of times, and their
+/// \file
+/// Zeros of the determinant that are the only one in an interval of times, and their
 /// approximation, which has no error bound.
 
 #include <array>

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The enclosure of the time of impact with a minimum separation D > 0 (docs/theory.md,
+/// \file
+/// The enclosure of the time of impact with a minimum separation D > 0 (docs/theory.md,
 /// section 6.10), for queries that the stages refinement and conservative advancement followed
 /// until just before the contact.
 ///

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Common parts of the kernel's stages: lists of queries, marks of places in them, and
+/// \file
+/// Common parts of the kernel's stages: lists of queries, marks of places in them, and
 /// loading the queries' points into lanes.
 ///
 /// `Lanes` is a type of the file of one instruction set, in an anonymous namespace. It has

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The moving polygon P(t) = conv{w_i(t)} of a query with a minimum separation D > 0, in
+/// \file
+/// The moving polygon P(t) = conv{w_i(t)} of a query with a minimum separation D > 0, in
 /// lanes, and a condition for no contact (docs/theory.md, section 6.10).
 ///
 /// **Theorem.** Let c_a and c_b be directions of dual norm at most n. For s from 0 at a to 1 at b,

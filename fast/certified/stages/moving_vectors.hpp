@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file The vectors in determinant and orientations, in lanes, and their bounds with a minimum
+/// \file
+/// The vectors in determinant and orientations, in lanes, and their bounds with a minimum
 /// separation.
 ///
 /// F = r − u p − v q (filters/polynomial_expressions.hpp): r, p, q and, for the orientations of

@@ -362,6 +362,14 @@ TEST(Step, IntegersHaveOneForm) {
   }
 }
 
+TEST(Step, IsThereWhereItIsDemanded) {
+  const std::string none = "touchstone-steps 1\nsteps 0\n";
+  std::istringstream any(none), demanded(none);
+  EXPECT_TRUE(check(any).all_accepted());
+  EXPECT_EQ(check(demanded, {.claim = demanded_claim("free")}).rejections.at(0).reason,
+            "there is no certificate of what is demanded");
+}
+
 // Who names scenes is told nothing of queries.
 TEST(Step, IsNoStreamOfQueriesWhereScenesAreNamed) {
   std::istringstream in("touchstone-certificates 2\ncertificates 0\n"), scenes("");

@@ -68,6 +68,19 @@ TEST_F(TerminalTool, TheFirstInterruptEndsAReadThatBlocks) {
   }
 }
 
+TEST_F(TerminalTool, AnInterruptedProofHasAnotherName) {
+  const std::string pipe = make_pipe("queries_vf.csv");
+  const pid_t process = start({"prove", pipe, "--out", path("result.cert")});
+  const int writer = ::open(pipe.c_str(), O_WRONLY);
+  EXPECT_TRUE(comes_true([&] { return handles(process, SIGINT); }));
+  kill(process, SIGINT);
+  const Outcome outcome = finish(process);
+  ::close(writer);
+  EXPECT_EQ(outcome.status, 130) << outcome.err;
+  EXPECT_FALSE(fs::exists(path("result.cert")));
+  EXPECT_EQ(read("result.cert.incomplete"), "touchstone-certificates 2\n");
+}
+
 TEST_F(TerminalTool, APipeIsReadToItsEnd) {
   const std::string pipe = make_pipe("queries_vf.csv");
   const pid_t process = start({"certify", pipe, "--json", path("result.json")});
