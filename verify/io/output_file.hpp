@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Files that appear whole or not at all.
+/// \file
+/// Files that appear whole or not at all.
 ///
 /// The data is written to <name>.touchstone.partial-<process> beside the target, which takes the
 /// target's name when it is complete; an older file stays as it is until then. A search for datasets
