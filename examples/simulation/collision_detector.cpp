@@ -44,13 +44,16 @@ struct Candidates {
 };
 
 /// The candidates of a step by kind, in order.
-std::array<Candidates, 2> candidates_of(const fast::Step& step) {
-  std::array<Candidates, 2> result{
-      {{fast::PairKind::vertex_face, {}}, {fast::PairKind::edge_edge, {}}}};
+std::array<Candidates, 4> candidates_of(const fast::Step& step) {
+  using fast::PairKind;
+  std::array<Candidates, 4> result{{{PairKind::vertex_face, {}},
+                                    {PairKind::edge_edge, {}},
+                                    {PairKind::vertex_edge, {}},
+                                    {PairKind::vertex_vertex, {}}}};
   std::mutex mutex;
   step.candidates([&](const fast::StepCandidates& found) {
     const std::scoped_lock lock(mutex);
-    auto& pairs = result[found.kind == fast::PairKind::edge_edge ? 1 : 0].pairs;
+    auto& pairs = result.at(static_cast<std::size_t>(found.kind)).pairs;
     pairs.insert(pairs.end(), found.pairs.begin(), found.pairs.end());
   });
   for (Candidates& one : result) std::ranges::sort(one.pairs);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -87,6 +88,20 @@ TEST_F(FallingBox, IsStoppedByAnotherPairIfOneIsMissedOnce) {
   EXPECT_EQ(second.step_size(step()), limit);
   EXPECT_EQ(second.statistics().missed, 1);
   EXPECT_EQ(second.statistics().limited, 3);
+}
+
+// Two points on their way to each other are neither a vertex and a face nor two edges.
+TEST(CollisionDetector, LooksAtPointsToo) {
+  const Eigen::RowVector3d away(1, 0, 0);
+  Eigen::Matrix<double, 2, 3> before, after;
+  before << Eigen::RowVector3d::Zero(), away;
+  after << away, Eigen::RowVector3d::Zero();
+  const std::vector<std::int32_t> points{0, 1};
+  const fast::Step step(before, after, {.edges = {}, .faces = {}, .points = points});
+  for (const char* method : {"certified", "tight_inclusion"}) {
+    CollisionDetector detector({.method = method});
+    EXPECT_LE(detector.step_size(step), 0.5) << method;
+  }
 }
 
 TEST(CollisionDetector, RefusesAnUnknownMethod) {

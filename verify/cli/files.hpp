@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -69,26 +69,18 @@ class Output {
   /// Does nothing if no file was named or it has failed.
   void write(std::string_view text);
   /// Completes the file.
-  void close() { close_as(""); }
+  void close();
   /// The same for what is not all that it should be: the file gets the ending ".incomplete", one of the name
   /// that the user gave stays as it was, and a warning says so.
   void close_incomplete();
 
  private:
-  struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
-  /// \param ending behind the name
-  void close_as(const std::string& ending);
-
   template <class Action>
   void attempt(const Action& action);
 
   Files& files_;
   std::string name_;
-  std::unique_ptr<io::OutputFile> file_;
-  std::unique_ptr<std::FILE, CloseFile> device_;
+  std::optional<io::OutputFile> file_;
   bool failed_ = false;
 };
 

@@ -146,13 +146,15 @@ class FoundQueries {
   /// The files written.
   [[nodiscard]] std::vector<fs::path> close() {
     std::vector<fs::path> written;
-    for (auto& file : files_) {
-      if (!file || file->queries == 0) continue;
-      file->writer.close();
-      written.push_back(file->path);
+    for (const auto& file : files_) {
+      if (file && file->queries != 0) written.push_back(file->path);
     }
+    // First: without it the labels would be about contact.
     if (!written.empty() && !is_contact(separation_)) {
       data::write_separation(folder_.empty() ? "." : folder_, separation_);
+    }
+    for (auto& file : files_) {
+      if (file && file->queries != 0) file->writer.close();
     }
     return written;
   }
@@ -243,10 +245,10 @@ class FuzzRun {
     report_unplaced_crashes(asked_.method, report.result.unplaced_crashes);
     report_output(asked_.method, report.result.output, arguments_.solver.show_output);
     std::vector<fs::path> written = found_.close();
-    for (fs::path& page : write_pages(report)) written.push_back(std::move(page));
     if (json_) json_.write(io::json_document(fuzz::to_json(report)));
     json_.close();
     write_view(report);
+    for (fs::path& page : write_pages(report)) written.push_back(std::move(page));
     io::print(out(), fuzz::to_text(report));
     for (const fs::path& file : written)
       io::print(out(), fmt::format("written: {}\n", io::printable(file.string())));
@@ -255,12 +257,19 @@ class FuzzRun {
   }
 
  private:
+  /// The folder appears when it is complete, as files do.
   [[nodiscard]] std::vector<fs::path> write_pages(const fuzz::FuzzReport& report) const {
     if (arguments_.page_folder.empty()) return {};
+    const fs::path folder = fs::weakly_canonical(arguments_.page_folder / "").parent_path();
+    const fs::path partial = folder.string() + ".touchstone.partial";
+    fs::remove_all(partial);  // what a killed run has left
     const auto interface = arguments_.calls.empty()
                                ? fuzz::usual_interface(asked_)
                                : fuzz::call_interface_from_string(arguments_.calls).value();
-    return fuzz::write_pages(report, interface, arguments_.page_folder);
+    std::vector<fs::path> pages = fuzz::write_pages(report, interface, partial);
+    fs::rename(partial, folder);
+    for (fs::path& page : pages) page = arguments_.page_folder / page.filename();
+    return pages;
   }
 
   void write_view(const fuzz::FuzzReport& report) {

@@ -273,7 +273,15 @@ class ReportRun {
       io::print(out,
                 fmt::format("{}\n", io::printable(fs::absolute(arguments_.page_file).string())));
     }
-    io::print(out, view_.summary());
+    io::print(out, view_.summary(allowed_false_positives(measurements)));
+  }
+
+  static std::uint64_t allowed_false_positives(const report::Measurements& measurements) {
+    std::uint64_t sum = 0;
+    for (const report::Measurement& m : measurements.all) {
+      if (!judge::breaks(judge::Fault::false_positive, m.promise)) sum += m.false_positives;
+    }
+    return sum;
   }
 
   static void report_broken_promises(const report::Measurements& measurements) {

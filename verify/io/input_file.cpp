@@ -26,9 +26,7 @@ std::string last_system_error() { return std::generic_category().message(errno);
 }  // namespace
 
 InputFile::InputFile(std::filesystem::path path)
-    : path_(std::move(path)),
-      // The open of a pipe does not wait for its writer: read() does, where an interrupt ends it.
-      descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (descriptor_ < 0) throw DatasetError(path_, {}, "cannot open: " + last_system_error());
   struct stat status {};
   const bool known = ::fstat(descriptor_, &status) == 0;
@@ -51,7 +49,7 @@ std::size_t InputFile::read(std::span<char> buffer) {
       consumed_ += static_cast<std::uint64_t>(count);
       return static_cast<std::size_t>(count);
     }
-    if (errno == EINTR || errno == EAGAIN) continue;
+    if (errno == EINTR) continue;
     failed_ = true;
     throw DatasetError(path_, {}, "cannot read: " + last_system_error());
   }

@@ -23,7 +23,6 @@ namespace touchstone::verify::io {
 /// A file open for reading. Owns its descriptor.
 class InputFile {
  public:
-  /// Does not wait for the writer of a pipe, but read() does.
   /// \throws DatasetError if the file cannot be opened or is a folder.
   explicit InputFile(std::filesystem::path path);
   InputFile(const InputFile&) = delete;

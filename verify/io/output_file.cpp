@@ -1,12 +1,12 @@
 #include "verify/io/output_file.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <string>
+#include <charconv>
+#include <csignal>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -18,70 +18,69 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t buffer_size = std::size_t{1} << 16U;
-constexpr std::string_view temporary_extension = ".touchstone.partial-";
+/// The maximum number of consecutive symbolic links, as in the system; more are treated as a cycle.
+constexpr int most_links = 40;
 
-/// A temporary name beside the target.
-fs::path temporary_name(const fs::path& target, unsigned attempt) {
-  static constexpr std::size_t longest = 255;
-  const std::string ending =
-      std::string(temporary_extension) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
-  const std::string name = target.filename().string();
-  // Some file systems refuse half a character of UTF-8.
-  return target.parent_path() / (std::string(beginning(name, longest - ending.size())) + ending);
+/// True if the system uses the name for an open descriptor.
+bool is_below_system_folder(const fs::path& path) {
+  const fs::path absolute = fs::absolute(path).lexically_normal();
+  const auto first = std::next(absolute.begin());
+  return first != absolute.end() && (*first == "dev" || *first == "proc");
 }
 
-/// True if it has the form of the temporary names.
-bool is_temporary_name(std::string_view name) {
-  const std::size_t at = name.rfind(temporary_extension);
-  if (at == std::string_view::npos) return false;
-  const std::string_view numbers = name.substr(at + temporary_extension.size());
-  const std::size_t dash = numbers.find('-');
-  const auto is_number = [](std::string_view text) {
-    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
-  };
-  return dash != std::string_view::npos && is_number(numbers.substr(0, dash)) &&
-         is_number(numbers.substr(dash + 1));
-}
-
-/// True if the open file is a regular one, and still the one of that name.
-bool has_name(int descriptor, const fs::path& path) {
-  struct stat opened {
-  }, named{};
-  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
-         S_ISREG(named.st_mode) && opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
-}
-
-/// Removes a temporary file unless somebody holds its lock, or the file system has no locks.
-void remove_if_abandoned(const fs::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0) return;
-  const bool is_abandoned = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
-  if (is_abandoned && has_name(descriptor, path)) ::unlink(path.c_str());
-  ::close(descriptor);
-}
-
-void remove_abandoned_files(const fs::path& folder) {
+/// True unless it is a regular file or does not exist.
+bool is_special(const fs::path& path) {
   std::error_code error;
-  fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    if (is_temporary_name(entry->path().filename().string())) remove_if_abandoned(entry->path());
+  const fs::file_status status = fs::status(path, error);
+  return (status.type() != fs::file_type::regular && status.type() != fs::file_type::not_found) ||
+         is_below_system_folder(path);
+}
+
+/// Removes the temporary files with this beginning whose process has ended.
+void remove_abandoned_files(const fs::path& folder, const std::string& beginning) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), end;
+       !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(beginning)) continue;
+    pid_t process = 0;
+    const char* const last = name.data() + name.size();
+    const auto [stop, fault] = std::from_chars(name.data() + beginning.size(), last, process);
+    if (fault != std::errc() || stop != last || process <= 0) continue;
+    const bool has_ended = ::kill(process, 0) != 0 && errno == ESRCH;
+    if (has_ended || process == ::getpid()) ::unlink(entry->path().c_str());
   }
 }
 
 }  // namespace
 
-OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
-  remove_abandoned_files(path_.parent_path());
-  // The temporary name would hide until close() that the target's is too long.
-  struct stat status {};
-  if (::lstat(path_.c_str(), &status) != 0 && errno == ENAMETOOLONG) fail();
-  for (unsigned attempt = 0; descriptor_ < 0; ++attempt) {
-    temporary_ = temporary_name(path_, attempt);
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ < 0 && errno != EEXIST) fail();
-    if (descriptor_ >= 0 && !lock()) ::close(std::exchange(descriptor_, -1));
+fs::path behind_links(fs::path path) {
+  std::error_code error;
+  for (int i = 0; i < most_links && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    path = path.parent_path() / fs::read_symlink(path, error);
   }
+  const fs::path canonical = fs::weakly_canonical(path, error);
+  return error ? path : canonical;
+}
+
+OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
+  if (is_special(path_)) {
+    // Never truncates: standard output may be a file that others have written to.
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_NOCTTY | O_CLOEXEC);
+  } else {
+    open_temporary();
+  }
+  if (descriptor_ < 0) fail();
   buffer_.reserve(buffer_size);
+}
+
+void OutputFile::open_temporary() {
+  path_ = behind_links(path_);
+  const std::string beginning = path_.filename().string() + ".touchstone.partial-";
+  remove_abandoned_files(path_.parent_path(), beginning);
+  temporary_ = path_.parent_path() / (beginning + std::to_string(::getpid()));
+  descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) temporary_.clear();
 }
 
 OutputFile::~OutputFile() {
@@ -106,25 +105,13 @@ void OutputFile::overwrite(std::uint64_t offset, std::string_view bytes) {
   }
 }
 
-/// Takes the lock; false if another process has found the file abandoned, and removes it.
-bool OutputFile::lock() const {
-  // On file systems without locks no temporary file is removed.
-  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
-  struct stat status {};
-  const bool is_unlinked = ::fstat(descriptor_, &status) == 0 && status.st_nlink == 0;
-  return !is_unlinked || has_name(descriptor_, temporary_);
-}
-
-void OutputFile::close_as(const std::filesystem::path& path) {
+void OutputFile::close_as(const std::string& ending) {
   flush();
-  // The lock is held through a second descriptor until the file has its name.
-  const int lock = ::fcntl(descriptor_, F_DUPFD_CLOEXEC, 0);
-  if (lock < 0) fail();
   // Some file systems report a full disk or quota only here.
-  const bool is_closed = ::close(std::exchange(descriptor_, lock)) == 0;
-  if (!is_closed || ::rename(temporary_.c_str(), path.c_str()) != 0) fail();
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail();
+  if (is_device()) return;
+  if (::rename(temporary_.c_str(), (path_.string() + ending).c_str()) != 0) fail();
   temporary_.clear();
-  ::close(std::exchange(descriptor_, -1));
 }
 
 void OutputFile::flush() {

@@ -3,14 +3,12 @@
 /// \file
 /// Files that appear completely or not at all.
 ///
-/// The data goes to a temporary name in the target's folder and takes the target's name when it is
-/// complete; an existing file is unchanged until then. The temporary name,
-/// <name>.touchstone.partial-<process>-<number> with <name> shortened to the limit of file names,
-/// has a separate extension, so that a search for datasets does not find the remains of a killed
-/// run.
+/// The data is written to <name>.touchstone.partial-<process> beside the target, which takes the
+/// target's name when it is complete; an existing file is unchanged until then. A search for datasets
+/// does not find such a name. The next run with the same target removes the file of a killed one.
 ///
-/// The writer of a temporary file holds a lock (flock) on it, which ends with the process in any
-/// case. A new writer in a folder removes the temporary files that are not locked.
+/// Devices and pipes, and all files below /dev and /proc, are written to directly; a symbolic link
+/// remains one.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,10 +18,13 @@
 
 namespace touchstone::verify::io {
 
+/// The place at which a file of this name would be created: the target of symbolic links, also if
+/// it does not exist yet.
+[[nodiscard]] std::filesystem::path behind_links(std::filesystem::path path);
+
 /// A file open for writing, buffered. Without close() it is discarded.
 class OutputFile {
  public:
-  /// Also removes temporary files of killed runs in the target's folder.
   /// \throws DatasetError if no file can be made in the target's folder.
   explicit OutputFile(std::filesystem::path path);
   OutputFile(const OutputFile&) = delete;
@@ -43,19 +44,20 @@ class OutputFile {
 
   /// Writes the rest and renames the file. Must be called once, as the last call.
   /// \throws DatasetError if either fails; the target is then unchanged.
-  void close() { close_as(path_); }
-
-  /// The same with another name in the target's folder; the target is unchanged.
-  void close_as(const std::filesystem::path& path);
+  void close() { close_as(""); }
+  /// The same with an ending behind the name; does not rename a device.
+  void close_as(const std::string& ending);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] bool is_device() const { return temporary_.empty(); }
 
  private:
-  [[nodiscard]] bool lock() const;
+  void open_temporary();
   void flush();
   [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
+  /// Empty for a device, and for a file that has its name.
   std::filesystem::path temporary_;
   int descriptor_ = -1;
   std::string buffer_;

@@ -16,42 +16,52 @@ struct Range {
   char32_t first, last;
 };
 
-constexpr auto invisible = std::to_array<Range>({{0x0000, 0x001F},
-                                                 {0x007F, 0x009F},
-                                                 {0x061C, 0x061C},
-                                                 {0x200B, 0x200B},
-                                                 {0x200E, 0x200F},
-                                                 {0x2028, 0x202E},
-                                                 {0x2060, 0x206F},
-                                                 {0xFDD0, 0xFDEF},
-                                                 {0xFEFF, 0xFEFF},
-                                                 {0xFFF9, 0xFFFB},
-                                                 {0xE0000, 0xE007F}});
+constexpr auto unprintable = std::to_array<Range>({{0x0000, 0x001F},
+                                                   {0x007F, 0x009F},
+                                                   {0x061C, 0x061C},
+                                                   {0x200E, 0x200F},
+                                                   {0x2028, 0x202E},
+                                                   {0x2066, 0x2069}});
 
 unsigned byte_at(std::string_view text, std::size_t i) {
   return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
 }
 
-/// Calls use(character, bytes) for each character, and for each byte that belongs to none.
-template <class Use>
-void for_each_character(std::string_view text, const Use& use) {
-  while (!text.empty()) {
-    const Character character = first_character(text);
-    const std::size_t length = std::max<std::size_t>(character.length, 1);
-    use(character, text.substr(0, length));
-    text.remove_prefix(length);
+/// Bytes of the printable character that a text begins with; 0 if it begins with none.
+std::size_t printable_length(std::string_view text) {
+  const unsigned lead = byte_at(text, 0);
+  if (lead >= 0x80 && (lead < 0xC2 || lead > 0xF4)) return 0;
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0x80 ? 2 : 1;
+  char32_t code = length == 1 ? lead : lead & (0xFFU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    const unsigned next = byte_at(text, i);
+    if ((next & 0xC0U) != 0x80U) return 0;
+    code = code << 6U | (next & 0x3FU);
   }
+  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  const bool surrogate = code >= 0xD800 && code < 0xE000;
+  const auto contains = [code](const Range& range) {
+    return range.first <= code && code <= range.last;
+  };
+  const bool is_character = !overlong && !surrogate && code <= 0x10FFFF;
+  return is_character && std::ranges::none_of(unprintable, contains) ? length : 0;
 }
 
-void append_written_out(std::string& text, const Character& character, std::string_view bytes) {
-  const auto to = std::back_inserter(text);
-  if (character.length <= 1) {
-    fmt::format_to(to, "\\x{:02x}", byte_at(bytes, 0));
-  } else if (character.code <= 0xFFFF) {
-    fmt::format_to(to, "\\u{:04x}", static_cast<std::uint32_t>(character.code));
-  } else {
-    fmt::format_to(to, "\\U{:08x}", static_cast<std::uint32_t>(character.code));
+enum class Base : std::uint8_t { hexadecimal, octal };
+
+/// The text with the bytes that are not printable written out, and a backslash in front of marks.
+std::string escaped(std::string_view text, Base base, std::string_view marks) {
+  std::string result;
+  const auto to = std::back_inserter(result);
+  while (!text.empty()) {
+    const std::size_t length = printable_length(text);
+    if (length == 0 && base == Base::octal) fmt::format_to(to, "\\{:03o}", byte_at(text, 0));
+    if (length == 0 && base == Base::hexadecimal) fmt::format_to(to, "\\x{:02x}", byte_at(text, 0));
+    if (marks.find(text.front()) != std::string_view::npos) result += '\\';
+    result += text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
   }
+  return result;
 }
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
@@ -67,81 +77,11 @@ bool is_markup(std::string_view text, std::size_t i) {
   return marks.find(c) != std::string_view::npos;
 }
 
-/// The text with its single quotes and backslashes escaped, and other characters as octal bytes of three
-/// digits, as shells read them.
-std::string escaped(std::string_view text) {
-  std::string result;
-  for_each_character(text, [&](const Character& character, std::string_view bytes) {
-    if (!is_printable(character)) {
-      for (std::size_t i = 0; i < bytes.size(); ++i) {
-        fmt::format_to(std::back_inserter(result), "\\{:03o}", byte_at(bytes, i));
-      }
-      return;
-    }
-    if (bytes.front() == '\'' || bytes.front() == '\\') result += '\\';
-    result += bytes;
-  });
-  return result;
-}
-
-/// The most backticks in a row.
-std::size_t longest_backticks(std::string_view text) {
-  std::size_t longest = 0, run = 0;
-  for (const char c : text) {
-    run = c == '`' ? run + 1 : 0;
-    longest = std::max(longest, run);
-  }
-  return longest;
-}
-
 }  // namespace
 
-Character first_character(std::string_view text) {
-  const unsigned lead = byte_at(text, 0);
-  if (text.empty()) return {};
-  if (lead < 0x80) return {.length = 1, .code = lead};
-  if (lead < 0xC2 || lead > 0xF4) return {};
-  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
-  char32_t code = lead & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    const unsigned next = byte_at(text, i);
-    if ((next & 0xC0U) != 0x80U) return {};
-    code = code << 6U | (next & 0x3FU);
-  }
-  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xD800 && code < 0xE000;
-  if (overlong || surrogate || code > 0x10FFFF) return {};
-  return {.length = length, .code = code};
-}
+std::string printable(std::string_view text) { return escaped(text, Base::hexadecimal, ""); }
 
-bool is_printable(const Character& character) {
-  const char32_t code = character.code;
-  const bool is_last_of_plane = (code & 0xFFFEU) == 0xFFFEU;
-  return character.length != 0 && !is_last_of_plane &&
-         std::ranges::none_of(invisible, [code](const Range& range) {
-           return range.first <= code && code <= range.last;
-         });
-}
-
-bool is_printable(std::string_view text) {
-  bool result = true;
-  for_each_character(text, [&](const Character& character, std::string_view) {
-    result = result && is_printable(character);
-  });
-  return result;
-}
-
-std::string printable(std::string_view text) {
-  std::string result;
-  for_each_character(text, [&](const Character& character, std::string_view bytes) {
-    if (is_printable(character)) {
-      result += bytes;
-    } else {
-      append_written_out(result, character, bytes);
-    }
-  });
-  return result;
-}
+bool is_printable(std::string_view text) { return printable(text) == text; }
 
 std::string markdown_escaped(std::string_view text) {
   const std::string line = printable(text);
@@ -154,19 +94,9 @@ std::string markdown_escaped(std::string_view text) {
 }
 
 std::string markdown_code(std::string_view text) {
-  const std::string line = printable(text);
-  const std::string fence(longest_backticks(line) + 1, '`');
-  // A backtick at an end would join the fence; one space at both ends is not shown.
-  const bool is_apart = line.starts_with('`') || line.ends_with('`') || line.empty();
-  const std::string_view space = is_apart ? " " : "";
-  return fmt::format("{0}{1}{2}{1}{0}", fence, space, line);
-}
-
-std::string markdown_code_block(std::string_view text) {
-  static constexpr std::size_t shortest = 3;
-  const std::string line = printable(text);
-  const std::string fence(std::max(shortest, longest_backticks(line) + 1), '`');
-  return fmt::format("{0}\n{1}\n{0}\n", fence, line);
+  std::string line = printable(text);
+  std::ranges::replace(line, '`', '\'');
+  return '`' + line + '`';
 }
 
 std::string html_escaped(std::string_view text) {
@@ -184,7 +114,7 @@ std::string html_escaped(std::string_view text) {
 std::string shell_word(std::string_view text) {
   static constexpr std::string_view harmless =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,";
-  if (!is_printable(text)) return "$'" + escaped(text) + "'";
+  if (!is_printable(text)) return "$'" + escaped(text, Base::octal, "'\\") + "'";
   if (!text.empty() && text.find_first_not_of(harmless) == std::string_view::npos) {
     return std::string(text);
   }

@@ -1,14 +1,10 @@
 #include "verify/io/terminal.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/eventfd.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -25,13 +21,8 @@ std::atomic<int> output_error = 0;
 
 std::atomic<bool> interrupt_flag = false;
 std::atomic<std::int64_t> interrupt_time = 0;  // 0: none yet
-/// Readable from the first interrupt on, so that poll() returns however soon the signal comes.
-std::atomic<int> interrupt_descriptor = -1;
-/// The process whose interrupts these are: a child made by fork() has the descriptor, too.
-std::atomic<pid_t> interrupted_process = 0;
 static_assert(std::atomic<bool>::is_always_lock_free &&
-                  std::atomic<std::int64_t>::is_always_lock_free &&
-                  std::atomic<int>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
+                  std::atomic<std::int64_t>::is_always_lock_free,
               "a signal handler may touch nothing else");
 
 /// Milliseconds of a monotone clock that a signal handler may read.
@@ -44,20 +35,12 @@ std::int64_t milliseconds() {
 std::atomic<std::int64_t (*)()> interrupt_clock = milliseconds;
 static_assert(std::atomic<std::int64_t (*)()>::is_always_lock_free);
 
-void wake_waiting_threads() {
-  if (::getpid() != interrupted_process) return;
-  const std::uint64_t one = 1;
-  // Whoever waits sees the flag in any case; only the first write matters.
-  [[maybe_unused]] const ssize_t written = ::write(interrupt_descriptor, &one, sizeof(one));
-}
-
 extern "C" void on_signal(int signal) {
   const int error = errno;
   const std::int64_t now = interrupt_clock.load()();
   std::int64_t first = 0;
   if (interrupt_time.compare_exchange_strong(first, now)) {
     interrupt_flag = true;
-    wake_waiting_threads();
   } else if (now - first >= same_interrupt_milliseconds) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
@@ -66,34 +49,9 @@ extern "C" void on_signal(int signal) {
 }
 
 void install_handlers() {
-  interrupted_process = ::getpid();
-  interrupt_descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-}
-
-/// Waits for one of the events on a descriptor (none if it is negative), at most so long; negative: as
-/// long as it takes. \throws Interrupted as wait_for_input().
-void wait_for(int descriptor, short events, int longest_milliseconds) {
-  // poll() passes over descriptors that are negative.
-  std::array<pollfd, 2> waited{{{.fd = descriptor, .events = events, .revents = 0},
-                                {.fd = interrupt_descriptor, .events = POLLIN, .revents = 0}}};
-  int ready = 0;
-  do {
-    if (interrupt_flag) throw Interrupted();
-    ready = ::poll(waited.data(), waited.size(), longest_milliseconds);
-  } while (ready < 0 && errno == EINTR);
-  if (interrupt_flag) throw Interrupted();
-}
-
-/// Leaves errno as it is.
-bool is_pipe(const std::string& path) {
-  const int error = errno;
-  struct stat status {};
-  const bool result = ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
-  errno = error;
-  return result;
 }
 
 }  // namespace
@@ -152,20 +110,14 @@ const std::atomic<bool>& interrupted() {
 
 void set_interrupt_clock(std::int64_t (*milliseconds)()) { interrupt_clock = milliseconds; }
 
-void wait_for_input(int descriptor) { wait_for(descriptor, POLLIN, -1); }
-
-int open_for_appending(const std::string& path) {
-  static constexpr int flags = O_WRONLY | O_APPEND | O_CLOEXEC | O_NOCTTY;
-  static constexpr int look_again_milliseconds = 20;
-  int descriptor = ::open(path.c_str(), flags | O_NONBLOCK);
-  while (descriptor < 0 && errno == ENXIO && is_pipe(path)) {
-    // The pipe has no reader yet, and the system does not report the arrival of one.
-    wait_for(-1, 0, look_again_milliseconds);
-    descriptor = ::open(path.c_str(), flags | O_NONBLOCK);
+void wait_for_input(int descriptor) {
+  // A signal may reach another thread, or come just before the wait.
+  static constexpr int look_again_milliseconds = 100;
+  pollfd waited{.fd = descriptor, .events = POLLIN, .revents = 0};
+  for (int ready = 0; ready == 0 || (ready < 0 && errno == EINTR);) {
+    if (interrupt_flag) throw Interrupted();
+    ready = ::poll(&waited, 1, look_again_milliseconds);
   }
-  // A pipe that is full is waited for by the write itself.
-  if (descriptor >= 0) ::fcntl(descriptor, F_SETFL, flags & ~O_CLOEXEC);
-  return descriptor;
 }
 
 }  // namespace touchstone::verify::io

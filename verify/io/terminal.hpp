@@ -73,12 +73,7 @@ class Interrupted : public std::runtime_error {
 };
 
 /// Waits until a read from the descriptor does not block: there is input, the end or an error.
-/// Without an earlier call of interrupted(), signals have their default effect.
 /// \throws Interrupted if interrupted() is true or becomes so.
 void wait_for_input(int descriptor);
-
-/// Opens a pipe, device or file for appending. \returns its descriptor, or −1 with errno set.
-/// \throws Interrupted if interrupted() becomes true while a pipe has no reader yet.
-[[nodiscard]] int open_for_appending(const std::string& path);
 
 }  // namespace touchstone::verify::io

@@ -110,9 +110,9 @@ class Writer {
 
   [[nodiscard]] std::string document() {
     text_ = "# Results\n\n";
-    text_ += fmt::format("Written by `./run results`; not edited by hand. Made{} by\n\n{}\n",
-                         io::markdown_escaped(origin_text(measurements_)),
-                         io::markdown_code_block(without_folders(measurements_.command)));
+    text_ += fmt::format(
+        "Written by `./run results`; not edited by hand. Made{} by\n\n```\n{}\n```\n\n",
+        io::markdown_escaped(origin_text(measurements_)), without_folders(measurements_.command));
     if (measurements_.interrupted) text_ += "**Interrupted: not all is here.**\n\n";
     text_ +=
         "The truth is the exact oracle's. Published: Wang et al. 2021, \"A Large Scale Benchmark "

@@ -52,6 +52,8 @@ TEST(Bodies, RefuseGroupsThatMakeNoSense) {
   const Numbers negative{0, -1}, few{0};
   EXPECT_THROW(Bodies(2, {.of_vertices = negative, .apart = {}}), std::invalid_argument);
   EXPECT_THROW(Bodies(2, {.of_vertices = few, .apart = {}}), std::invalid_argument);
+  const GroupPairs below{{0, -1}};
+  EXPECT_THROW(Bodies(2, {.of_vertices = {}, .apart = below}), std::invalid_argument);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 namespace touchstone::verify::cli::help_test {
 namespace {
@@ -19,6 +20,17 @@ TEST(Wrapped, KeepsAWordThatIsLongerThanALine) {
   const std::string word(2 * help_width, 'a');
   EXPECT_EQ(wrapped("x " + word + " y", 0, 0), "x\n" + word + "\ny");
   EXPECT_EQ(wrapped("", 5, 5), "");
+}
+
+TEST(NearestName, IsTheOneThatAWordMayBeMeantFor) {
+  const std::vector<std::string> names{"solve", "prove", "step"};
+  for (const std::string word : {"prove", "prov", "proove", "provvee"}) {
+    EXPECT_EQ(nearest_name(word, names), "prove") << word;
+  }
+  EXPECT_EQ(nearest_name("nonsense", names), "");
+  EXPECT_EQ(nearest_name("se", {"st"}), "st");
+  EXPECT_EQ(nearest_name("x", {"st"}), "") << "no letter in common";
+  EXPECT_EQ(nearest_name("", names), "");
 }
 
 TEST(HelpFormat, HasExamplesFirstAndGroupsInOrder) {

@@ -122,7 +122,7 @@ TEST_F(ProveCommand, RefusesBadUsageAndInput) {
   EXPECT_EQ(run({"prove", data, "--out", path("no/such/folder")}), 2);
   EXPECT_EQ(run({"prove", path("missing"), "--out", path("x")}), 2);
   EXPECT_EQ(run({"prove", data, "--out", "/dev/full"}), 2);
-  EXPECT_TRUE(contains(err(), "cannot be written"));
+  EXPECT_TRUE(contains(err(), "cannot write"));
   EXPECT_EQ(read_file(data), falling_vertex("-3"));
 }
 

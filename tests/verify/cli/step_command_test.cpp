@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "fast/step.hpp"
 #include "tests/support/built_files.hpp"
 #include "tests/support/simulation_steps.hpp"
 #include "tests/support/tool_test.hpp"
@@ -138,8 +140,25 @@ TEST_F(StepCommand, FacesAndEdgesOfOneVertexArePoints) {
       return write(name,
                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.25 0.25 " + z + "\nf 1 2 3\n" + point + "\n");
     };
-    expect_toi(result({at("0.obj", "1"), at("1.obj", "-3")}, 1)["steps"][0], 0.25);
+    const std::string proof = path("steps.cert");
+    expect_toi(result({at("0.obj", "1"), at("1.obj", "-3"), "--prove", proof}, 1)["steps"][0],
+               0.25);
+    EXPECT_EQ(finish(start({proof}, to_file, tests::checker_program())).status, 0) << point;
   }
+  // The library sees the contact whether the vertex is named as an edge or as a point.
+  const std::array<double, 12> before{0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25, 0.25, 1};
+  std::array<double, 12> after = before;
+  after.back() = -3;
+  const std::vector<fast::Face> faces{{0, 1, 2}};
+  const std::vector<fast::Edge> edges{{0, 1}, {0, 2}, {1, 2}, {3, 3}};
+  const std::vector<std::int32_t> points{3};
+  const auto earliest = [&](const fast::MeshElements& elements) {
+    return fast::Step(std::span<const double>(before), std::span<const double>(after), elements)
+        .earliest();
+  };
+  const auto by_edge = earliest({.edges = edges, .faces = faces, .points = {}});
+  ASSERT_TRUE(by_edge);
+  EXPECT_EQ(by_edge, earliest({.edges = {}, .faces = faces, .points = points}));
 }
 
 // The names are looked up, not searched for.

@@ -56,7 +56,7 @@ struct Fault {
 
 class CsvFault : public ::testing::TestWithParam<Fault> {};
 
-TEST_P(CsvFault, is_located_and_costs_its_query_only) {
+TEST_P(CsvFault, IsLocatedAndCostsItsQueryOnly) {
   std::vector<std::string> lines = numbered_lines(3, true);
   lines[11] = GetParam().line;
   EXPECT_EQ(strict_error(joined(lines)), GetParam().error);
@@ -93,7 +93,7 @@ const std::string rest_is_left_out =
 /// the rows behind it.
 class CsvLineThatIsNoRow : public ::testing::TestWithParam<Fault> {};
 
-TEST_P(CsvLineThatIsNoRow, ends_the_file) {
+TEST_P(CsvLineThatIsNoRow, EndsTheFile) {
   const std::string error = GetParam().error + rest_is_left_out;
   for (const bool in_addition : {false, true}) {
     std::vector<std::string> lines = numbered_lines(5, true);
@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{"1,1,2,1,3,1,1" + std::string(io::LineReader::longest_line, ' '),
                             "12: line longer than 1 MiB"}));
 
-TEST(CsvDataset, a_missing_row_is_found_at_the_first_label_that_differs) {
+TEST(CsvDataset, AMissingRowIsFoundAtTheFirstLabelThatDiffers) {
   std::vector<std::string> lines = numbered_lines(6, true);
   lines.erase(lines.begin() + 19);
   const Survivors kept = survivors(joined(lines));
@@ -134,7 +134,7 @@ TEST(CsvDataset, a_missing_row_is_found_at_the_first_label_that_differs) {
                 "a.csv:24:7: label differs from that of the query's first row" + rest_is_left_out});
 }
 
-TEST(CsvDataset, what_companions_hold_behind_a_lost_place_is_no_further_fault) {
+TEST(CsvDataset, WhatCompanionsHoldBehindALostPlaceIsNoFurtherFault) {
   const TemporaryFolder folder;
   (void)folder.file("a_mma_bool.json", "[0,1,0,1]");
   (void)folder.file("a_toi.csv", "query,toi\n3,0.5\n");
@@ -147,7 +147,7 @@ TEST(CsvDataset, what_companions_hold_behind_a_lost_place_is_no_further_fault) {
             std::vector<std::string>{"a.csv:12: blank line inside a query" + rest_is_left_out});
 }
 
-TEST(CsvDataset, blank_lines_and_headers_may_stand_between_queries) {
+TEST(CsvDataset, BlankLinesAndHeadersMayStandBetweenQueries) {
   for (const bool labelled : {false, true}) {
     const std::string header = labelled ? "xn,xd,yn,yd,zn,zd,label" : "\"x n\",xd,y_n,yd,#zn,zd";
     std::vector<std::string> lines{"", header, " \t"};
@@ -165,7 +165,7 @@ TEST(CsvDataset, blank_lines_and_headers_may_stand_between_queries) {
   }
 }
 
-TEST(CsvDataset, a_line_that_is_no_header_begins_no_file) {
+TEST(CsvDataset, ALineThatIsNoHeaderBeginsNoFile) {
   const std::vector<std::string> rows = numbered_lines(1, false);
   const auto error = [&](const std::string& first_line) {
     return strict_error(first_line + "\n" + joined(rows));
@@ -181,7 +181,7 @@ TEST(CsvDataset, a_line_that_is_no_header_begins_no_file) {
   EXPECT_EQ(strict_error("a,b,c,d,e,f\n\n"), " no queries");
 }
 
-TEST(CsvDataset, coordinates_may_be_decimals_in_one_column_or_two) {
+TEST(CsvDataset, CoordinatesMayBeDecimalsInOneColumnOrTwo) {
   const std::string numbers = "-0.75,1,0.5,2,3e2,1\n";
   const std::string plain = "-0.75, 0.25 ,300\n";
   std::string six, seven, three, four;
@@ -204,7 +204,7 @@ TEST(CsvDataset, coordinates_may_be_decimals_in_one_column_or_two) {
   }
 }
 
-TEST(CsvDataset, reads_the_2021_format) {
+TEST(CsvDataset, ReadsThe2021Format) {
   const TemporaryFolder folder;
   CsvDataset source(folder.file("a.csv", joined(numbered_lines(3, true))), vertex_face());
   EXPECT_EQ(source.name(), (folder.path() / "a.csv").string());
@@ -220,7 +220,7 @@ TEST(CsvDataset, reads_the_2021_format) {
   EXPECT_FALSE(source.next().has_value());
 }
 
-TEST(CsvDataset, reads_the_2023_format) {
+TEST(CsvDataset, ReadsThe2023Format) {
   const TemporaryFolder folder;
   CsvDataset source(folder.file("a.csv", joined(numbered_lines(2, false))), vertex_face());
   const auto records = read_all(source);
@@ -229,7 +229,7 @@ TEST(CsvDataset, reads_the_2023_format) {
   EXPECT_FALSE(records[1].collides.has_value());
 }
 
-TEST(CsvDataset, reads_spaces_line_ends_signs_and_blank_lines_at_the_end) {
+TEST(CsvDataset, ReadsSpacesLineEndsSignsAndBlankLinesAtTheEnd) {
   const std::vector<std::string> plain = numbered_lines(2, true);
   std::vector<std::string> decorated;
   for (std::string line : plain) {
@@ -249,7 +249,7 @@ TEST(CsvDataset, reads_spaces_line_ends_signs_and_blank_lines_at_the_end) {
   }
 }
 
-TEST(CsvDataset, negative_denominators_are_numbers) {
+TEST(CsvDataset, NegativeDenominatorsAreNumbers) {
   std::vector<std::string> lines = numbered_lines(1, false);
   lines[0] = "3,-4,-3,-4,-0,-4";
   const Survivors kept = survivors(joined(lines));
@@ -259,14 +259,14 @@ TEST(CsvDataset, negative_denominators_are_numbers) {
   EXPECT_FALSE(std::signbit(kept.records[0].query.at(0, 0, 2)));
 }
 
-TEST(CsvDataset, a_file_without_queries_is_an_error_even_if_it_keeps_going) {
+TEST(CsvDataset, AFileWithoutQueriesIsAnErrorEvenIfItKeepsGoing) {
   for (const std::string text : {"", "\n", " \r\n\n"}) {
     EXPECT_EQ(strict_error(text), " no queries");
     EXPECT_EQ(strict_error(text, {.kind = Kind::edge_edge, .keep_going = true}), " no queries");
   }
 }
 
-TEST(CsvDataset, a_truncated_last_query_is_one_error) {
+TEST(CsvDataset, ATruncatedLastQueryIsOneError) {
   for (std::size_t rows = 1; rows < 8; ++rows) {
     std::vector<std::string> lines = numbered_lines(3, true);
     lines.resize(16 + rows);
@@ -282,7 +282,7 @@ TEST(CsvDataset, a_truncated_last_query_is_one_error) {
   }
 }
 
-TEST(CsvDataset, many_faults_in_one_query_count_once_and_the_first_is_named) {
+TEST(CsvDataset, ManyFaultsInOneQueryCountOnceAndTheFirstIsNamed) {
   std::vector<std::string> lines = numbered_lines(3, true);
   lines[8] = "1,0,1,1,1,1,1";
   lines[9] = "1,1,1,1,x,1,1";
@@ -292,7 +292,7 @@ TEST(CsvDataset, many_faults_in_one_query_count_once_and_the_first_is_named) {
   EXPECT_EQ(kept.messages, std::vector<std::string>{"a.csv:9:2: zero denominator"});
 }
 
-TEST(CsvDataset, faults_in_many_queries_leave_all_others) {
+TEST(CsvDataset, FaultsInManyQueriesLeaveAllOthers) {
   std::vector<std::string> lines = numbered_lines(50, true);
   std::vector<std::uint64_t> good;
   for (std::size_t query = 0; query < 50; ++query) {
@@ -308,7 +308,7 @@ TEST(CsvDataset, faults_in_many_queries_leave_all_others) {
   EXPECT_EQ(kept.messages.size(), 17U);
 }
 
-TEST(CsvDataset, the_first_row_decides_the_format) {
+TEST(CsvDataset, TheFirstRowDecidesTheFormat) {
   std::vector<std::string> lines = numbered_lines(3, true);
   lines[0] = "1,1,2,1,3,1";
   EXPECT_EQ(strict_error(joined(lines)), "2: 7 columns, expected 6 as before" + rest_is_left_out);
@@ -318,7 +318,7 @@ TEST(CsvDataset, the_first_row_decides_the_format) {
   expect_numbered(survivors(joined(lines)).records, {});
 }
 
-TEST(CsvDataset, rounds_only_where_asked_and_counts) {
+TEST(CsvDataset, RoundsOnlyWhereAskedAndCounts) {
   std::vector<std::string> lines = numbered_lines(3, true);
   lines[3] = "1,3,2,1,-2,3,0";
   lines[16] = "1,3,2,1,x,3,0";
@@ -336,7 +336,7 @@ TEST(CsvDataset, rounds_only_where_asked_and_counts) {
   EXPECT_EQ(strict_error(joined(lines)), "4:1: not exactly a double (--round takes the nearest)");
 }
 
-TEST(CsvDataset, rounds_decimals_of_17_digits_to_the_double_that_they_were) {
+TEST(CsvDataset, RoundsDecimalsOf17DigitsToTheDoubleThatTheyWere) {
   // As newer public data writes coordinates: a decimal over 1, to 17 digits.
   const Query query = [] {
     Query result{};
@@ -358,14 +358,14 @@ TEST(CsvDataset, rounds_decimals_of_17_digits_to_the_double_that_they_were) {
   EXPECT_EQ(source.rounded(), 24U);
 }
 
-TEST(CsvDataset, beyond_the_range_is_an_error_even_when_rounding) {
+TEST(CsvDataset, BeyondTheRangeIsAnErrorEvenWhenRounding) {
   std::vector<std::string> lines = numbered_lines(1, false);
   lines[2] = "1,1,-1" + std::string(309, '0') + ",1,1,1";
   EXPECT_EQ(strict_error(joined(lines), {.kind = Kind::vertex_face, .round = true}),
             "3:3: beyond the range of double");
 }
 
-TEST(CsvDataset, progress_rises_to_one) {
+TEST(CsvDataset, ProgressRisesToOne) {
   const TemporaryFolder folder;
   CsvDataset source(folder.file("a.csv", joined(numbered_lines(5000, true))), vertex_face());
   double last = source.progress();
@@ -377,7 +377,7 @@ TEST(CsvDataset, progress_rises_to_one) {
   EXPECT_EQ(source.progress(), 1.0);
 }
 
-TEST(CsvDataset, memory_does_not_grow_with_the_file) {
+TEST(CsvDataset, MemoryDoesNotGrowWithTheFile) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.csv";
   std::size_t queries = 0;
@@ -403,7 +403,7 @@ TEST(CsvDataset, memory_does_not_grow_with_the_file) {
   EXPECT_GT(whole, 30'000'000U) << "the measure must see a reader that keeps the file";
 }
 
-TEST(CsvWriter, writes_the_2021_format_to_the_byte) {
+TEST(CsvWriter, WritesThe2021FormatToTheByte) {
   const TemporaryFolder folder;
   CsvWriter writer(folder.path() / "a.csv");
   Query query{};
@@ -416,7 +416,7 @@ TEST(CsvWriter, writes_the_2021_format_to_the_byte) {
   EXPECT_EQ(contents(folder.path() / "a.csv"), expected + "0,1,0,1,-3,1,1\n");
 }
 
-TEST(CsvWriter, without_a_label_rows_have_six_columns) {
+TEST(CsvWriter, WithoutALabelRowsHaveSixColumns) {
   const TemporaryFolder folder;
   CsvWriter writer(folder.path() / "a_vf.csv");
   writer.write(numbered_query(0), std::nullopt);
@@ -427,7 +427,7 @@ TEST(CsvWriter, without_a_label_rows_have_six_columns) {
   EXPECT_EQ(CsvDataset(folder.path() / "a_vf.csv", {}).next()->collides, std::nullopt);
 }
 
-TEST(CsvWriter, what_is_read_back_is_what_was_written) {
+TEST(CsvWriter, WhatIsReadBackIsWhatWasWritten) {
   const TemporaryFolder folder;
   std::mt19937_64 random(7);
   std::vector<Query> queries(300);
@@ -449,7 +449,7 @@ TEST(CsvWriter, what_is_read_back_is_what_was_written) {
   }
 }
 
-TEST(CsvWriter, refuses_what_is_not_finite_and_stays_usable) {
+TEST(CsvWriter, RefusesWhatIsNotFiniteAndStaysUsable) {
   const TemporaryFolder folder;
   CsvWriter writer(folder.path() / "a.csv");
   for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
@@ -463,7 +463,7 @@ TEST(CsvWriter, refuses_what_is_not_finite_and_stays_usable) {
   expect_numbered(read_all(source), {0});
 }
 
-TEST(CsvWriter, without_close_there_is_no_file) {
+TEST(CsvWriter, WithoutCloseThereIsNoFile) {
   const TemporaryFolder folder;
   { CsvWriter(folder.path() / "a.csv").write(numbered_query(0), true); }
   EXPECT_TRUE(folder.names().empty());

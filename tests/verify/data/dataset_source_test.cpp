@@ -51,7 +51,7 @@ struct Scene {
   }
 };
 
-TEST(DatasetSource, joins_queries_with_their_companions) {
+TEST(DatasetSource, JoinsQueriesWithTheirCompanions) {
   const Survivors kept =
       Scene{.labels = "[true,false,true]", .tois = "query,toi\n0,0.5\n2,1\n"}.read();
   expect_numbered(kept.records, {0, 1, 2});
@@ -64,7 +64,7 @@ TEST(DatasetSource, joins_queries_with_their_companions) {
   EXPECT_EQ(kept.records[2].toi, exact::Rational(1));
 }
 
-TEST(DatasetSource, joins_npy_files_too) {
+TEST(DatasetSource, JoinsNpyFilesToo) {
   const TemporaryFolder folder;
   NpyWriter writer(folder.path() / "7ee.npy");
   writer.write(numbered_query(0));
@@ -79,7 +79,7 @@ TEST(DatasetSource, joins_npy_files_too) {
   EXPECT_EQ(records[0].toi, exact::Rational(0));
 }
 
-TEST(DatasetSource, a_skipped_query_does_not_shift_the_truth_of_the_others) {
+TEST(DatasetSource, ASkippedQueryDoesNotShiftTheTruthOfTheOthers) {
   Scene scene{.labels = "[true,false,true]", .tois = "query,toi\n0,0.5\n1,0.25\n2,1\n"};
   scene.lines[8] = "bad,1,1,1,1,1";
   const Survivors kept = scene.read();
@@ -89,7 +89,7 @@ TEST(DatasetSource, a_skipped_query_does_not_shift_the_truth_of_the_others) {
   EXPECT_EQ(kept.records[1].toi, exact::Rational(1));
 }
 
-TEST(DatasetSource, a_truncated_query_takes_its_label_with_it) {
+TEST(DatasetSource, ATruncatedQueryTakesItsLabelWithIt) {
   Scene scene{.labels = "[true,false,true]", .tois = "query,toi\n2,1\n"};
   scene.lines.resize(20);
   const Survivors kept = scene.read();
@@ -99,7 +99,7 @@ TEST(DatasetSource, a_truncated_query_takes_its_label_with_it) {
       kept.messages[0].starts_with("s/queries/7vf.csv:20: truncated query: 4 of 8 rows; if "));
 }
 
-TEST(DatasetSource, a_bad_label_or_toi_costs_its_query_only) {
+TEST(DatasetSource, ABadLabelOrToiCostsItsQueryOnly) {
   Survivors kept = Scene{.labels = "[true,null,true]"}.read();
   expect_numbered(kept.records, {0, 2});
   EXPECT_EQ(kept.messages, Messages{"mma_bool/7vf_mma_bool.json:1:7: not a boolean: \"null\""});
@@ -109,7 +109,7 @@ TEST(DatasetSource, a_bad_label_or_toi_costs_its_query_only) {
   EXPECT_EQ(kept.records[1].toi, exact::Rational(1));
 }
 
-TEST(DatasetSource, a_query_with_two_faults_counts_once) {
+TEST(DatasetSource, AQueryWithTwoFaultsCountsOnce) {
   Scene scene{.labels = "[true,null,true]", .tois = "query,toi\n1,half\n"};
   scene.lines[9] = "bad,1,1,1,1,1";
   const Survivors kept = scene.read();
@@ -117,7 +117,7 @@ TEST(DatasetSource, a_query_with_two_faults_counts_once) {
   EXPECT_EQ(kept.messages, Messages{"s/queries/7vf.csv:10:1: not a number: \"bad\""});
 }
 
-TEST(DatasetSource, a_broken_companion_costs_every_later_query) {
+TEST(DatasetSource, ABrokenCompanionCostsEveryLaterQuery) {
   Survivors kept = Scene{.labels = "[true;false]"}.read();
   expect_numbered(kept.records, {0});
   EXPECT_EQ(kept.messages, Messages(2, "mma_bool/7vf_mma_bool.json:1:6: expected ',' or ']'"));
@@ -126,7 +126,7 @@ TEST(DatasetSource, a_broken_companion_costs_every_later_query) {
   EXPECT_EQ(kept.messages, Messages(2, "toi/7vf_toi.csv:3:1: query numbers do not ascend"));
 }
 
-TEST(DatasetSource, missing_labels_cost_their_queries) {
+TEST(DatasetSource, MissingLabelsCostTheirQueries) {
   const Survivors kept = Scene{.labels = "[true]"}.read();
   expect_numbered(kept.records, {0});
   EXPECT_EQ(
@@ -135,7 +135,7 @@ TEST(DatasetSource, missing_labels_cost_their_queries) {
                 "mma_bool/7vf_mma_bool.json:1:6: no label for query 2: the array has only 1"}));
 }
 
-TEST(DatasetSource, what_goes_on_behind_the_queries_counts_once_a_file) {
+TEST(DatasetSource, WhatGoesOnBehindTheQueriesCountsOnceAFile) {
   const Survivors kept =
       Scene{.labels = "[true,false,true,true,true]", .tois = "query,toi\n3,1\n4,1\n"}.read();
   expect_numbered(kept.records, {0, 1, 2});
@@ -144,7 +144,7 @@ TEST(DatasetSource, what_goes_on_behind_the_queries_counts_once_a_file) {
                       "toi/7vf_toi.csv:2:1: toi of query 3, but there are 3 queries"}));
 }
 
-TEST(DatasetSource, two_sources_of_labels_must_agree) {
+TEST(DatasetSource, TwoSourcesOfLabelsMustAgree) {
   const Survivors kept = Scene{.lines = numbered_lines(3, true), .labels = "[0,0,0]"}.read();
   expect_numbered(kept.records, {0, 2});
   ASSERT_EQ(kept.messages.size(), 1U);
@@ -153,7 +153,7 @@ TEST(DatasetSource, two_sources_of_labels_must_agree) {
   EXPECT_EQ((Scene{.lines = numbered_lines(3, true), .labels = "[0,1,0]"}.read().skipped), 0U);
 }
 
-TEST(DatasetSource, companions_that_cannot_be_opened_throw_even_if_it_keeps_going) {
+TEST(DatasetSource, CompanionsThatCannotBeOpenedThrowEvenIfItKeepsGoing) {
   for (const Scene& scene : {Scene{.labels = "{}"}, Scene{.tois = "toi\n"}}) {
     const auto path = scene.make();
     EXPECT_THROW((void)open_dataset(path, {.keep_going = true}), io::DatasetError);

@@ -29,7 +29,7 @@ std::vector<fs::path> found_in(const fs::path& path) {
   return find_datasets(std::vector<fs::path>{path});
 }
 
-TEST(FindDatasets, finds_datasets_and_none_of_what_accompanies_them) {
+TEST(FindDatasets, FindsDatasetsAndNoneOfWhatAccompaniesThem) {
   const TemporaryFolder folder;
   for (const std::string other :
        {"s/toi/1vf_toi.csv", "s/toi/odd.csv", "s/mma_bool/1vf_mma_bool.json", "s/mma_bool/odd.csv",
@@ -46,7 +46,7 @@ TEST(FindDatasets, finds_datasets_and_none_of_what_accompanies_them) {
   EXPECT_EQ(found_in(folder.path()), expected);
 }
 
-TEST(FindDatasets, keeps_the_given_order_and_takes_named_files_as_they_are) {
+TEST(FindDatasets, KeepsTheGivenOrderAndTakesNamedFilesAsTheyAre) {
   const TemporaryFolder folder;
   const fs::path toi = folder.file("toi/1vf_toi.csv", ""), text = folder.file("x.txt", "");
   const fs::path second = folder.file("d/b.csv", ""), first = folder.file("d/a.csv", "");
@@ -54,13 +54,13 @@ TEST(FindDatasets, keeps_the_given_order_and_takes_named_files_as_they_are) {
   EXPECT_EQ(find_datasets(given), (std::vector<fs::path>{text, first, second, toi}));
 }
 
-TEST(FindDatasets, a_folder_named_like_a_companion_is_searched_if_it_is_named_itself) {
+TEST(FindDatasets, AFolderNamedLikeACompanionIsSearchedIfItIsNamedItself) {
   const TemporaryFolder folder;
   const fs::path path = folder.file("boxes/1vf.csv", "");
   EXPECT_EQ(found_in(folder.path() / "boxes"), std::vector<fs::path>{path});
 }
 
-TEST(FindDatasets, names_what_is_not_there_and_folders_without_datasets) {
+TEST(FindDatasets, NamesWhatIsNotThereAndFoldersWithoutDatasets) {
   const TemporaryFolder folder;
   (void)folder.file("empty/toi/1vf_toi.csv", "");
   EXPECT_EQ(error_of(folder.path(), [&] { (void)found_in(folder.path() / "none.csv"); }),
@@ -78,7 +78,7 @@ std::vector<std::string> left_out_in(const TemporaryFolder& folder) {
   return messages;
 }
 
-TEST(FindDatasets, follows_links_to_files_and_folders) {
+TEST(FindDatasets, FollowsLinksToFilesAndFolders) {
   const TemporaryFolder folder, elsewhere;
   const fs::path file = folder.file("a/1vf.csv", "");
   (void)elsewhere.file("deep/er/2vf.csv", "");
@@ -90,7 +90,7 @@ TEST(FindDatasets, follows_links_to_files_and_folders) {
   EXPECT_EQ(found_in(folder.path() / "link"), std::vector{folder.path() / "link/er/2vf.csv"});
 }
 
-TEST(FindDatasets, searches_no_folder_twice_however_links_lead_to_it) {
+TEST(FindDatasets, SearchesNoFolderTwiceHoweverLinksLeadToIt) {
   const TemporaryFolder folder;
   const fs::path file = folder.file("b/1vf.csv", ""), second = folder.file("b/c/2vf.csv", "");
   fs::create_symlink(folder.path(), folder.path() / "b/c/ring");
@@ -106,7 +106,7 @@ TEST(FindDatasets, searches_no_folder_twice_however_links_lead_to_it) {
                                 "b/c/ring: left out: leads to a folder that is searched already"}));
 }
 
-TEST(FindDatasets, names_what_it_leaves_out_but_for_companions) {
+TEST(FindDatasets, NamesWhatItLeavesOutButForCompanions) {
   const TemporaryFolder folder;
   for (const std::string name :
        {"s/1vf.csv", "s/toi/1vf_toi.csv", "s/1ee_toi.csv", "s/mma_bool/1vf_mma_bool.json",
@@ -129,7 +129,7 @@ TEST(FindDatasets, names_what_it_leaves_out_but_for_companions) {
           "s/pipe.csv: left out: neither a file nor a folder", "s/toi/1vf.csv" + in_companions}));
 }
 
-TEST(FindDatasets, a_folder_named_like_a_file_is_a_folder) {
+TEST(FindDatasets, AFolderNamedLikeAFileIsAFolder) {
   const TemporaryFolder folder;
   const fs::path path = folder.file("data.csv/1vf.csv", "");
   EXPECT_EQ(found_in(folder.path()), std::vector<fs::path>{path});
@@ -139,7 +139,7 @@ const std::string no_kind =
     ": the path does not say whether its queries are vertex-face or edge-edge; pass --kind "
     "vertex-face or --kind edge-edge";
 
-TEST(KindFromPath, the_deepest_part_wins_then_the_ending_of_the_name) {
+TEST(KindFromPath, TheDeepestPartWinsThenTheEndingOfTheName) {
   EXPECT_EQ(kind_from_path("a/vertex-face/data_0_0.csv"), Kind::vertex_face);
   EXPECT_EQ(kind_from_path("a/edge-edge/data_0_0.csv"), Kind::edge_edge);
   EXPECT_EQ(kind_from_path("vertex-face/x/edge-edge/d.csv"), Kind::edge_edge);
@@ -149,7 +149,7 @@ TEST(KindFromPath, the_deepest_part_wins_then_the_ending_of_the_name) {
   EXPECT_EQ(kind_from_path("ee.npy"), Kind::edge_edge);
 }
 
-TEST(KindFromPath, takes_letters_for_a_kind_only_where_they_are_a_word) {
+TEST(KindFromPath, TakesLettersForAKindOnlyWhereTheyAreAWord) {
   for (const std::string name :
        {"x_ee", "x-ee", "x ee", "x.ee", "ee", "326ee", "x_326ee", "3d-ee"}) {
     EXPECT_EQ(kind_from_path(name + ".npy"), Kind::edge_edge) << name;
@@ -167,7 +167,7 @@ TEST(KindFromPath, takes_letters_for_a_kind_only_where_they_are_a_word) {
   }
 }
 
-TEST(KindFromPath, asks_for_the_kind_where_the_path_does_not_say_it) {
+TEST(KindFromPath, AsksForTheKindWhereThePathDoesNotSayIt) {
   for (const std::string path : {"data.csv", "vf/data.csv", "vertex_face/data.csv", "vf1.csv"}) {
     EXPECT_EQ(error_of("", [&] { (void)kind_from_path(path); }), path + no_kind);
   }
@@ -177,7 +177,7 @@ TEST(KindFromPath, asks_for_the_kind_where_the_path_does_not_say_it) {
       "pass --kind");
 }
 
-TEST(OpenDataset, picks_the_format_and_the_kind) {
+TEST(OpenDataset, PicksTheFormatAndTheKind) {
   const TemporaryFolder folder;
   const fs::path csv = folder.file("1vf.csv", joined(numbered_lines(2, true)));
   const fs::path npy = folder.path() / "1ee.npy";
@@ -192,7 +192,7 @@ TEST(OpenDataset, picks_the_format_and_the_kind) {
   EXPECT_EQ(open_dataset(csv, {.kind = Kind::edge_edge})->kind(), Kind::edge_edge);
 }
 
-TEST(OpenDataset, opening_errors_throw_even_if_it_keeps_going) {
+TEST(OpenDataset, OpeningErrorsThrowEvenIfItKeepsGoing) {
   const TemporaryFolder folder;
   const auto opening_error = [&](const fs::path& path) {
     return error_of(folder.path(), [&] { (void)open_dataset(path, {.keep_going = true}); });
@@ -246,7 +246,7 @@ class PublicData : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST_F(PublicData, handcrafted_has_4884_labelled_queries_in_22_files) {
+TEST_F(PublicData, HandcraftedHas4884LabelledQueriesIn22Files) {
   EXPECT_EQ(found_in(folder() / "handcrafted").size(), 22U);
   const Counts counts = count("handcrafted");
   EXPECT_EQ(counts.queries, 4884U);
@@ -254,7 +254,7 @@ TEST_F(PublicData, handcrafted_has_4884_labelled_queries_in_22_files) {
   EXPECT_EQ(counts.tois, 0U);
 }
 
-TEST_F(PublicData, simulation_has_the_published_labels_and_times) {
+TEST_F(PublicData, SimulationHasThePublishedLabelsAndTimes) {
   EXPECT_EQ(found_in(folder() / "simulation").size(), 3U);
   EXPECT_EQ(count("simulation/armadillo-rollers"),
             (Counts{.queries = 4652, .collisions = 4650, .labels = 4652, .tois = 4650}));
@@ -264,7 +264,7 @@ TEST_F(PublicData, simulation_has_the_published_labels_and_times) {
             (Counts{.queries = 263, .collisions = 107, .labels = 263, .tois = 107}));
 }
 
-TEST_F(PublicData, writing_a_handcrafted_file_again_gives_the_same_bytes) {
+TEST_F(PublicData, WritingAHandcraftedFileAgainGivesTheSameBytes) {
   const TemporaryFolder temporary;
   for (const fs::path& original : found_in(folder() / "handcrafted")) {
     const fs::path copy = temporary.path() / "copy.csv";

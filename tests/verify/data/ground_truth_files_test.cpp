@@ -51,14 +51,14 @@ Answers tois(const std::string& text, std::uint64_t count) {
   return answers<ToiReader>(text, count);
 }
 
-TEST(LabelReader, reads_booleans_and_bits_with_any_white_space) {
+TEST(LabelReader, ReadsBooleansAndBitsWithAnyWhiteSpace) {
   EXPECT_EQ(labels("[true,false,1,0]", 4), (Answers{"1", "0", "1", "0"}));
   EXPECT_EQ(labels("\r\n [\ttrue ,\n false\n]\n ", 2), (Answers{"1", "0"}));
   EXPECT_EQ(labels("[]", 0), Answers{});
   EXPECT_EQ(labels("[ ]\n", 0), Answers{});
 }
 
-TEST(LabelReader, reads_more_than_its_buffer) {
+TEST(LabelReader, ReadsMoreThanItsBuffer) {
   std::string text = "[";
   Answers expected;
   for (int i = 0; i < 20000; ++i) {
@@ -68,7 +68,7 @@ TEST(LabelReader, reads_more_than_its_buffer) {
   EXPECT_EQ(labels(text + "]", 20000), expected);
 }
 
-TEST(LabelReader, passes_over_the_labels_of_queries_that_nobody_asks_for) {
+TEST(LabelReader, PassesOverTheLabelsOfQueriesThatNobodyAsksFor) {
   const TemporaryFolder folder;
   LabelReader reader(folder.file("f", "[false,null,true,false,true]"));
   EXPECT_TRUE(reader.at(2));
@@ -76,14 +76,14 @@ TEST(LabelReader, passes_over_the_labels_of_queries_that_nobody_asks_for) {
   EXPECT_FALSE(reader.beyond(5).has_value());
 }
 
-TEST(LabelReader, a_word_that_is_no_boolean_concerns_one_query) {
+TEST(LabelReader, AWordThatIsNoBooleanConcernsOneQuery) {
   EXPECT_EQ(labels("[true,\n null,2,True,-1,1.0,false]", 7),
             (Answers{"1", "f:2:2: not a boolean: \"null\"", "f:2:7: not a boolean: \"2\"",
                      "f:2:9: not a boolean: \"True\"", "f:2:14: not a boolean: \"-1\"",
                      "f:2:17: not a boolean: \"1.0\"", "0"}));
 }
 
-TEST(LabelReader, other_json_ends_it_with_a_place) {
+TEST(LabelReader, OtherJsonEndsItWithAPlace) {
   EXPECT_EQ(labels("{\"a\":true}", 1), Answers{"opening f:1:1: expected a JSON array of booleans"});
   EXPECT_EQ(labels("", 1), Answers{"opening f:1:1: expected a JSON array of booleans"});
   EXPECT_EQ(labels("\n true", 1), Answers{"opening f:2:2: expected a JSON array of booleans"});
@@ -98,7 +98,7 @@ TEST(LabelReader, other_json_ends_it_with_a_place) {
             twice("f:1:71: expected true or false"));
 }
 
-TEST(LabelReader, counts) {
+TEST(LabelReader, Counts) {
   EXPECT_EQ(labels("[true,\nfalse]", 4),
             (Answers{"1", "0", "f:2:6: no label for query 2: the array has only 2",
                      "f:2:6: no label for query 3: the array has only 2"}));
@@ -107,45 +107,45 @@ TEST(LabelReader, counts) {
   EXPECT_EQ(labels("[]", 1), Answers{"f:1:2: no label for query 0: the array has only 0"});
 }
 
-TEST(LabelReader, reports_what_is_wrong_behind_the_last_label) {
+TEST(LabelReader, ReportsWhatIsWrongBehindTheLastLabel) {
   EXPECT_EQ(labels("[true", 1), (Answers{"1", "behind f:1:6: expected ',' or ']'"}));
   EXPECT_EQ(labels("[true] x", 1),
             (Answers{"1", "behind f:1:8: expected nothing after the array"}));
   EXPECT_EQ(labels("[true,]", 1), (Answers{"1", "behind f:1:7: expected true or false"}));
 }
 
-TEST(LabelReader, a_read_error_is_no_end_of_the_array) {
+TEST(LabelReader, AReadErrorIsNoEndOfTheArray) {
   EXPECT_EQ(error_of("", [] { LabelReader reader("/proc/self/mem"); }),
             "/proc/self/mem: cannot read: Input/output error");
 }
 
-TEST(ToiReader, reads_what_is_there) {
+TEST(ToiReader, ReadsWhatIsThere) {
   EXPECT_EQ(tois("query,toi\n0,2.5E-1\n2,1\n3,0.125\n", 5), (Answers{"1/4", "-", "1", "1/8", "-"}));
   EXPECT_EQ(tois(" query , toi \r\n 1 , 5e-1 \r\n\r\n", 2), (Answers{"-", "1/2"}));
   EXPECT_EQ(tois("query,toi", 1), Answers{"-"});
 }
 
-TEST(ToiReader, keeps_every_digit) {
+TEST(ToiReader, KeepsEveryDigit) {
   const std::string digits = "2.875962581638275129155259856997960214033566086";
   EXPECT_EQ(tois("query,toi\n0," + digits + "E-1\n", 1),
             Answers{exact::rational_from_decimal("0.2875962581638275129155259856997960214033566086")
                         .get_str()});
 }
 
-TEST(ToiReader, a_bad_decimal_concerns_one_query) {
+TEST(ToiReader, ABadDecimalConcernsOneQuery) {
   EXPECT_EQ(tois("query,toi\n0,1\n1,x\n2,\n3,0\n", 4),
             (Answers{"1", "f:3:2: not a decimal number: \"x\"", "f:4:2: not a decimal number: \"\"",
                      "0"}));
 }
 
-TEST(ToiReader, other_headers_are_opening_errors) {
+TEST(ToiReader, OtherHeadersAreOpeningErrors) {
   EXPECT_EQ(tois("", 1), Answers{"opening f: expected the header query,toi"});
   for (const std::string header : {"0,1", "toi,query", "query", "query,toi,x", "\nquery,toi"}) {
     EXPECT_EQ(tois(header + "\n0,1\n", 1), Answers{"opening f:1: expected the header query,toi"});
   }
 }
 
-TEST(ToiReader, lines_of_no_known_query_end_it_with_a_place) {
+TEST(ToiReader, LinesOfNoKnownQueryEndItWithAPlace) {
   const auto fault = [](const std::string& line) {
     return tois("query,toi\n0,1\n" + line + "\n9,1\n", 3);
   };
@@ -162,7 +162,7 @@ TEST(ToiReader, lines_of_no_known_query_end_it_with_a_place) {
             twice("f:3: line longer than 1 MiB"));
 }
 
-TEST(ToiReader, reports_what_is_wrong_behind_the_last_query) {
+TEST(ToiReader, ReportsWhatIsWrongBehindTheLastQuery) {
   EXPECT_EQ(tois("query,toi\n0,1\n2,1\n3,1\n", 2),
             (Answers{"1", "-", "behind f:3:1: toi of query 2, but there are 2 queries"}));
   EXPECT_EQ(tois("query,toi\n0,1\n?\n", 1),
@@ -171,7 +171,7 @@ TEST(ToiReader, reports_what_is_wrong_behind_the_last_query) {
             (Answers{"1", "1", "behind f:4:1: query numbers do not ascend"}));
 }
 
-TEST(GroundTruthFiles, are_found_beside_and_below_the_folder_of_the_dataset_in_order) {
+TEST(GroundTruthFiles, AreFoundBesideAndBelowTheFolderOfTheDatasetInOrder) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("scene/queries/7vf.csv", "");
   const auto path_of_labels = [&] {
@@ -195,7 +195,7 @@ TEST(GroundTruthFiles, are_found_beside_and_below_the_folder_of_the_dataset_in_o
   }
 }
 
-TEST(GroundTruthFiles, are_known_by_their_paths) {
+TEST(GroundTruthFiles, AreKnownByTheirPaths) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("queries/7vf.csv", "");
   EXPECT_TRUE(find_ground_truth_files(dataset).empty());
@@ -207,7 +207,7 @@ TEST(GroundTruthFiles, are_known_by_their_paths) {
   EXPECT_EQ(found[1].lexically_normal(), tois);
 }
 
-TEST(GroundTruthFiles, of_other_datasets_do_not_count) {
+TEST(GroundTruthFiles, OfOtherDatasetsDoNotCount) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("queries/7vf.npy", "");
   (void)folder.file("mma_bool/17vf_mma_bool.json", "[true]");
@@ -217,7 +217,7 @@ TEST(GroundTruthFiles, of_other_datasets_do_not_count) {
   EXPECT_EQ(companions.at(0).toi, std::nullopt);
 }
 
-TEST(GroundTruthFiles, that_cannot_be_read_are_errors) {
+TEST(GroundTruthFiles, ThatCannotBeReadAreErrors) {
   const TemporaryFolder folder;
   const auto dataset = folder.file("7vf.csv", "");
   std::filesystem::create_directory(folder.path() / "7vf_toi.csv");

@@ -37,7 +37,7 @@ std::filesystem::path spoiled_file(const TemporaryFolder& folder, std::size_t qu
   return path;
 }
 
-TEST(NpyDataset, streams_all_queries_without_truth) {
+TEST(NpyDataset, StreamsAllQueriesWithoutTruth) {
   const TemporaryFolder folder;
   const auto path = spoiled_file(folder, 0, 0, 0.0);
   NpyDataset source(path, {});
@@ -55,7 +55,7 @@ TEST(NpyDataset, streams_all_queries_without_truth) {
   EXPECT_EQ(source.progress(), 1.0);
 }
 
-TEST(NpyDataset, names_the_coordinate_that_is_not_finite_and_skips_its_query_only) {
+TEST(NpyDataset, NamesTheCoordinateThatIsNotFiniteAndSkipsItsQueryOnly) {
   using Limits = std::numeric_limits<double>;
   for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
     for (std::size_t coordinate = 0; coordinate < 24; ++coordinate) {
@@ -77,7 +77,7 @@ TEST(NpyDataset, names_the_coordinate_that_is_not_finite_and_skips_its_query_onl
   }
 }
 
-TEST(NpyDataset, of_no_queries_ends_at_once) {
+TEST(NpyDataset, OfNoQueriesEndsAtOnce) {
   const TemporaryFolder folder;
   NpyWriter(folder.path() / "a_vf.npy").close();
   NpyDataset source(folder.path() / "a_vf.npy", {});
@@ -86,7 +86,7 @@ TEST(NpyDataset, of_no_queries_ends_at_once) {
   EXPECT_EQ(source.skipped(), 0U);
 }
 
-TEST(NpyDataset, that_becomes_shorter_gives_what_is_there_and_then_one_error) {
+TEST(NpyDataset, ThatBecomesShorterGivesWhatIsThereAndThenOneError) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a_vf.npy";
   for (const bool keep_going : {false, true}) {
@@ -115,7 +115,7 @@ TEST(NpyDataset, that_becomes_shorter_gives_what_is_there_and_then_one_error) {
   }
 }
 
-TEST(NpyDataset, memory_does_not_grow_with_the_file) {
+TEST(NpyDataset, MemoryDoesNotGrowWithTheFile) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a_vf.npy";
   constexpr std::size_t queries = 300000;

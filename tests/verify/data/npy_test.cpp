@@ -67,7 +67,7 @@ void expect_two_queries(const std::string& file) {
   EXPECT_EQ(npy_queries(folder.file("a.npy", file)), two_queries());
 }
 
-TEST(NpyReader, reads_a_version_1_file_made_byte_by_byte) {
+TEST(NpyReader, ReadsAVersion1FileMadeByteByByte) {
   std::string file = "\x93NUMPY";
   file += '\x01';
   file += '\x00';
@@ -83,7 +83,7 @@ TEST(NpyReader, reads_a_version_1_file_made_byte_by_byte) {
   for (const double x : queries[0].coordinates) EXPECT_EQ(x, -1.5);
 }
 
-TEST(NpyReader, reads_versions_1_to_3_and_headers_that_others_write) {
+TEST(NpyReader, ReadsVersions1To3AndHeadersThatOthersWrite) {
   const std::string data = bytes_of(two_queries());
   for (const char version : {'\1', '\2', '\3'}) {
     expect_two_queries(header(good_dictionary, version) + data);
@@ -98,7 +98,7 @@ TEST(NpyReader, reads_versions_1_to_3_and_headers_that_others_write) {
   expect_two_queries(header(good_dictionary + std::string(60000, ' '), 2) + data);
 }
 
-TEST(NpyReader, names_what_is_no_numpy_file) {
+TEST(NpyReader, NamesWhatIsNoNumpyFile) {
   EXPECT_EQ(open_error(""), "a.npy: not a NumPy file");
   EXPECT_EQ(open_error("1,1,1,1,1,1\n"), "a.npy: not a NumPy file");
   EXPECT_EQ(open_error("\x93NUMPY\x01"), "a.npy: not a NumPy file");
@@ -110,7 +110,7 @@ TEST(NpyReader, names_what_is_no_numpy_file) {
             "folder.npy: is a folder");
 }
 
-TEST(NpyReader, names_unknown_versions_and_truncated_headers) {
+TEST(NpyReader, NamesUnknownVersionsAndTruncatedHeaders) {
   EXPECT_EQ(open_error(header(good_dictionary, 4)),
             "a.npy: version 4 of the NumPy format, expected 1, 2 or 3");
   EXPECT_EQ(open_error(header(good_dictionary, 0)),
@@ -121,7 +121,7 @@ TEST(NpyReader, names_unknown_versions_and_truncated_headers) {
   }
 }
 
-TEST(NpyReader, names_every_other_kind_of_array) {
+TEST(NpyReader, NamesEveryOtherKindOfArray) {
   const auto with_descr = [](const std::string& descr) {
     return "{'descr': " + descr + ", 'fortran_order': False, 'shape': (2, 8, 3), }";
   };
@@ -135,7 +135,7 @@ TEST(NpyReader, names_every_other_kind_of_array) {
             "a.npy: Fortran order, expected C order");
 }
 
-TEST(NpyReader, names_every_other_shape) {
+TEST(NpyReader, NamesEveryOtherShape) {
   for (const std::string shape :
        {"", "48", "2, 24", "2, 8, 3, 1", "8, 2, 3", "2, 3, 8", "16, 3", "2, 4, 6"}) {
     EXPECT_EQ(header_error("{'descr': '<f8', 'fortran_order': False, 'shape': (" + shape + "), }"),
@@ -143,7 +143,7 @@ TEST(NpyReader, names_every_other_shape) {
   }
 }
 
-TEST(NpyReader, an_array_of_no_queries_is_one) {
+TEST(NpyReader, AnArrayOfNoQueriesIsOne) {
   const TemporaryFolder folder;
   NpyReader npy(folder.file(
       "a.npy", header("{'descr': '<f8', 'fortran_order': False, 'shape': (0, 8, 3), }")));
@@ -153,7 +153,7 @@ TEST(NpyReader, an_array_of_no_queries_is_one) {
   EXPECT_EQ(NpyReader(folder.path() / "b.npy").count(), 0U);
 }
 
-TEST(NpyReader, names_headers_that_are_no_dictionary_of_these_three) {
+TEST(NpyReader, NamesHeadersThatAreNoDictionaryOfTheseThree) {
   for (const std::string dictionary :
        {"", "{", "[]", "{'descr': '<f8'", "{'descr'; '<f8'}", "{descr: '<f8'}",
         "{'descr': '<f8, 'fortran_order': False, 'shape': (2, 8, 3), }",
@@ -175,7 +175,7 @@ TEST(NpyReader, names_headers_that_are_no_dictionary_of_these_three) {
             "a.npy: unknown or repeated key in the header: \"version\"");
 }
 
-TEST(NpyReader, names_data_of_another_size_or_alignment) {
+TEST(NpyReader, NamesDataOfAnotherSizeOrAlignment) {
   const std::string data = bytes_of(two_queries());
   const auto size_error = [](std::size_t bytes, const std::string& count) {
     return "a.npy: " + std::to_string(bytes) + " bytes of data, but the shape says " + count +
@@ -192,7 +192,7 @@ TEST(NpyReader, names_data_of_another_size_or_alignment) {
             size_error(384, overflowing));
 }
 
-TEST(NpyReader, bounds_the_header) {
+TEST(NpyReader, BoundsTheHeader) {
   std::string length{"\0\0\x10\0", 4};
   const std::string begin = std::string("\x93NUMPY\2\0", 8), room(std::size_t{1} << 21U, ' ');
   EXPECT_EQ(open_error(begin + length + room), "a.npy: malformed header");
@@ -200,7 +200,7 @@ TEST(NpyReader, bounds_the_header) {
   EXPECT_EQ(open_error(begin + length + room), "a.npy: header longer than 1 MiB");
 }
 
-TEST(NpyReader, a_file_that_becomes_shorter_ends_with_an_error) {
+TEST(NpyReader, AFileThatBecomesShorterEndsWithAnError) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a.npy";
   for (const std::size_t left : {0U, 1000U, 1001U, 1500U, 1999U}) {
@@ -224,7 +224,7 @@ TEST(NpyReader, a_file_that_becomes_shorter_ends_with_an_error) {
   }
 }
 
-TEST(NpyWriter, what_is_read_is_what_was_written_bit_for_bit) {
+TEST(NpyWriter, WhatIsReadIsWhatWasWrittenBitForBit) {
   const TemporaryFolder folder;
   std::mt19937_64 random(11);
   std::vector<Query> queries(2000);
@@ -236,7 +236,7 @@ TEST(NpyWriter, what_is_read_is_what_was_written_bit_for_bit) {
   EXPECT_EQ(bytes_of(npy_queries(folder.path() / "a.npy")), bytes_of(queries));
 }
 
-TEST(NpyWriter, writes_a_header_that_numpy_reads) {
+TEST(NpyWriter, WritesAHeaderThatNumpyReads) {
   const TemporaryFolder folder;
   NpyWriter writer(folder.path() / "a.npy");
   for (const Query& query : two_queries()) writer.write(query);
@@ -246,7 +246,7 @@ TEST(NpyWriter, writes_a_header_that_numpy_reads) {
   EXPECT_EQ(contents(folder.path() / "a.npy"), expected + "\n" + bytes_of(two_queries()));
 }
 
-TEST(NpyWriter, refuses_what_is_not_finite_and_stays_usable) {
+TEST(NpyWriter, RefusesWhatIsNotFiniteAndStaysUsable) {
   const TemporaryFolder folder;
   NpyWriter writer(folder.path() / "a.npy");
   for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
@@ -259,7 +259,7 @@ TEST(NpyWriter, refuses_what_is_not_finite_and_stays_usable) {
   EXPECT_EQ(npy_queries(folder.path() / "a.npy"), std::vector{numbered_query(0)});
 }
 
-TEST(NpyWriter, without_close_there_is_no_file) {
+TEST(NpyWriter, WithoutCloseThereIsNoFile) {
   const TemporaryFolder folder;
   { NpyWriter(folder.path() / "a.npy").write(numbered_query(0)); }
   EXPECT_TRUE(folder.names().empty());

@@ -23,7 +23,7 @@ Rational ratio(const Integer& numerator, const Integer& denominator) {
   return value;
 }
 
-TEST(ToDecimal, writes_all_digits_of_dyadic_numbers) {
+TEST(ToDecimal, WritesAllDigitsOfDyadicNumbers) {
   EXPECT_EQ(to_decimal(0), "0");
   EXPECT_EQ(to_decimal(1), "1E0");
   EXPECT_EQ(to_decimal(100), "1E2");
@@ -39,7 +39,7 @@ TEST(ToDecimal, writes_all_digits_of_dyadic_numbers) {
   }
 }
 
-TEST(ToDecimal, rounds_other_numbers_to_the_nearest_of_60_digits) {
+TEST(ToDecimal, RoundsOtherNumbersToTheNearestOf60Digits) {
   EXPECT_EQ(to_decimal(ratio(1, 3)), "3." + std::string(59, '3') + "E-1");
   EXPECT_EQ(to_decimal(ratio(2, 3)), "6." + std::string(58, '6') + "7E-1");
   EXPECT_EQ(to_decimal(ratio(-200, 3)), "-6." + std::string(58, '6') + "7E1");
@@ -49,7 +49,7 @@ TEST(ToDecimal, rounds_other_numbers_to_the_nearest_of_60_digits) {
   EXPECT_EQ(to_decimal(ratio(nines + 1, 3)), "1E70");
 }
 
-TEST(ToDecimal, is_within_half_a_unit_of_the_last_digit) {
+TEST(ToDecimal, IsWithinHalfAUnitOfTheLastDigit) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 2000; ++i) {
     const Integer n = Integer(static_cast<unsigned long>(random())) + 1;
@@ -60,7 +60,7 @@ TEST(ToDecimal, is_within_half_a_unit_of_the_last_digit) {
   }
 }
 
-TEST(ToiWriter, what_is_read_back_is_what_was_written) {
+TEST(ToiWriter, WhatIsReadBackIsWhatWasWritten) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "a_toi.csv";
   ToiWriter writer(path);
@@ -77,7 +77,7 @@ TEST(ToiWriter, what_is_read_back_is_what_was_written) {
   EXPECT_FALSE(reader.beyond(6).has_value());
 }
 
-TEST(ToiWriter, refuses_queries_out_of_order) {
+TEST(ToiWriter, RefusesQueriesOutOfOrder) {
   const TemporaryFolder folder;
   ToiWriter writer(folder.path() / "a_toi.csv");
   writer.write(4, 1);
@@ -88,7 +88,7 @@ TEST(ToiWriter, refuses_queries_out_of_order) {
   EXPECT_EQ(contents(folder.path() / "a_toi.csv"), "query,toi\n4,1E0\n5,1E0\n");
 }
 
-TEST(ToiWriter, without_close_there_is_no_file) {
+TEST(ToiWriter, WithoutCloseThereIsNoFile) {
   const TemporaryFolder folder;
   { ToiWriter(folder.path() / "a_toi.csv").write(0, 1); }
   EXPECT_TRUE(folder.names().empty());

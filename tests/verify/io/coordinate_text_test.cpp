@@ -51,7 +51,7 @@ std::string fault_of(std::string_view numerator, std::string_view denominator) {
   return "no error";
 }
 
-TEST(ParseCoordinate, takes_signs_leading_zeros_and_any_representation_of_a_double) {
+TEST(ParseCoordinate, TakesSignsLeadingZerosAndAnyRepresentationOfADouble) {
   expect_exact("3", "4", 0.75);
   expect_exact("+3", "+4", 0.75);
   expect_exact("3", "-4", -0.75);
@@ -66,7 +66,7 @@ TEST(ParseCoordinate, takes_signs_leading_zeros_and_any_representation_of_a_doub
   expect_exact("18446744073709551616", "1", 0x1p64);
 }
 
-TEST(ParseCoordinate, takes_decimals_that_are_doubles) {
+TEST(ParseCoordinate, TakesDecimalsThatAreDoubles) {
   expect_exact("-0.75", "1", -0.75);
   expect_exact("+.5", "1", 0.5);
   expect_exact("3.", "1", 3.0);
@@ -80,7 +80,7 @@ TEST(ParseCoordinate, takes_decimals_that_are_doubles) {
   expect_exact("4.0e-1", "6.4e0", 0.0625);
 }
 
-TEST(ParseCoordinate, takes_the_nearest_double_of_other_decimals) {
+TEST(ParseCoordinate, TakesTheNearestDoubleOfOtherDecimals) {
   for (const std::string_view decimal :
        {"0.1", "-0.00058163201902061701", "1e-330", "1.7976931348623158e308", "-2.5e-324"}) {
     const exact::Rational number = exact::rational_from_decimal(decimal);
@@ -93,7 +93,7 @@ TEST(ParseCoordinate, takes_the_nearest_double_of_other_decimals) {
   EXPECT_EQ(fault_of("1", "1e-400"), "numerator: beyond the range of double");
 }
 
-TEST(ParseCoordinate, what_17_digits_give_back_is_the_double) {
+TEST(ParseCoordinate, What17DigitsGiveBackIsTheDouble) {
   std::mt19937_64 random(9);
   for (const double x : data::test::random_query(random).coordinates) {
     EXPECT_EQ(parse_coordinate(fmt::format("{:.17g}", x), "1").value, x);
@@ -102,7 +102,7 @@ TEST(ParseCoordinate, what_17_digits_give_back_is_the_double) {
   }
 }
 
-TEST(ParseCoordinate, names_what_is_no_number) {
+TEST(ParseCoordinate, NamesWhatIsNoNumber) {
   for (const std::string bad : {"", "-", "+", ".", "+-1", "--1", "1.5.0", "1e", "e3", "1e3.5",
                                 "0x10", "1 2", "a", "1a", "1,5", "1e99999"}) {
     EXPECT_EQ(fault_of(bad, "1"), "numerator: not a number: \"" + bad + "\"");
@@ -114,7 +114,7 @@ TEST(ParseCoordinate, names_what_is_no_number) {
   }
 }
 
-TEST(IsNumeric, tells_what_begins_like_a_number_from_names) {
+TEST(IsNumeric, TellsWhatBeginsLikeANumberFromNames) {
   for (const char* numeric : {"0", "-1", "+.5", "1x", "1e", "--1", "nan", "+inf"}) {
     EXPECT_TRUE(is_numeric(numeric)) << numeric;
   }
@@ -123,14 +123,14 @@ TEST(IsNumeric, tells_what_begins_like_a_number_from_names) {
   }
 }
 
-TEST(ParseCoordinate, refuses_zero_denominators) {
+TEST(ParseCoordinate, RefusesZeroDenominators) {
   for (const std::string zero : {"0", "-0", "+0", "000", "0.0", "0e5"}) {
     EXPECT_EQ(fault_of("1", zero), "denominator: zero denominator");
     EXPECT_EQ(fault_of("0", zero), "denominator: zero denominator");
   }
 }
 
-TEST(ParseCoordinate, is_exact_up_to_53_significant_bits_and_says_so_beyond) {
+TEST(ParseCoordinate, IsExactUpTo53SignificantBitsAndSaysSoBeyond) {
   const std::int64_t most = (std::int64_t{1} << 53) - 1;
   expect_exact(std::to_string(most), "1", 9007199254740991.0);
   expect_exact(std::to_string(2 * most), "1", 18014398509481982.0);
@@ -140,7 +140,7 @@ TEST(ParseCoordinate, is_exact_up_to_53_significant_bits_and_says_so_beyond) {
   EXPECT_EQ(parse_coordinate("1", "3").value, 1.0 / 3.0);
 }
 
-TEST(ParseCoordinate, reaches_both_ends_of_the_range_and_not_beyond) {
+TEST(ParseCoordinate, ReachesBothEndsOfTheRangeAndNotBeyond) {
   const exact::Integer largest = power(1024) - power(971);
   expect_exact(text_of(largest), "1", Limits::max());
   expect_exact(text_of(-largest), "1", -Limits::max());
@@ -157,14 +157,14 @@ TEST(ParseCoordinate, reaches_both_ends_of_the_range_and_not_beyond) {
   EXPECT_FALSE(std::signbit(parse_coordinate("-1", text_of(power(1075))).value));
 }
 
-TEST(ParseCoordinate, takes_integers_of_400_digits) {
+TEST(ParseCoordinate, TakesIntegersOf400Digits) {
   const exact::Integer common("1" + std::string(398, '7') + "3", 10);
   expect_exact(text_of(3 * common), text_of(4 * common), 0.75);
   EXPECT_FALSE(parse_coordinate(text_of(3 * common + 1), text_of(4 * common)).exact);
   EXPECT_EQ(parse_coordinate(text_of(3 * common + 1), text_of(4 * common)).value, 0.75);
 }
 
-TEST(ParseCoordinate, agrees_with_rational_arithmetic_on_every_path) {
+TEST(ParseCoordinate, AgreesWithRationalArithmeticOnEveryPath) {
   std::mt19937_64 random(20210814);
   const auto signed_bits = [&](unsigned bits) {
     return exact::Integer(static_cast<long>(random()) >> (64U - bits));
@@ -180,7 +180,7 @@ TEST(ParseCoordinate, agrees_with_rational_arithmetic_on_every_path) {
   }
 }
 
-TEST(AppendCoordinate, writes_lowest_terms) {
+TEST(AppendCoordinate, WritesLowestTerms) {
   const auto text = [](double x) {
     std::string result;
     append_coordinate(result, x);
@@ -196,7 +196,7 @@ TEST(AppendCoordinate, writes_lowest_terms) {
   EXPECT_EQ(text(Limits::max()), text_of(power(1024) - power(971)) + ",1");
 }
 
-TEST(AppendCoordinate, refuses_what_is_not_finite) {
+TEST(AppendCoordinate, RefusesWhatIsNotFinite) {
   std::string text = "kept";
   for (const double bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
     EXPECT_THROW(append_coordinate(text, bad), std::invalid_argument);

@@ -35,7 +35,7 @@ TEST(CsvField, IsPrintable) {
   EXPECT_EQ(csv_field("a\r,b"), "\"a\\x0d,b\"");
   EXPECT_EQ(csv_field("\x1b[31m"), "\\x1b[31m");
   EXPECT_EQ(csv_field("caf\xe9"), "caf\\xe9");
-  EXPECT_EQ(csv_field("\u202eabc"), "\\u202eabc");
+  EXPECT_EQ(csv_field("\u202eabc"), "\\xe2\\x80\\xaeabc");
 }
 
 TEST(CsvField, IsNoFormula) {

@@ -7,14 +7,14 @@
 namespace touchstone::verify::io::dataset_error_test {
 namespace {
 
-TEST(DatasetError, says_path_line_column_and_reason_without_the_parts_that_are_zero) {
+TEST(DatasetError, SaysPathLineColumnAndReasonWithoutThePartsThatAreZero) {
   EXPECT_STREQ(DatasetError("a/b.csv", {.line = 12, .column = 3}, "bad").what(),
                "a/b.csv:12:3: bad");
   EXPECT_STREQ(DatasetError("a/b.csv", {.line = 12}, "bad").what(), "a/b.csv:12: bad");
   EXPECT_STREQ(DatasetError("a/b.csv", {}, "bad").what(), "a/b.csv: bad");
 }
 
-TEST(DatasetError, keeps_its_parts) {
+TEST(DatasetError, KeepsItsParts) {
   const DatasetError error("a/b.csv", {.line = 12, .column = 3}, "bad");
   EXPECT_EQ(error.path(), "a/b.csv");
   EXPECT_EQ(error.line(), 12U);
@@ -22,7 +22,7 @@ TEST(DatasetError, keeps_its_parts) {
   EXPECT_EQ(error.reason(), "bad");
 }
 
-TEST(DatasetError, has_a_bounded_length) {
+TEST(DatasetError, HasABoundedLength) {
   const DatasetError error(std::string(100000, 'p'), {.line = 12, .column = 3},
                            std::string(100000, 'r'));
   EXPECT_EQ(error.what(), std::string(4096, 'p') + "...:12:3: " + std::string(1000, 'r') + "...");
@@ -31,7 +31,7 @@ TEST(DatasetError, has_a_bounded_length) {
   EXPECT_EQ(DatasetError("p", {}, std::string(1000, 'r')).reason(), std::string(1000, 'r'));
 }
 
-TEST(DatasetError, cuts_no_character_in_two) {
+TEST(DatasetError, CutsNoCharacterInTwo) {
   for (std::size_t before = 996; before <= 1000; ++before) {
     const std::string reason = DatasetError("p", {},
                                             std::string(before, 'r') +
@@ -42,7 +42,7 @@ TEST(DatasetError, cuts_no_character_in_two) {
   }
 }
 
-TEST(Beginning, takes_whole_characters) {
+TEST(Beginning, TakesWholeCharacters) {
   EXPECT_EQ(beginning("abc", 3), "abc");
   EXPECT_EQ(beginning("abc", 2), "ab");
   EXPECT_EQ(beginning("", 0), "");
@@ -52,7 +52,7 @@ TEST(Beginning, takes_whole_characters) {
   EXPECT_EQ(beginning(std::string(10, '\x80'), 5).size(), 2U) << "where it is not UTF-8 it ends";
 }
 
-TEST(Quote, cuts_long_text_and_hides_what_a_terminal_would_obey) {
+TEST(Quote, CutsLongTextAndHidesWhatATerminalWouldObey) {
   EXPECT_EQ(quote("1.5"), "\"1.5\"");
   EXPECT_EQ(quote(std::string_view("a\x1b[31m\0\n", 7)), "\"a?[31m?\"");
   EXPECT_EQ(quote("\xc3\xa9"), "\"??\"");

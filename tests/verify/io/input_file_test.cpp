@@ -1,19 +1,13 @@
 #include "verify/io/input_file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
-#include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
-#include "verify/io/terminal.hpp"
 
 namespace touchstone::verify::io::input_file_test {
 namespace {
@@ -40,7 +34,7 @@ std::vector<OwnedLine> lines_of(const std::string& text) {
   return lines;
 }
 
-TEST(InputFile, names_a_file_that_is_not_there_and_a_folder) {
+TEST(InputFile, NamesAFileThatIsNotThereAndAFolder) {
   const TemporaryFolder folder;
   EXPECT_EQ(error_of(folder.path(), [&] { InputFile file(folder.path() / "none"); }),
             "none: cannot open: No such file or directory");
@@ -48,7 +42,7 @@ TEST(InputFile, names_a_file_that_is_not_there_and_a_folder) {
             folder.path().filename().string() + ": is a folder");
 }
 
-TEST(InputFile, a_read_error_is_reported_once_and_ends_the_file) {
+TEST(InputFile, AReadErrorIsReportedOnceAndEndsTheFile) {
   // Address 0 is never mapped, so the system answers the first read of this file with an error.
   InputFile file("/proc/self/mem");
   std::array<char, 8> buffer{};
@@ -57,38 +51,7 @@ TEST(InputFile, a_read_error_is_reported_once_and_ends_the_file) {
   EXPECT_EQ(file.read(buffer), 0U);
 }
 
-TEST(InputFile, opens_a_pipe_without_a_writer_and_waits_where_it_reads) {
-  const TemporaryFolder folder;
-  const std::filesystem::path pipe = folder.path() / "pipe";
-  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  InputFile file(pipe);
-  std::thread writer([&pipe] { std::ofstream(pipe) << "text"; });
-  std::array<char, 8> buffer{};
-  EXPECT_EQ(file.read(buffer), 4U);
-  writer.join();
-  EXPECT_EQ(file.read(buffer), 0U);
-}
-
-TEST(InputFile, an_interrupt_ends_a_read) {
-  const TemporaryFolder folder;
-  const std::filesystem::path pipe = folder.path() / "pipe";
-  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  const auto read_nothing = [&pipe] {
-    static_cast<void>(interrupted());
-    InputFile file(pipe);
-    std::raise(SIGINT);
-    std::array<char, 8> buffer{};
-    try {
-      static_cast<void>(file.read(buffer));
-    } catch (const Interrupted&) {
-      _exit(0);
-    }
-    _exit(1);
-  };
-  EXPECT_EXIT(read_nothing(), ::testing::ExitedWithCode(0), "");
-}
-
-TEST(InputFile, is_read_whole_up_to_a_limit) {
+TEST(InputFile, IsReadWholeUpToALimit) {
   const TemporaryFolder folder;
   const std::string text(200'000, 'x');
   const auto path = folder.file("text", text);
@@ -99,7 +62,7 @@ TEST(InputFile, is_read_whole_up_to_a_limit) {
             "/dev/zero: has more than 10 bytes");
 }
 
-TEST(InputFile, progress_is_the_fraction_read) {
+TEST(InputFile, ProgressIsTheFractionRead) {
   const TemporaryFolder folder;
   InputFile file(folder.file("eight", "12345678"));
   std::array<char, 2> buffer{};
@@ -109,7 +72,7 @@ TEST(InputFile, progress_is_the_fraction_read) {
   EXPECT_EQ(file.progress(), 0.25);
 }
 
-TEST(LineReader, reads_all_line_ends) {
+TEST(LineReader, ReadsAllLineEnds) {
   const std::vector<OwnedLine> expected{{"a", 1, false}, {"b", 2, false}};
   EXPECT_EQ(lines_of("a\nb\n"), expected);
   EXPECT_EQ(lines_of("a\nb"), expected);
@@ -117,7 +80,7 @@ TEST(LineReader, reads_all_line_ends) {
   EXPECT_EQ(lines_of("a\r\nb\r"), expected);
 }
 
-TEST(LineReader, blank_lines_count_except_at_the_end) {
+TEST(LineReader, BlankLinesCountExceptAtTheEnd) {
   EXPECT_TRUE(lines_of("").empty());
   EXPECT_TRUE(lines_of("\n \t\n\r\n").empty());
   const std::vector<OwnedLine> expected{
@@ -125,7 +88,7 @@ TEST(LineReader, blank_lines_count_except_at_the_end) {
   EXPECT_EQ(lines_of("\na\n \n\t\r\nb\n\n  \n"), expected);
 }
 
-TEST(LineReader, lines_across_chunks_stay_whole) {
+TEST(LineReader, LinesAcrossChunksStayWhole) {
   std::string text;
   for (std::size_t i = 0; i < 3000; ++i)
     text += std::string(i % 211, 'x') + std::to_string(i) + "\n";
@@ -136,13 +99,13 @@ TEST(LineReader, lines_across_chunks_stay_whole) {
   }
 }
 
-TEST(LineReader, refuses_a_line_without_an_end) {
+TEST(LineReader, RefusesALineWithoutAnEnd) {
   LineReader reader("/dev/zero");
   EXPECT_EQ(error_of("", [&] { (void)reader.next(); }),
             "/dev/zero:1: no line end within 64 MiB: not a text file");
 }
 
-TEST(LineReader, passes_over_lines_beyond_the_limit_and_no_others) {
+TEST(LineReader, PassesOverLinesBeyondTheLimitAndNoOthers) {
   const std::string longest(LineReader::longest_line, 'x');
   const std::vector<OwnedLine> fits{{longest, 1, false}, {"b", 2, false}};
   EXPECT_EQ(lines_of(longest + "\nb"), fits);
@@ -157,7 +120,7 @@ TEST(LineReader, passes_over_lines_beyond_the_limit_and_no_others) {
             (std::vector<OwnedLine>{{"", 1, true}}));
 }
 
-TEST(Trimmed, removes_spaces_and_tabs_at_both_ends_only) {
+TEST(Trimmed, RemovesSpacesAndTabsAtBothEndsOnly) {
   EXPECT_EQ(trimmed(" \ta b\t "), "a b");
   EXPECT_EQ(trimmed("a"), "a");
   EXPECT_EQ(trimmed(" \t "), "");

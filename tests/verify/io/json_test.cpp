@@ -3,7 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <string>
+#include <string_view>
+
+#include "tests/support/folder_test.hpp"
+#include "verify/data/dataset_error.hpp"
 
 namespace touchstone::verify::io::json_test {
 namespace {
@@ -25,6 +31,31 @@ TEST(Json, NumbersComeBack) {
   }
   EXPECT_TRUE(std::isnan(number_from_json(number_to_json(nan))));
   EXPECT_THROW(static_cast<void>(number_from_json("infinite")), nlohmann::json::exception);
+}
+
+using JsonFile = tests::FolderTest;
+
+TEST_F(JsonFile, IsReadUpToADepthAndASize) {
+  const auto error_of = [&](const std::string& text, std::size_t most_bytes = 1U << 20U) {
+    std::ofstream(path("a.json")) << text;
+    try {
+      static_cast<void>(read_json(path("a.json"), most_bytes));
+    } catch (const data::DatasetError& error) {
+      return std::string(error.what()).substr(path("").size());
+    }
+    return std::string();
+  };
+  const auto nested = [](std::string_view opening, std::string_view closing, int depth) {
+    std::string text = "1";
+    for (int i = 0; i < depth; ++i) text = text + std::string(closing);
+    for (int i = 0; i < depth; ++i) text.insert(0, opening);
+    return text;
+  };
+  EXPECT_EQ(error_of(nested("[", "]", deepest_json)), "");
+  EXPECT_EQ(error_of(nested("[", "]", deepest_json + 1)), "a.json: nested more than 100 deep");
+  EXPECT_EQ(error_of(nested(R"({"a":)", "}", 20'000)), "a.json: nested more than 100 deep");
+  EXPECT_EQ(error_of("[1, 2]", 5), "a.json: has more than 5 bytes");
+  EXPECT_TRUE(error_of("[1, 2").starts_with("a.json: no JSON: "));
 }
 
 TEST(Json, EmptyTextsAreNull) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/verify/data/dataset_fixture.hpp"
@@ -43,7 +45,7 @@ class FileSizeLimit {
   void (*handler_)(int);
 };
 
-TEST(OutputFile, has_its_name_and_all_its_bytes_after_close) {
+TEST(OutputFile, HasItsNameAndAllItsBytesAfterClose) {
   const TemporaryFolder folder;
   OutputFile file(folder.path() / "out.csv");
   std::string expected;
@@ -62,7 +64,7 @@ TEST(OutputFile, has_its_name_and_all_its_bytes_after_close) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"out.csv"});
 }
 
-TEST(OutputFile, leaves_the_old_file_until_close_and_nothing_without_it) {
+TEST(OutputFile, LeavesTheOldFileUntilCloseAndNothingWithoutIt) {
   const TemporaryFolder folder;
   const auto path = folder.file("out.csv", "old");
   {
@@ -82,135 +84,66 @@ TEST(OutputFile, leaves_the_old_file_until_close_and_nothing_without_it) {
   EXPECT_EQ(contents(path), "new");
 }
 
-/// The only file of the folder, which must be a temporary one.
-std::string temporary_in(const TemporaryFolder& folder) {
-  const std::vector<std::string> names = folder.names();
-  EXPECT_EQ(names.size(), 1U);
-  EXPECT_NE(names.at(0).find(".touchstone.partial-"), std::string::npos) << names.at(0);
-  return names.at(0);
-}
-
-/// Begins to write a file in a child process, which is then killed.
-void leave_partial(const std::filesystem::path& path) {
+TEST(OutputFile, OfAKilledRunIsRemovedByTheNextOneOfItsName) {
+  const TemporaryFolder folder;
   std::array<int, 2> pipe{};
   ASSERT_EQ(::pipe(pipe.data()), 0);
   const pid_t child = ::fork();
   if (child == 0) {
-    OutputFile file(path);
-    file.write("half");
+    OutputFile file(folder.path() / "out.csv");
     static_cast<void>(::write(pipe[1], "x", 1));
     for (;;) ::pause();
   }
   char ready = 0;
   EXPECT_EQ(::read(pipe[0], &ready, 1), 1);
+  const std::string left = "out.csv.touchstone.partial-" + std::to_string(child);
+  EXPECT_EQ(folder.names(), std::vector{left});
+  OutputFile(folder.path() / "out.csv").close();
+  EXPECT_EQ(folder.names().size(), 2U) << "the other process writes still";
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
-  ::close(pipe[0]);
-  ::close(pipe[1]);
-}
-
-TEST(OutputFile, the_next_one_in_the_folder_removes_what_killed_runs_left) {
-  const TemporaryFolder folder;
-  for (const std::string next : {"out.csv", "other.csv"}) {
-    leave_partial(folder.path() / "out.csv");
-    const std::string left = temporary_in(folder);
-    OutputFile file(folder.path() / next);
-    EXPECT_NE(temporary_in(folder), left) << "before it is complete";
-  }
-  EXPECT_TRUE(folder.names().empty());
-}
-
-TEST(OutputFile, what_others_are_writing_stays) {
-  const TemporaryFolder folder;
-  std::array<int, 2> ready{}, go_on{};
-  ASSERT_EQ(::pipe(ready.data()), 0);
-  ASSERT_EQ(::pipe(go_on.data()), 0);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    OutputFile file(folder.path() / "first");
-    file.write("first");
-    static_cast<void>(::write(ready[1], "x", 1));
-    char word = 0;
-    static_cast<void>(::read(go_on[0], &word, 1));
-    file.close();
-    ::_exit(0);
-  }
-  char word = 0;
-  ASSERT_EQ(::read(ready[0], &word, 1), 1);
-  OutputFile second(folder.path() / "second"), third(folder.path() / "first");
-  EXPECT_EQ(folder.names().size(), 3U);
-  ASSERT_EQ(::write(go_on[1], "x", 1), 1);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
-  EXPECT_EQ(contents(folder.path() / "first"), "first");
-  second.close();
-  third.close();
-  for (const int end : {ready[0], ready[1], go_on[0], go_on[1]}) ::close(end);
+  (void)folder.file("out.csv.touchstone.partial-x", "");
+  OutputFile(folder.path() / "other.csv").close();
+  EXPECT_EQ(folder.names().size(), 4U) << "of another name";
+  OutputFile(folder.path() / "out.csv").close();
   std::vector<std::string> names = folder.names();
   std::ranges::sort(names);
-  EXPECT_EQ(names, (std::vector<std::string>{"first", "second"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"other.csv", "out.csv", "out.csv.touchstone.partial-x"}));
+  for (const int end : pipe) ::close(end);
 }
 
-TEST(OutputFile, only_files_of_such_names_are_taken_for_what_a_run_left) {
+TEST(OutputFile, GoesWhereASymbolicLinkPoints) {
   const TemporaryFolder folder;
-  std::vector<std::string> others{"out.partial-1-0",
-                                  "out.touchstone.partial-",
-                                  "out.touchstone.partial-1",
-                                  "out.touchstone.partial-1-",
-                                  "out.touchstone.partial-x-0",
-                                  "out.touchstone.partial-1-0.csv",
-                                  "out.touchstone.partial-1-0-2"};
-  for (const std::string& name : others) (void)folder.file(name, "");
-  std::filesystem::create_directory(folder.path() / "folder.touchstone.partial-1-0");
-  others.emplace_back("folder.touchstone.partial-1-0");
-  const auto target = folder.file("precious", "");
-  std::filesystem::create_symlink(target, folder.path() / "link.touchstone.partial-1-0");
-  others.emplace_back("link.touchstone.partial-1-0");
-  others.emplace_back("precious");
-  (void)folder.file("out.touchstone.partial-1-0", "");
-  OutputFile(folder.path() / "out").close();
-  others.emplace_back("out");
-  std::vector<std::string> names = folder.names();
-  std::ranges::sort(names);
-  std::ranges::sort(others);
-  EXPECT_EQ(names, others);
+  std::filesystem::create_directory(folder.path() / "below");
+  std::filesystem::create_symlink("below/new", folder.path() / "link");
+  OutputFile(folder.path() / "link").close();
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "below/new"));
 }
 
-TEST(OutputFile, a_name_may_be_as_long_as_the_system_allows) {
+TEST(OutputFile, MayBeADeviceOrAPipe) {
   const TemporaryFolder folder;
-  std::string accents;
-  while (accents.size() < 254) accents += "\xC3\xA9";
-  for (const std::string& name : {std::string(255, 'n'), accents, "n" + accents.substr(2)}) {
-    OutputFile file(folder.path() / name);
-    const std::string temporary = temporary_in(folder);
-    EXPECT_LE(temporary.size(), 255U);
-    // No character is cut in two.
-    const std::size_t cut = temporary.find(".touchstone");
-    EXPECT_EQ(static_cast<unsigned char>(temporary[cut - 1]), name.back() == 'n' ? 'n' : 0xA9U);
-    EXPECT_EQ((cut - (name.front() == 'n' ? 1U : 0U)) % (name.back() == 'n' ? 1 : 2), 0U);
-    file.write("x");
-    file.close();
-    EXPECT_EQ(folder.names(), std::vector{name});
-    std::filesystem::remove(folder.path() / name);
-  }
-  EXPECT_EQ(
-      error_of("", [&] { OutputFile file(folder.path() / std::string(256, 'n')); }),
-      (folder.path() / std::string(256, 'n')).string() + ": cannot write: File name too long");
-  EXPECT_TRUE(folder.names().empty()) << "found before anything is written";
+  const std::filesystem::path path = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  std::string read;
+  std::thread reader([&] { read = contents(path); });
+  OutputFile file(path);
+  file.write("text");
+  file.close();
+  reader.join();
+  EXPECT_EQ(read, "text");
+  EXPECT_EQ(error_of("",
+                     [] {
+                       OutputFile full("/dev/full");
+                       full.write("x");
+                       full.close();
+                     }),
+            "/dev/full: cannot write: No space left on device");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"pipe"});
 }
 
-TEST(OutputFile, two_at_once_for_one_target_do_not_mix) {
-  const TemporaryFolder folder;
-  OutputFile first(folder.path() / "out"), second(folder.path() / "out");
-  first.write("first");
-  second.write("second");
-  first.close();
-  second.close();
-  EXPECT_EQ(contents(folder.path() / "out"), "second");
-}
-
-TEST(OutputFile, names_the_target_where_no_file_can_be_made_or_renamed) {
+TEST(OutputFile, NamesTheTargetWhereNoFileCanBeMadeOrRenamed) {
   const TemporaryFolder folder;
   EXPECT_EQ(error_of(folder.path(), [&] { OutputFile file(folder.path() / "none" / "out"); }),
             "none/out: cannot write: No such file or directory");
@@ -224,7 +157,7 @@ TEST(OutputFile, names_the_target_where_no_file_can_be_made_or_renamed) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"taken"});
 }
 
-TEST(OutputFile, a_full_disk_is_an_error_and_leaves_nothing) {
+TEST(OutputFile, AFullDiskIsAnErrorAndLeavesNothing) {
   const TemporaryFolder folder;
   const FileSizeLimit limit(100000);
   const auto write_bytes = [&](std::size_t count) {

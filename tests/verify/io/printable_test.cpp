@@ -11,23 +11,6 @@ namespace {
 
 using namespace std::string_literals;
 
-TEST(FirstCharacter, IsOfWellFormedUtf8Only) {
-  const auto is = [](std::string_view text, std::size_t length, char32_t code) {
-    const Character character = first_character(text);
-    return character.length == length && character.code == code;
-  };
-  EXPECT_TRUE(is("ab", 1, U'a'));
-  EXPECT_TRUE(is("\xC3\xA9x", 2, 0xE9));
-  EXPECT_TRUE(is("\xE5\xAD\x97", 3, 0x5B57));
-  EXPECT_TRUE(is("\xF0\x9F\x98\x80", 4, 0x1F600));
-  EXPECT_TRUE(is("\0"s, 1, 0));
-  for (const std::string_view ill :
-       {"", "\x80", "\xC3", "\xC0\xAF", "\xE0\x80\xAF", "\xED\xA0\x80", "\xF4\x90\x80\x80",
-        "\xF8\x88\x80\x80\x80", "\xE5\xAD", "\xFF"}) {
-    EXPECT_EQ(first_character(ill).length, 0U) << ill;
-  }
-}
-
 TEST(Printable, KeepsTextInAnyLanguage) {
   for (const std::string_view text : {"", "a b", "µs — é 字 \xF0\x9F\x98\x80", "ა ب ﷺ",
                                       "क्‍ष", "\\x1b", "a\u00A0b", "~!\"#$%&'()*+"}) {
@@ -36,21 +19,20 @@ TEST(Printable, KeepsTextInAnyLanguage) {
   }
 }
 
-TEST(Printable, WritesOutWhatActsOnATerminalOrIsNotSeen) {
+TEST(Printable, WritesOutWhatActsOnATerminalOrIsNoText) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"\x1b[31mred", "\\x1b[31mred"},
       {"a\nb\rc\td", "a\\x0ab\\x0dc\\x09d"},
       {"\0"s, "\\x00"},
       {"\x7f", "\\x7f"},
-      {"\u0085\u009b[31m", "\\u0085\\u009b[31m"},
-      {"\u061c\u200b\u200e\u200f", "\\u061c\\u200b\\u200e\\u200f"},
-      {"\u2028\u2029\u202a\u202b\u202c\u202d\u202e",
-       "\\u2028\\u2029\\u202a\\u202b\\u202c\\u202d\\u202e"},
-      {"\u2060\u2066\u2067\u2068\u2069\u206f", "\\u2060\\u2066\\u2067\\u2068\\u2069\\u206f"},
-      {"\uFEFF\uFFF9\uFDD0\uFFFE\uFFFF", "\\ufeff\\ufff9\\ufdd0\\ufffe\\uffff"},
-      {"\U000E0041\U0001FFFE", "\\U000e0041\\U0001fffe"},
+      {"\u0085\u009b[31m", "\\xc2\\x85\\xc2\\x9b[31m"},
+      {"\u061c\u200e\u200f", "\\xd8\\x9c\\xe2\\x80\\x8e\\xe2\\x80\\x8f"},
+      {"\u2028a\u202e", "\\xe2\\x80\\xa8a\\xe2\\x80\\xae"},
+      {"\u2066b\u2069", "\\xe2\\x81\\xa6b\\xe2\\x81\\xa9"},
       {"caf\xE9", "caf\\xe9"},
       {"\xC0\xAF\xED\xA0\x80", "\\xc0\\xaf\\xed\\xa0\\x80"},
+      {"\xE0\x80\xAF\xF4\x90\x80\x80", "\\xe0\\x80\\xaf\\xf4\\x90\\x80\\x80"},
+      {"\xE5\xAD", "\\xe5\\xad"},
       {"\x9b", "\\x9b"},
   };
   for (const auto& [text, expected] : cases) {
@@ -87,17 +69,13 @@ TEST(MarkdownEscaped, KeepsNamesAndNumbers) {
 
 TEST(MarkdownCode, CannotBeLeft) {
   EXPECT_EQ(markdown_code("a_b"), "`a_b`");
-  EXPECT_EQ(markdown_code("a`b"), "``a`b``");
-  EXPECT_EQ(markdown_code("``a"), "``` ``a ```");
-  EXPECT_EQ(markdown_code("a\nb"), "`a\\x0ab`");
-  EXPECT_EQ(markdown_code_block("touchstone report"), "```\ntouchstone report\n```\n");
-  EXPECT_EQ(markdown_code_block("```\n````"), "`````\n```\\x0a````\n`````\n");
+  EXPECT_EQ(markdown_code("a`b\n"), "`a'b\\x0a`");
 }
 
 TEST(HtmlEscaped, LeavesNoMarkup) {
   EXPECT_EQ(html_escaped("a<b>&\"c'"), "a&lt;b&gt;&amp;&quot;c&#39;");
   EXPECT_EQ(html_escaped(""), "");
-  EXPECT_EQ(html_escaped("a\x1b\n<\u202e"), "a\\x1b\\x0a&lt;\\u202e");
+  EXPECT_EQ(html_escaped("a\x1b\n<\u202e"), "a\\x1b\\x0a&lt;\\xe2\\x80\\xae");
   EXPECT_EQ(html_escaped("2⁻⁵⁰ µs — é 字"), "2⁻⁵⁰ µs — é 字");
 }
 

@@ -83,6 +83,10 @@ TEST(Frames, OfAFolderAreInTheOrderOfTheirNumbers) {
   }
   EXPECT_EQ(heights, (std::vector<double>{1, 9, 10, 100}));
   EXPECT_EQ(names, "frame1.obj frame9.obj frame10.obj frame100.obj ");
+  const std::vector<fs::path> files = frame_files(std::vector{folder.path()});
+  EXPECT_EQ(files.size(), 4U);
+  EXPECT_EQ(files.front(), folder.path() / "frame1.obj");
+  EXPECT_EQ(frame_files(files), files);
 }
 
 TEST(Frames, OfFilesAreInTheirOrder) {

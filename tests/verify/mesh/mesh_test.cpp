@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "tests/support/mesh_files.hpp"
@@ -23,6 +24,14 @@ TEST(MakeMesh, JoinsTheEdgesOfFacesAndThoseNamed) {
   EXPECT_EQ(mesh.vertices(3, 2), 11);
   EXPECT_EQ(mesh.faces, (std::vector<Face>{{2, 1, 0}}));
   EXPECT_EQ(mesh.edges, (std::vector<Edge>{{0, 1}, {0, 2}, {1, 2}, {0, 3}}));
+  EXPECT_EQ(mesh.points, (std::vector<std::int32_t>{2})) << "an edge from a vertex to itself";
+}
+
+TEST(MakeMesh, HasEachPointOnce) {
+  const std::vector<std::array<double, 3>> places(4);
+  const std::vector<Point> points{{3}, {0}, {3}};
+  EXPECT_EQ(make_mesh(places, {}, std::vector<Edge>{{1, 1}, {0, 0}}, points).points,
+            (std::vector<std::int32_t>{0, 1, 3}));
 }
 
 TEST(MakeMesh, OfNothingIsEmpty) {

@@ -73,8 +73,9 @@ TEST(CertifyReport, TextShowsNamesOnOneLine) {
   std::vector<jobs::CertifyResult> named = results();
   named[1].name = "x\x1b[2J\ntotal 9\u202e";
   const std::string text = to_text(named);
-  EXPECT_NE(text.find("\nx\\x1b[2J\\x0atotal 9\\u202e  edge-edge "), std::string::npos) << text;
-  EXPECT_NE(text.find("mismatch: x\\x1b[2J\\x0atotal 9\\u202e: edge-edge query 0"),
+  EXPECT_NE(text.find("\nx\\x1b[2J\\x0atotal 9\\xe2\\x80\\xae  edge-edge "), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("mismatch: x\\x1b[2J\\x0atotal 9\\xe2\\x80\\xae: edge-edge query 0"),
             std::string::npos);
   EXPECT_EQ(text.find('\x1b'), std::string::npos);
   EXPECT_EQ(text.find("\ntotal 9"), std::string::npos);

@@ -50,7 +50,7 @@ TEST(Page, HoldsNoMarkupOfNames) {
   for (Measurement& measurement : measurements.all) measurement.group = "g</script>\u202e\n";
   const std::string page = report_page(measurements);
   EXPECT_TRUE(contains(page, "&lt;/pre&gt;&lt;b&gt;\\x1b"));
-  EXPECT_TRUE(contains(page, "g&lt;/script&gt;\\u202e\\x0a, vertex-face"));
+  EXPECT_TRUE(contains(page, "g&lt;/script&gt;\\xe2\\x80\\xae\\x0a, vertex-face"));
   EXPECT_FALSE(contains(page, "g</script>"));
   EXPECT_FALSE(contains(page, "\u202e"));
 }

@@ -37,7 +37,8 @@ TEST(Results, HoldNoMarkupOfNames) {
                        "Made on \\<script\\>, 2026-01-31 by\n\n````\n"
                        "touchstone report x\\x0a```\\x0a# forged\n````\n"))
       << text;
-  EXPECT_TRUE(contains(text, "### a\\\\x0a# b \\<b\\>\\\\u202e, vertex-face\n")) << text;
+  EXPECT_TRUE(contains(text, "### a\\\\x0a# b \\<b\\>\\\\xe2\\\\x80\\\\xae, vertex-face\n"))
+      << text;
   EXPECT_FALSE(contains(text, "<b>"));
   EXPECT_FALSE(contains(text, "\n# b"));
 }

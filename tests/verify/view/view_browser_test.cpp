@@ -219,8 +219,19 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
       `1,2,1,1,3,1\n${rest.match(/\S+ \S+ \S+/g).map((row) => row.replace(/ /g, ",1,") + ",1").join("\n")}`,
       `x,y,z,label\n1,2,7,0\n${rest.match(/\S+ \S+ \S+/g).map((row) => row.replace(/ /g, ",") + ",0").join("\n")}`,
     ].map((words) => [paste(words), ...start()]);
-    const faults = ["1 2 3", "", "{\"kind\": \"edge-edge\"}", `1e400 0 0 ${rest}`].map(paste);
-    say({ results, faults, drawn: pixels("motion"), rows: text("#rows .said") });
+    const list = (x) => `[${Array(24).fill(x).join(",")}]`;
+    const faults = [
+      "1 2 3", "", "{\"kind\": \"edge-edge\"}", `1e400 0 0 ${rest}`,
+      "{\"findings\": []}", "{\"findings\": 5}", "[[{}]]", list("[[[[1]]]]"), "[".repeat(300000) + "]".repeat(300000),
+      `{"coordinates": ${list(1)}, "separation": {"min_separation": -1}}`,
+      `{"coordinates": ${list(1)}, "separation": {"min_separation": {}, "norm": "l2"}}`,
+      `{"coordinates": ${list("null")}}`, `{"coordinates": ${list('"<img src=x onerror=say(1)>"')}}`,
+      "<script>say(1)</script>", `NaN 0 0 ${rest}`, `1/0 0 0 ${rest}`, "1".repeat(900000) + "g", "0x" + "f".repeat(900000) + "g",
+      "/*".repeat(400000), "v " + "1".repeat(900000) + "x", "1 ".repeat(600000),
+    ].map(paste);
+    const images = all("main img").length;
+    results.push([paste(`\u22120.5 0 1e\u22123 ${rest}`), ...start()]);
+    say({ results, faults, images, drawn: pixels("motion"), rows: text("#rows .said") });
   )");
   const std::vector<std::array<std::string, 5>> expected{
       {"", "0x1.999999999999ap-4", "0x1.5555555555555p-2", "-0x1.8p-3", "vertex-face"},
@@ -230,6 +241,7 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
       {"", "0x1p+0", "0x1p+1", "0x1.4p+2", "vertex-face"},
       {"", "0x1p-1", "0x1p+0", "0x1.8p+1", "vertex-face"},
       {"", "0x1p+0", "0x1p+1", "0x1.cp+2", "vertex-face"},
+      {"", "-0x1p-1", "0x0p+0", "0x1.0624dd2f1a9fcp-10", "vertex-face"},
   };
   ASSERT_EQ(result.at("results").size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -242,6 +254,12 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
   EXPECT_EQ(result.at("faults").at(1), "Not drawn: there are 0 numbers, not the 24 of a query.");
   EXPECT_EQ(result.at("faults").at(2), "Not drawn: the JSON has no list “coordinates”.");
   EXPECT_EQ(result.at("faults").at(3), "Not drawn: “1e400” is no finite number.");
+  for (const nlohmann::json& fault : result.at("faults")) {
+    const auto words = fault.get<std::string>();
+    EXPECT_TRUE(words.starts_with("Not drawn: ")) << words;
+    EXPECT_EQ(words.find("Cannot read"), std::string::npos) << "the engine's words: " << words;
+  }
+  EXPECT_EQ(result.at("images"), 0);
   EXPECT_GT(result.at("drawn"), 500);
   EXPECT_EQ(result.at("rows").at(0), "not asked: give this query to the tool");
 }

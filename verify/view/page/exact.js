@@ -165,15 +165,17 @@ export function parseRational(text) {
     const [top, bottom] = [parseRational(word.slice(0, slash)), parseRational(word.slice(slash + 1))];
     return top === null || bottom === null || bottom.n === 0n ? null : divide(top, bottom);
   }
-  const hexadecimal = /^([-+]?)0x([0-9a-f]*)\.?([0-9a-f]*)(?:p([-+]?\d{1,5}))?$/i.exec(word);
-  const decimal = /^([-+]?)(\d*)\.?(\d*)(?:e([-+]?\d{1,5}))?$/i.exec(word);
+  // One way only to match a run of digits: the time is linear in a text that is no number, too.
+  const hexadecimal = /^([-+]?)0x([0-9a-f]*)(?:\.([0-9a-f]*))?(?:p([-+]?\d{1,5}))?$/i.exec(word);
+  const decimal = /^([-+]?)(\d*)(?:\.(\d*))?(?:e([-+]?\d{1,5}))?$/i.exec(word);
   const match = hexadecimal || decimal;
-  if (match === null || match[2] + match[3] === "") return null;
+  const fraction = (match && match[3]) || "";
+  if (match === null || match[2] + fraction === "") return null;
   const base = hexadecimal ? 16n : 10n;
-  const digits = BigInt((hexadecimal ? "0x" : "") + match[2] + match[3]);
+  const digits = BigInt((hexadecimal ? "0x" : "") + match[2] + fraction);
   const power = hexadecimal ? 2n : 10n;
   const exponent = BigInt(match[4] || 0);
-  const down = base ** BigInt(match[3].length) * (exponent < 0n ? power ** -exponent : 1n);
+  const down = base ** BigInt(fraction.length) * (exponent < 0n ? power ** -exponent : 1n);
   const value = { n: digits * (exponent > 0n ? power ** exponent : 1n), d: down };
   return match[1] === "-" ? { n: -value.n, d: value.d } : value;
 }

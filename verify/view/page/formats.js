@@ -46,13 +46,16 @@ function doubles(texts) {
 function fromJson(text) {
   const json = JSON.parse(text);
   const isList = Array.isArray(json) && typeof json[0] === "object" && !Array.isArray(json[0]);
-  const one = json.findings ? json.findings[0] : isList ? json[0] : json;
+  const one = (Array.isArray(json.findings) ? json.findings[0] : isList ? json[0] : json) || {};
   const list = Array.isArray(one) ? one : one.coordinates;
   if (!Array.isArray(list)) throw new Error("the JSON has no list “coordinates”");
-  const separation = one.separation || {};
-  const distance = Number(parseDouble(String(separation.min_separation || 0)));
-  return { kind: isKind(one.kind) ? one.kind : null, coordinates: doubles(list.flat(2).map(String)),
-    min_separation: distance, norm: separation.norm === "l2" ? "l2" : "linf" };
+  const numbers = list.flat(2);
+  if (numbers.some((x) => typeof x === "object")) throw new Error("“coordinates” holds more than numbers");
+  const { min_separation: distance = 0, norm = "linf" } = one.separation || {};
+  const value = parseDouble(typeof distance === "object" ? "" : String(distance));
+  if (!(value >= 0) || !["l2", "linf"].includes(norm)) throw new Error("the separation is not a finite distance from 0 with norm linf or l2");
+  return { kind: isKind(one.kind) ? one.kind : null, coordinates: doubles(numbers.map(String)),
+    min_separation: value, norm };
 }
 
 /// Rows of numbers with commas: x, y, z, or numerator and denominator of each, and optionally a
@@ -66,13 +69,19 @@ function fromRows(lines) {
   return { coordinates: doubles(texts) };
 }
 
-const number = String.raw`[-+]?(?:0x[0-9a-f]*\.?[0-9a-f]*(?:p[-+]?\d+)?|(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)`;
+const number = String.raw`[-+]?(?:0x[0-9a-f]*(?:\.[0-9a-f]*)?(?:p[-+]?\d+)?|(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?)`;
 /// Numbers and fractions that are not parts of names.
 const numberPattern = new RegExp(String.raw`(?<![\w.])${number}(?:/${number})?(?![\w.])`, "gi");
 
+/// The limit for the length of a text with a query, whose numbers have a thousand digits at most.
+const longest = 1_000_000;
+
 /// The query in a text: { kind (null if unknown), coordinates, min_separation, norm }.
 /// \throws Error with the reason if there is none.
-export function readQuery(text) {
+export function readQuery(pasted) {
+  if (pasted.length > longest) throw new Error("the text has more than a million characters");
+  // The minus sign of typeset documents.
+  const text = pasted.replace(/\u2212/g, "-");
   const contact = { kind: kindOf(text), min_separation: 0, norm: "linf" };
   if (/^\s*[[{]\s*["[{\d-]/.test(text) && /[\]}]\s*$/.test(text)) {
     let query = null;
@@ -83,7 +92,7 @@ export function readQuery(text) {
     }
     if (query !== null) return { ...contact, ...query, kind: query.kind || contact.kind };
   }
-  const code = text.replace(/\/\/.*|\/\*[^]*?\*\//g, "");
+  const code = text.replace(/\/\/.*|\/\*[^]*?(?:\*\/|$)/g, "");
   const lines = code.split("\n").map((line) => line.trim()).filter((line) => line !== "");
   const vertices = lines.filter((line) => /^v\s/.test(line));
   if (vertices.length > 0) {
