@@ -159,7 +159,7 @@ struct Separation {
 
 /// True if the distance is 0, so that the norm does not matter. The bits decide, because a
 /// floating-point environment may treat a subnormal distance as 0.
-[[nodiscard]] inline bool is_contact(const Separation& separation) {
+[[nodiscard]] inline bool is_zero(const Separation& separation) {
   return std::bit_cast<std::uint64_t>(separation.distance) << 1U == 0;
 }
 

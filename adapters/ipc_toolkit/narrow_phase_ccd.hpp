@@ -130,7 +130,7 @@ class NarrowPhaseCCD : public ipc::NarrowPhaseCCD {
     if (!is_finite(query)) return true;
     const fast::Distance d = fast::distance(kind, query, 0.0, Norm::l2);
     if (d.upper <= min_distance) return true;
-    const fast::CertifiedResult result = fast::certified(
+    const fast::CertifiedResult result = fast::solve(
         kind, query,
         {.t_max = tmax,
          .separation = {.distance = effective_distance(min_distance, d), .norm = Norm::l2}});

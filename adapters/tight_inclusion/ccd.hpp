@@ -104,8 +104,8 @@ inline bool edgeEdgeCCD(
     const long /*max_itr*/, Scalar& output_tolerance, bool /*no_zero_toi*/ = DEFAULT_NO_ZERO_TOI,
     const CCDRootFindingMethod /*ccd_method*/ = CCDRootFindingMethod::BREADTH_FIRST_SEARCH) {
   return touchstone_adapter::take(
-      touchstone::fast::edge_edge(ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1, eb1_t1,
-                                  touchstone_adapter::options(ms, t_max)),
+      touchstone::fast::solve_edge_edge(ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1,
+                                        eb1_t1, touchstone_adapter::options(ms, t_max)),
       toi, tolerance, output_tolerance);
 }
 
@@ -117,8 +117,8 @@ inline bool vertexFaceCCD(
     const long /*max_itr*/, Scalar& output_tolerance, bool /*no_zero_toi*/ = DEFAULT_NO_ZERO_TOI,
     const CCDRootFindingMethod /*ccd_method*/ = CCDRootFindingMethod::BREADTH_FIRST_SEARCH) {
   return touchstone_adapter::take(
-      touchstone::fast::point_triangle(v_t0, f0_t0, f1_t0, f2_t0, v_t1, f0_t1, f1_t1, f2_t1,
-                                       touchstone_adapter::options(ms, t_max)),
+      touchstone::fast::solve_vertex_face(v_t0, f0_t0, f1_t0, f2_t0, v_t1, f0_t1, f1_t1, f2_t1,
+                                          touchstone_adapter::options(ms, t_max)),
       toi, tolerance, output_tolerance);
 }
 

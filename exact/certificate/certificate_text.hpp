@@ -31,8 +31,8 @@ void write(std::string& text, const Certificate& certificate, std::string_view l
 [[nodiscard]] std::string certificate_stream(const Certificate& certificate,
                                              std::string_view label = {});
 
-/// Appends the lines of pieces, or of a contact, as in a certificate.
-void write_pieces(std::string& text, const std::vector<Piece>& pieces);
+/// Appends the lines of subintervals, or of a contact, as in a certificate.
+void write_subintervals(std::string& text, const std::vector<Subinterval>& subintervals);
 void write_contact(std::string& text, const ContactProof& contact);
 
 /// Appends a finite double as C's %a writes it, in any locale and floating-point environment.

@@ -23,7 +23,7 @@ namespace touchstone::checker {
 inline constexpr std::size_t max_line_bytes = 65'536;
 inline constexpr std::size_t max_label_bytes = 1'024;
 inline constexpr std::size_t max_number_bits = 16'384;
-inline constexpr std::size_t max_pieces = 4'096;
+inline constexpr std::size_t max_subintervals = 4'096;
 inline constexpr std::size_t max_root_degree = 8;
 
 /// Where a certificate proves nothing: throws, without a label.
@@ -64,7 +64,7 @@ struct Part {
 enum class Feature : std::uint8_t { vertex, edge, face, axis, cross };
 
 /// `separate`: no contact in the interval.
-struct Piece : Part {
+struct Subinterval : Part {
   Feature feature = Feature::vertex;
   /// Of a face or an axis.
   bool is_negative = false;
@@ -92,12 +92,12 @@ struct Certificate {
   mpq_class distance = 0;
   bool is_l2 = false;
   Claim claim = Claim::no_collision;
-  /// The pieces cover [0,lower], the contact is in [lower,upper]. If upper is 0 there are no pieces.
+  /// The subintervals cover [0,lower], the contact is in [lower,upper]. If upper is 0 there are no subintervals.
   mpq_class lower = 0, upper = 1;
-  std::vector<Piece> pieces;
+  std::vector<Subinterval> subintervals;
   Contact contact;
 
-  [[nodiscard]] bool has_pieces() const { return claim != Claim::collision && upper != 0; }
+  [[nodiscard]] bool has_subintervals() const { return claim != Claim::collision && upper != 0; }
 };
 
 /// The claim and the separation in one form, whatever form they were read in: a demand is the same text
@@ -156,7 +156,7 @@ class Reader {
 [[nodiscard]] mpq_class read_number(Reader& reader);
 void read_separation(Reader& reader, Certificate& certificate);
 void read_time_of_impact(Reader& reader, Certificate& certificate);
-void read_pieces(Reader& reader, Certificate& certificate);
+void read_subintervals(Reader& reader, Certificate& certificate);
 void read_contact(Reader& reader, Certificate& certificate);
 
 /// Reads the certificate that begins at the present line and goes behind its `end`. Where it throws,

@@ -37,7 +37,7 @@
 ///     a facet's normal of the polytope cube ⊕ −conv{w_i} would be an axis for which one fails.
 ///   - *Root*: if a polynomial g has strictly opposite signs at LO < HI, it has a root t ∈ (LO,HI).
 ///     A polynomial that g divides is 0 at t; one that has a strict sign on [LO,HI] has it at t.
-/// So: separations of pieces that cover [0,1] prove `no_collision`; a contact in [0,1] proves
+/// So: separations of subintervals that cover [0,1] prove `no_collision`; a contact in [0,1] proves
 /// `collision`; separations that cover [0,LO] and a contact in [LO,HI] prove LO < toi ≤ HI; a
 /// contact at 0 proves toi = 0.
 

@@ -110,7 +110,7 @@ class Proof {
 
   void verify() try {
     find_corners();
-    if (certificate_.has_pieces()) prove_no_contact();
+    if (certificate_.has_subintervals()) prove_no_contact();
     if (certificate_.claim != Claim::no_collision) prove_contact(certificate_.contact);
   } catch (const Rejection& rejection) {
     reject(rejection.reason, line_);
@@ -173,18 +173,18 @@ class Proof {
     if (!is_positive(on_interval(std::move(p)))) reject(doubt_);
   }
 
-  /// Proves that there is no contact in [0,lower]: the pieces follow one another without a gap.
+  /// Proves that there is no contact in [0,lower]: the subintervals follow one another without a gap.
   void prove_no_contact() {
-    if (certificate_.pieces.empty()) reject("there is no piece");
+    if (certificate_.subintervals.empty()) reject("there is no subinterval");
     mpq_class reached = 0;
-    for (const Piece& piece : certificate_.pieces) {
-      enter(piece);
-      if (piece.from != reached) reject("the piece does not begin where it should");
-      if (piece.from > piece.to) reject("the piece ends before it begins");
-      prove_separation(piece);
-      reached = piece.to;
+    for (const Subinterval& subinterval : certificate_.subintervals) {
+      enter(subinterval);
+      if (subinterval.from != reached) reject("the subinterval does not begin where it should");
+      if (subinterval.from > subinterval.to) reject("the subinterval ends before it begins");
+      prove_separation(subinterval);
+      reached = subinterval.to;
     }
-    if (reached != certificate_.lower) reject("the last piece does not end where it should");
+    if (reached != certificate_.lower) reject("the last subinterval does not end where it should");
   }
 
   /// The normal N = a×b of the polygon. N·w is the same for all corners: N is orthogonal to a and b,
@@ -197,14 +197,14 @@ class Proof {
     return corners_[(corner + 1) % corners_.size()];
   }
 
-  /// The direction of a piece's feature, but for its sign.
-  [[nodiscard]] Vector direction(const Piece& piece) const {
-    if (piece.feature == Feature::face) return normal();
-    if (piece.feature == Feature::axis) return unit(piece.axis);
-    const Vector& d = corners_[piece.corners[0]];
-    if (piece.feature == Feature::vertex) return d;
-    const Vector e = corners_[piece.corners[1]] - d;
-    if (piece.feature == Feature::cross) return cross(unit(piece.axis), e);
+  /// The direction of a subinterval's feature, but for its sign.
+  [[nodiscard]] Vector direction(const Subinterval& subinterval) const {
+    if (subinterval.feature == Feature::face) return normal();
+    if (subinterval.feature == Feature::axis) return unit(subinterval.axis);
+    const Vector& d = corners_[subinterval.corners[0]];
+    if (subinterval.feature == Feature::vertex) return d;
+    const Vector e = corners_[subinterval.corners[1]] - d;
+    if (subinterval.feature == Feature::cross) return cross(unit(subinterval.axis), e);
     return d * dot(e, e) - e * dot(d, e);
   }
 
@@ -227,11 +227,11 @@ class Proof {
     return add_product(value, dot(d, d), {distance_ * distance_}, mpz_submul);
   }
 
-  /// Proves d·w > D‖d‖ for all corners w, d the direction of the piece's feature, ‖d‖ its length or,
+  /// Proves d·w > D‖d‖ for all corners w, d the direction of the subinterval's feature, ‖d‖ its length or,
   /// for linf, the greatest of the σ·d.
-  void prove_separation(const Piece& piece) {
-    const Vector d = direction(piece) * Form{piece.is_negative ? -1 : 1};
-    const std::size_t count = piece.feature == Feature::face ? 1 : corners_.size();
+  void prove_separation(const Subinterval& subinterval) {
+    const Vector d = direction(subinterval) * Form{subinterval.is_negative ? -1 : 1};
+    const std::size_t count = subinterval.feature == Feature::face ? 1 : corners_.size();
     const std::vector<Form> sums = certificate_.is_l2 ? std::vector<Form>{Form{0}} : reaches(d);
     for (std::size_t n = 0; n < count; ++n) {
       const Form value = dot(d, corners_[n]);

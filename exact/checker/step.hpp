@@ -15,7 +15,7 @@
 ///
 /// **Theorem.** If a certificate is accepted, no pair that can collide has a contact in [0,T]
 /// (`no_contact T`), or in [0,LO], and one has in [LO,HI] (`earliest LO HI`). For a pair that is not
-/// kept apart by an axis (places.hpp) has an argument: a direction (places.hpp), or pieces without a gap
+/// kept apart by an axis (places.hpp) has an argument: a direction (places.hpp), or subintervals without a gap
 /// (proof.hpp). All arguments are verified, whether or not they are needed.
 
 #include <cstddef>

@@ -22,6 +22,6 @@ namespace touchstone::exact {
 /// The verdict at the motion's distance, which may be 0, without the place of contact.
 /// \pre the motion is scaled uniformly.
 /// \throws std::logic_error if search and conditions disagree, that is if the oracle is wrong.
-[[nodiscard]] Verdict decide_distance(const Motion& motion);
+[[nodiscard]] Decision decide_distance(const Motion& motion);
 
 }  // namespace touchstone::exact

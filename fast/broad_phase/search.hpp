@@ -80,7 +80,7 @@ struct SearchKernel {
                        PairBuffer& pairs);
 
   /// Divides seeds by their centres on the axis of greatest spread: the `rank` least ones come
-  /// first in `seeds`, the others go to `room`; both keep their order. Among equal seeds the first
+  /// first in `seeds`, the others go to `scratch`; both keep their order. Among equal seeds the first
   /// ones count as less. \pre count > rank ≥ 16
   void (*divide)(const SeedPart& part, std::size_t rank);
 

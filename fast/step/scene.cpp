@@ -199,7 +199,7 @@ PairRules Scene::rules(const Asked& asked) const {
                   .confirms =
                       [](const void* context, const IndexPair& pair) {
                         const auto& of = *static_cast<const Asked*>(context);
-                        return of.scene->are_near(of.kind, pair);
+                        return of.scene->are_within_separation(of.kind, pair);
                       },
                   .context = &asked};
   if (!mesh_->bodies_of_groups) return rules;
@@ -240,16 +240,16 @@ IndexPair Scene::reported(PairKind kind, const IndexPair& pair) const {
 }
 
 Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
-                                PairRoom& room) const {
+                                PairScratch& scratch) const {
   Candidates result{.kind = Step::kind_of(kind),
                     .pairs = pairs,
                     .edges = elements().edges,
                     .faces = elements().faces};
   if (kind == PairKind::vertex_face || kind == PairKind::edge_edge) return result;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    room[i] = {at(mesh_->codimensional.points, pairs[i][0]), pairs[i][1]};
+    scratch[i] = {at(mesh_->codimensional.points, pairs[i][0]), pairs[i][1]};
   }
-  result.pairs = std::span(room).first(pairs.size());
+  result.pairs = std::span(scratch).first(pairs.size());
   result.faces = kind == PairKind::vertex_edge ? mesh_->edges_as_faces : mesh_->points_as_faces;
   return result;
 }
@@ -308,7 +308,7 @@ std::array<Primitive, 2> Scene::primitives_of(PairKind kind, const IndexPair& pa
   return {at(mesh_->points_as_faces, pair[0]), at(mesh_->points_as_faces, pair[1])};
 }
 
-bool Scene::are_near(PairKind kind, const IndexPair& pair) const {
+bool Scene::are_within_separation(PairKind kind, const IndexPair& pair) const {
   const auto [a, b] = primitives_of(kind, pair);
   return widened(swept_box(vertices_, a), certified_.separation.distance)
       .overlaps(swept_box(vertices_, b));

@@ -127,8 +127,8 @@ class Scene {
   template <class Report>
   void decide(PairKind kind, std::span<const IndexPair> pairs, double t_limit,
               const Report& report) const {
-    PairRoom room;
-    const Candidates candidates = candidates_of(kind, pairs, room);
+    PairScratch scratch;
+    const Candidates candidates = candidates_of(kind, pairs, scratch);
     const KernelInput block{.kind = candidates.kind,
                             .count = pairs.size(),
                             .vertices = vertices_.data(),
@@ -152,7 +152,7 @@ class Scene {
   [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
 
  private:
-  using PairRoom = std::array<IndexPair, kernel_block>;
+  using PairScratch = std::array<IndexPair, kernel_block>;
 
   /// The context of the search's callbacks for pairs of a kind.
   struct Asked {
@@ -163,13 +163,13 @@ class Scene {
   template <std::size_t instants>
   [[nodiscard]] PairRules rules(const Asked& asked) const;
 
-  /// The pairs for the certified solver. \param room Memory for the numbers, if they differ.
+  /// The pairs for the certified solver. \param scratch Memory for the numbers, if they differ.
   [[nodiscard]] Candidates candidates_of(PairKind kind, std::span<const IndexPair> pairs,
-                                         PairRoom& room) const;
+                                         PairScratch& scratch) const;
   /// The primitives of a pair.
   [[nodiscard]] std::array<Primitive, 2> primitives_of(PairKind kind, const IndexPair& pair) const;
   /// True if the swept boxes are within the separation.
-  [[nodiscard]] bool are_near(PairKind kind, const IndexPair& pair) const;
+  [[nodiscard]] bool are_within_separation(PairKind kind, const IndexPair& pair) const;
 
   MovingVertices vertices_;
   CertifiedOptions certified_;

@@ -32,7 +32,7 @@ using tests::Random;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 CertifiedResult solve(const PosedQuery& posed, const CertifiedOptions& options = {}) {
-  return certified(posed.kind, posed.query, options);
+  return fast::solve(posed.kind, posed.query, options);
 }
 
 // ---- By hand ------------------------------------------------------------------------------------
@@ -75,16 +75,17 @@ TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
     return query;
   };
   for (const double inside : {0x1p-8, 0x1p-12, 0x1p-20, 0x1p-28}) {
-    const Query hit = beside_edge(inside), miss = beside_edge(-inside);
-    EXPECT_EQ(certified(Kind::vertex_face, hit).stage, Stage::bisection) << inside;
-    EXPECT_EQ(certified(Kind::vertex_face, hit).verdict, Verdict::yes) << inside;
-    EXPECT_EQ(certified(Kind::vertex_face, miss).stage, Stage::bisection) << inside;
-    EXPECT_EQ(certified(Kind::vertex_face, miss).verdict, Verdict::no) << inside;
-    for (const Query& query : {hit, miss}) {
-      EXPECT_FALSE(fault(Kind::vertex_face, query, certified(Kind::vertex_face, query))) << inside;
+    const Query colliding = beside_edge(inside), no_collision = beside_edge(-inside);
+    EXPECT_EQ(fast::solve(Kind::vertex_face, colliding).stage, Stage::bisection) << inside;
+    EXPECT_EQ(fast::solve(Kind::vertex_face, colliding).verdict, Verdict::yes) << inside;
+    EXPECT_EQ(fast::solve(Kind::vertex_face, no_collision).stage, Stage::bisection) << inside;
+    EXPECT_EQ(fast::solve(Kind::vertex_face, no_collision).verdict, Verdict::no) << inside;
+    for (const Query& query : {colliding, no_collision}) {
+      EXPECT_FALSE(fault(Kind::vertex_face, query, fast::solve(Kind::vertex_face, query)))
+          << inside;
     }
   }
-  EXPECT_EQ(certified(Kind::vertex_face, beside_edge(0x1p-50)).stage, Stage::exact);
+  EXPECT_EQ(fast::solve(Kind::vertex_face, beside_edge(0x1p-50)).stage, Stage::exact);
 }
 
 TEST(Certified, EveryStageIsReachedAndNamed) {
@@ -102,10 +103,10 @@ TEST(Certified, EveryStageIsReachedAndNamed) {
       ++reached.at(static_cast<std::size_t>(result.stage));
   }
   for (std::size_t i = 0; i < stages; ++i) {
-    EXPECT_GT(reached.at(i), 0U) << name(static_cast<Stage>(i));
+    EXPECT_GT(reached.at(i), 0U) << to_string(static_cast<Stage>(i));
   }
-  EXPECT_EQ(name(Stage::axis), "axis");
-  EXPECT_EQ(name(Stage::exact), "exact");
+  EXPECT_EQ(to_string(Stage::axis), "axis");
+  EXPECT_EQ(to_string(Stage::exact), "exact");
 }
 
 TEST(Certified, AStepToTheLowerEndNeverTouches) {

@@ -136,7 +136,7 @@ std::function<Bits()> of_queries(const Ask& ask, std::size_t count) {
 }
 
 void ask_oracle(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
-  const exact::Verdict verdict = exact::decide(kind, query, separation);
+  const exact::Decision verdict = exact::decide(kind, query, separation);
   put(bits, std::size_t{verdict.collides()});
   if (!verdict.collides()) return;
   const exact::DoubleInterval toi = verdict.toi->enclosure();
@@ -242,7 +242,7 @@ std::function<Bits()> of_broad_phase() {
     for (const tests::Scene& scene : scenes) {
       const MovingVertices vertices(scene.start, scene.end);
       for (const double separation : {0.0, 0.1, 0x1.8p-1073}) {
-        const BroadPhaseOptions options{.min_separation = separation};
+        const BroadPhaseOptions options{.separation = {.distance = separation}};
         put(bits, vertex_face_candidates(vertices, scene.faces, options));
         put(bits, edge_edge_candidates(vertices, scene.edges, options));
       }

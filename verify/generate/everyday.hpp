@@ -19,7 +19,7 @@
 namespace touchstone::verify::generate {
 
 /// When the primitives of a scene touch.
-enum class TouchTime : std::uint8_t {
+enum class ContactMoment : std::uint8_t {
   at_start,
   at_end,
   between  ///< in the middle of the step, well inside both: no rounding matters
@@ -30,7 +30,7 @@ struct EverydayScene {
   int digits = 3;         ///< significant decimal digits of the greatest coordinates, 1 to 15
   int exponent = 0;       ///< the greatest coordinates are below 10 to this power, -3 to 15
   bool as_float = false;  ///< Is each decimal rounded to a float?
-  TouchTime time = TouchTime::at_end;
+  ContactMoment time = ContactMoment::at_end;
   /// Units, of the last digit, by which the first primitive is away from where it would touch, on one
   /// axis and all the time; so much more than 10^digits that nothing touches.
   std::int64_t clearance = 0;
@@ -45,6 +45,6 @@ struct EverydayScene {
 [[nodiscard]] Query everyday_contact(Kind kind, Random& random);
 
 /// The same, but the first primitive is a unit away on one axis.
-[[nodiscard]] Query everyday_near_miss(Kind kind, Random& random);
+[[nodiscard]] Query everyday_near_contact(Kind kind, Random& random);
 
 }  // namespace touchstone::verify::generate

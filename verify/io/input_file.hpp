@@ -94,8 +94,8 @@ class LineReader {
   Line take_line(std::size_t length, std::size_t terminator);
   void pass_over_line();
   bool fill();
-  std::size_t read(std::span<char> room);
-  std::size_t decompress(std::span<char> room);
+  std::size_t read(std::span<char> space);
+  std::size_t decompress(std::span<char> space);
 
   InputFile file_;
   std::optional<Decompressor> decompressor_;

@@ -49,7 +49,7 @@ class BlockTruth {
 
  private:
   void decide(std::size_t first, std::size_t count, DecidedPart& part);
-  void prove(std::size_t first, const std::vector<exact::Verdict>& verdicts,
+  void prove(std::size_t first, const std::vector<exact::Decision>& verdicts,
              DecidedPart& part) const;
 
   const Block& block_;

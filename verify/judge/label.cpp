@@ -60,7 +60,7 @@ std::string to_text(const Mismatch& mismatch) {
 }
 
 std::vector<Mismatch> judge_label(std::uint64_t index, const Label& label,
-                                  const exact::Verdict& truth, const LabelComparison& comparison) {
+                                  const exact::Decision& truth, const LabelComparison& comparison) {
   std::vector<Mismatch> mismatches;
   const std::string true_verdict = verdict_text(truth.collides());
   if (comparison.uses_verdict(label) && *label.collides != truth.collides()) {

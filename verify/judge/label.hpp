@@ -51,7 +51,7 @@ struct Mismatch {
 /// Judges the label of query number `index`: verdict first, then time. A time of impact of a query that does not collide
 /// is a mismatch; a collision without one is not.
 [[nodiscard]] std::vector<Mismatch> judge_label(std::uint64_t index, const Label& label,
-                                                const exact::Verdict& truth,
+                                                const exact::Decision& truth,
                                                 const LabelComparison& comparison);
 
 }  // namespace touchstone::verify::judge

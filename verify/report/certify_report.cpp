@@ -42,7 +42,7 @@ std::string_view name_of(judge::Mismatch::Of of) {
 
 bool has_separation(const std::vector<jobs::CertifyResult>& results) {
   return !std::ranges::all_of(
-      results, [](const jobs::CertifyResult& result) { return is_contact(result.separation); });
+      results, [](const jobs::CertifyResult& result) { return is_zero(result.separation); });
 }
 
 /// The separation of all sources, if it is one, and more than contact.
@@ -212,7 +212,7 @@ std::string to_text(const std::vector<jobs::CertifyResult>& results) {
                        {"queries", 9},
                        {"collisions", 10},
                        {"labels", 9},
-                       {"mislabelled", 11},
+                       {"wrong labels", 11},
                        {"tois", 9},
                        {"wrong tois", 10},
                        {"µs/query", 8}});
@@ -246,7 +246,7 @@ nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {
     nlohmann::json file = counts(result);
     file["file"] = result.name;
     file["kind"] = kind_text(result);
-    if (!is_contact(result.separation)) {
+    if (!is_zero(result.separation)) {
       file["separation"] = judge::to_json(result.separation);
       file["compared"] = name_of(result.compared);
     }

@@ -106,8 +106,8 @@ struct Measurement {
   /// Of methods that have stages, all in their order.
   std::vector<StageShare> stages;
   /// Of one call a query, of those that collide and of those that do not.
-  TimeHistogram hit_times;
-  TimeHistogram miss_times;
+  TimeHistogram collision_times;
+  TimeHistogram no_collision_times;
 };
 
 /// Of those that do not collide; 0 if there are none.

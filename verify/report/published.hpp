@@ -23,7 +23,7 @@ struct PublishedNumbers {
 };
 
 /// So many queries a published dataset has, as printed; empty if it is none.
-/// \param dataset "handcrafted", "simulation", or "simulated": queries that `./run simulate --record` wrote, which stand
+/// \param dataset "handcrafted", "simulation", or "own-simulation": queries that `./run simulate --record` wrote, which stand
 ///     beside the published ones of simulations
 [[nodiscard]] std::string_view published_size(std::string_view dataset, Kind kind);
 

@@ -5,7 +5,7 @@
 /// and kind, one cell of a map each.
 ///
 /// The truth of a query comes twice: from the certified solver as its label, and from the oracle,
-/// which judges; where they differ, that is counted as a mislabelled query (CertifyResult). All but
+/// which judges; where they differ, that is counted as a wrong label (CertifyResult). All but
 /// the times is a function of options and methods, the same for any number of threads.
 
 #include <atomic>

@@ -66,8 +66,8 @@ std::string turning() {
 /// The same vertex and triangle as turning(), in the plane z=0 for all time: every det is 0.
 std::string flat() { return over_triangle("1 -1 0", "1 1 0"); }
 
-std::string no_collision(std::string_view pieces) {
-  return "claim no_collision\n" + std::string(pieces) + "\nend\n";
+std::string no_collision(std::string_view subintervals) {
+  return "claim no_collision\n" + std::string(subintervals) + "\nend\n";
 }
 std::string collision(std::string_view contact, std::string_view place) {
   return "claim collision\ncontact " + std::string(contact) + "\nat " + std::string(place) +
@@ -154,8 +154,8 @@ TEST(Separation, MustHoldForEveryCorner) {
 
 TEST(Separation, IsStrict) {
   // In contact by a hair, at t=1 only: every feature has a value 0.
-  const std::string touching = over_triangle("1 1 1", "1 1 0");
-  EXPECT_EQ(outcome(touching + no_collision("separate 0 1 face +")),
+  const std::string colliding = over_triangle("1 1 1", "1 1 0");
+  EXPECT_EQ(outcome(colliding + no_collision("separate 0 1 face +")),
             "12: a polynomial is not positive at a point");
   EXPECT_EQ(outcome(over_triangle("1 1 0", "1 1 1") + no_collision("separate 0 1 face +")),
             "12: a polynomial is not positive at a point");
@@ -209,7 +209,7 @@ TEST(Separation, HasALimitOfBisections) {
             "12: a polynomial is not seen to be positive within 128 bisections");
 }
 
-TEST(Pieces, CoverTheWholeTime) {
+TEST(Subintervals, CoverTheWholeTime) {
   // The vertex passes over the triangle's edge f0 f1: first the edge is nearest, then the face.
   const std::string over = over_triangle("1 -1 1", "1 1 1");
   EXPECT_EQ(outcome(over + no_collision("separate 0 1/2 edge 0 1\nseparate 1/2 1 face +")),
@@ -219,7 +219,7 @@ TEST(Pieces, CoverTheWholeTime) {
   EXPECT_EQ(outcome(over + no_collision("separate 0 1/2 face +\nseparate 1/2 1/2 edge 0 1\n"
                                         "separate 1/2 1 face +")),
             "no_collision");
-  const std::string begin = ": the piece does not begin where it should";
+  const std::string begin = ": the subinterval does not begin where it should";
   EXPECT_EQ(outcome(over + no_collision("separate 1/4 1 face +")), "12" + begin);
   EXPECT_EQ(outcome(over + no_collision("separate -1 1 face +")), "12" + begin);
   EXPECT_EQ(outcome(over + no_collision("separate 0 1/2 face +\nseparate 3/4 1 face +")),
@@ -229,15 +229,15 @@ TEST(Pieces, CoverTheWholeTime) {
   EXPECT_EQ(outcome(over + no_collision("separate 1/2 1 face +\nseparate 0 1/2 face +")),
             "12" + begin);
   EXPECT_EQ(outcome(over + no_collision("separate 0 1 face +\nseparate 1 1/2 face +")),
-            "13: the piece ends before it begins");
+            "13: the subinterval ends before it begins");
   EXPECT_EQ(outcome(over + no_collision("separate 0 1/2 face +")),
-            "12: the last piece does not end where it should");
+            "12: the last subinterval does not end where it should");
   EXPECT_EQ(outcome(over + no_collision("separate 0 2 face +")),
-            "12: the last piece does not end where it should");
-  EXPECT_EQ(outcome(over + "claim no_collision\nend\n"), "11: there is no piece");
+            "12: the last subinterval does not end where it should");
+  EXPECT_EQ(outcome(over + "claim no_collision\nend\n"), "11: there is no subinterval");
 }
 
-TEST(Pieces, EachIsProved) {
+TEST(Subintervals, EachIsProved) {
   // Through the triangle between 1/4 and 3/4 only.
   const std::string through = over_triangle("1 1 1", "1 1 -1");
   EXPECT_EQ(outcome(through + no_collision("separate 0 1/4 face +\nseparate 1/4 3/4 face +\n"
@@ -250,7 +250,7 @@ TEST(Pieces, EachIsProved) {
             "13: a polynomial is not positive at a point");
 }
 
-TEST(Pieces, MayBeSinglePoints) {
+TEST(Subintervals, MayBeSinglePoints) {
   const std::string above = over_triangle("1 1 1", "1 1 2");
   EXPECT_EQ(outcome(above +
                     no_collision("separate 0 0 face +\nseparate 0 1 face +\nseparate 1 1 face +")),
@@ -442,10 +442,10 @@ TEST(Contact, IsInTheTimeOfTheQuery) {
 
 // ---- Time of impact -----------------------------------------------------------------------------
 
-std::string time_of_impact(std::string_view bounds, std::string_view pieces,
+std::string time_of_impact(std::string_view bounds, std::string_view subintervals,
                            std::string_view contact, std::string_view place) {
-  return "claim time_of_impact " + std::string(bounds) + "\n" + std::string(pieces) + "contact " +
-         std::string(contact) + "\nat " + std::string(place) + "\nend\n";
+  return "claim time_of_impact " + std::string(bounds) + "\n" + std::string(subintervals) +
+         "contact " + std::string(contact) + "\nat " + std::string(place) + "\nend\n";
 }
 
 TEST(TimeOfImpact, IsEnclosed) {
@@ -481,7 +481,8 @@ TEST(TimeOfImpact, MayBeZero) {
             "time_of_impact");
   EXPECT_EQ(outcome(on + time_of_impact("0 0", "separate 0 0 face +\n", "time 0", place)),
             "12: expected 'contact', found 'separate'");
-  EXPECT_EQ(outcome(on + time_of_impact("0 1/2", "", "time 0", place)), "11: there is no piece");
+  EXPECT_EQ(outcome(on + time_of_impact("0 1/2", "", "time 0", place)),
+            "11: there is no subinterval");
   EXPECT_EQ(outcome(on + time_of_impact("0 1/2", "separate 0 0 face +\n", "time 0", place)),
             "12: a polynomial is not positive at a point");
 }
@@ -514,7 +515,7 @@ TEST(TimeOfImpact, NeedsBothProofs) {
             outside);
   EXPECT_EQ(
       outcome(through + time_of_impact("3/8 3/4", "separate 0 1/4 face +\n", "time 1/2", place)),
-      "12: the last piece does not end where it should");
+      "12: the last subinterval does not end where it should");
   EXPECT_EQ(
       outcome(through + time_of_impact("1/4 3/4", "separate 0 1/2 face +\n", "time 1/2", place))
           .substr(0, 3),
@@ -784,7 +785,7 @@ TEST(Near, DistanceZeroIsContact) {
   }
 }
 
-TEST(Near, ATimeOfImpactNeedsThePiecesAtTheDistance) {
+TEST(Near, ATimeOfImpactNeedsTheSubintervalsAtTheDistance) {
   const std::string falling = over_triangle("1 1 3", "1 1 -1") + separation("1", "l2");
   EXPECT_EQ(
       outcome(falling + time_of_impact("1/4 1/2", "separate 0 1/4 face +\n", "time 1/2", "face")),
@@ -816,13 +817,13 @@ class RandomCertificate {
       if (n % 3 == 2) result += "\n";
     }
     const int claim = below(4);
-    if (claim == 0) return result + "claim no_collision\n" + pieces(8) + "end\n";
+    if (claim == 0) return result + "claim no_collision\n" + subintervals(8) + "end\n";
     if (claim == 1) return result + "claim collision\n" + contact(0, 8) + "end\n";
     bounds_ = {below(4), 0};
     bounds_[1] = bounds_[0] + 1 + below(8 - bounds_[0]);
     if (below(8) == 0) bounds_ = {0, 0};
     result += "claim time_of_impact " + eighths(bounds_[0]) + " " + eighths(bounds_[1]) + "\n";
-    if (bounds_[1] > 0) result += pieces(bounds_[0]);
+    if (bounds_[1] > 0) result += subintervals(bounds_[0]);
     return result + contact(bounds_[0], bounds_[1]) + "end\n";
   }
 
@@ -843,7 +844,7 @@ class RandomCertificate {
     }
   }
 
-  std::string pieces(int end) {
+  std::string subintervals(int end) {
     std::string result;
     for (int from = 0; from < end || result.empty();) {
       const int to = below(2) == 0 ? end : from + below(end - from + 1);
@@ -929,7 +930,7 @@ int compare(exact::AlgebraicNumber toi, int n) {
 
 /// Is an accepted claim true?
 bool is_true(const std::string& claim, const RandomCertificate& certificate) {
-  const exact::Verdict verdict = exact::decide(certificate.kind(), certificate.points());
+  const exact::Decision verdict = exact::decide(certificate.kind(), certificate.points());
   if (claim == "no_collision") return !verdict.collides();
   if (!verdict.collides() || claim == "collision") return verdict.collides();
   const auto [lower, upper] = certificate.bounds();

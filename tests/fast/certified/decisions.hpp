@@ -42,7 +42,7 @@ template <class Number>
 inline void expect_truth(const PosedQuery& posed,
                          const std::optional<fast::exact_stage::Impact>& impact,
                          std::uint64_t step) {
-  const exact::Verdict truth = exact::decide(posed.kind, posed.query);
+  const exact::Decision truth = exact::decide(posed.kind, posed.query);
   ASSERT_EQ(impact.has_value(), truth.collides()) << posed;
   if (!impact) return;
   const exact::AlgebraicNumber& toi = *truth.toi;

@@ -125,9 +125,9 @@ TEST_F(StepCommand, JudgesTheStepThatIsTaken) {
   EXPECT_EQ(free["alpha"], 0.2);
   EXPECT_EQ(free["steps"][0]["free"], true);
   EXPECT_EQ(free["steps"][0]["free_alpha"], std::nextafter(0.25, 0.0));
-  const Json touching = result({before, after, "--alpha", "0.25"}, 1);
-  expect_toi(touching["steps"][0], 1.0);
-  EXPECT_EQ(touching["steps"][0]["free_alpha"], std::nextafter(0.25, 0.0));
+  const Json colliding = result({before, after, "--alpha", "0.25"}, 1);
+  expect_toi(colliding["steps"][0], 1.0);
+  EXPECT_EQ(colliding["steps"][0]["free_alpha"], std::nextafter(0.25, 0.0));
   EXPECT_EQ(step({before, after, "--alpha", "1.5"}).status, 2);
 }
 

@@ -42,7 +42,7 @@ TEST(Aligned, RoundingsAddUpAtAContact) {
   const int count = tests::trials(200);
   for (int i = 0; i < count; ++i) {
     const Query query = aligned_contact(random);
-    const exact::Verdict verdict = exact::decide(Kind::edge_edge, query);
+    const exact::Decision verdict = exact::decide(Kind::edge_edge, query);
     if (!verdict.collides()) continue;
     ++collisions;
     const double toi = verdict.toi->enclosure().lower;

@@ -227,7 +227,7 @@ TEST(HardQueries, HaveFullSignificands) {
 // ---- Scenes of decimals -------------------------------------------------------------------------
 
 bool is_at_an_end(Kind kind, const Query& query) {
-  const exact::Verdict truth = exact::decide(kind, query);
+  const exact::Decision truth = exact::decide(kind, query);
   const auto [lower, upper] = truth.toi->enclosure();
   return upper == 0.0 || lower == 1.0;
 }
@@ -360,7 +360,7 @@ TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
                 {.hardness = &hardness, .level = level, .kind = kind, .separation = asked}, seed,
                 index);
             collisions += made.collides ? 1U : 0U;
-            const exact::Verdict truth =
+            const exact::Decision truth =
                 exact::decide(kind, made.query, separation_at(hardness, level, asked));
             ASSERT_EQ(truth.collides(), made.collides);
           }

@@ -23,8 +23,8 @@ PosedQuery falling_to(double height) {
 }
 
 TEST(NearestApproach, OfWhatTouchesThereIsNone) {
-  const PosedQuery touching = falling_to(-2.0);
-  EXPECT_FALSE(nearest_approach(touching.kind, touching.query));
+  const PosedQuery colliding = falling_to(-2.0);
+  EXPECT_FALSE(nearest_approach(colliding.kind, colliding.query));
 }
 
 TEST(NearestApproach, IsBetweenNeighbouringDoubles) {

@@ -145,7 +145,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
     const look = () => ({
       verdict: find("verdict").textContent, names: text("#rows .name"), said: text("#rows .said"),
       marks: all("#rows .mark.toi, #rows .mark.approach").map((mark) => mark.style.left),
-      pieces: all("#rows .piece").map((bar) => bar.textContent + bar.title),
+      subintervals: all("#rows .subinterval").map((bar) => bar.textContent + bar.title),
       cursor: document.querySelector("#rows .cursor").style.left, now: find("now").textContent,
       readout: find("readout").textContent, drawn: [pixels("motion"), pixels("corners")],
       names_there: text("#motion .names span") });
@@ -171,7 +171,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
   EXPECT_EQ(result.at(1), positions(falling().query, Rational(1, 3)));
   const nlohmann::json& second = result.at(2);
   EXPECT_EQ(second.at("verdict"), "vertex-face: no collision.");
-  EXPECT_EQ(second.at("pieces"), nlohmann::json::array({"face +separated by face +"}));
+  EXPECT_EQ(second.at("subintervals"), nlohmann::json::array({"face +separated by face +"}));
   EXPECT_EQ(second.at("said").at(3).get<std::string>().substr(0, 3), "yes");
   EXPECT_NE(second.at("said").at(3).get<std::string>().find("✗ false positive"), std::string::npos);
   EXPECT_EQ(result.at(4).get<std::string>().substr(0, 22), "Radius seen: 4.44e-16 ");

@@ -85,7 +85,7 @@ TEST(ExactStage, AnIrrationalTimeOfImpactIsBetweenNeighbours) {
 
 bool is_wrong(tests::DecideExactly& decide, Kind kind, const Query& query) {
   const auto impact = decide(kind, query, {}, 1e-12, 1.0);
-  const exact::Verdict truth = exact::decide(kind, query);
+  const exact::Decision truth = exact::decide(kind, query);
   if (impact.has_value() != truth.collides()) return true;
   if (!impact) return false;
   const exact::AlgebraicNumber& toi = *truth.toi;
