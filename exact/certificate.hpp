@@ -4,7 +4,8 @@
 /// Verdicts with their proof, for a checker that does not trust the oracle.
 ///
 /// A certificate states a query, a separation, a claim and the proof of the claim:
-///   - no collision: subintervals of [0,1], each with a feature whose direction separates throughout;
+///   - no collision: subintervals of [0,1], each with a feature whose direction separates
+///   throughout;
 ///   - collision: a contact;
 ///   - time of impact in (lower, upper]: a contact there, and subintervals of [0,lower].
 ///

@@ -45,8 +45,8 @@ struct Decision {
   [[nodiscard]] bool collides() const { return toi.has_value(); }
 };
 
-/// Decides a query exactly. Thread-safe, and independent of the floating-point environment (rounding
-/// mode, flushed subnormals).
+/// Decides a query exactly. Thread-safe, and independent of the floating-point environment
+/// (rounding mode, flushed subnormals).
 /// \throws std::invalid_argument if a coordinate is NaN or infinite, or the separation is not valid.
 [[nodiscard]] Decision decide(Kind kind, const Query& query, const Separation& separation = {});
 

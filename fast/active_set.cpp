@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// F at the contact, in units of 2^-500 of the greatest coordinate, so that nothing overflows, nor underflows at the least
-/// times: F = r − u p − v q.
+/// F at the contact, in units of 2^-500 of the greatest coordinate, so that nothing overflows, nor
+/// underflows at the least times: F = r − u p − v q.
 struct Contact {
   Vector3d p, q;
   Vector3d f;     ///< F

@@ -6,7 +6,8 @@
 /// Each function takes the points at t=0 and then, in the same order, at t=1. They move on straight
 /// lines in between. A point is any vector of three floats or doubles (`Point`); floats are
 /// converted to double exactly. An edge or a point takes the place of a face as a triangle without
-/// an area: solve_vertex_edge uses (e0, e1, e0), solve_vertex_vertex (p1, p1, p1). The functions are thread-safe.
+/// an area: solve_vertex_edge uses (e0, e1, e0), solve_vertex_vertex (p1, p1, p1). The functions
+/// are thread-safe.
 
 #include <Eigen/Core>
 

@@ -27,7 +27,8 @@ inline constexpr std::size_t label_limit = 1024;
 /// question marks, and only the last label_limit bytes remain. An empty label has no line.
 void write(std::string& text, const Certificate& certificate, std::string_view label = {});
 
-/// A stream of one certificate, from the first line to the closing line. \param label as for write()
+/// A stream of one certificate, from the first line to the closing line. \param label as for
+/// write()
 [[nodiscard]] std::string certificate_stream(const Certificate& certificate,
                                              std::string_view label = {});
 

@@ -10,8 +10,8 @@
 namespace touchstone::exact {
 namespace {
 
-/// The number of levels that are left at the deepest place of a subinterval after it was divided for the
-/// limit.
+/// The number of levels that are left at the deepest place of a subinterval after it was divided
+/// for the limit.
 constexpr unsigned long depth_left = 100;
 static_assert(depth_left + 2 <= bisection_limit);
 
@@ -115,7 +115,8 @@ std::vector<LongSubinterval> fewest_subintervals(std::vector<Separator>& separat
   return subintervals;
 }
 
-/// The deepest place of all proofs that a subinterval needs; empty if it is within the checker's limit.
+/// The deepest place of all proofs that a subinterval needs; empty if it is within the checker's
+/// limit.
 std::optional<BisectionProof> beyond_checker(const LongSubinterval& subinterval,
                                              const Rational& until) {
   const RationalInterval fractions{subinterval.from / until, subinterval.to / until};
@@ -133,8 +134,8 @@ std::optional<BisectionProof> beyond_checker(const LongSubinterval& subinterval,
   return deepest;
 }
 
-/// Appends the subinterval in parts that a checker can verify. The neighbourhood of the deepest place is
-/// one part, whose proof needs at most depth_left + 2 levels.
+/// Appends the subinterval in parts that a checker can verify. The neighbourhood of the deepest
+/// place is one part, whose proof needs at most depth_left + 2 levels.
 void append_visible(const LongSubinterval& whole, const Rational& until,
                     std::vector<Subinterval>& subintervals) {
   std::vector<LongSubinterval> rest{whole};

@@ -7,8 +7,8 @@
 ///
 /// While the polygon conv{w_i(t)} is farther from the origin than the distance, the direction of
 /// some feature separates (exact/distance/separating_axes.hpp), on an open set of times. Finitely
-/// many of these sets cover the interval. The number of subintervals is least if, at the first time not
-/// yet covered, the feature that holds longest is taken.
+/// many of these sets cover the interval. The number of subintervals is least if, at the first time
+/// not yet covered, the feature that holds longest is taken.
 
 #include <vector>
 
@@ -18,10 +18,10 @@
 
 namespace touchstone::exact {
 
-/// The fewest subintervals that cover [0,until], each beginning at the end of the one before. A subinterval for
-/// which a checker would have to bisect more often than bisection_limit is divided further, into
-/// two or three if the polynomial has one minimum that is so close to zero. Break points are
-/// rationals of few bits.
+/// The fewest subintervals that cover [0,until], each beginning at the end of the one before. A
+/// subinterval for which a checker would have to bisect more often than bisection_limit is divided
+/// further, into two or three if the polynomial has one minimum that is so close to zero. Break
+/// points are rationals of few bits.
 /// \param until In [0,1]; at 0 the only subinterval is a point.
 /// \pre the motion is scaled uniformly, and nothing is within its distance in [0,until].
 /// \throws std::logic_error if something does.

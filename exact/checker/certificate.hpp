@@ -39,8 +39,8 @@ void require_at_most(std::size_t limit, std::size_t count, std::string_view what
 /// \throws Rejection if it is none, or beyond the limits.
 [[nodiscard]] mpq_class parse_number(std::string_view word);
 
-/// The number in one form, whatever form it was read in: the shorter of the fraction in lowest terms and,
-/// where there is one, the hexadecimal float whose first digit is 1.
+/// The number in one form, whatever form it was read in: the shorter of the fraction in lowest
+/// terms and, where there is one, the hexadecimal float whose first digit is 1.
 [[nodiscard]] std::string to_text(const mpq_class& number);
 
 /// The text with every byte that is not printable ASCII as \xHH.
@@ -92,7 +92,8 @@ struct Certificate {
   mpq_class distance = 0;
   bool is_l2 = false;
   Claim claim = Claim::no_collision;
-  /// The subintervals cover [0,lower], the contact is in [lower,upper]. If upper is 0 there are no subintervals.
+  /// The subintervals cover [0,lower], the contact is in [lower,upper]. If upper is 0 there are no
+  /// subintervals.
   mpq_class lower = 0, upper = 1;
   std::vector<Subinterval> subintervals;
   Contact contact;
@@ -100,8 +101,8 @@ struct Certificate {
   [[nodiscard]] bool has_subintervals() const { return claim != Claim::collision && upper != 0; }
 };
 
-/// The claim and the separation in one form, whatever form they were read in: a demand is the same text
-/// (checker.hpp). At distance 0 both norms are the same, and none is named.
+/// The claim and the separation in one form, whatever form they were read in: a demand is the same
+/// text (checker.hpp). At distance 0 both norms are the same, and none is named.
 [[nodiscard]] std::string to_text(const Certificate& certificate);
 [[nodiscard]] std::string separation_text(const Certificate& certificate);
 
@@ -109,7 +110,8 @@ struct Certificate {
 void require_demanded(const Options& options, const std::string& claim,
                       const std::string& separation, std::size_t line);
 
-/// The lines of a stream without those that are empty or comments, and the words of the line at hand.
+/// The lines of a stream without those that are empty or comments, and the words of the line at
+/// hand.
 class Reader {
  public:
   /// Reads nothing yet.
@@ -159,8 +161,9 @@ void read_time_of_impact(Reader& reader, Certificate& certificate);
 void read_subintervals(Reader& reader, Certificate& certificate);
 void read_contact(Reader& reader, Certificate& certificate);
 
-/// Reads the certificate that begins at the present line and goes behind its `end`. Where it throws,
-/// the reader stands at the line at fault, and the certificate has its label if that came before.
+/// Reads the certificate that begins at the present line and goes behind its `end`. Where it
+/// throws, the reader stands at the line at fault, and the certificate has its label if that came
+/// before.
 /// \throws Rejection where the text is no certificate, std::runtime_error as Reader::advance.
 void read_certificate(Reader& reader, Certificate& certificate);
 

@@ -19,8 +19,8 @@ mpz_class scaled(const mpq_class& x, const mpz_class& factor) {
 
 /// c_0 r^n + c_1 r^(n−1) s + … + c_n s^n, where r and s are
 ///   - 1 and t: a polynomial in the time t; or
-///   - 1−u and u, for the point u of an interval's way from its start (0) to its end (1): then c_k is
-///     a positive multiple of the k-th Bernstein coefficient.
+///   - 1−u and u, for the point u of an interval's way from its start (0) to its end (1): then c_k
+///     is a positive multiple of the k-th Bernstein coefficient.
 using Form = std::vector<mpz_class>;
 
 /// sum + a·b, or sum − a·b with mpz_submul: in place, for most of the checker's time is spent here.
@@ -52,8 +52,8 @@ Form substitute(Form form, const mpz_class& x, const mpz_class& y) {
   return form;
 }
 
-/// Does the polynomial g (of degree ≥ 1, its leading coefficient not 0) divide p over the rationals?
-/// Long division, each step multiplied by g's leading coefficient. Everything divides 0.
+/// Does the polynomial g (of degree ≥ 1, its leading coefficient not 0) divide p over the
+/// rationals? Long division, each step multiplied by g's leading coefficient. Everything divides 0.
 bool divides(const Form& g, Form p) {
   for (; p.size() >= g.size(); p.pop_back()) {
     const mpz_class leading = p.back();
@@ -117,8 +117,8 @@ class Proof {
   }
 
  private:
-  /// Brings the coordinates and the distance to integers: all of space is enlarged by one factor, which
-  /// changes no sign below. The corners are polynomials of degree 1 in t.
+  /// Brings the coordinates and the distance to integers: all of space is enlarged by one factor,
+  /// which changes no sign below. The corners are polynomials of degree 1 in t.
   void find_corners() {
     mpz_class factor = certificate_.distance.get_den();
     for (const mpq_class& x : certificate_.coordinates) factor = lcm(factor, x.get_den());
@@ -173,7 +173,8 @@ class Proof {
     if (!is_positive(on_interval(std::move(p)))) reject(doubt_);
   }
 
-  /// Proves that there is no contact in [0,lower]: the subintervals follow one another without a gap.
+  /// Proves that there is no contact in [0,lower]: the subintervals follow one another without a
+  /// gap.
   void prove_no_contact() {
     if (certificate_.subintervals.empty()) reject("there is no subinterval");
     mpq_class reached = 0;
@@ -187,8 +188,8 @@ class Proof {
     if (reached != certificate_.lower) reject("the last subinterval does not end where it should");
   }
 
-  /// The normal N = a×b of the polygon. N·w is the same for all corners: N is orthogonal to a and b,
-  /// hence also to w_3 − w_0 = b − a.
+  /// The normal N = a×b of the polygon. N·w is the same for all corners: N is orthogonal to a and
+  /// b, hence also to w_3 − w_0 = b − a.
   [[nodiscard]] Vector normal() const {
     return cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
   }
@@ -227,8 +228,8 @@ class Proof {
     return add_product(value, dot(d, d), {distance_ * distance_}, mpz_submul);
   }
 
-  /// Proves d·w > D‖d‖ for all corners w, d the direction of the subinterval's feature, ‖d‖ its length or,
-  /// for linf, the greatest of the σ·d.
+  /// Proves d·w > D‖d‖ for all corners w, d the direction of the subinterval's feature, ‖d‖ its
+  /// length or, for linf, the greatest of the σ·d.
   void prove_separation(const Subinterval& subinterval) {
     const Vector d = direction(subinterval) * Form{subinterval.is_negative ? -1 : 1};
     const std::size_t count = subinterval.feature == Feature::face ? 1 : corners_.size();
@@ -346,7 +347,8 @@ class Proof {
   std::vector<Vector> corners_;
   /// Why is_positive saw it not.
   const char* doubt_ = "";
-  /// The interval of the part at hand: numerators of its start and its length, and their denominator.
+  /// The interval of the part at hand: numerators of its start and its length, and their
+  /// denominator.
   mpz_class from_, length_, denominator_;
   /// The polynomial whose root the time of the contact is.
   Form g_;

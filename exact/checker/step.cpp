@@ -30,8 +30,8 @@ double to_double(const mpq_class& number) {
   return number.get_d();
 }
 
-/// A line of a keyword and a number, and so many lines: each an item, of whose numbers take() takes the
-/// first `columns`. The others are as the first.
+/// A line of a keyword and a number, and so many lines: each an item, of whose numbers take() takes
+/// the first `columns`. The others are as the first.
 template <class Item, class Take>
 std::vector<Item> read_list(Reader& reader, std::string_view keyword, std::size_t columns,
                             const Take& take) {

@@ -20,8 +20,8 @@
 #include "tests/support/trials.hpp"
 #include "verify/generate/families.hpp"
 
-// Certificates (exact/certificate.hpp) altered in every field: whatever the checker still accepts has
-// to be true, by the oracle asked about the altered query.
+// Certificates (exact/certificate.hpp) altered in every field: whatever the checker still accepts
+// has to be true, by the oracle asked about the altered query.
 
 namespace touchstone::exact::certificate_mutation_test {
 namespace {

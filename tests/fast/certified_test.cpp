@@ -1,5 +1,6 @@
 /// \file
-/// The certified solver by hand, in batches and as a method. (Against the oracle: deciders_test.cpp.)
+/// The certified solver by hand, in batches and as a method. (Against the oracle:
+/// deciders_test.cpp.)
 
 #include "fast/certified.hpp"
 
@@ -60,8 +61,8 @@ TEST(Certified, EndsEachSortOfQueryInItsStage) {
 }
 
 TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
-  // A vertex that moves along x too, over the triangle (0,0,0), (1,0,0), (0,1,0): at t = 0.4, where it
-  // is in its plane, it is so far inside of the edge x = 0.
+  // A vertex that moves along x too, over the triangle (0,0,0), (1,0,0), (0,1,0): at t = 0.4, where
+  // it is in its plane, it is so far inside of the edge x = 0.
   const auto beside_edge = [](double inside) {
     Query query{};
     for (std::size_t end = 0; end < 2; ++end) {

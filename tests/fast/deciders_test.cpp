@@ -1,6 +1,6 @@
 /// \file
-/// The deciders of the certified solver against the oracle: each of them on each family of queries, at contact and at
-/// separations of all magnitudes in both norms, for all tolerances and times.
+/// The deciders of the certified solver against the oracle: each of them on each family of queries,
+/// at contact and at separations of all magnitudes in both norms, for all tolerances and times.
 
 #include <gtest/gtest.h>
 
@@ -240,8 +240,8 @@ Separation draw_separation(Random& random, const Query& query) {
   return {.distance = std::max(distance, tiniest), .norm = norm};
 }
 
-/// Is F near 0 on every axis at toi_upper and (u,v), relative to its coordinates? By then F has moved on: corners are
-/// differences of coordinates, at most 4 of these apart.
+/// Is F near 0 on every axis at toi_upper and (u,v), relative to its coordinates? By then F has
+/// moved on: corners are differences of coordinates, at most 4 of these apart.
 void expect_contact_at_place(const PosedQuery& posed, const CertifiedResult& result) {
   const Rational upper(result.toi_upper);
   const auto f = contact_function<Rational>(posed.kind, posed.query, upper, Rational(result.u),

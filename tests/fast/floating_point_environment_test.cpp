@@ -1,6 +1,6 @@
 /// \file
-/// Whatever the caller's floating-point state is, answers have the bits that they have in the usual one, and the caller's
-/// state stays.
+/// Whatever the caller's floating-point state is, answers have the bits that they have in the usual
+/// one, and the caller's state stays.
 
 #include <gtest/gtest.h>
 
@@ -105,7 +105,8 @@ void put(Bits& bits, const std::vector<IndexPair>& pairs) {
   for (const IndexPair& pair : pairs) put(bits, pair[0], pair[1]);
 }
 
-/// Hits and misses by a hair, degenerate ones, and subnormals, which a caller that flushes them would lose.
+/// Hits and misses by a hair, degenerate ones, and subnormals, which a caller that flushes them
+/// would lose.
 std::vector<Query> queries(Kind kind, std::size_t count = 300) {
   Random random(29);
   std::vector<Query> result(count);

@@ -123,7 +123,8 @@ TEST(LineSearch, SaysWhatIsTooSmallForDoubles) {
 
 // ---- What it promises ---------------------------------------------------------------------------
 
-/// Is a pair, up to that time, nearer than p times its distance or that of the scene? By the oracle.
+/// Is a pair, up to that time, nearer than p times its distance or that of the scene? By the
+/// oracle.
 bool comes_nearer(Kind kind, const Query& query, double time, Norm norm, double p,
                   double distance) {
   // Nearer than p d is within what is less than it.
@@ -199,7 +200,8 @@ std::optional<double> limit_of_pairs(const Scene& scene, double p, Norm norm) {
   return result;
 }
 
-/// In how many of random scenes is the limit by the pairs' distances another, and how many have one?
+/// In how many of random scenes is the limit by the pairs' distances another, and how many have
+/// one?
 struct Compared {
   int different = 0;
   int limited = 0;
@@ -294,8 +296,8 @@ struct Repetition {
   bool stalled = false;  ///< the last step was 0
 };
 
-/// Repeats ours until the distance is below that, and checks each step: what is left of the distance is p,
-/// to the tolerance of the time and the rounding of places.
+/// Repeats ours until the distance is below that, and checks each step: what is left of the
+/// distance is p, to the tolerance of the time and the rounding of places.
 Repetition repeat(Scene scene, double p, StartDistance start_distance, double until) {
   Repetition result;
   while (result.least > until) {
@@ -338,8 +340,8 @@ TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
 // ---- The published line search ------------------------------------------------------------------
 
 /// Algorithm 4 of [wang2021] up to its backtracking, as its text means it: p is halved until
-/// p < (d_i − δ − ε − ρ) / d_i, the distance is kept at p d_i, but at δ at least, and where the search
-/// for impacts ends with a greater δ, all of it is repeated with that.
+/// p < (d_i − δ − ε − ρ) / d_i, the distance is kept at p d_i, but at δ at least, and where the
+/// search for impacts ends with a greater δ, all of it is repeated with that.
 class PublishedLineSearch {
  public:
   explicit PublishedLineSearch(double delta) : delta_(delta) {}

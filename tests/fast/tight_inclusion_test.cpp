@@ -264,7 +264,8 @@ TEST(MinimumSeparation, FindsContactsMovedApartByIt) {
 
 // ---- A plain reading of the description ---------------------------------------------------------
 
-/// Algorithm 2 of [wang2021] with a priority queue, as it is described (docs/methods.md, section 2).
+/// Algorithm 2 of [wang2021] with a priority queue, as it is described (docs/methods.md, section
+/// 2).
 struct PlainReading {
   struct Item {
     int level;
@@ -732,8 +733,8 @@ TEST(Published, ContactsDeniedByTheReleaseAreFound) {
   }
 }
 
-/// The plainest contact that the release denies (verify/report/results.cpp): a vertex flies along the x
-/// axis, onto a resting triangle in a plane across it. All coordinates have two decimals.
+/// The plainest contact that the release denies (verify/report/results.cpp): a vertex flies along
+/// the x axis, onto a resting triangle in a plane across it. All coordinates have two decimals.
 TEST(Published, TheReleaseDeniesAVertexThatLandsOnATriangle) {
   const PosedQuery posed =
       tests::vertex_face({-0.01, 0, 0, 0.02, -0.01, -0.01, 0.02, 0.02, -0.01, 0.02, -0.01, 0.02},

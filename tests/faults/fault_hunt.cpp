@@ -1,6 +1,6 @@
 /// \file
-/// The table of planted faults in solvers: each hunted by the fuzzer, with the time and the queries it took. Exit status 1 if
-/// one is not found that should be, or one that should be harmless is.
+/// The table of planted faults in solvers: each hunted by the fuzzer, with the time and the queries
+/// it took. Exit status 1 if one is not found that should be, or one that should be harmless is.
 
 #include <fmt/format.h>
 

@@ -64,7 +64,8 @@ std::vector<FaultySolver> all_faulty_solvers() {
   return all;
 }
 
-/// A faulty solver under the name of its fault: what calls itself certified is not judged by the certified solver.
+/// A faulty solver under the name of its fault: what calls itself certified is not judged by the
+/// certified solver.
 class Named final : public fast::Method {
  public:
   explicit Named(const FaultySolver& solver) : method_(solver.make()), info_(method_->info()) {

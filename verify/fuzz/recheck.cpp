@@ -16,8 +16,8 @@ namespace {
 using fast::Answer;
 using fast::Verdict;
 
-/// The rest of a block is not asked after so many queries that ended the solver's process or took too
-/// long.
+/// The rest of a block is not asked after so many queries that ended the solver's process or took
+/// too long.
 constexpr std::size_t most_failures = 4;
 
 /// Was the query asked alone, in a process of its own, before it was a finding?

@@ -50,8 +50,8 @@ class Scene {
     return contact;
   }
 
-  /// Where the points are at the other end: each primitive stays, moves along an axis, or anywhere, and
-  /// now and then each point by itself.
+  /// Where the points are at the other end: each primitive stays, moves along an axis, or anywhere,
+  /// and now and then each point by itself.
   [[nodiscard]] Layout moved(const ContactPlaces& contact) {
     Layout result = contact.places;
     const std::array<Vector, 2> motions{draw_motion(), draw_motion()};

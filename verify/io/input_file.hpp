@@ -63,8 +63,8 @@ struct Line {
   bool too_long;
 };
 
-/// The lines of a text file, compressed if its name ends in ".zst" (compressor.hpp). Blank lines (nothing, or spaces and tabs) at the end of the file are
-/// no lines; all others are.
+/// The lines of a text file, compressed if its name ends in ".zst" (compressor.hpp). Blank lines
+/// (nothing, or spaces and tabs) at the end of the file are no lines; all others are.
 class LineReader {
  public:
   /// Maximum length of a line in bytes, without its line end.

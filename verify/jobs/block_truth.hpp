@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// The oracle's part of the judgement on a block of queries: verdicts, labels compared with them, and certificates.
+/// The oracle's part of the judgement on a block of queries: verdicts, labels compared with them,
+/// and certificates.
 
 #include <cstddef>
 #include <span>

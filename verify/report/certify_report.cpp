@@ -95,8 +95,8 @@ nlohmann::json counts(const jobs::CertifyResult& result) {
           {"interrupted", result.interrupted}};
 }
 
-/// Does the table of methods have a column of tolerances? It has if there is a separation, or a method
-/// claims too much.
+/// Does the table of methods have a column of tolerances? It has if there is a separation, or a
+/// method claims too much.
 enum class Tolerances : std::uint8_t { hidden, shown };
 
 io::TextRow method_row(const std::string& name, std::string_view kind,

@@ -165,8 +165,8 @@ struct Measurements {
   bool interrupted = false;
 };
 
-/// By what, where and when they were made, for a sentence: " with Touchstone 1.2 (commit) on PROCESSOR,
-/// 2026-01-31"; empty if not known.
+/// By what, where and when they were made, for a sentence: " with Touchstone 1.2 (commit) on
+/// PROCESSOR, 2026-01-31"; empty if not known.
 [[nodiscard]] std::string origin_text(const Measurements& measurements);
 
 /// The same with all names and texts printable (printable.hpp): for what people read.

@@ -5,8 +5,8 @@
 /// table of MSRF against Tight-Inclusion and, in the appendix, of FPRF against it (over the minimum
 /// separation d).
 ///
-/// They were measured on another machine and on more data: 12K and 15K handcrafted queries, 18M and 41M
-/// of simulations (vertex-face, edge-edge). Of these 4,884 and one step each are public.
+/// They were measured on another machine and on more data: 12K and 15K handcrafted queries, 18M and
+/// 41M of simulations (vertex-face, edge-edge). Of these 4,884 and one step each are public.
 
 #include <optional>
 #include <string_view>

@@ -323,8 +323,8 @@ class SolverProcess::Impl {
       if (!stop.hang) searched_until_ = stop.end;
       return begin;
     }
-    // A step that was too slow, and then the query alone, are twice; what ends a child it is to do in
-    // a child of its own.
+    // A step that was too slow, and then the query alone, are twice; what ends a child it is to do
+    // in a child of its own.
     const bool is_sure = stop.hang && begin < slow_until_;
     if (!is_sure && doubtful_ != begin) {
       shared.careful_until = std::max(shared.careful_until, begin + 1);

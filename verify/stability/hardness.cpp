@@ -202,8 +202,8 @@ class Scene {
     put(3, draw(-0.05, 0.05, setup_.size), base + setup_.breadth, setup_.drift);
   }
 
-  /// Over the interior, or beside the side along x; nearly parallel it goes along x from one side of
-  /// the triangle to the other.
+  /// Over the interior, or beside the side along x; nearly parallel it goes along x from one side
+  /// of the triangle to the other.
   void place_vertex(bool beside) {
     const std::int64_t base = points_[0][1][1];
     const std::int64_t inside =

@@ -26,9 +26,9 @@ struct CertifiedQuery {
 /// is not a double.
 [[nodiscard]] CertifiedQuery certified_query(std::string_view stream);
 
-/// An object of `claim`, `accepted`, `reason` (of the checker, if rejected), `subintervals`, a list of
-/// `from`, `to` (rationals as text) and `feature` ("edge 0 1"), and `text`, the stream. \throws as
-/// above
+/// An object of `claim`, `accepted`, `reason` (of the checker, if rejected), `subintervals`, a list
+/// of `from`, `to` (rationals as text) and `feature` ("edge 0 1"), and `text`, the stream. \throws
+/// as above
 [[nodiscard]] nlohmann::json certificate_facts(const std::string& stream);
 
 }  // namespace touchstone::verify::view

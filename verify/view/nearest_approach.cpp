@@ -42,7 +42,8 @@ std::optional<NearestApproach> nearest_approach(Kind kind, const Query& query) {
     at_most = bits;
     verdict = std::move(answer);
   };
-  // From the guess downwards in steps that double, so that few of the questions are far from the answer.
+  // From the guess downwards in steps that double, so that few of the questions are far from the
+  // answer.
   const std::uint64_t start = bits_of(guess(kind, query));
   static constexpr std::uint64_t factor_of_two = std::uint64_t{1} << 52U;
   for (std::uint64_t step = 1; above == 0; step *= 2) {

@@ -42,7 +42,8 @@ nlohmann::json enclosure(const exact::RationalInterval& interval) {
                                                      : nlohmann::json()}};
 }
 
-/// A time to look at: the number itself where it is known to be rational, else one within 2^-256 of it.
+/// A time to look at: the number itself where it is known to be rational, else one within 2^-256 of
+/// it.
 exact::Rational time_near(exact::AlgebraicNumber number) {
   if (!number.rational()) number.refine_to_level(time_bits);
   if (number.rational()) return *number.rational();

@@ -165,8 +165,8 @@ TEST(Separate, KeepsADistance) {
 }
 
 TEST(Separate, TakesACubesEdgeWhereNothingElseSeparates) {
-  // (6,2) is 2 from the side in x = y. The triangle leans away from it: its plane is nearer, and all
-  // coordinates of the vertex are between those of the triangle.
+  // (6,2) is 2 from the side in x = y. The triangle leans away from it: its plane is nearer, and
+  // all coordinates of the vertex are between those of the triangle.
   const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 2, 6, -8};
   const auto posed = tests::vertex_face(tests::with_vertex(6, 2, -0.25, face),
                                         tests::with_vertex(6, 2, -0.5, face));

@@ -1,6 +1,6 @@
 /// \file
-/// The checker on streams: what it counts, how it goes on after a rejection, what it does with bytes
-/// that are no certificates; the corpus of the fuzzer, and the examples of the manual.
+/// The checker on streams: what it counts, how it goes on after a rejection, what it does with
+/// bytes that are no certificates; the corpus of the fuzzer, and the examples of the manual.
 
 #include "exact/checker/checker.hpp"
 #include "tests/support/built_files.hpp"
@@ -343,7 +343,8 @@ TEST(Corpus, HasTheOutcomeThatItShould) {
   EXPECT_EQ(found, expected.size());
 }
 
-/// The blocks of the manual that hold certificates: all are accepted, and every claim is among them.
+/// The blocks of the manual that hold certificates: all are accepted, and every claim is among
+/// them.
 TEST(Manual, HasExamplesThatAreAccepted) {
   const std::string manual = read(root / "exact/CERTIFICATES.md"), fence = "```\n";
   Report sum;

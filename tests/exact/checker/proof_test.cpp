@@ -56,8 +56,8 @@ std::string crossing(std::string_view start, std::string_view end) {
   return edge_edge({a0, a1, "0 -1 0", "0 1 0"}, {b0, b1, "0 -1 0", "0 1 0"});
 }
 
-/// The triangle (0,0,0), (2,2t,0), (0,0,1) and the vertex (t,1/2,1/4): det = ±(2t²−1), so the toi is
-/// √½ with (u,v) = (√½/2, 1/4).
+/// The triangle (0,0,0), (2,2t,0), (0,0,1) and the vertex (t,1/2,1/4): det = ±(2t²−1), so the toi
+/// is √½ with (u,v) = (√½/2, 1/4).
 std::string turning() {
   return vertex_face({"0 1/2 1/4", "0 0 0", "2 0 0", "0 0 1"},
                      {"1 1/2 1/4", "0 0 0", "2 2 0", "0 0 1"});
@@ -175,7 +175,8 @@ TEST(Separation, IsSeenByHalves) {
             "12: a polynomial is not seen to be positive within 128 bisections");
 }
 
-/// Each has (1−2t)² + h² as its value, times a constant: halved as a form of degree 3 and of degree 4.
+/// Each has (1−2t)² + h² as its value, times a constant: halved as a form of degree 3 and of
+/// degree 4.
 TEST(Separation, IsSeenByHalvesWhateverTheDegree) {
   const auto turning_face = [](const std::string& h) {
     return vertex_face({"0 0 1", "0 0 0", "1 " + h + " 0", "-" + h + " 1 0"},
@@ -195,8 +196,8 @@ TEST(Separation, IsSeenByHalvesWhateverTheDegree) {
   EXPECT_EQ(outcome(passing_edge("0")), "12: a polynomial is not positive at a point");
 }
 
-/// After 128 halvings 1/3 is at one or two thirds of an interval of width 2^−128, on which the middle
-/// coefficient of (1−3t)² + h² is h² − 2·4^−128: h = 2^−127 is enough, h = 2^−128 is not.
+/// After 128 halvings 1/3 is at one or two thirds of an interval of width 2^−128, on which the
+/// middle coefficient of (1−3t)² + h² is h² − 2·4^−128: h = 2^−127 is enough, h = 2^−128 is not.
 TEST(Separation, HasALimitOfBisections) {
   const auto passing = [](int power) {
     const std::string h = "0x1p-" + std::to_string(power);

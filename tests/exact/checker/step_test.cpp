@@ -143,7 +143,8 @@ TEST(Step, RefusesEveryFalsehoodWithItsReason) {
   }
 }
 
-/// A vertex that falls along the x axis, from 1, to the side of a face that touches the plane x = 0 from below.
+/// A vertex that falls along the x axis, from 1, to the side of a face that touches the plane x = 0
+/// from below.
 std::string of_falling_vertex(std::string_view x_at_end, std::string_view argument) {
   return stream("step falling\nvertices 4\n0 -1 0 0 -1 0\n0 1 0 0 1 0\n-1 0 1 -1 0 1\n1 0 0 " +
                 std::string(x_at_end) +

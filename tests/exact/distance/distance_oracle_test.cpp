@@ -118,8 +118,8 @@ TEST(DistanceOracle, AnIrrationalTime) {
 }
 
 TEST(DistanceOracle, ACubesEdgeAgainstASide) {
-  // The triangle's side lies in x = y, z = 0 and the cube about the vertex meets it by an edge: where
-  // the vertex is at (1 + s, 1 − s, 0), at distance s in linf and √2 s in l2.
+  // The triangle's side lies in x = y, z = 0 and the cube about the vertex meets it by an edge:
+  // where the vertex is at (1 + s, 1 − s, 0), at distance s in linf and √2 s in l2.
   const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 4, 4, -8};
   const PosedQuery posed =
       vertex_face(tests::with_vertex(5, -3, 0, face), tests::with_vertex(1, 1, 0, face));

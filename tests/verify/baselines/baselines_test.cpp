@@ -1,6 +1,7 @@
 /// \file
-/// The published methods side by side: what each answers to the printed queries and to plain ones, which options it heeds, and
-/// how many of the public queries it misses and makes up. (Each one's known defects: the file of its name.)
+/// The published methods side by side: what each answers to the printed queries and to plain ones,
+/// which options it heeds, and how many of the public queries it misses and makes up. (Each one's
+/// known defects: the file of its name.)
 
 #include <gtest/gtest.h>
 

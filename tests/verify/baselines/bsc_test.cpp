@@ -1,6 +1,6 @@
 /// \file
-/// BSC is right where there is no inflection and no common plane, and wrong where its header says so
-/// and in that way.
+/// BSC is right where there is no inflection and no common plane, and wrong where its header says
+/// so and in that way.
 
 #include "verify/baselines/bsc.hpp"
 

@@ -1,6 +1,6 @@
 /// \file
-/// RP is right where the number of roots is odd or 0, and wrong where its header says so and in that
-/// way.
+/// RP is right where the number of roots is odd or 0, and wrong where its header says so and in
+/// that way.
 
 #include "verify/baselines/rp.hpp"
 

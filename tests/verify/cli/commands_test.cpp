@@ -610,8 +610,8 @@ TEST_F(Tool, AnswersMustNotBeOutputs) {
   EXPECT_EQ(read_file(answers), answers_header);
 }
 
-/// A query that tells the plugin what to do: the first coordinate does, and puts the vertex beside the
-/// triangle.
+/// A query that tells the plugin what to do: the first coordinate does, and puts the vertex beside
+/// the triangle.
 std::string misbehave(tests::Misbehaviour what) {
   return falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
 }

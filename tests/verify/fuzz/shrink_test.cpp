@@ -188,7 +188,8 @@ TEST(Shrink, makes_findings_of_a_method_short) {
 }
 
 TEST(Shrink, leaves_little_of_a_missed_start) {
-  // A fault of all solvers that look for a sign to change: who touches from the beginning is missed.
+  // A fault of all solvers that look for a sign to change: who touches from the beginning is
+  // missed.
   const auto is_missed = [](const Query& query) {
     const exact::Decision truth = exact::decide(Kind::vertex_face, query);
     return truth.collides() && truth.toi->enclosure().upper == 0.0;

@@ -38,8 +38,8 @@ TEST(NearestApproach, IsBetweenNeighbouringDoubles) {
   }
 }
 
-/// Two edges that cross in projection, one at height 3, pass one another: nearest where they are above one
-/// another, all the time.
+/// Two edges that cross in projection, one at height 3, pass one another: nearest where they are
+/// above one another, all the time.
 TEST(NearestApproach, IsTheFirstTimeOfTheLeastDistance) {
   const PosedQuery passing = tests::edge_edge({-1, 0, 3, 1, 0, 3, 0, 3, 0, 0, 5, 0},
                                               {-1, 0, 3, 1, 0, 3, 0, -5, 0, 0, -3, 0});

@@ -1,6 +1,6 @@
 /// \file
-/// The certified solver with a minimum separation, in both norms, by hand and in batches. (Against the oracle:
-/// tests/fast/deciders_test.cpp. Its kernels among each other: kernel_test.cpp.)
+/// The certified solver with a minimum separation, in both norms, by hand and in batches. (Against
+/// the oracle: tests/fast/deciders_test.cpp. Its kernels among each other: kernel_test.cpp.)
 
 #include "fast/certified/stages/conservative_advancement.hpp"
 
