@@ -1,16 +1,18 @@
 #pragma once
 
 /// \file
-/// A block of queries through all stages: the kernel, and the exact stage for the queries that the
-/// kernel leaves undecided.
+/// A block of queries through all stages: the kernel, the kernel once more for undecided queries of
+/// unusual size, which are scaled (rescaling.hpp), and the exact stage for the rest.
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "exact/query.hpp"
 #include "fast/certified.hpp"
 #include "fast/certified/kernel.hpp"
+#include "fast/certified/rescaling.hpp"
 
 namespace touchstone::fast {
 
@@ -41,6 +43,12 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
   const CertifiedKernel& kernel =
       options.kernel != nullptr ? *options.kernel : best_certified_kernel();
   kernel.decide(block, output);
+  thread_local std::vector<Query> undecided;
+  undecided.clear();
+  for (std::size_t i = 0; i < output.undecided.count; ++i) {
+    undecided.push_back(query_of(output.undecided.items[i]));
+  }
+  decide_rescaled(block, kernel, undecided, output);
   const auto report_exactly = [&](std::size_t index) {
     report(index, decided_exactly(block.kind, query_of(index), options));
   };

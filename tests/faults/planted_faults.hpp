@@ -8,6 +8,7 @@
 #include <istream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -62,6 +63,8 @@ using FilteredDistance = std::optional<fast::Distance>(Kind, const Query&, doubl
 using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, double, Norm);
 using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::LineSearchOptions&);
 using Check = checker::Report(std::istream&, const checker::Options&);
+using DecideRescaled = void(const fast::KernelInput&, const fast::CertifiedKernel&,
+                            std::span<const Query>, fast::KernelOutput&);
 using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,
                                                        double toi_tolerance, double t_max);
 using MakeTightInclusion = std::unique_ptr<fast::Method>(const fast::TightInclusionOptions&);
@@ -79,6 +82,7 @@ struct PlantedFaults {
   Faults<const fast::BoxKernel> box_kernel;
   Faults<MakeTightInclusion> tight_inclusion;
   Faults<const fast::CertifiedKernel> certified_kernel;
+  Faults<DecideRescaled> rescaling;
   Faults<DecideExactly> exact_stage;
   Faults<MakeCertified> certified;
   /// Without a fault: it counts its work (limb_products.hpp).

@@ -1,0 +1,155 @@
+#include "fast/certified/rescaling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace touchstone::fast {
+namespace {
+
+constexpr std::size_t axes = 3;
+
+/// Exponents of the greatest coordinates of queries that the kernel decides as they are.
+constexpr int least_usual = -64, greatest_usual = 96, usual_difference = 20;
+/// The exponent that the greatest coordinates get: high, so that no small coordinate underflows.
+constexpr int wanted = 90;
+/// The scale of queries with a distance is a multiple of this, so that few kernel calls have them
+/// all.
+constexpr int step = 64;
+constexpr int greatest_scale = 1000;
+
+/// Powers of two for the axes.
+using Scale = std::array<int, axes>;
+
+/// The exponent of the greatest coordinate of an axis; empty if all are 0.
+std::optional<int> exponent_of(const Query& query, std::size_t axis) {
+  double greatest = 0.0;
+  for (std::size_t i = axis; i < query.coordinates.size(); i += axes) {
+    greatest = std::max(greatest, std::abs(query.coordinates[i]));
+  }
+  if (greatest == 0.0 || !std::isfinite(greatest)) return std::nullopt;
+  return std::ilogb(greatest);
+}
+
+/// A scale for a query of unusual size, if it has a size.
+std::optional<Scale> scale_for(const Query& query, double distance) {
+  int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::min();
+  Scale exponents{};
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    const std::optional<int> exponent = exponent_of(query, axis);
+    exponents[axis] = exponent.value_or(wanted);
+    if (!exponent) continue;
+    least = std::min(least, *exponent);
+    most = std::max(most, *exponent);
+  }
+  if (distance > 0.0) most = std::max(most, std::ilogb(distance));
+  if (most < least) return std::nullopt;
+  const bool is_usual = least_usual <= most && most <= greatest_usual;
+  Scale result;
+  if (distance > 0.0) {
+    if (is_usual) return std::nullopt;
+    const int exponent = (wanted - most) & ~(step - 1);  // a multiple of the step, not above that
+    result.fill(std::min(exponent, greatest_scale));
+    return result;
+  }
+  if (is_usual && most - least <= usual_difference) return std::nullopt;
+  std::ranges::transform(exponents, result.begin(),
+                         [](int exponent) { return std::min(wanted - exponent, greatest_scale); });
+  return result;
+}
+
+/// x times 2^exponent, if that is exact.
+bool scale(double& x, int exponent) {
+  const double before = x;
+  x *= std::ldexp(1.0, exponent);
+  return x * std::ldexp(1.0, -exponent) == before;
+}
+
+bool scale(Query& query, const Scale& exponents) {
+  bool is_exact = true;
+  for (std::size_t i = 0; i < query.coordinates.size(); ++i) {
+    is_exact &= scale(query.coordinates[i], exponents[i % axes]);
+  }
+  return is_exact;
+}
+
+/// Scaled queries of a block with one distance.
+struct Rescaled {
+  double distance;
+  std::vector<Query> queries;
+  std::vector<std::uint32_t> numbers;  ///< in the block
+};
+
+/// Collects queries with one distance.
+class Batches {
+ public:
+  void add(double distance, const Query& query, std::uint32_t number) {
+    auto batch = std::ranges::find(batches_, distance, &Rescaled::distance);
+    if (batch == batches_.end()) batch = batches_.insert(batch, {distance, {}, {}});
+    batch->queries.push_back(query);
+    batch->numbers.push_back(number);
+  }
+  [[nodiscard]] const std::vector<Rescaled>& all() const { return batches_; }
+
+ private:
+  std::vector<Rescaled> batches_;
+};
+
+template <class T>
+void append(KernelOutput::List<T>& list, const T& item) {
+  list.items[list.count++] = item;
+}
+
+/// Runs the kernel on scaled queries and appends its results.
+void decide(const Rescaled& some, KernelInput block, const CertifiedKernel& kernel,
+            KernelOutput& output) {
+  thread_local KernelOutput result;
+  block.count = some.queries.size();
+  block.queries = some.queries.data();
+  block.axis_is_done = false;
+  block.separation.distance = some.distance;
+  kernel.decide(block, result);
+  const auto move = [&](auto list) {
+    const auto& from = result.*list;
+    for (std::size_t i = 0; i < from.count; ++i) {
+      append(output.*list, some.numbers[from.items[i]]);
+    }
+  };
+  move(&KernelOutput::separated_in_direction);
+  move(&KernelOutput::one_sided);
+  move(&KernelOutput::rejected);
+  move(&KernelOutput::undecided);
+  for (std::size_t i = 0; i < result.impacts.count; ++i) {
+    KernelImpact impact = result.impacts.items[i];
+    impact.index = some.numbers[impact.index];
+    append(output.impacts, impact);
+  }
+}
+
+}  // namespace
+
+void decide_rescaled(const KernelInput& block, const CertifiedKernel& kernel,
+                     std::span<const Query> queries, KernelOutput& output) {
+  Batches batches;
+  output.undecided.count = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    // The list is written over: never more items than have been read.
+    const std::uint32_t number = output.undecided.items[i];
+    Query query = queries[i];
+    double distance = block.separation.distance;
+    const std::optional<Scale> exponents = scale_for(query, distance);
+    if (exponents && scale(query, *exponents) && scale(distance, exponents->front())) {
+      batches.add(distance, query, number);
+    } else {
+      append(output.undecided, number);
+    }
+  }
+  for (const Rescaled& some : batches.all()) decide(some, block, kernel, output);
+}
+
+}  // namespace touchstone::fast
