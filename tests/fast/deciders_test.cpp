@@ -63,7 +63,7 @@ void solve_points(Kind kind, std::span<const Query> queries, std::span<Certified
                   const CertifiedOptions& options) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const auto p = [&](std::size_t end, std::size_t k) { return queries[i].point(end, k); };
-    const auto solve = kind == Kind::vertex_face ? &point_triangle : &edge_edge;
+    const auto solve = kind == Kind::vertex_face ? &solve_vertex_face : &solve_edge_edge;
     results[i] =
         solve(p(0, 0), p(0, 1), p(0, 2), p(0, 3), p(1, 0), p(1, 1), p(1, 2), p(1, 3), options);
   }
@@ -336,7 +336,7 @@ TEST_P(Deciders, AreRightAtSeparations) {
 }
 
 INSTANTIATE_TEST_SUITE_P(On, Deciders, testing::ValuesIn(query_families()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace touchstone::fast::deciders_test

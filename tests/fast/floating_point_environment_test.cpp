@@ -189,7 +189,7 @@ void ask_step(Bits& bits, const Step& step) {
     const auto limit = line_search_limit(step, 0.5, {.start_distance = start});
     put(bits, limit.status, limit.step_size, limit.distance);
   }
-  for (const ActiveContact& one : active_set(step, 0x1p-130)) {
+  for (const ActiveContact& one : active_set(step, {.distance = 0x1p-130, .norm = Norm::l2})) {
     put(bits, static_cast<const StepCollision&>(one));
     for (const Eigen::Vector3d& x : {one.first, one.second, one.normal}) {
       put(bits, x[0], x[1], x[2]);
@@ -225,8 +225,8 @@ std::function<Bits()> of_floats() {
     for (const auto& [scene, places] : scenes) {
       const auto& [start, end] = places;
       ask_step(bits, Step(start, end, scene.elements()));
-      put(bits, edge_edge(start.row(0), start.row(1), start.row(2), start.row(3), end.row(0),
-                          end.row(1), end.row(2), end.row(3)));
+      put(bits, solve_edge_edge(start.row(0), start.row(1), start.row(2), start.row(3), end.row(0),
+                                end.row(1), end.row(2), end.row(3)));
     }
     return bits;
   };
@@ -290,9 +290,9 @@ TEST_P(FloatingPointEnvironment, DoesNotMatterAndStays) {
 INSTANTIATE_TEST_SUITE_P(Of, FloatingPointEnvironment,
                          testing::Combine(testing::ValuesIn(all_answers()),
                                           testing::ValuesIn(states())),
-                         [](const auto& info) {
-                           return std::get<0>(info.param).name + "_with_" +
-                                  std::get<1>(info.param).name;
+                         [](const auto& tested) {
+                           return std::get<0>(tested.param).name + "_with_" +
+                                  std::get<1>(tested.param).name;
                          });
 
 }  // namespace

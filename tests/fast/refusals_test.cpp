@@ -72,7 +72,7 @@ std::vector<Refusal> of_solver(const std::string& name, const std::vector<double
            })},
           {name + "_of_points", bad, with([](const auto& o) {
              const Eigen::Vector3d at(1, 2, 3);
-             (void)point_point(at, at, at, at, o);
+             (void)solve_vertex_vertex(at, at, at, at, o);
            })},
           {name + "_of_step", bad, with([](const auto& o) {
              (void)step({.separation = o.separation,
@@ -86,7 +86,8 @@ std::vector<Refusal> refusals() {
   std::vector<Refusal> all{
       {"separation_of_another_step", no_distance,
        [](double x) { (void)step().with_separation({.distance = x}); }},
-      {"eta_of_active_set", no_distance, [](double x) { (void)active_set(step(), x); }},
+      {"distance_of_active_set", no_distance,
+       [](double x) { (void)active_set(step(), {.distance = x}); }},
       {"separation_of_broad_phase", no_distance,
        [](double x) {
          (void)edge_edge_candidates(step().vertices(), step().edges(),
@@ -144,7 +145,7 @@ TEST_P(Refused, OutOfRange) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Is, Refused, testing::ValuesIn(refusals()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 /// Spans of results that do not fit the queries.
 TEST(Refusals, OfSpansOfOtherLengths) {

@@ -59,7 +59,7 @@ using MakeBounds = std::vector<fast::VertexBounds>(const fast::MovingVertices&, 
                                                    double distance);
 using ExactDistance = fast::Distance(Kind, const Query&, double, Norm);
 using FilteredDistance = std::optional<fast::Distance>(Kind, const Query&, double, Norm);
-using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, double, Norm);
+using FindActive = std::vector<fast::ActiveContact>(const fast::Step&, const Separation&);
 using LimitStep = fast::LineSearchLimit(const fast::Step&, double, const fast::LineSearchOptions&);
 using Check = checker::Report(std::istream&, const checker::Options&);
 using DecideExactly = std::optional<fast::ExactImpact>(Kind, const Query&, const Separation&,

@@ -97,7 +97,7 @@ namespace touchstone::tests {
                               .collisions = 10,
                               .false_positives = 0,
                               .false_negatives = 4,
-                              .worst = "false negative",
+                              .worst = verify::judge::Fault::false_negative,
                               .worst_rate = 0.4,
                               .nanoseconds = 7.0});
   return report;

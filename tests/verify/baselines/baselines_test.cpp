@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(Are, Baselines, testing::ValuesIn([] {
                            }
                            return each;
                          }()),
-                         [](const auto& info) { return std::string(info.param->name); });
+                         [](const auto& tested) { return std::string(tested.param->name); });
 
 }  // namespace
 }  // namespace touchstone::baselines::baselines_test

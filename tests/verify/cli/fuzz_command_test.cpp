@@ -92,7 +92,8 @@ TEST_F(FuzzTool, HoldsAPluginToExactnessAndWritesWhatItFinds) {
     if (!exact.empty()) arguments.push_back(exact);
     return finish(start(arguments));
   };
-  EXPECT_EQ(certify("").status, 0);
+  const Outcome judged = certify("");
+  EXPECT_EQ(judged.status, 0) << judged.out << judged.err;
   EXPECT_GE(json("c").at("labels"), 3);
   EXPECT_EQ(certify("--exact").status, 1);
 }

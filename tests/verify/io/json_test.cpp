@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "tests/support/folder_test.hpp"
-#include "verify/data/dataset_error.hpp"
+#include "verify/io/dataset_error.hpp"
 
 namespace touchstone::verify::io::json_test {
 namespace {
@@ -40,7 +40,7 @@ TEST_F(JsonFile, IsReadUpToADepthAndASize) {
     std::ofstream(path("a.json")) << text;
     try {
       static_cast<void>(read_json(path("a.json"), most_bytes));
-    } catch (const data::DatasetError& error) {
+    } catch (const DatasetError& error) {
       return std::string(error.what()).substr(path("").size());
     }
     return std::string();

@@ -219,7 +219,7 @@ TEST(Bench, CountsStagesOfSolversThatHaveThem) {
   EXPECT_EQ(result.solvers[0].stages,
             (std::vector<solvers::StageCount>{{"first", 39}, {"second", 1}}));
   EXPECT_TRUE(result.solvers[1].stages.empty());
-  EXPECT_EQ(result.solvers[0].judgement.undecided, 40U);
+  EXPECT_EQ(result.solvers[0].judgement.undecided(), 40U);
 }
 
 // ---- Speed --------------------------------------------------------------------------------------

@@ -71,8 +71,8 @@ TEST(Stream, ABlockHoldsWhatTheSourceSays) {
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_EQ(block.queries[i].coordinates[0], static_cast<double>(i));
       EXPECT_EQ(block.indices[i], i);
-      EXPECT_EQ(block.claims[i].collides, i % 2 == 0);
-      EXPECT_EQ(block.claims[i].toi, exact::Rational(static_cast<unsigned long>(i)));
+      EXPECT_EQ(block.labels[i].collides, i % 2 == 0);
+      EXPECT_EQ(block.labels[i].toi, exact::Rational(static_cast<unsigned long>(i)));
     }
     return {.in_order = [&] { ++blocks; }};
   };

@@ -333,7 +333,7 @@ TEST(Solver, ACrashInABenchmarkCostsAQuery) {
   const jobs::SolverResult& said = result.solvers.at(0);
   EXPECT_EQ(said.queries, 8U);
   EXPECT_EQ(said.judgement.count(judge::Fault::crash), 1U);
-  EXPECT_EQ(said.judgement.count(judge::Fault::error), 1U);
+  EXPECT_EQ(said.judgement.errors(), 1U);
   ASSERT_EQ(said.judgement.wrong_answers.size(), 1U);
   EXPECT_EQ(said.judgement.wrong_answers[0].answer, "crash: SIGSEGV");
   EXPECT_GT(said.times.median(), 0.0);

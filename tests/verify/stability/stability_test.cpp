@@ -176,7 +176,7 @@ TEST(MeasureStability, IsTheSameForAnyNumberOfThreads) {
     const judge::Judgement& a = one.cells[i].judged.methods.at(0).judgement;
     const judge::Judgement& b = three.cells[i].judged.methods.at(0).judgement;
     EXPECT_EQ(a.faults, b.faults);
-    EXPECT_EQ(a.undecided, b.undecided);
+    EXPECT_EQ(a.undecided(), b.undecided());
     ASSERT_EQ(a.toi_errors.count(), b.toi_errors.count());
     if (a.toi_errors.count() != 0) {
       EXPECT_EQ(a.toi_errors.max(), b.toi_errors.max());
