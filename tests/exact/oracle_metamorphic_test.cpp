@@ -1,5 +1,10 @@
 /// \file
 /// Changes of a query that keep its truth, or change it in a known way.
+///
+/// Renaming points, invertible linear maps of space and a common motion of all points change no
+/// root of F: verdict and toi stay. Reversing time keeps the verdict. Cutting time at τ maps
+/// contact at t to contact at t/τ or (t−τ)/(1−τ). None of this requires the answer. Every change is
+/// exact; if that is impossible in doubles, the query is left out and counted.
 
 #include <gtest/gtest.h>
 
