@@ -1,6 +1,6 @@
 /// \file
-/// Queries that some solver once answered wrongly, found by the fuzzer and made as simple as they get
-/// (tests/corpus/README.md): no solver of ours is to answer one wrongly again.
+/// Queries that a solver once answered wrongly, found by the fuzzer and simplified
+/// (tests/corpus/README.md): none of our solvers answers one wrongly.
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 namespace touchstone::verify::data::npy_header_test {
 namespace {
 
-/// Reads from a text.
+/// A reader of a text.
 ReadBytes reader(std::string_view& text) {
   return [&text](std::span<char> buffer) {
     const std::size_t count = std::min(buffer.size(), text.size());

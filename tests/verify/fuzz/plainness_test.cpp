@@ -37,7 +37,7 @@ Query scaled(const Query& query, int exponent) {
 }
 
 TEST(Plainness, counts_what_it_takes_to_write_numbers) {
-  constexpr std::uint64_t rest = 8 + 2 + 1;  // a magnitude, not 0, moves
+  constexpr std::uint64_t rest = 8 + 2 + 1;  // a magnitude other than 0, in motion
   const auto length = [](double x) { return alone(x).length; };
   EXPECT_EQ(of_itself(Query{}).length, 0U);
   EXPECT_EQ(length(1.0), rest + 3);
@@ -87,7 +87,7 @@ TEST(Plainness, measures_the_drift_from_the_originals_size) {
   EXPECT_EQ(drift(-3, query), 0U);
   EXPECT_EQ(drift(5, query), 2U);
   EXPECT_EQ(drift(-7, query), 4U);
-  // Of one that is not of everyday size any such size will do.
+  // For a query far from everyday size, any such size is allowed.
   EXPECT_EQ(drift(7, scaled(query, 300)), 0U);
   EXPECT_EQ(drift(-12, scaled(query, 300)), 0U);
   EXPECT_EQ(drift(9, scaled(query, 300)), 2U);

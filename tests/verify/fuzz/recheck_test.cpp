@@ -37,7 +37,7 @@ Answer sometimes_wrong(Kind kind, const Query& query) {
   return answer;
 }
 
-/// Late by a tenth of the time that is left.
+/// An answer that is late by a tenth of the remaining time.
 Answer late(Kind kind, const Query& query) {
   Answer answer = honest(kind, query);
   answer.toi_lower += 0.1 * (1.0 - answer.toi_lower);
@@ -45,7 +45,7 @@ Answer late(Kind kind, const Query& query) {
   return answer;
 }
 
-/// The first finding of that sort in a run whose queries stay as they are.
+/// The first finding of this fault in a run without simplification.
 Finding find(const FunctionMethod& method, const FuzzOptions& options = {}) {
   FuzzOptions search = options;
   search.most_queries = 20'000;
@@ -62,7 +62,7 @@ TEST(Recheck, AsksAgainAboutAnyQuery) {
   const Finding finding = find(method);
   Recheck recheck(method, finding, {});
   EXPECT_TRUE(recheck.ask(finding.original.query));
-  // Raised first, the first point is never below what the method compares it with.
+  // The first point is raised first, and so never below the point that the method compares it with.
   EXPECT_FALSE(recheck.ask(tests::over_triangle(8, 8, 1, -1).query));
   Query infinite = finding.original.query;
   infinite.coordinates.front() = HUGE_VAL;
@@ -101,7 +101,7 @@ TEST(Recheck, KnowsCrashesHangsAndMissingBounds) {
 
 // ---- Making simpler -----------------------------------------------------------------------------
 
-/// Is all of the case about its query, as the method and the oracle see that?
+/// Expects that all parts of the case agree with its query, by the method and the oracle.
 void expect_consistent(const Finding& finding, const FailingCase& failing,
                        const FunctionMethod::Function& function) {
   const Answer answer = function(finding.kind, failing.query);
@@ -138,7 +138,7 @@ TEST(Simplify, keeps_answer_truth_and_certificate_with_their_query) {
 TEST(Simplify, says_if_the_time_was_too_short) {
   const FunctionMethod method(late, Promise::conservative);
   const Finding found = find(method);
-  // A clock that goes on whenever somebody looks.
+  // A clock that advances at each reading.
   for (const double step : {1.0, 0.2, 0.05}) {
     double now = 0.0;
     const base::Deadline deadline(1.0, [&now, step] { return now += step; });
@@ -167,7 +167,7 @@ TEST(Simplify, says_if_the_method_is_not_wrong_alone) {
   EXPECT_EQ(finding.simplest.query, finding.original.query);
 }
 
-/// It was asked twice before it was a finding, which takes as long as a hang does.
+/// The method was asked twice before the finding, and a repetition may cost as much as a hang.
 TEST(Simplify, does_not_ask_again_about_what_crashed) {
   tests::SharedCounter asked;
   Query crashing = tests::over_triangle(1, 1, 1, -1).query;

@@ -21,7 +21,7 @@ namespace {
 
 using fast::Promise;
 
-/// A vertex that falls through a triangle: they touch at t = 1/3.
+/// A vertex that falls through a triangle, with contact at t = 1/3.
 Reproduction miss() {
   return {.what = judge::Fault::false_negative,
           .kind = Kind::vertex_face,
@@ -33,7 +33,7 @@ Reproduction miss() {
                      .query_limit_seconds = 10.0}};
 }
 
-/// Two edges that come within 0.1 of each other, and are asked for 0.09.
+/// Two edges that come within 0.1 of each other, with a tolerance of 0.09.
 Reproduction claim() {
   return {.what = judge::Fault::false_positive,
           .kind = Kind::edge_edge,
@@ -133,7 +133,7 @@ TEST(AsCommand, names_all_that_the_solver_was_asked_with) {
                            " --min-separation 0 --norm linf --query-limit 10");
 }
 
-/// A dataset's labels are about contact itself, unless more is said.
+/// A dataset's labels are about contact without separation.
 TEST(AsCommand, writes_no_label_with_a_separation) {
   const std::vector<std::string> lines = lines_of(as_command(claim()));
   EXPECT_EQ(lines[1], "0,1,0,1,0,1");
@@ -170,7 +170,7 @@ TEST(AsCommand, tells_findings_apart) {
   EXPECT_NE(name_of(other), name_of(miss()));
 }
 
-// ---- Of a finding -------------------------------------------------------------------------------
+// ---- Reproductions of findings ------------------------------------------------------------------
 
 TEST(ReproductionOf, is_about_the_simplest_query_and_who_is_wrong) {
   Finding finding;

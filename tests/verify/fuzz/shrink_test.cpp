@@ -52,7 +52,7 @@ std::vector<PosedQuery> random_queries(std::uint64_t seed, int count) {
 
 // ---- Known ends ---------------------------------------------------------------------------------
 
-/// Only these numbers, 0 and 1, and elements that are some.
+/// Expects only these numbers, 0 and 1, and no degenerate primitives.
 void expect_plain(Kind kind, const Query& query, std::vector<double> numbers = {}) {
   EXPECT_EQ(degeneracy(kind, query), 0U) << PosedQuery{kind, query};
   numbers.push_back(1.0);
@@ -117,7 +117,7 @@ TEST(Shrink, keeps_coordinates_equal_that_must_be) {
   expect_plain(Kind::vertex_face, least);
 }
 
-/// A fault that shows at one scale only is shown there, and one that shows at all where it was met.
+/// A fault of one scale is shown at that scale, and a fault of all scales at the original one.
 TEST(Shrink, stays_at_the_originals_scale) {
   const Query base = tests::over_triangle(1, 1, 1, -2).query;
   for (const double scale : {0.013, 1.0, 87.0}) {
@@ -161,7 +161,7 @@ TEST(Shrink, comes_back_from_the_ends_of_the_range) {
 
 // ---- Faults of methods --------------------------------------------------------------------------
 
-/// The certified solver as if floats were enough.
+/// True if the certified solver misses the query after rounding to floats.
 bool is_missed_in_float(Kind kind, const Query& query) {
   Query rounded = query;
   for (double& x : rounded.coordinates) x = static_cast<double>(static_cast<float>(x));
@@ -180,7 +180,7 @@ TEST(Shrink, makes_findings_of_a_method_short) {
     const auto is_missed = [&](const Query& other) { return is_missed_in_float(kind, other); };
     const Query least = shrink(kind, query, is_missed);
     EXPECT_TRUE(is_missed(least)) << PosedQuery{kind, least};
-    // Contact by a hair, which hardly any change of one coordinate leaves.
+    // Narrow contact, which hardly any change of one coordinate preserves.
     EXPECT_LE(length_of(kind, least), 600U) << PosedQuery{kind, least};
     EXPECT_GE(length_of(kind, query), 1400U);
   }
@@ -188,8 +188,7 @@ TEST(Shrink, makes_findings_of_a_method_short) {
 }
 
 TEST(Shrink, leaves_little_of_a_missed_start) {
-  // A fault of all solvers that look for a sign to change: who touches from the beginning is
-  // missed.
+  // A fault of all solvers that search for a change of sign: contact from the start is missed.
   const auto is_missed = [](const Query& query) {
     const exact::Decision truth = exact::decide(Kind::vertex_face, query);
     return truth.collides() && truth.toi->enclosure().upper == 0.0;
@@ -220,9 +219,9 @@ TEST(Shrink, finds_small_integers_for_a_time_of_impact) {
   }
 }
 
-// ---- What holds of every run --------------------------------------------------------------------
+// ---- Properties of every run --------------------------------------------------------------------
 
-/// Some condition that depends on many coordinates: a hash of the rounded differences.
+/// A condition that depends on many coordinates: a hash of the rounded differences.
 Predicate fickle(std::uint64_t seed) {
   return [seed](const Query& query) {
     double sum = static_cast<double>(seed % 7U);

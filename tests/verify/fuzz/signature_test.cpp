@@ -34,7 +34,8 @@ Finding finding_of(Kind kind, const Query& query) {
 
 const Query falling = tests::over_triangle(1, 1, 1, -2).query;  // its size is 2^2
 
-/// Misses everything whose greatest coordinate is in a range of binary exponents.
+/// The range of a method that misses all queries whose greatest coordinate is in a range of binary
+/// exponents.
 ScaleRange range_of_misses(int from, int to, const FuzzOptions& options = {}) {
   const FunctionMethod method(
       [from, to](Kind kind, const Query& query) {

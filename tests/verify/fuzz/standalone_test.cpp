@@ -10,13 +10,13 @@
 #include "tests/support/tool_test.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 
-// The golden files are compiled here as they would be by others: standalone_plugin.cpp as a
-// program, the other two against declarations of the public interfaces (public/).
+// Tests that compile the golden files as users do: standalone_plugin.cpp as a program, the other
+// two against declarations of the public interfaces (public/).
 
 namespace touchstone::verify::fuzz::standalone_test {
 namespace {
 
-/// A vertex that falls through a triangle: they touch at t = 1/3.
+/// A vertex that falls through a triangle, with contact at t = 1/3.
 Reproduction miss() {
   return {.what = judge::Fault::false_negative,
           .kind = Kind::vertex_face,
@@ -38,7 +38,7 @@ Reproduction miss_of_edges() {
   return result;
 }
 
-/// The file, behind its first line, which keeps it from being formatted.
+/// The file after its first line, which turns formatting off.
 std::string golden(const std::string& name) {
   const std::string text =
       data::test::contents(tests::source_folder() + "/tests/verify/fuzz/" + name);
@@ -98,7 +98,7 @@ TEST(CallInterface, has_a_name_and_follows_from_the_solver) {
 
 class Standalone : public tests::ToolTest {};
 
-/// As their authors run it: with a plugin that says yes and misses nothing, and without one.
+/// The program runs with a plugin that always says yes, which misses no collision, and without one.
 TEST_F(Standalone, asks_a_plugin) {
   const std::filesystem::path beside = tests::plugin_library("always_yes");
   const std::string program = (beside.parent_path() / "standalone_plugin").string();
@@ -115,7 +115,7 @@ TEST_F(Standalone, asks_a_plugin) {
   EXPECT_EQ(finish(start({path("none.so")}, to_file, program)).status, 2);
 }
 
-/// Linked with our adapter, which is right.
+/// The program is linked with our adapter, which is right.
 TEST_F(Standalone, asks_through_the_interface_of_tight_inclusion) {
   const std::filesystem::path folder =
       std::filesystem::path(tests::plugin_library("always_yes")).parent_path();

@@ -26,7 +26,7 @@ void for_each_query(Query (*make)(Kind, Random&), int count, const Use& use) {
   }
 }
 
-/// Decimal digits of the number, or of the float that it is.
+/// The decimal digits of the number, or of the float that it equals.
 int digits_of(double x) {
   const auto as_float = static_cast<float>(x);
   const int as_double = shortest_decimal(x).count;

@@ -45,7 +45,7 @@ TEST(Workload, PatchesAreTwoGridsOfTriangles) {
   const mesh::MovingMesh mesh = moving_patches({.seed = 5, .cells = 3});
   EXPECT_EQ(mesh.vertices.size(), 2U * 16);
   EXPECT_EQ(mesh.faces.size(), 2U * 18);
-  // Of each grid: 3·4 along either axis, and a diagonal a cell.
+  // Edges of each grid: 3·4 along either axis, and a diagonal in each cell.
   EXPECT_EQ(mesh.edges.size(), 2U * (24 + 9));
   for (const fast::Face& face : mesh.faces) {
     const auto [least, greatest] = std::ranges::minmax(face);
