@@ -136,7 +136,7 @@ TYPED_TEST(EveryBound, TakesZerosOfBothSigns) {
   });
 }
 
-// ---- Bounds of differences of coordinates, and of products, by classes where there are any -------
+// ---- Bounds of differences of coordinates and of products, by classes if there are any ----------
 
 /// A difference of two doubles: exact, rounded, and as a pair.
 struct Difference {

@@ -120,7 +120,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
   EXPECT_TRUE(tests::is_true(*claim));
 }
 
-TEST(Simplify, keeps_answer_truth_and_certificate_with_their_query) {
+TEST(Simplify, KeepsAnswerTruthAndCertificateWithTheirQuery) {
   const FunctionMethod method(late, Promise::conservative);
   Finding finding = find(method);
   EXPECT_EQ(finding.what, judge::Fault::late_toi);
@@ -135,7 +135,7 @@ TEST(Simplify, keeps_answer_truth_and_certificate_with_their_query) {
   EXPECT_NE(finding.simplest.certificate, finding.original.certificate);
 }
 
-TEST(Simplify, says_if_the_time_was_too_short) {
+TEST(Simplify, SaysIfTheTimeWasTooShort) {
   const FunctionMethod method(late, Promise::conservative);
   const Finding found = find(method);
   // A clock that advances at each reading.
@@ -150,7 +150,7 @@ TEST(Simplify, says_if_the_time_was_too_short) {
   }
 }
 
-TEST(Simplify, ends_when_the_run_is_stopped) {
+TEST(Simplify, EndsWhenTheRunIsStopped) {
   const FunctionMethod method(late, Promise::conservative);
   Finding finding = find(method);
   const std::atomic<bool> stop = true;
@@ -159,7 +159,7 @@ TEST(Simplify, ends_when_the_run_is_stopped) {
   EXPECT_EQ(finding.simplest.query, finding.original.query);
 }
 
-TEST(Simplify, says_if_the_method_is_not_wrong_alone) {
+TEST(Simplify, SaysIfTheMethodIsNotWrongAlone) {
   const FunctionMethod wrong(late, Promise::conservative), right(honest, Promise::conservative);
   Finding finding = find(wrong);
   simplify(right, {}, {}, finding);
@@ -168,7 +168,7 @@ TEST(Simplify, says_if_the_method_is_not_wrong_alone) {
 }
 
 /// The method was asked twice before the finding, and a repetition may cost as much as a hang.
-TEST(Simplify, does_not_ask_again_about_what_crashed) {
+TEST(Simplify, DoesNotRepeatACrash) {
   tests::SharedCounter asked;
   Query crashing = tests::over_triangle(1, 1, 1, -1).query;
   const FunctionMethod method([&](Kind kind, const Query& query) {
@@ -186,7 +186,7 @@ TEST(Simplify, does_not_ask_again_about_what_crashed) {
   EXPECT_EQ(finding.simplest.query, crashing);
 }
 
-TEST(Simplify, leaves_a_hang_alone_that_takes_longer_than_there_is_time) {
+TEST(Simplify, DoesNotRepeatAHangLongerThanTheTime) {
   const FunctionMethod method([](Kind, const Query&) -> Answer { std::abort(); });
   Finding finding;
   finding.what = judge::Fault::hang;

@@ -45,14 +45,14 @@ std::string golden(const std::string& name) {
   return text.substr(text.find('\n') + 1);
 }
 
-TEST(AsMain, is_what_is_compiled_here) {
+TEST(AsMain, IsTheProgramThatIsCompiledHere) {
   EXPECT_EQ(as_main(miss(), CallInterface::plugin), golden("standalone_plugin.cpp"));
   EXPECT_EQ(as_main(miss_of_edges(), CallInterface::ticcd), golden("standalone_ticcd.cpp"));
   EXPECT_EQ(as_main(miss_of_edges(), CallInterface::ipc_toolkit),
             golden("standalone_ipc_toolkit.cpp"));
 }
 
-TEST(AsMain, includes_nothing_of_ours_and_is_short) {
+TEST(AsMain, IncludesNothingOfOursAndIsShort) {
   for (const CallInterface interface :
        {CallInterface::plugin, CallInterface::ticcd, CallInterface::ipc_toolkit}) {
     const std::string text = as_main(miss(), interface);
@@ -63,7 +63,7 @@ TEST(AsMain, includes_nothing_of_ours_and_is_short) {
   }
 }
 
-TEST(AsMain, ends_with_one_for_what_was_found) {
+TEST(AsMain, EndsWithOneForTheFinding) {
   const auto has = [](judge::Fault what, const std::string& part) {
     Reproduction found = miss();
     found.what = what;
@@ -84,7 +84,7 @@ TEST(AsMain, ends_with_one_for_what_was_found) {
   has(judge::Fault::crash, "  return 0;\n");
 }
 
-TEST(CallInterface, has_a_name_and_follows_from_the_solver) {
+TEST(CallInterface, HasANameAndFollowsFromTheSolver) {
   for (const CallInterface interface :
        {CallInterface::plugin, CallInterface::ticcd, CallInterface::ipc_toolkit}) {
     EXPECT_EQ(call_interface_from_string(to_string(interface)), interface);
@@ -99,7 +99,7 @@ TEST(CallInterface, has_a_name_and_follows_from_the_solver) {
 class Standalone : public tests::ToolTest {};
 
 /// The program runs with a plugin that always says yes, which misses no collision, and without one.
-TEST_F(Standalone, asks_a_plugin) {
+TEST_F(Standalone, AsksAPlugin) {
   const std::filesystem::path beside = tests::plugin_library("always_yes");
   const std::string program = (beside.parent_path() / "standalone_plugin").string();
   const tests::Outcome right =
@@ -116,7 +116,7 @@ TEST_F(Standalone, asks_a_plugin) {
 }
 
 /// The program is linked with our adapter, which is right.
-TEST_F(Standalone, asks_through_the_interface_of_tight_inclusion) {
+TEST_F(Standalone, AsksThroughTheInterfaceOfTightInclusion) {
   const std::filesystem::path folder =
       std::filesystem::path(tests::plugin_library("always_yes")).parent_path();
   const tests::Outcome right = finish(start({}, to_file, (folder / "standalone_ticcd").string()));
