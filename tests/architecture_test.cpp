@@ -561,7 +561,7 @@ TEST(PlantedFault, IsReportedWithItsLine) {
             (Violations{"fast/solver.cpp:4: gmp.h", "fast/solver.cpp:6: exact/oracle.hpp"}));
 }
 
-TEST(PlantedFault, PermittedIncludesAreNone) {
+TEST(PlantedFault, PermittedIncludesAreNotFaults) {
   const std::vector<Planted> files{
       {"exact/query.hpp", "#include <Eigen/Core>\n#include <span>\n"},
       {"exact/checker/proof.cpp", "#include \"exact/checker/proof.hpp\"\n#include <gmpxx.h>\n"},

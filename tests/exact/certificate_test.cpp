@@ -325,7 +325,7 @@ TEST(Prove, AnyFiniteDoublesHaveACertificate) {
   }
 }
 
-TEST(Prove, MissesByAHairHaveACertificate) {
+TEST(Prove, NearMissesHaveACertificate) {
   // A vertex passes a triangle that is a point, a segment or a face, at this distance.
   for (const double gap : {0x1p-50, 0x1p-200, 0x1p-500, 0x1p-1000}) {
     for (const std::array<double, 9>& face :

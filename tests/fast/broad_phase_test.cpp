@@ -239,7 +239,7 @@ Scene vertex_beside_triangle(double x) {
   return scene;
 }
 
-TEST(BroadPhase, TouchingBoxesAreCandidatesAndTheNextDoubleIsNot) {
+TEST(BroadPhase, BoxesInContactAreCandidatesAndTheNextDoubleIsNot) {
   EXPECT_EQ(found_vertex_face(vertex_beside_triangle(1)), (Pairs{{0, 0}}));
   EXPECT_EQ(found_vertex_face(vertex_beside_triangle(std::nextafter(1, 2))), Pairs{});
   EXPECT_EQ(found_vertex_face(vertex_beside_triangle(-tiniest)), Pairs{});

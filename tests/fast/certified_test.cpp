@@ -110,7 +110,7 @@ TEST(Certified, EveryStageIsReachedAndNamed) {
   EXPECT_EQ(to_string(Stage::exact), "exact");
 }
 
-TEST(Certified, AStepToTheLowerEndNeverTouches) {
+TEST(Certified, AStepToTheLowerEndIsFree) {
   // The toi is a double, but the lower end is below it, however narrow the enclosure.
   for (const double tolerance : {1e-12, 1e-15, 0.0, 0.1}) {
     const CertifiedResult result = solve(over_triangle(1, 1, 1, -1), {.toi_tolerance = tolerance});
@@ -154,7 +154,7 @@ TEST(Certified, TheUpperEndMayLieBeyondTMax) {
 
 // ---- Errors -------------------------------------------------------------------------------------
 
-TEST(Certified, WhatIsNoNumberIsAnErrorOfItsQueryAlone) {
+TEST(Certified, CoordinatesThatAreNotFiniteAreAnErrorOfTheirQueryAlone) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const double bad : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
       for (std::size_t place = 0; place < 24; ++place) {
@@ -329,7 +329,7 @@ TEST(Certified, NothingIsEarliestWhereNothingCollides) {
   EXPECT_EQ(earliest(still, candidates).has_value(), any);
 }
 
-TEST(Certified, RefusesCandidatesThatAreNone) {
+TEST(Certified, RefusesInvalidCandidates) {
   const Sheets sheets(3);
   const MovingVertices vertices(sheets.start, sheets.end);
   Candidates candidates = sheets.candidates(Kind::vertex_face);

@@ -369,7 +369,7 @@ TEST(LeastDistance, IsAsExactForPrimitivesFarFromEachOther) {
   }
 }
 
-TEST(LeastDistance, OfNoPairIsNone) {
+TEST(LeastDistance, OfNoPairIsEmpty) {
   tests::Scene scene = two_triangles(1.0);
   scene.groups = std::vector<std::int32_t>(6, 0);
   scene.apart = {{0, 0}};

@@ -89,7 +89,7 @@ TEST(LineSearch, IsWholeIfNothingComesNear) {
   }
 }
 
-TEST(LineSearch, SaysWhatTouchesAtTheStart) {
+TEST(LineSearch, NamesPairsInContactAtTheStart) {
   for (const StartDistance start : {StartDistance::of_scene, StartDistance::of_pair}) {
     const auto limit =
         line_search_limit(falling_triangle(0.0, 1.0).step(), 0.5, {.start_distance = start});

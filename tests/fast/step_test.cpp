@@ -308,7 +308,7 @@ TEST(Step, RefusesWhatMakesNoSense) {
             "vertex 1: a coordinate is not finite");
 }
 
-TEST(Step, HandsOnWhatATakerThrows) {
+TEST(Step, PassesOnExceptionsOfATaker) {
   Random random(185);
   const Scene scene = soup(random, 30, 0.4);
   const Step step = scene.step();

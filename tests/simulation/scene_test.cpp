@@ -56,7 +56,7 @@ TEST_P(Scenes, HaveClosedSurfacesAroundElasticBodies) {
   }
 }
 
-TEST(SceneNames, ThatAreNoneAreToldWithThoseThereAre) {
+TEST(SceneNames, UnknownOnesAreReportedWithAllNames) {
   try {
     (void)make_scene("nowhere");
     FAIL();

@@ -145,7 +145,7 @@ TEST(WriteCertificate, NamesADistanceAndWhatBelongsToIt) {
   }
 }
 
-TEST(WriteCertificate, NamesTheLeastDistanceAndNoneOfZero) {
+TEST(WriteCertificate, NamesTheLeastDistanceButNotZero) {
   Certificate certificate;
   for (const auto& [distance, line] :
        {std::pair(0x1p-1074, "\nseparation 0x0.0000000000001p-1022 linf\n"), std::pair(0.0, ""),

@@ -137,7 +137,7 @@ TEST(Separate, BreaksAtAShortNumberBetweenTwoFeatures) {
   EXPECT_EQ(separate_all(posed), expected);
 }
 
-TEST(Separate, EndsWhereItIsToldTo) {
+TEST(Separate, EndsAtTheGivenTime) {
   const auto falling = over_triangle(1, 1, 3, -1);  // contact at 3/4
   const Motion motion = scale_uniformly(falling.kind, falling.query);
   const Rational until = Rational(3, 4) - power_of_two(-300);

@@ -265,7 +265,7 @@ TEST(FloatBounds, TellCoordinatesOfAllSizesApart) {
   }
 }
 
-TEST(FloatBounds, OfNothingAreNone) {
+TEST(FloatBounds, OfNoVerticesAreEmpty) {
   const Eigen::MatrixX3d none(0, 3);
   EXPECT_EQ(FloatBounds(MovingVertices(none, none)).size(), 0U);
 }

@@ -186,7 +186,7 @@ std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
   return found;
 }
 
-TEST(CertifiedKernels, FamiliesFindNoFaultWhereThereIsNone) {
+TEST(CertifiedKernels, FamiliesFindNoFaultInTheKernels) {
   for (const CertifiedKernel* const kernel : all_kernels()) {
     EXPECT_TRUE(families_that_find(*kernel).empty()) << to_string(kernel->instructions);
   }
@@ -234,7 +234,7 @@ int distances_that_find(const CertifiedKernel& kernel) {
   return found;
 }
 
-TEST(CertifiedKernels, DistancesFindNoFaultWhereThereIsNone) {
+TEST(CertifiedKernels, DistancesFindNoFaultInTheKernels) {
   EXPECT_EQ(distances_that_find(*certified_kernels().front()), 0);
   EXPECT_EQ(distances_that_find(best_certified_kernel()), 0);
 }

@@ -164,7 +164,7 @@ TEST_P(Baselines, AnswerThePrintedQueriesAsTheyWereSeenTo) {
   expect_said("sliding-degenerate", baseline.coplanar);
 }
 
-TEST_P(Baselines, TellHitsFromWideMisses) {
+TEST_P(Baselines, TellCollisionsFromWideGaps) {
   for (const PosedQuery& collision : {over_triangle(1, 1, 1, -3), over_edge(1, 2, 1, -3)}) {
     const fast::Answer answer = answer_to(*method, collision);
     EXPECT_EQ(answer.verdict, yes) << collision;

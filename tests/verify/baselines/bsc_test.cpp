@@ -56,7 +56,7 @@ TEST(Bsc, IsRightInGeneralPositionButForInflections) {
   }
 }
 
-TEST(Bsc, ThrowsForAboutHalfOfAllHits) {
+TEST(Bsc, ThrowsForAboutHalfOfAllCollisions) {
   Random random(2);
   const int count = tests::trials(1000);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {

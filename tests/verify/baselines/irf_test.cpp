@@ -16,7 +16,7 @@ using tests::over_triangle;
 
 const std::unique_ptr<fast::Method> method = baselines::irf_method();
 
-TEST(Irf, MissesNoCentreHits) {
+TEST(Irf, MissesNoCollisionsInTheCentre) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const auto motion : {tests::Motion::independent, tests::Motion::translation}) {
       EXPECT_EQ(tests::missed_centre_hits(*method, kind, motion, {}, 40), 0);

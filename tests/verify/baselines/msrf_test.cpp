@@ -52,7 +52,7 @@ TEST(Msrf, MissesTheMoreTheSmallerItsSeparation) {
   }
 }
 
-TEST(Msrf, HasASeparationWhereNoneIsAskedFor) {
+TEST(Msrf, UsesItsDefaultSeparation) {
   EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Motion::independent, {}, collisions),
             missed_centre_hits(*method, Kind::vertex_face, Motion::independent,
                                within(msrf_default_separation), collisions));

@@ -617,7 +617,7 @@ std::string misbehave(tests::Misbehaviour what) {
   return falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
 }
 
-TEST_F(Tool, KindsOfFailureAreToldApart) {
+TEST_F(Tool, KindsOfFailureAreDistinguished) {
   using tests::Misbehaviour;
   std::string text;
   for (const auto what :
@@ -682,7 +682,7 @@ TEST_F(Tool, APluginThatEndsItsProcessOnLoadingIsBadInput) {
   ::unsetenv("TOUCHSTONE_TEST_LOADING");
 }
 
-TEST_F(Tool, WhatAPluginPrintsIsNoneOfOurs) {
+TEST_F(Tool, OutputOfAPluginIsKeptApart) {
   const std::string file = write("queries_vf.csv", misbehave(tests::Misbehaviour::prints));
   const std::vector<std::string> certify{"certify", file, "--plugin",
                                          tests::plugin_library("misbehaving")};
@@ -733,7 +733,7 @@ TEST_F(Tool, APluginThatForksOrAllocatesWithoutEndCostsAQuery) {
 }
 
 /// The plugin says yes with tolerance 0 to a query that never is in contact.
-TEST_F(Tool, AYesIsHeldToItsTolerance) {
+TEST_F(Tool, AYesIsJudgedByItsTolerance) {
   const std::string file =
       write("queries_vf.csv", misbehave(tests::Misbehaviour::yes_with_tolerance_0));
   const Outcome certify = run({"certify", file, "--plugin", tests::plugin_library("misbehaving"),
@@ -781,7 +781,7 @@ TEST_F(Tool, OurOwnAnswersCanBeReadBack) {
   EXPECT_EQ(certify.err, "");
 }
 
-TEST_F(Tool, SolversOfOneNameAreToldApartAndNamedEvenWithoutQueries) {
+TEST_F(Tool, SolversOfOneNameAreDistinguishedAndNamedEvenWithoutQueries) {
   const Outcome certify =
       run({"certify", path("missing"), "--plugin", tests::plugin_library("box_overlap"), "--plugin",
            tests::plugin_library("box_overlap"), "--json", path("result.json")});

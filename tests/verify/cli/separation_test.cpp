@@ -211,7 +211,7 @@ TEST_F(SeparationOptions, AFalseLabelOfASetIsFound) {
   EXPECT_EQ(json().at("mismatches")[0].at("index"), 1);
 }
 
-TEST_F(SeparationOptions, TightInclusionIsHeldToItsTolerance) {
+TEST_F(SeparationOptions, TightInclusionIsJudgedByItsTolerance) {
   for (const char* norm : {"linf", "l2"}) {
     EXPECT_EQ(run("certify --count 3 --max-checks 1000 --method tight_inclusion --min-separation "
                   "1e-8 --norm " +

@@ -59,7 +59,7 @@ class StepCommand : public tests::ToolTest {
   }
 };
 
-TEST_F(StepCommand, FindsWhatTouchesAndWhen) {
+TEST_F(StepCommand, FindsContactsAndTheirTimes) {
   const std::string before = above("0.obj", "1"), after = above("1.obj", "-3");
   const Outcome outcome = step({before, after, "--csv", path("pairs.csv")});
   EXPECT_EQ(outcome.status, 1) << outcome.err;

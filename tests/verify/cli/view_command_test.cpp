@@ -230,7 +230,7 @@ TEST_F(ViewCommand, ReportShowsWhatItsMethodsAnsweredWrongly) {
   EXPECT_EQ(page[1].at("answers")[1].at("solver"), "certified");
 }
 
-TEST_F(ViewCommand, StepShowsTheFirstStepInWhichSomethingTouches) {
+TEST_F(ViewCommand, StepShowsTheFirstStepThatCollides) {
   const std::string triangle = "v 0 0 0\nv 4 0 0\nv 0 4 0\n", rest = "f 1 2 3\np 4\n";
   const auto frame = [&](const std::string& name, const std::string& height) {
     return write(name, triangle + "v 1 1 " + height + "\n" + rest);
@@ -273,7 +273,7 @@ TEST_F(ViewCommand, AStepWithItsFirstPairs) {
   EXPECT_TRUE(contains(read("page.html"), R"("name":"vertex 3, face 0")"));
 }
 
-TEST_F(ViewCommand, GroupsOfAStepThatAreApartDoNotTouch) {
+TEST_F(ViewCommand, GroupsOfAStepThatAreApartDoNotCollide) {
   const auto frame = [&](const std::string& name, const std::string& height) {
     return write(
         name, "o floor\nv 0 0 0\nv 4 0 0\nv 0 4 0\nf 1 2 3\no ball\nv 1 1 " + height + "\np 4\n");

@@ -68,7 +68,7 @@ TEST(LabelReader, ReadsMoreThanItsBuffer) {
   EXPECT_EQ(labels(text + "]", 20000), expected);
 }
 
-TEST(LabelReader, PassesOverTheLabelsOfQueriesThatNobodyAsksFor) {
+TEST(LabelReader, SkipsTheLabelsOfOmittedQueries) {
   const TemporaryFolder folder;
   LabelReader reader(folder.file("f", "[false,null,true,false,true]"));
   EXPECT_TRUE(reader.at(2));

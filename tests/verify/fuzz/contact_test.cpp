@@ -71,7 +71,7 @@ TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
 }
 
 /// A rounding decides, so that both verdicts are frequent.
-TEST(Contact, RoundedIsAHitOrAMissByAHair) {
+TEST(Contact, RoundedIsBarelyACollisionOrBarelyNot) {
   int collisions = 0;
   for_each_query(rounded_contact, tests::trials(800), [&](Kind kind, const Query& query) {
     const bool collides = exact::decide(kind, query).collides();
@@ -106,7 +106,7 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
   }
 }
 
-TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
+TEST(Contact, SlidingComesNearAndSometimesCollides) {
   int collisions = 0, near = 0;
   for_each_query(sliding, tests::trials(400), [&](Kind kind, const Query& query) {
     double greatest = 0.0;

@@ -98,7 +98,7 @@ TEST(Fuzz, FindsAnUpperBoundThatIsEarly) {
   expect_found(judge::Fault::early_toi_upper, search(early, Promise::conservative));
 }
 
-TEST(Fuzz, FindsFalsePositivesOfWhatPromisesNone) {
+TEST(Fuzz, FindsFalsePositivesOfExactSolvers) {
   const auto yes = [](Kind, const Query&) { return Answer{.verdict = Verdict::yes}; };
   expect_found(judge::Fault::false_positive, search(yes, Promise::exact));
   expect_found(judge::Fault::false_positive,
@@ -153,7 +153,7 @@ TEST(Fuzz, FindsWhatIsWrongInAMirror) {
   EXPECT_FALSE(lenient.findings.empty());
 }
 
-TEST(Fuzz, FindsNumbersThatAreNone) {
+TEST(Fuzz, FindsInvalidNumbers) {
   const auto infinite = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);
     if (query.at(0, 0, 0) == query.at(1, 0, 0)) answer.toi_lower = -HUGE_VAL;
@@ -392,7 +392,7 @@ TEST(Fuzz, MutatesTheCorpus) {
   expect_found(judge::Fault::false_negative, search(wrong, Promise::none, options));
 }
 
-TEST(Fuzz, StopsWhenTold) {
+TEST(Fuzz, StopsOnRequest) {
   std::atomic<bool> stop = false;
   FuzzOptions options{.stop = &stop};
   options.on_progress = [&stop](const FuzzProgress& progress) {

@@ -110,7 +110,7 @@ TEST(Workload, RefusesPatchesWithoutACell) {
   EXPECT_THROW(static_cast<void>(moving_patches({.cells = 0})), std::invalid_argument);
 }
 
-TEST(Workload, EndContactsTouchAtOne) {
+TEST(Workload, EndContactsAreAtTheEnd) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const double scale : {0.01, 1.0, 1000.0}) {
       for (const bool two_decimals : {false, true}) {

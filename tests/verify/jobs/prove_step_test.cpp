@@ -252,7 +252,7 @@ TEST(ProveStep, EndsWhenStopped) {
   EXPECT_NE(refusal(text), "");
 }
 
-TEST(ProveStep, HandsOnWhatItsReaderThrows) {
+TEST(ProveStep, PassesOnExceptionsOfItsReader) {
   Random random(9);
   const Scene scene = with_ordered_edges(tests::soup(random, 3, 0.3));
   const fast::Step step = scene.step();

@@ -117,7 +117,7 @@ TEST(Stream, AnInterruptOfTheSourceIsNoErrorAndLosesNothingBeforeIt) {
   EXPECT_EQ(queries, 5U);
 }
 
-TEST(Stream, AnExceptionOfTheWorkEndsItAndIsTold) {
+TEST(Stream, AnExceptionOfTheWorkEndsItAndIsReported) {
   MemorySource source(Kind::edge_edge, numbered(20 * Block::size));
   std::size_t blocks = 0;
   const auto work = [&](const Block& block) -> BlockResult {

@@ -65,7 +65,7 @@ TEST(Piercings, OfAnEdgeAtACornerAreOverlapsBeyondTheCorner) {
   EXPECT_TRUE(enters_triangle({2, 0, 0})) << "along an edge";
 }
 
-TEST(Piercings, OfAFacesOwnEdgesAreNone) {
+TEST(Piercings, OfAFacesOwnEdgesDoNotExist) {
   const Vertices vertices = rows({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
   EXPECT_TRUE(find_piercings(vertices, std::vector<Edge>{{0, 1}, {2, 1}, {0, 2}},
                              std::vector<Face>{{0, 1, 2}})

@@ -186,7 +186,7 @@ TEST(CertifyReport, TextHasTheTotalOfEachMethodAndWhereItBrokeItsPromise) {
   EXPECT_EQ(lines[28], "false negative: hasty: b,c/edge-edge.csv: and 3 more");
 }
 
-TEST(CertifyReport, NobodyJudgedNoTable) {
+TEST(CertifyReport, WithoutSolversThereIsNoTable) {
   EXPECT_TRUE(method_lines(results()).empty());
   EXPECT_EQ(to_json(results()).at("methods"), nlohmann::json::array());
 }

@@ -68,7 +68,7 @@ TEST(ChildProcess, SaysHowItEnded) {
   }
 }
 
-TEST(ChildProcess, EndsWhenTold) {
+TEST(ChildProcess, EndsOnRequest) {
   const TemporaryFolder folder;
   ChildProcess child(
       [](const ChildChannel&) {

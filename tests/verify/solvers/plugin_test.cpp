@@ -300,7 +300,7 @@ TEST(Plugin, HasTimesOfImpactOnlyWithYes) {
   EXPECT_EQ(answer.tolerance, 1e-9);
 }
 
-TEST(Plugin, WhatIsNoToleranceIsDropped) {
+TEST(Plugin, InvalidTolerancesAreDropped) {
   for (const Misbehaviour what : {Misbehaviour::negative_tolerance, Misbehaviour::nan_tolerance}) {
     const Answer answer = ask_misbehaving(what);
     EXPECT_EQ(answer.verdict, Verdict::yes);
@@ -311,7 +311,7 @@ TEST(Plugin, WhatIsNoToleranceIsDropped) {
             std::numeric_limits<double>::infinity());
 }
 
-TEST(Plugin, AVerdictThatIsNoneIsAnError) {
+TEST(Plugin, AnInvalidVerdictIsAnError) {
   for (const Misbehaviour what : {Misbehaviour::verdict_too_large, Misbehaviour::verdict_negative,
                                   Misbehaviour::leaves_answer_alone}) {
     SCOPED_TRACE(static_cast<int>(what));

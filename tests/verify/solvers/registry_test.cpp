@@ -45,7 +45,7 @@ TEST(Registry, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
   }
 }
 
-TEST(Registry, EveryMethodTellsAHitFromAWideMiss) {
+TEST(Registry, EveryMethodTellsACollisionFromAWideGap) {
   const tests::PosedQuery collision = tests::over_triangle(1, 1, 1, -3);
   const tests::PosedQuery no_collision = tests::over_triangle(1, 1, 3, 1);
   const std::vector<Query> queries{collision.query, no_collision.query};

@@ -98,7 +98,7 @@ TEST(Solver, TimeIsTheProcessorTimeOfTheMethod) {
   EXPECT_GE(ask(*solver_in_children(burner, {}, {}), 10).nanoseconds(), 20e6);
 }
 
-TEST(Solver, ItIsHeldToWhatItIsToldTo) {
+TEST(Solver, ItIsJudgedByItsStatedPromise) {
   const FunctionMethod method(echo);
   const auto solver = solver_in_process(method, {});
   solver->hold_to(Promise::exact);

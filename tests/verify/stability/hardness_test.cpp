@@ -235,7 +235,7 @@ bool is_at_an_end(Kind kind, const Query& query) {
 
 /// Contacts are exactly at t=0 or t=1 at all levels, or earlier than at t=1, because a whole motion
 /// may be in contact.
-TEST(HardQueries, OfDecimalsTouchAtTheEndsMostly) {
+TEST(HardQueries, OfDecimalsCollideMostlyAtTheEnds) {
   for (const std::string_view name : {"everyday-scale", "digits", "frame"}) {
     int collisions = 0, at_ends = 0;
     for_each_query(name, 16, [&](int, Kind kind, const Query& query, bool collides) {

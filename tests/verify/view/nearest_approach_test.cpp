@@ -22,7 +22,7 @@ PosedQuery falling_to(double height) {
                             {1, 1, height, 0, 0, 0, 4, 0, 0, 0, 4, 0});
 }
 
-TEST(NearestApproach, OfWhatTouchesThereIsNone) {
+TEST(NearestApproach, OfCollidingQueriesDoesNotExist) {
   const PosedQuery colliding = falling_to(-2.0);
   EXPECT_FALSE(nearest_approach(colliding.kind, colliding.query));
 }
@@ -70,7 +70,7 @@ TEST(NearestApproach, AgreesWithTheOracleOnBothSides) {
   EXPECT_GT(asked, 50);
 }
 
-TEST(NearestApproach, OfWhatIsFartherThanEveryDoubleThereIsNone) {
+TEST(NearestApproach, BeyondEveryDoubleDoesNotExist) {
   constexpr double greatest = std::numeric_limits<double>::max();
   const PosedQuery far =
       tests::vertex_face({greatest, 0, 0, -greatest, 0, 0, -greatest, 1, 0, -greatest, 0, 1},

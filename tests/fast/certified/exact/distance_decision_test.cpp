@@ -83,7 +83,7 @@ PosedQuery beside(Kind kind, bool as_points, double z0, double z1) {
   return tests::edge_edge(at(z0), at(z1));
 }
 
-TEST(SeparatedDecision, TouchingAtTheDistanceCounts) {
+TEST(SeparatedDecision, ContactAtTheDistanceCounts) {
   for (const Kind kind : kinds) {
     for (const Norm norm : norms) {
       expect_time(over(kind, 3, -1), {1.0, norm}, 0.5);

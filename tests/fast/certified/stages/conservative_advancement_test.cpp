@@ -50,7 +50,7 @@ TEST(Separated, ContactIsAtTheDistance) {
   }
 }
 
-TEST(Separated, TouchingAtTheDistanceCountsAndBeyondDoesNot) {
+TEST(Separated, ContactAtTheDistanceCountsAndBeyondDoesNot) {
   for (const Norm norm : norms) {
     const auto verdict = [&](double height, double distance) {
       const PosedQuery posed = over_triangle(1, 1, height, height);
@@ -99,7 +99,7 @@ TEST(Separated, EveryStageIsReached) {
   }
 }
 
-TEST(Separated, WhatIsNoNumberIsAnErrorOfItsQueryAlone) {
+TEST(Separated, CoordinatesThatAreNotFiniteAreAnErrorOfTheirQueryAlone) {
   for (const Norm norm : norms) {
     for (std::size_t place = 0; place < 24; ++place) {
       std::vector<Query> queries(3, over_triangle(1, 1, 7, -1).query);
