@@ -249,7 +249,7 @@ TEST(FloatBounds, AreExactForFloats) {
 }
 
 TEST(FloatBounds, TellCoordinatesOfAllSizesApart) {
-  // A few vertices of other sizes do not cost the rest more digits: these keep 24 or, out of the
+  // A few vertices of other sizes take no digits from the rest, which keep 24 or, out of the
   // window, 18.
   for (const double size : {0x1p-1000, 0x1p-500, 1.0, 0x1p500, 0x1p1000}) {
     for (const double other : {0x1p-1030, 0x1p-700, 1.0, 0x1p700, 0x1p1020}) {

@@ -169,7 +169,7 @@ Pairs sorted(Pairs pairs) {
   return pairs;
 }
 
-/// Replaces a pair that is not sure by the truth.
+/// The confirmation of unsure pairs by the truth.
 template <std::size_t instants, class First, class Second>
 struct Truth {
   const Scene& scene;
@@ -261,7 +261,7 @@ TEST(Search, FindsExactlyThePairsThatAreNotApart) {
 }
 
 TEST(Search, MissesNothingWithoutConfirmation) {
-  // Without a filter, the count of sure pairs may exceed the truth, but is never less.
+  // Without confirmation all pairs of the truth are found, and a few others.
   Random random(22);
   for (const double distance : {0.0, 0.1, 1e-10}) {
     for (const double grain : {0.1, 0.0}) {

@@ -85,7 +85,7 @@ TEST(Gappa, TakesOperationsThatAgreeOnlyAtAVertexForDifferentOnes) {
 TEST(Gappa, ScriptsSayWhatIsComputedAndWhatIsExact) {
   const std::string script =
       gappa_script(record<Blend>(), float_format, GappaGoal::rounding, {0, 1}, mpq_class(3, 1024));
-  // x1 and w1 come first; the other product is 0 and comes last.
+  // The inputs have numbers in the order of their use; the other product is 0 and comes last.
   EXPECT_TRUE(
       script.ends_with("n2 = mul_rel<24>(x0, w1);\n"
                        "N2 = x0 * (1);\n"

@@ -66,7 +66,7 @@ TEST(Fprf, SeparatesInteriorsOnly) {
 }
 
 TEST(Fprf, AgreesWithTheTruthElsewhere) {
-  // No query of the families whose primitives a direction separates by far is a collision.
+  // Primitives that a direction separates by far do not collide.
   EXPECT_EQ(answer_to(*method, over_triangle(1, 1, 3, 1)).verdict, fast::Verdict::no);
   EXPECT_EQ(answer_to(*method, over_triangle(3, 3, 1, -1)).verdict, fast::Verdict::no);
   EXPECT_EQ(answer_to(*method, over_edge(5, 2, 1, -1)).verdict, fast::Verdict::no);

@@ -31,8 +31,8 @@ TEST(Irf, GivesNoTimes) {
 }
 
 TEST(Irf, TakesNearMissesForCollisionsWithinItsToleranceOnly) {
-  // A path past the side u + v = 1 of the face; and an edge whose end stops short of another edge,
-  // along the diagonal.
+  // A path past the side u + v = 1 of the face; and an edge whose end stops short of the other,
+  // diagonal one.
   const auto near_edges = [](double gap) {
     return tests::edge_edge({0, 0, 0, 4, 4, 0, 2.6, 0, 1, 1.3 + gap, 1.3 - gap, 1},
                             {0, 0, 0, 4, 4, 0, 2.6, 0, -1, 1.3 + gap, 1.3 - gap, -1});

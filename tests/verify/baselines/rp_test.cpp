@@ -46,8 +46,8 @@ TEST(Rp, SaysYesExactlyToOddNumbersOfRoots) {
 }
 
 TEST(Rp, FindsContactsThatItsRayStartsOn) {
-  // Contact with the face at t=0 and at t=1, with the edge's end at rest, and in a plane through
-  // the ray.
+  // Contact at t=0 and at t=1, at a corner and an edge's end, at rest, and in a plane through the
+  // ray.
   EXPECT_TRUE(says_yes(rp(), tests::over_triangle(1, 1, 0, 1)));
   EXPECT_TRUE(says_yes(rp(), tests::over_triangle(1, 1, 1, 0)));
   EXPECT_TRUE(says_yes(rp(), tests::over_triangle(0, 0, 1, -1)));

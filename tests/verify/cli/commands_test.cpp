@@ -532,8 +532,7 @@ TEST_F(Tool, AnInterruptKeepsWhatIsDone) {
 const std::string full_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure\n";
 const std::string answers_header = "file,index,kind,verdict,toi_lower,toi_upper,tolerance\n";
 
-/// A vertex-face file of a collision at t=1/4, and of a query without one that the boxes do not
-/// tell apart.
+/// A vertex-face file of a collision at t=1/4, and of a query without one whose boxes overlap too.
 std::string hit_and_miss() {
   std::string no_collision = falling_vertex("0", "-3");
   for (std::size_t at = no_collision.find("1,1,1,1,"); at != std::string::npos;

@@ -240,7 +240,7 @@ TEST_F(FuzzTool, SearchesAtASeparation) {
   const Outcome certified = finish(start({"certify", out}));
   EXPECT_EQ(certified.status, 0) << certified.out;
   EXPECT_TRUE(contains(certified.out, "0.25 (l2)")) << certified.out;
-  // A dataset holds one distance only.
+  // A folder of datasets has one separation only.
   const Outcome other = run({"--method", "certified", "--queries", "10", "--out",
                              path("contact-vertex-face.csv"), "--kind", "vertex-face"});
   EXPECT_EQ(other.status, 2);

@@ -168,7 +168,7 @@ TEST(Fuzz, FindsInvalidNumbers) {
   expect_found(judge::Fault::not_finite, search(negative, Promise::conservative));
 }
 
-/// The method gives the bound for every other collision.
+/// The method omits the bound of some collisions.
 TEST(Fuzz, FindsABoundThatIsMissing) {
   const auto forgetful = [](Kind kind, const Query& query) {
     Answer answer = honest(kind, query);

@@ -39,8 +39,8 @@ TEST(Judgement, CountsAndListsFaults) {
   add(judgement, no_collision, {.verdict = Verdict::undecided});
   add(judgement, collision(0.5, 0.5), {.verdict = Verdict::undecided});
   add(judgement, no_collision, {.verdict = Verdict::error});
-  // The time is late by less than a spacing of doubles, and so is not the printed end of the
-  // enclosure.
+  // The answer is late by less than a spacing of doubles: the printed end of the enclosure is not
+  // the time.
   add(judgement, collision(0.3333333333333333, 0.33333333333333337),
       {.verdict = Verdict::yes, .toi_lower = 0.33333333333333337});
   EXPECT_EQ(judgement.queries, 6U);

@@ -312,7 +312,7 @@ TEST_F(ViewBrowser, DrawsAtTheSizeOfThePageFromTheFirst) {
   )");
   ASSERT_EQ(result.size(), 2);
   for (const nlohmann::json& canvas : result) {
-    // The results below the page may have added a scroll bar.
+    // The results at the end of the page may have added a scroll bar.
     EXPECT_NEAR(canvas.at(0).get<double>(), canvas.at(1).get<double>(), 20);
     EXPECT_NEAR(canvas.at(2).get<double>(), canvas.at(3).get<double>(), 1);
   }

@@ -174,8 +174,8 @@ TEST(NearestPoint, IsInsideOnASideOrAtACorner) {
 }
 
 TEST(NearestPoint, ADirectionOfAShortDistanceIsUprightOnItsSide) {
-  // The direction passes the origin at 1e-9: tilted by its rounding, the far ends would come nearer
-  // than that.
+  // The side passes the origin at 1e-9; along a direction tilted by rounding its far ends would
+  // come nearer.
   const Polygon<Kind::edge_edge> polygon{
       {{-1.0 / 3, 1e-9, 0.1}, {2.0 / 3, 1e-9, -0.2}, {2.0 / 3, 1, -0.2}, {-1.0 / 3, 1, 0.1}}};
   const Found found = nearest<Kind::edge_edge, Norm::l2>(polygon);
