@@ -1,6 +1,6 @@
 /// \file
-/// Whatever the caller's floating-point state is, answers have the bits that they have in the usual
-/// one, and the caller's state stays.
+/// Answers have the same bits in every floating-point state of the caller as in the usual one, and
+/// the caller's state stays.
 
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ std::vector<State> states() {
   return result;
 }
 
-/// The state of this thread: all that is to stay.
+/// The state of this thread that must stay.
 unsigned current_state() {
 #ifdef __SSE2__
   return _mm_getcsr();
@@ -105,8 +105,8 @@ void put(Bits& bits, const std::vector<IndexPair>& pairs) {
   for (const IndexPair& pair : pairs) put(bits, pair[0], pair[1]);
 }
 
-/// Hits and misses by a hair, degenerate ones, and subnormals, which a caller that flushes them
-/// would lose.
+/// Queries near the border of contact, degenerate ones, and subnormals, which a caller that flushes
+/// them would lose.
 std::vector<Query> queries(Kind kind, std::size_t count = 300) {
   Random random(29);
   std::vector<Query> result(count);
@@ -119,7 +119,8 @@ std::vector<Query> queries(Kind kind, std::size_t count = 300) {
   return result;
 }
 
-/// Calls ask(kind, query, separation) for them at contact and at separations in both norms.
+/// Calls ask(kind, query, separation) for these queries at contact and at separations in both
+/// norms.
 template <class Ask>
 std::function<Bits()> of_queries(const Ask& ask, std::size_t count) {
   return [ask, faces = queries(Kind::vertex_face, count), edges = queries(Kind::edge_edge, count)] {
@@ -179,7 +180,7 @@ std::function<Bits()> of_batches() {
   };
 }
 
-/// All that a step tells, of vertices in double or of the same in float.
+/// Asks a step for all its results, of vertices in double or of the same in float.
 void ask_step(Bits& bits, const Step& step) {
   for (const StepCollision& one : step.collisions()) put(bits, one);
   if (const auto impact = step.earliest()) put(bits, impact->toi_lower, impact->toi_upper);
@@ -210,7 +211,7 @@ std::function<Bits()> of_steps() {
   };
 }
 
-/// Of subnormal floats, which are no subnormals in double.
+/// Asks about subnormal floats, which are normal in double.
 std::function<Bits()> of_floats() {
   Random random(31);
   std::vector<std::pair<tests::Scene, std::array<Eigen::MatrixX3f, 2>>> scenes;
@@ -283,7 +284,7 @@ TEST_P(FloatingPointEnvironment, DoesNotMatterAndStays) {
   const unsigned after = current_state();
   std::fesetenv(&callers);
   EXPECT_TRUE(other == usual);
-  constexpr unsigned flags = 0x3F;  // which arithmetic of the caller's own may raise
+  constexpr unsigned flags = 0x3F;  // flags that the caller's own arithmetic may raise
   EXPECT_EQ(after & ~flags, before & ~flags);
 }
 

@@ -1,7 +1,7 @@
 /// \file
-/// The published methods side by side: what each answers to the printed queries and to plain ones,
-/// which options it heeds, and how many of the public queries it misses and makes up. (Each one's
-/// known defects: the file of its name.)
+/// The published methods side by side: the answers of each to the printed queries and to simple
+/// ones, the options that it uses, and its misses and false positives on the public data. (The file
+/// named after a method tests its known defects.)
 
 #include <gtest/gtest.h>
 
@@ -36,13 +36,13 @@ using tests::PosedQuery;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// An answer to a printed query: a verdict, and between which times its toi_lower is.
+/// An answer to a printed query: a verdict, and the bounds of its toi_lower.
 struct Said {
   Verdict verdict;
   double from = -infinity, to = infinity;
 };
 
-/// Misses and made-up collisions on the public data of a folder.
+/// Misses and false positives on the public data of a folder.
 struct Wrong {
   int missed_faces, invented_faces, missed_edges, invented_edges;
 };
@@ -164,7 +164,7 @@ TEST_P(Baselines, AnswerThePrintedQueriesAsTheyWereSeenTo) {
   expect_said("sliding-degenerate", baseline.coplanar);
 }
 
-TEST_P(Baselines, TellHitsFromWideMisses) {
+TEST_P(Baselines, TellCollisionsFromWideGaps) {
   for (const PosedQuery& collision : {over_triangle(1, 1, 1, -3), over_edge(1, 2, 1, -3)}) {
     const fast::Answer answer = answer_to(*method, collision);
     EXPECT_EQ(answer.verdict, yes) << collision;
@@ -192,7 +192,7 @@ TEST_P(Baselines, AreWrongOnThePublicDataAsOftenAsKnown) {
   expect_wrong("simulation", baseline.simulation);
 }
 
-/// What promises something misses nothing that can be generated.
+/// Methods with a promise miss no generated query.
 TEST_P(Baselines, KeepTheirPromise) {
   if (baseline.promise == Promise::none) GTEST_SKIP() << "it promises nothing";
   for (const tests::Score& score : {tests::score_on_families(*method, short_search, 4),

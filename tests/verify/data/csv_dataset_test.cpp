@@ -48,7 +48,7 @@ Survivors survivors(const std::string& text) {
   return read_survivors(folder.file("a.csv", text), folder.path(), vertex_face());
 }
 
-/// What replaces line 12, the fourth of query 1 of three, and the error it must give.
+/// The replacement of line 12, the fourth of query 1 of three, and its error.
 struct Fault {
   std::string line;
   std::string error;
@@ -88,9 +88,8 @@ const std::string rest_is_left_out =
     "; the rest of the file is left out, since it is unknown from here on which eight rows are a "
     "query: mend this line";
 
-/// A line after which rows cannot be counted. Instead of line 12, or in addition to it, it must be
-/// that no query from there on is read, neither the one that it stands in nor one put together of
-/// the rows behind it.
+/// A line after which rows cannot be counted, instead of line 12 or in addition to it. From there
+/// on no query is read: neither the query of that line nor one made of later rows.
 class CsvLineThatIsNoRow : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(CsvLineThatIsNoRow, EndsTheFile) {
@@ -337,7 +336,7 @@ TEST(CsvDataset, RoundsOnlyWhereAskedAndCounts) {
 }
 
 TEST(CsvDataset, RoundsDecimalsOf17DigitsToTheDoubleThatTheyWere) {
-  // As newer public data writes coordinates: a decimal over 1, to 17 digits.
+  // Coordinates as in newer public data: a decimal over 1, to 17 digits.
   const Query query = [] {
     Query result{};
     std::mt19937_64 random(3);

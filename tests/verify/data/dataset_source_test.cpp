@@ -36,7 +36,7 @@ struct Scene {
     return folder.file("s/queries/7vf.csv", joined(lines));
   }
 
-  /// Error and survivors; the error must be the first message.
+  /// The error and the survivors; the error must be the first message.
   [[nodiscard]] Survivors read() const {
     const auto path = make();
     const std::string error = error_of(folder.path(), [&] { (void)read_all(*open_dataset(path)); });

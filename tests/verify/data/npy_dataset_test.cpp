@@ -23,7 +23,7 @@ using test::read_survivors;
 using test::resident_growth;
 using test::TemporaryFolder;
 
-/// Writes numbered queries and then spoils one double; NpyWriter itself would refuse it.
+/// Writes numbered queries and then corrupts one double; NpyWriter itself would refuse it.
 std::filesystem::path spoiled_file(const TemporaryFolder& folder, std::size_t query,
                                    std::size_t coordinate, double value) {
   std::filesystem::path path = folder.path() / "a_vf.npy";

@@ -84,7 +84,7 @@ TEST(Symmetry, DrawsEveryIngredientAndOnlyExactImages) {
   EXPECT_EQ(seen.size(), 6U);
 }
 
-/// Edges change places whole; a face keeps its vertex.
+/// Edges are exchanged as a whole; a face keeps its vertex.
 TEST(Symmetry, KeepsPrimitivesTogether) {
   Random random(2);
   bool exchanged = false;

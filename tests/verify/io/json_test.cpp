@@ -17,7 +17,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(Json, HasWordsForInfiniteNumbersAndNullForNone) {
+TEST(Json, HasWordsForInfiniteNumbersAndNullForMissingOnes) {
   EXPECT_EQ(number_to_json(0.1), 0.1);
   EXPECT_EQ(number_to_json(infinity), "Infinity");
   EXPECT_EQ(number_to_json(-infinity), "-Infinity");

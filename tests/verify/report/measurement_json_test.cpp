@@ -138,7 +138,7 @@ TEST(MeasurementJson, ReadsMapsFromBeforeTheyHadAllCounts) {
   EXPECT_TRUE(std::isnan(mark.checks));
 }
 
-TEST(MeasurementJson, WhatIsNoneIsRefused) {
+TEST(MeasurementJson, InvalidTextIsRefused) {
   nlohmann::json other_version = to_json(example());
   other_version["format"] = "touchstone measurements 0";
   nlohmann::json without_asked = to_json(example());

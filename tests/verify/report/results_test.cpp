@@ -26,7 +26,7 @@ TEST(Results, HaveTheTablesWithThePublishedNumbers) {
   EXPECT_FALSE(contains(text, "## Table 3"));
 }
 
-/// Names and commands may come from folders and from the JSON of strangers.
+/// Names and commands may come from folders and from JSON of other authors.
 TEST(Results, HoldNoMarkupOfNames) {
   Measurements measurements = tests::small_report();
   measurements.command = "touchstone report x\n```\n# forged";
