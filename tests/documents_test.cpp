@@ -71,7 +71,7 @@ TEST_F(Documents, ADifferenceIsNamedWithItsLine) {
   const fs::path root = copies();
   const std::string expected[] = {
       falsify("README.md", "| `tccd` | "),
-      falsify("docs/benchmarks.md", "| built-in, hard on purpose | "),
+      falsify("docs/benchmarks.md", "| built-in set | "),
       falsify("docs/results.md", "| certified | "),
       falsify("docs/results.svg", "translate("),
   };

@@ -24,7 +24,6 @@
 #include "fast/active_set.hpp"
 #include "fast/broad_phase.hpp"
 #include "fast/certified.hpp"
-#include "fast/certified/exact/exact_stage.hpp"
 #include "fast/distance.hpp"
 #include "fast/line_search.hpp"
 #include "fast/primitive_pairs.hpp"
@@ -151,12 +150,6 @@ void ask_prover(Bits& bits, Kind kind, const Query& query, const Separation& sep
   put(bits, std::hash<std::string>()(text));
 }
 
-void ask_exact_stage(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
-  const auto impact = decide_exactly(kind, query, separation, 0.0, 1.0);
-  put(bits, std::size_t{impact.has_value()});
-  if (impact) put(bits, impact->toi_lower, impact->toi_upper);
-}
-
 std::function<Bits()> of_batches() {
   return [faces = queries(Kind::vertex_face), edges = queries(Kind::edge_edge)] {
     Bits bits;
@@ -263,7 +256,6 @@ struct Answers {
 std::vector<Answers> all_answers() {
   return {{"oracle", of_queries(ask_oracle, 40)},
           {"prover", of_queries(ask_prover, 15)},
-          {"exact_stage", of_queries(ask_exact_stage, 300)},
           {"batches", of_batches()},
           {"steps", of_steps()},
           {"floats", of_floats()},

@@ -1,6 +1,7 @@
 #pragma once
 
-/// \file Judgements for tests.
+/// \file
+/// Judgements for tests.
 
 #include "verify/judge/judgement.hpp"
 

@@ -249,7 +249,7 @@ void add_bench_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option(
           "--seconds", arguments.bench.seconds,
-          "Time limit of a method and repetition in seconds; slower methods are timed on a sample")
+          "Seconds for a method and repetition; slower methods are timed on a sample")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(1e-6, 1e6));

@@ -56,7 +56,7 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
       .add_option(
           "--max-checks", arguments.options.max_checks,
           fmt::format(
-              "Maximum steps of iterative methods per query (0: no limit; built-in set: {})",
+              "Maximum steps per query (0: no limit; built-in set: {})",
               built_in_max_checks))
       ->type_name("N")
       ->capture_default_str()
@@ -64,7 +64,7 @@ void add_solver_options(CLI::App& command, SolverArguments& arguments) {
   command
       .add_option(
           "--query-limit", arguments.query_limit,
-          "Time limit of a query in a child process, in seconds; then undecided (0: no limit)")
+          "Seconds for a query in a child process, then undecided (0: no limit)")
       ->type_name("S")
       ->capture_default_str()
       ->check(real_number(0.0, longest_limit));

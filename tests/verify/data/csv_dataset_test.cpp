@@ -159,7 +159,7 @@ TEST(CsvDataset, BlankLinesAndHeadersMayStandBetweenQueries) {
       const Survivors kept = survivors(joined(lines, line_end));
       expect_numbered(kept.records, {0, 1, 2, 3});
       EXPECT_EQ(kept.messages, std::vector<std::string>{});
-      EXPECT_EQ(strict_error(joined(lines, line_end)), "no io::DatasetError");
+      EXPECT_EQ(strict_error(joined(lines, line_end)), "no DatasetError");
     }
   }
 }
@@ -169,7 +169,7 @@ TEST(CsvDataset, ALineThatIsNoHeaderBeginsNoFile) {
   const auto error = [&](const std::string& first_line) {
     return strict_error(first_line + "\n" + joined(rows));
   };
-  EXPECT_EQ(error("a,b,c,d,e,f"), "no io::DatasetError");
+  EXPECT_EQ(error("a,b,c,d,e,f"), "no DatasetError");
   EXPECT_EQ(error("a,b,c"), "2: 6 columns, expected 3 as before" + rest_is_left_out);
   EXPECT_EQ(error("queries"), "1: 1 columns, expected 3, 4, 6 or 7" + rest_is_left_out);
   EXPECT_EQ(error("a,b,c,d,e,"), "1: no number in the line" + rest_is_left_out);

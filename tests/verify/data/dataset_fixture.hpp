@@ -104,7 +104,7 @@ template <class Action>
     const std::string prefix = folder.empty() ? "" : folder.string() + "/";
     return text.starts_with(prefix) ? text.substr(prefix.size()) : text;
   }
-  return "no io::DatasetError";
+  return "no DatasetError";
 }
 
 /// A stream read with keep_going.

@@ -31,14 +31,14 @@ std::vector<std::string> answers(const std::string& text, std::uint64_t count) {
           result.push_back(toi ? toi->get_str() : "-");
         }
       });
-      if (error != "no io::DatasetError") result.push_back(error);
+      if (error != "no DatasetError") result.push_back(error);
     }
     if (const auto fault = reader.beyond(count)) {
       result.push_back("behind " +
                        error_of(folder.path(), [&] { throw io::DatasetError(*fault); }));
     }
   });
-  if (opening != "no io::DatasetError") result.push_back("opening " + opening);
+  if (opening != "no DatasetError") result.push_back("opening " + opening);
   return result;
 }
 

@@ -108,7 +108,7 @@ TEST(NpyDataset, ThatBecomesShorterGivesWhatIsThereAndThenOneError) {
     expect_numbered(records, there);
     const std::string reason =
         "has become shorter while it was read: query 2000 of 3000 is missing";
-    EXPECT_EQ(error, keep_going ? "no io::DatasetError" : "a_vf.npy: " + reason);
+    EXPECT_EQ(error, keep_going ? "no DatasetError" : "a_vf.npy: " + reason);
     EXPECT_EQ(messages, std::vector<std::string>(keep_going ? 1 : 0, reason));
     EXPECT_EQ(source.skipped(), keep_going ? 1U : 0U);
     EXPECT_FALSE(source.next().has_value()) << "it has ended";

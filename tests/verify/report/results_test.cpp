@@ -34,8 +34,8 @@ TEST(Results, HoldNoMarkupOfNames) {
   for (Measurement& measurement : measurements.all) measurement.group = "a\n# b <b>\u202e";
   const std::string text = results_document(measurements);
   EXPECT_TRUE(contains(text,
-                       "Made on \\<script\\>, 2026-01-31 by\n\n````\n"
-                       "touchstone report x\\x0a```\\x0a# forged\n````\n"))
+                       "Made on \\<script\\>, 2026-01-31 by\n\n```\n"
+                       "touchstone report x\\x0a```\\x0a# forged\n```\n"))
       << text;
   EXPECT_TRUE(contains(text, "### a\\\\x0a# b \\<b\\>\\\\xe2\\\\x80\\\\xae, vertex-face\n"))
       << text;

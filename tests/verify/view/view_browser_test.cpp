@@ -226,7 +226,7 @@ TEST_F(ViewBrowser, DrawsWhatIsPastedWithoutAVerdict) {
       `{"coordinates": ${list(1)}, "separation": {"min_separation": -1}}`,
       `{"coordinates": ${list(1)}, "separation": {"min_separation": {}, "norm": "l2"}}`,
       `{"coordinates": ${list("null")}}`, `{"coordinates": ${list('"<img src=x onerror=say(1)>"')}}`,
-      "<script>say(1)</script>", `NaN 0 0 ${rest}`, `1/0 0 0 ${rest}`, "1".repeat(900000) + "g", "0x" + "f".repeat(900000) + "g",
+      "<script>say(1)<\/script>", `NaN 0 0 ${rest}`, `1/0 0 0 ${rest}`, "1".repeat(900000) + "g", "0x" + "f".repeat(900000) + "g",
       "/*".repeat(400000), "v " + "1".repeat(900000) + "x", "1 ".repeat(600000),
     ].map(paste);
     const images = all("main img").length;
