@@ -39,21 +39,23 @@ template <class Number>
 }
 
 /// Is it the query's first contact, `step` spacings of doubles at most around?
-inline void expect_truth(const PosedQuery& posed,
-                         const std::optional<fast::exact_stage::Impact>& impact,
+inline void expect_truth(const PosedQuery& posed, const std::optional<fast::ExactImpact>& impact,
                          std::uint64_t step) {
   const exact::Verdict truth = exact::decide(posed.kind, posed.query);
   ASSERT_EQ(impact.has_value(), truth.collides()) << posed;
   if (!impact) return;
   const exact::AlgebraicNumber& toi = *truth.toi;
-  const exact::Rational lower(std::bit_cast<double>(impact->time.lower));
-  const exact::Rational upper(std::bit_cast<double>(impact->time.upper));
+  const exact::Rational lower(impact->toi_lower);
+  const exact::Rational upper(impact->toi_upper);
   EXPECT_TRUE(toi <= upper) << posed;
   if (toi == exact::Rational(0)) {
     EXPECT_TRUE(lower == 0 && upper == 0) << posed;
   } else {
     EXPECT_TRUE(toi > lower) << posed;
-    EXPECT_LE(impact->time.upper - impact->time.lower, step) << posed;
+    EXPECT_LE(std::bit_cast<std::uint64_t>(impact->toi_upper) -
+                  std::bit_cast<std::uint64_t>(impact->toi_lower),
+              step)
+        << posed;
   }
 }
 
