@@ -126,11 +126,7 @@ std::optional<BitInterval> first_approach_of(Kind kind, const Query& query,
                                              const Separation& separation, std::uint64_t latest,
                                              std::uint64_t step) {
   const auto impact = first_impact_of(kind, query, latest, step);
-  std::optional<BitInterval> contact;
-  if (impact) {
-    contact = {std::bit_cast<std::uint64_t>(impact->toi_lower),
-               std::bit_cast<std::uint64_t>(impact->toi_upper)};
-  }
+  const auto contact = impact ? std::optional(time_of(*impact)) : std::nullopt;
   if (contact && contact->upper == bits_of_zero) return contact;
   const auto axes = axes_of_one_unit(query);
   const auto motion = motion_of<BigInteger, BigInteger>(kind, axes);

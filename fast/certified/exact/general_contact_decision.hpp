@@ -20,6 +20,12 @@ namespace touchstone::fast::exact_stage {
   return {std::bit_cast<double>(time.lower), std::bit_cast<double>(time.upper), u, v};
 }
 
+/// The bits of its time.
+[[nodiscard]] inline BitInterval time_of(const ExactImpact& impact) {
+  return {std::bit_cast<std::uint64_t>(impact.toi_lower),
+          std::bit_cast<std::uint64_t>(impact.toi_upper)};
+}
+
 /// The first contact not later than the double in [0,1] with these bits, between neighbouring
 /// doubles; empty if there is none.
 [[nodiscard]] std::optional<ExactImpact> first_impact(const Motion<BigInteger>& motion,

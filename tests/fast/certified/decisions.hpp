@@ -52,10 +52,8 @@ inline void expect_truth(const PosedQuery& posed, const std::optional<fast::Exac
     EXPECT_TRUE(lower == 0 && upper == 0) << posed;
   } else {
     EXPECT_TRUE(toi > lower) << posed;
-    EXPECT_LE(std::bit_cast<std::uint64_t>(impact->toi_upper) -
-                  std::bit_cast<std::uint64_t>(impact->toi_lower),
-              step)
-        << posed;
+    const auto [first, last] = fast::exact_stage::time_of(*impact);
+    EXPECT_LE(last - first, step) << posed;
   }
 }
 
