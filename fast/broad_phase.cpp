@@ -84,7 +84,7 @@ class Search {
     PairSink buffer(std::move(take));
     const std::size_t first = chunk * groups_of_chunk;
     const std::size_t end = std::min(first + groups_of_chunk, input_.some->members().size());
-    best_search_kernel().find(input_, first, end, buffer);
+    search_kernels().back()->find(input_, first, end, buffer);
     buffer.flush();
   }
 

@@ -124,10 +124,4 @@ struct SearchKernel {
 /// The kernels that this processor can run, slowest first; scalar is always among them.
 [[nodiscard]] std::span<const SearchKernel* const> search_kernels();
 
-/// The fastest of search_kernels().
-[[nodiscard]] const SearchKernel& best_search_kernel();
-
-/// The kernel of an instruction set; nullptr if this processor cannot run it.
-[[nodiscard]] const SearchKernel* find_search_kernel(InstructionSet instructions);
-
 }  // namespace touchstone::fast

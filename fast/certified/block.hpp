@@ -38,9 +38,7 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
   block.toi_tolerance = std::max(options.toi_tolerance, least_kernel_tolerance);
   block.t_limit = t_limit;
   block.separation = options.separation;
-  const CertifiedKernel& kernel =
-      options.kernel != nullptr ? *options.kernel : best_certified_kernel();
-  kernel.decide(block, output);
+  (options.kernel != nullptr ? options.kernel : certified_kernels().back())->decide(block, output);
   const auto report_exactly = [&](std::size_t index) {
     report(index, decided_exactly(block.kind, query_of(index), options));
   };

@@ -110,7 +110,7 @@ SceneMesh::SceneMesh(std::size_t vertex_count, const FloatBounds& bounds, const 
 Scene::Scene(MovingVertices vertices, const MeshElements& elements, const StepOptions& options)
     : vertices_(checked(std::move(vertices), elements)),
       certified_(certified_options(options)),
-      search_(options.search != nullptr ? *options.search : best_search_kernel()),
+      search_(options.search != nullptr ? *options.search : *search_kernels().back()),
       bounds_(vertices_, 1.0, certified_.separation.distance),
       mesh_(
           std::make_shared<const SceneMesh>(vertices_.size(), bounds_, elements, options.groups)) {}

@@ -463,14 +463,6 @@ TEST(Division, PlantedFaultsAreFound) {
   }
 }
 
-TEST(SearchKernels, AreFoundByTheirInstructions) {
-  EXPECT_EQ(search_kernels().front()->instructions, InstructionSet::scalar);
-  EXPECT_EQ(&best_search_kernel(), search_kernels().back());
-  for (const SearchKernel* const kernel : search_kernels()) {
-    EXPECT_EQ(find_search_kernel(kernel->instructions), kernel);
-  }
-}
-
 TEST(Search, PlantedFaultsAreFound) {
   for (const auto& fault : tests::planted_faults().search) {
     EXPECT_NE(first_fault(*fault.part), "") << fault.name;
