@@ -18,7 +18,7 @@ import sys
 import tempfile
 import urllib.parse
 
-DATA = ["handcrafted", "simulation", ""]  # "": the built-in queries
+DATA = ["handcrafted", "simulation", ""]  # "": the built-in set
 STEPS = {"cloth-ball": ["", *(f" --min-separation {d} --norm {norm}" for d in ("1e-8", "1e-2") for norm in ("linf", "l2"))],
          "armadillo-rollers": [""], "cloth-funnel": [""]}
 
@@ -34,9 +34,9 @@ SIMULATIONS = [*SCENES, *(f"{scene} --simulator constraint" for scene in SCENES
                *(f"torus-on-cone --miss {one_in}" for one_in in ("1000000", "10000", "1000", "100", "10", "1")),
                *(f"torus-on-cone --miss-limit {n}" for n in range(1, 11))]
 
-# The simulations whose queries are the group `simulated` of the results: the four scenes of the paper, at least five million
+# The simulations whose queries are the group `own-simulation` of the results: the four scenes of the paper, at least five million
 # queries of each kind.
-RECORDED = "build/simulated"
+RECORDED = "build/own-simulation"
 RECORDINGS = [f"simulate {scene} --record {RECORDED} --record-limit 2500 --npy"
               for scene in ("two-heads", "chain-of-rings", "dimpled-ball", "twisting-mat --steps 200")]
 
@@ -125,8 +125,8 @@ def simulate(command, options, folder):
     # Its exit status is 1 if there is a collision.
     run([options.tool, "step", frames, "--json", judged], (0, 1))
     steps_ = json.loads(judged.read_text())["steps"]
-    touching = sum(not step["free"] for step in steps_)
-    return {"command": f"./run {command}", "result": json.loads(out.read_text()) | {"touching": touching, "motions": len(steps_)}}
+    colliding = sum(not step["free"] for step in steps_)
+    return {"command": f"./run {command}", "result": json.loads(out.read_text()) | {"colliding": colliding, "motions": len(steps_)}}
 
 
 def record(options):
@@ -177,7 +177,7 @@ def measure(name, options, folder):
         key, data = "measurements", rows[0]["result"] | {
             "command": " && ".join(row["command"] for row in rows),
             "groups": [group for row in rows for group in row["result"]["groups"]]}
-        rows = [row if row["experiment"] == "field" else row | {"hit_times": [], "miss_times": []}  # drawn of the field
+        rows = [row if row["experiment"] == "field" else row | {"collision_times": [], "no_collision_times": []}  # drawn of the field
                 for of in rows for row in of["result"][key]]
         del data[key]
     lines = ",\n".join(compact(row) for row in rows)
@@ -229,7 +229,7 @@ def printed(data):
 def judged(data):
     rows = []
     for name, of in zip(DATA, (one["result"] for one in data["runs"])):
-        truth = [name or "built-in, hard on purpose", f"{of['queries']:,}", f"{of['collisions']:,}",
+        truth = [name or "built-in set", f"{of['queries']:,}", f"{of['collisions']:,}",
                  f"{of['label_mismatches']} of {of['labels']:,}", f"{of['toi_mismatches']} of {of['tois']:,}"]
         for m in of["methods"]:
             rows.append([*truth, f"`{m['name']}`", m["false_negatives"], m["late_toi"], f"{m['false_positives']:,}"])
@@ -323,15 +323,15 @@ def bounds(data):
 def certificates(data):
     rows = []
     for name, of in zip(DATA, (one["result"] for one in data["runs"])):
-        count, pieces = of["certificates"], {int(number): amount for number, amount in of["pieces"].items()}
-        shown = [*(pieces.get(i, 0) for i in range(4)), sum(amount for i, amount in pieces.items() if i > 3)]
+        count, subintervals = of["certificates"], {int(number): amount for number, amount in of["subintervals"].items()}
+        shown = [*(subintervals.get(i, 0) for i in range(4)), sum(amount for i, amount in subintervals.items() if i > 3)]
         times = of["oracle_us_per_query"], of["us_per_certificate"], 1e6 * of["checking_s"] / count
-        rows.append([name or "built-in, hard on purpose", f"{count:,}", f"{of['accepted']:,}",
+        rows.append([name or "built-in set", f"{count:,}", f"{of['accepted']:,}",
                      f"{of['no_collision']:,}", f"{of['time_of_impact']:,}", " / ".join(f"{n:,}" for n in shown),
                      f"{of['bytes_per_certificate']:.0f} ({of['file_bytes'] / count:.0f})",
                      *(f"{rounded(time)} µs" for time in times)])
     return made_by(data, "touchstone prove …") + table(
-        ["data", "certificates", "accepted", "no collision", "time of impact", "pieces: none / 1 / 2 / 3 / more",
+        ["data", "certificates", "accepted", "no collision", "time of impact", "subintervals: none / 1 / 2 / 3 / more",
          "bytes each (compressed)", "deciding", "proving", "checking"], rows)
 
 
@@ -344,7 +344,7 @@ def step_proofs(data):
                      "yes" if of["accepted"] == 1 else "no", f"{1e-6 * of['text_bytes']:.1f} ({1e-6 * of['file_bytes']:.2f})",
                      f"{rounded(of['proving_s'])} s", f"{rounded(of['checking_s'])} s"])
     return made_by(data, "touchstone step FRAME0 FRAME1 --earliest --threads 1 --prove FILE && touchstone-check FILE") + table(
-        ["step", "faces", "pairs whose boxes meet", "pairs with a direction / with pieces", "accepted", "MB (compressed)",
+        ["step", "faces", "pairs whose boxes meet", "pairs with a direction / with subintervals", "accepted", "MB (compressed)",
          "deciding and proving", "checking"], rows)
 
 
@@ -364,10 +364,10 @@ def scenes(data):
         barrier, constraint = chosen[scene], chosen.get(f"{scene} --simulator constraint")
         rows.append([scene, f"{barrier['vertices']:,} / {barrier['faces']:,}", barrier["time_steps"],
                      *(cell for one in (barrier, constraint) for cell in
-                       ((f"{one['motions']:,}", one["touching"], one["steps_of_zero"], share(one)) if one else 4 * ["–"]))])
+                       ((f"{one['motions']:,}", one["colliding"], one["steps_of_zero"], share(one)) if one else 4 * ["–"]))])
     return made_by(data, "./run simulate SCENE --out FOLDER && ./run step FOLDER") + table(
-        ["scene", "vertices / faces", "time steps", "barrier: motions", "that touch", "steps of 0", "share of CCD",
-         "constraints: motions", "that touch", "steps of 0", "share of CCD"], rows)
+        ["scene", "vertices / faces", "time steps", "barrier: motions", "that collide", "steps of 0", "share of CCD",
+         "constraints: motions", "that collide", "steps of 0", "share of CCD"], rows)
 
 
 def chart(title, names, unit, values):
@@ -378,12 +378,12 @@ def chart(title, names, unit, values):
 
 def detections(data):
     rows = [[f"`{run_['method']}`", f"{run_['tolerance']:.0e}" if run_["method"] == "tight_inclusion" else "",
-             f"{run_['motions']:,}", run_["touching"], run_["steps_of_zero"], run_["unfinished"] + run_["stalled"],
+             f"{run_['motions']:,}", run_["colliding"], run_["steps_of_zero"], run_["unfinished"] + run_["stalled"],
              rounded(run_["seconds"]["detection"]), rounded(run_["seconds"]["total"]), share(run_)]
             for command, run_ in simulations(data, lambda command: re.search("torus-on-cone( --method.*)?$", command))]
     by_tolerance = [row for row in rows if row[1]]
     return made_by(data, "./run simulate torus-on-cone --method NAME --tolerance δ") + table(
-        ["method", "δ", "motions", "that touch", "steps of 0", "time steps without an end", "CCD, s", "in all, s",
+        ["method", "δ", "motions", "that collide", "steps of 0", "time steps without an end", "CCD, s", "in all, s",
          "share of CCD"], rows) + chart(
              "Tight-Inclusion over its δ: motions until the end, or until all steps are 0", [row[1] for row in by_tolerance],
              "motions", [row[2] for row in by_tolerance])
@@ -391,26 +391,26 @@ def detections(data):
 
 def distances(data):
     runs = simulations(data, lambda command: re.search("torus-on-cone( --distance.*)?$", command))
-    rows = [[command.partition("--distance ")[2] or "1e-3", f"{run_['motions']:,}", run_["touching"],
+    rows = [[command.partition("--distance ")[2] or "1e-3", f"{run_['motions']:,}", run_["colliding"],
              f"{1e3 * run_['seconds']['detection'] / run_['calls']:.2f}", share(run_)] for command, run_ in runs]
     rows.sort(key=lambda row: -float(row[0]))
     return made_by(data, "./run simulate torus-on-cone --distance d") + table(
-        ["d, m", "motions", "that touch", "CCD, ms a call", "share of CCD"], rows) + chart(
+        ["d, m", "motions", "that collide", "CCD, ms a call", "share of CCD"], rows) + chart(
             "Collision detection over the distance of barriers", [row[0] for row in rows], "ms a call", [row[3] for row in rows])
 
 
 def misses(data):
     rows = [[f"{run_['missed_one_in']:,}", f"{run_['candidates']:,}", run_["missed"], f"{run_['motions']:,}",
-             run_["touching"]] for _, run_ in simulations(data, lambda command: "--miss " in command)]
+             run_["colliding"]] for _, run_ in simulations(data, lambda command: "--miss " in command)]
     return made_by(data, "./run simulate torus-on-cone --miss N --out FOLDER && ./run step FOLDER") + table(
-        ["one query missed in", "queries", "missed contacts", "motions", "that touch"], rows)
+        ["one query missed in", "queries", "missed contacts", "motions", "that collide"], rows)
 
 
 def one_miss(data):
-    rows = [[run_["missed_limit"], f"{run_['candidates']:,}", f"{run_['motions']:,}", run_["touching"]]
+    rows = [[run_["missed_limit"], f"{run_['candidates']:,}", f"{run_['motions']:,}", run_["colliding"]]
             for _, run_ in simulations(data, lambda command: "--miss-limit" in command)]
     return made_by(data, "./run simulate torus-on-cone --miss-limit N --out FOLDER && ./run step FOLDER") + table(
-        ["N", "queries", "motions", "that touch"], rows)
+        ["N", "queries", "motions", "that collide"], rows)
 
 
 # The marked parts of the documents, in their order, each with its file of data.

@@ -147,8 +147,8 @@ bool is_within_limits(const ContactProof& contact) {
 }
 
 void require_limits(const Certificate& certificate) {
-  if (certificate.pieces.size() > piece_limit) {
-    throw CertificateLimitError("a separation needs too many pieces");
+  if (certificate.subintervals.size() > subinterval_limit) {
+    throw CertificateLimitError("a separation needs too many subintervals");
   }
   if (!is_within_limits(certificate.toi) ||
       (certificate.contact && !is_within_limits(*certificate.contact))) {
@@ -168,7 +168,7 @@ void prove_collision(const Motion& motion, const AlgebraicNumber& first,
     certificate.toi = RationalInterval{Rational(0), Rational(0)};
     if (toi != Rational(0)) {
       certificate.toi = toi_interval(toi, options.width);
-      certificate.pieces = separate(motion, certificate.toi.lower);
+      certificate.subintervals = separate(motion, certificate.toi.lower);
     }
     within = certificate.toi;
   }
@@ -177,7 +177,7 @@ void prove_collision(const Motion& motion, const AlgebraicNumber& first,
 
 }  // namespace
 
-Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
+Certificate prove(Kind kind, const Query& query, const Decision& verdict,
                   const ProveOptions& options) {
   if (options.width && sgn(*options.width) <= 0) {
     throw std::invalid_argument("the interval of a time of impact must have a positive width");
@@ -195,7 +195,7 @@ Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
   if (verdict.toi) {
     prove_collision(motion, *verdict.toi, options, certificate);
   } else {
-    certificate.pieces = separate(motion, Rational(1));
+    certificate.subintervals = separate(motion, Rational(1));
   }
   require_limits(certificate);
   return certificate;

@@ -4,9 +4,10 @@
 /// Verdicts with their proof, for a checker that does not trust the oracle.
 ///
 /// A certificate states a query, a separation, a claim and the proof of the claim:
-///   - no collision: pieces of [0,1], each with a feature whose direction separates throughout;
+///   - no collision: subintervals of [0,1], each with a feature whose direction separates
+///   throughout;
 ///   - collision: a contact;
-///   - time of impact in (lower, upper]: a contact there, and pieces of [0,lower].
+///   - time of impact in (lower, upper]: a contact there, and subintervals of [0,lower].
 ///
 /// **A contact** is a time t* and a place with its sign conditions. The time is a rational number,
 /// or a root of an integer polynomial g in an interval at whose ends g has opposite signs. Then g
@@ -56,12 +57,12 @@ struct Feature {
 };
 
 /// The feature separates on all of [from, to].
-struct Piece {
+struct Subinterval {
   Rational from;
   Rational to;
   Feature feature;
 
-  friend bool operator==(const Piece&, const Piece&) = default;
+  friend bool operator==(const Subinterval&, const Subinterval&) = default;
 };
 
 // ---- Contact ------------------------------------------------------------------------------------
@@ -135,13 +136,13 @@ struct Certificate {
   RationalInterval toi;
   /// They cover [0,1] or, for a time of impact, [0, toi.lower]. Empty for a collision and for a toi
   /// of 0.
-  std::vector<Piece> pieces;
+  std::vector<Subinterval> subintervals;
   /// Present for a collision and a time of impact.
   std::optional<ContactProof> contact;
 };
 
-/// The maximum number of pieces of a certificate.
-inline constexpr std::size_t piece_limit = 4096;
+/// The maximum number of subintervals of a certificate.
+inline constexpr std::size_t subinterval_limit = 4096;
 
 /// The maximum number of bits of the numerator and the denominator of a number in a certificate.
 inline constexpr std::size_t number_limit = 16384;
@@ -166,10 +167,10 @@ struct ProveOptions {
 /// \throws std::invalid_argument if a coordinate is NaN or infinite, the separation is not valid, the
 /// width is not positive, or the claim asked for is `no_collision`.
 /// \throws std::logic_error if the verdict is not the query's.
-/// \throws CertificateLimitError if the certificate would exceed number_limit or piece_limit.
+/// \throws CertificateLimitError if the certificate would exceed number_limit or subinterval_limit.
 /// exact/certificate/separation_intervals.hpp states for which queries the break points stay within
 /// it; the interval of a contact needs no more bits.
-[[nodiscard]] Certificate prove(Kind kind, const Query& query, const Verdict& verdict,
+[[nodiscard]] Certificate prove(Kind kind, const Query& query, const Decision& verdict,
                                 const ProveOptions& options = {});
 
 }  // namespace touchstone::exact

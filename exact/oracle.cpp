@@ -8,15 +8,15 @@
 
 namespace touchstone::exact {
 
-Verdict decide(Kind kind, const Query& query, const Separation& separation) {
-  Verdict verdict = is_contact(separation)
-                        ? decide_contact(scale_to_integers(kind, query))
-                        : decide_distance(scale_uniformly(kind, query, separation));
+Decision decide(Kind kind, const Query& query, const Separation& separation) {
+  Decision verdict = is_zero(separation)
+                         ? decide_contact(scale_to_integers(kind, query))
+                         : decide_distance(scale_uniformly(kind, query, separation));
   verdict.separation = separation;
   return verdict;
 }
 
-ContactParameters contact_parameters(const Verdict& verdict, const Rational& width) {
+ContactParameters contact_parameters(const Decision& verdict, const Rational& width) {
   if (!verdict.contact) throw std::invalid_argument("the place of contact is not known");
   const auto& [u, v, denominator] = *verdict.contact;
   return {enclose_quotient(u, denominator, *verdict.toi, width),

@@ -33,7 +33,7 @@ struct Contact {
 /// | does not collide      | empty | empty   |
 /// | collides, distance 0  | known | known   |
 /// | collides, distance > 0 | known | empty   |
-struct Verdict {
+struct Decision {
   /// The separation that was asked for.
   Separation separation{};
   /// The exact time of impact, in [0,1]: an algebraic number, at distance 0 of degree at most 3,
@@ -45,10 +45,10 @@ struct Verdict {
   [[nodiscard]] bool collides() const { return toi.has_value(); }
 };
 
-/// Decides a query exactly. Thread-safe, and independent of the floating-point environment (rounding
-/// mode, flushed subnormals).
+/// Decides a query exactly. Thread-safe, and independent of the floating-point environment
+/// (rounding mode, flushed subnormals).
 /// \throws std::invalid_argument if a coordinate is NaN or infinite, or the separation is not valid.
-[[nodiscard]] Verdict decide(Kind kind, const Query& query, const Separation& separation = {});
+[[nodiscard]] Decision decide(Kind kind, const Query& query, const Separation& separation = {});
 
 /// The parameters (u,v) of a contact, as the query's F defines them.
 struct ContactParameters {
@@ -59,6 +59,6 @@ struct ContactParameters {
 /// (u,v) of the earliest contact, each within `width` > 0; exact (both ends equal) where the toi is
 /// known to be rational.
 /// \throws std::invalid_argument if the verdict has no contact.
-[[nodiscard]] ContactParameters contact_parameters(const Verdict& verdict, const Rational& width);
+[[nodiscard]] ContactParameters contact_parameters(const Decision& verdict, const Rational& width);
 
 }  // namespace touchstone::exact

@@ -11,7 +11,8 @@
 ///
 /// and x(t) = (1−t) x(0) + t x(1). A query *collides* iff F has a root with t ∈ [0,1] and (u,v) in
 /// the closed domain: contact at t=0, at t=1 and on the boundary counts. Its *time of impact* (toi)
-/// is the smallest t of a root. ([wang2021], section 3, equations 3 and 4; docs/theory.md, section 1.)
+/// is the smallest t of a root. ([wang2021], section 3, equations 3 and 4; docs/theory.md,
+/// section 1.)
 ///
 /// For fixed t, F is affine in (u,v), so its image is the convex hull of its values at the vertices
 /// of the domain: the *corners* w_i(t), three for vertex_face, four (a parallelogram, in cyclic
@@ -116,8 +117,8 @@ inline constexpr std::array<Corner, 4> edge_edge_corners{
 enum class Norm : std::uint8_t { linf, l2 };
 
 /// Minimum separation. A query *collides at distance d* iff ‖F(t,u,v)‖ ≤ d for some t ∈ [0,1]
-/// and (u,v) in the closed domain; its time of impact is the smallest such t. With d = 0 this is the
-/// collision above, in either norm. ([wang2021], section 5: "minimum separation", in L∞.)
+/// and (u,v) in the closed domain; its time of impact is the smallest such t. With d = 0 this is
+/// the collision above, in either norm. ([wang2021], section 5: "minimum separation", in L∞.)
 struct Separation {
   double distance = 0.0;  ///< d, finite and not negative, in units of the coordinates
   Norm norm = Norm::linf;
@@ -132,7 +133,7 @@ struct Separation {
 
 /// True if the distance is 0, so that the norm does not matter. The bits decide, because a
 /// floating-point environment may treat a subnormal distance as 0.
-[[nodiscard]] inline bool is_contact(const Separation& separation) {
+[[nodiscard]] inline bool is_zero(const Separation& separation) {
   return std::bit_cast<std::uint64_t>(separation.distance) << 1U == 0;
 }
 

@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// F at the contact, in units of 2^-500 of the greatest coordinate, so that nothing overflows, nor underflows at the least
-/// times: F = r − u p − v q.
+/// F at the contact, in units of 2^-500 of the greatest coordinate, so that nothing overflows, nor
+/// underflows at the least times: F = r − u p − v q.
 struct Contact {
   Vector3d p, q;
   Vector3d f;     ///< F
@@ -97,9 +97,8 @@ ActiveContact active_contact(const Step& step, const StepCollision& collision) {
 
 }  // namespace
 
-std::vector<ActiveContact> active_set(const Step& step, double eta, Norm norm) {
-  const std::vector<StepCollision> collisions =
-      step.with_separation({.distance = eta, .norm = norm}).collisions();
+std::vector<ActiveContact> active_set(const Step& step, const Separation& separation) {
+  const std::vector<StepCollision> collisions = step.with_separation(separation).collisions();
   const StrictFloatingPoint strict;
   std::vector<ActiveContact> result;
   result.reserve(collisions.size());

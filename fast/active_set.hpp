@@ -47,8 +47,7 @@ struct ActiveContact : StepCollision {
 /// Thread-safe.
 /// \param eta η, finite and not negative, in units of the coordinates; 0: the pairs that collide.
 /// \throws std::invalid_argument for another η.
-[[nodiscard]] std::vector<ActiveContact> active_set(const Step& step, double eta,
-                                                    Norm norm = Norm::l2);
+[[nodiscard]] std::vector<ActiveContact> active_set(const Step& step, const Separation& separation);
 
 /// The contact of a pair at a given time, at any distance: for pairs and times that another solver
 /// has found. Its toi_lower and toi_upper are t; u and v are the parameters of the nearest points.

@@ -30,8 +30,8 @@ namespace tbb = oneapi::tbb;
 constexpr std::size_t groups_of_chunk = 16;
 
 void require_valid(const BroadPhaseOptions& options) {
-  if (!std::isfinite(options.min_separation) || options.min_separation < 0.0) {
-    throw std::invalid_argument("min_separation must be finite and not negative");
+  if (!std::isfinite(options.separation.distance) || options.separation.distance < 0.0) {
+    throw std::invalid_argument("the separation must be finite and not negative");
   }
   if (options.max_threads < 0) throw std::invalid_argument("max_threads must not be negative");
 }
@@ -43,7 +43,7 @@ class ExactTest final : public PairQuestions {
       : vertices_(vertices), distance_(distance) {}
 
   [[nodiscard]] bool confirms(const Primitive& a, const Primitive& b) const override {
-    return are_near(vertices_, a, b, distance_);
+    return are_within_distance(vertices_, a, b, distance_);
   }
 
  private:
@@ -124,13 +124,13 @@ std::vector<IndexPair> vertex_face_candidates(const MovingVertices& vertices,
   return with_threads(options.max_threads, [&] {
     std::vector<std::int32_t> points(vertices.size());
     std::iota(points.begin(), points.end(), 0);
-    const FloatBounds bounds(vertices, 1.0, options.min_separation);
+    const FloatBounds bounds(vertices, 1.0, options.separation.distance);
     const PrimitiveGroups point_groups(bounds, std::span<const std::int32_t>(points));
     const PrimitiveGroups face_groups(bounds, faces);
     BoxTree<1> point_tree(point_groups), face_tree(face_groups);
     point_tree.fit(bounds);
     face_tree.fit(bounds);
-    const ExactTest test(vertices, options.min_separation);
+    const ExactTest test(vertices, options.separation.distance);
     const SearchInput<1> input{&point_tree, &face_tree, rules_of(bounds, test, false)};
     return Search(input).run(options.max_candidates);
   });
@@ -143,11 +143,11 @@ std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
   require_finite(vertices);
   require_in_range(vertices, edges);
   return with_threads(options.max_threads, [&] {
-    const FloatBounds bounds(vertices, 1.0, options.min_separation);
+    const FloatBounds bounds(vertices, 1.0, options.separation.distance);
     const PrimitiveGroups groups(bounds, edges);
     BoxTree<1> tree(groups);
     tree.fit(bounds);
-    const ExactTest test(vertices, options.min_separation);
+    const ExactTest test(vertices, options.separation.distance);
     const SearchInput<1> input{&tree, &tree, rules_of(bounds, test, true)};
     return Search(input).run(options.max_candidates);
   });

@@ -42,7 +42,7 @@ namespace touchstone::fast {
 struct BroadPhaseOptions {
   /// d: the boxes of candidates are within this distance on every axis; finite, not negative, in
   /// units of the coordinates.
-  double min_separation = 0.0;
+  Separation separation = {};
   /// Maximum number of cores; 0: all. The result does not depend on it.
   int max_threads = 0;
   /// More candidates are an error. Each takes eight bytes.
@@ -62,7 +62,7 @@ class TooManyCandidates : public std::runtime_error {
   std::uint64_t count_;
 };
 
-/// All pairs of a vertex and a face without that vertex whose swept boxes are within min_separation
+/// All pairs of a vertex and a face without that vertex whose swept boxes are within the separation
 /// of each other (≤). Vertices without a face take part. The order depends only on the arguments
 /// and the separation; pairs that are close in space are mostly close in the list, which keeps
 /// their vertices in the cache. Independent of the caller's floating-point environment.
@@ -74,7 +74,7 @@ class TooManyCandidates : public std::runtime_error {
                                                             std::span<const Face> faces,
                                                             const BroadPhaseOptions& options = {});
 
-/// All pairs of edges without a common vertex whose swept boxes are within min_separation of each
+/// All pairs of edges without a common vertex whose swept boxes are within the separation of each
 /// other, each pair once, the smaller index first. Otherwise like vertex_face_candidates.
 [[nodiscard]] std::vector<IndexPair> edge_edge_candidates(const MovingVertices& vertices,
                                                           std::span<const Edge> edges,

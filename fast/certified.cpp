@@ -152,7 +152,7 @@ std::vector<Collision> collisions(const Batch& batch, const CertifiedOptions& op
 
 // ---- Interface ----------------------------------------------------------------------------------
 
-std::string_view name(Stage stage) {
+std::string_view to_string(Stage stage) {
   switch (stage) {
     case Stage::axis:
       return "axis";
@@ -168,7 +168,7 @@ std::string_view name(Stage stage) {
   return "exact";
 }
 
-CertifiedResult certified(Kind kind, const Query& query, const CertifiedOptions& options) {
+CertifiedResult solve(Kind kind, const Query& query, const CertifiedOptions& options) {
   CertifiedResult result;
   solve(batch_of(kind, std::span(&query, 1)), std::span(&result, 1), options);
   return result;
@@ -196,7 +196,7 @@ constexpr std::uint32_t stages_up_to(Stage stage) { return static_cast<std::uint
 
 std::vector<std::string_view> stage_names() {
   std::vector<std::string_view> names;
-  for (std::size_t i = 0; i < stages; ++i) names.push_back(name(static_cast<Stage>(i)));
+  for (std::size_t i = 0; i < stages; ++i) names.push_back(to_string(static_cast<Stage>(i)));
   return names;
 }
 

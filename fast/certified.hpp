@@ -45,7 +45,7 @@ enum class Stage : std::uint8_t {
 inline constexpr std::size_t stages = 5;
 
 /// The name of the enumerator.
-[[nodiscard]] std::string_view name(Stage stage);
+[[nodiscard]] std::string_view to_string(Stage stage);
 
 struct CertifiedOptions {
   /// The maximum width of the enclosure of the time of impact, relative to its upper end; finite,
@@ -77,8 +77,8 @@ struct CertifiedResult {
 
 /// Decides one query.
 /// \throws std::invalid_argument for options out of range.
-[[nodiscard]] CertifiedResult certified(Kind kind, const Query& query,
-                                        const CertifiedOptions& options = {});
+[[nodiscard]] CertifiedResult solve(Kind kind, const Query& query,
+                                    const CertifiedOptions& options = {});
 
 /// Decides query i in results[i].
 /// \throws std::invalid_argument for options out of range or spans of different lengths.

@@ -17,7 +17,7 @@
 #include "fast/distance/exact_distance.hpp"
 #include "fast/distance/filter_kernel.hpp"
 #include "fast/distance/filtered_distance.hpp"
-#include "fast/distance/nearness.hpp"
+#include "fast/distance/proximity.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/platform/threads.hpp"
 #include "filters/error_bounds.hpp"

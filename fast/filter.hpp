@@ -21,12 +21,12 @@ enum class ErrorModel : std::uint8_t {
   released,
 };
 
-/// The filter on each axis, in units of the coordinates, for F − d and F + d with `min_separation`
+/// The filter on each axis, in units of the coordinates, for F − d and F + d with `distance`
 /// d, or F itself if d is 0. `x_max` is the maximum magnitude of the coordinates on each axis, of
 /// one query or of a scene; the filter of a scene holds for all its queries. Infinite if overflow
 /// could occur. \pre all arguments are finite and not negative.
 [[nodiscard]] std::array<double, 3> error_filter(Kind kind, const std::array<double, 3>& x_max,
-                                                 double min_separation,
+                                                 double distance,
                                                  ErrorModel model = ErrorModel::derived);
 
 }  // namespace touchstone::fast

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "fast/certified.hpp"
-#include "fast/distance/nearness.hpp"
+#include "fast/distance/proximity.hpp"
 #include "fast/platform/floating_point_state.hpp"
 #include "fast/step/scene.hpp"
 
@@ -50,8 +50,8 @@ LineSearchLimit limit_of_scene(const Step& step, double p, Norm norm) {
   result.distance = least->distance;
   const std::optional<double> kept = kept_distance(p, least->distance);
   if (!kept) {
-    const bool touches = least->distance.upper == 0.0;
-    result.status = touches ? LineSearchStatus::in_contact : LineSearchStatus::too_small;
+    const bool is_in_contact = least->distance.upper == 0.0;
+    result.status = is_in_contact ? LineSearchStatus::in_contact : LineSearchStatus::too_small;
     result.step_size = 0.0;
     for (const PairDistance& one : least->pairs) {
       result.pairs.push_back(at_start(one.kind, one.pair));
@@ -100,10 +100,10 @@ class SearchOfPairs {
       : step_(step), p_(p), norm_(norm), motion_(greatest_relative_motion(step.vertices())) {}
 
   [[nodiscard]] LineSearchLimit run() {
-    const Step touching = step_.with_separation({});
+    const Step at_no_distance = step_.with_separation({});
     // A pair that collides comes within s before.
-    if (const auto impact = touching.earliest()) upper_ = impact->toi_upper;
-    touching.candidates([this](const StepCandidates& some) { consider(some); });
+    if (const auto impact = at_no_distance.earliest()) upper_ = impact->toi_upper;
+    at_no_distance.candidates([this](const StepCandidates& some) { consider(some); });
     result_.step_size = 0.0;
     if (!touching_.empty()) {
       result_.status = LineSearchStatus::in_contact;
@@ -156,7 +156,7 @@ class SearchOfPairs {
     }
     CertifiedOptions options = step_.certified();
     options.separation = {.distance = *kept, .norm = norm_};
-    const CertifiedResult result = certified(query_kind, query, options);
+    const CertifiedResult result = solve(query_kind, query, options);
     if (result.verdict != Verdict::yes) return;
     add(collision_of(kind, pair, result));
   }

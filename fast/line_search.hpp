@@ -39,7 +39,8 @@ enum class LineSearchStatus : std::uint8_t {
   whole,       ///< the whole step is allowed
   limited,     ///< a pair limits the step
   in_contact,  ///< a pair is in contact at the start; the step size is 0
-  too_small,  ///< the step size, or a distance s as above, would be below the least doubles; it is 0
+  too_small,   ///< the step size, or a distance s as above, would be below the least doubles; it is
+               ///< 0
 };
 
 struct LineSearchOptions {

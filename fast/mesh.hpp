@@ -32,8 +32,8 @@ struct alignas(64) MovingVertex {
   std::array<double, 4> end;    ///< x, y, z and 0
 };
 
-/// A coordinate in double, where it is the same number. Subnormal floats too: where the caller's floating-point state takes
-/// subnormals for 0, a conversion would lose them.
+/// A coordinate in double, where it is the same number. Subnormal floats too: where the caller's
+/// floating-point state takes subnormals for 0, a conversion would lose them.
 [[nodiscard]] constexpr double to_double(double x) { return x; }
 [[nodiscard]] constexpr double to_double(float x) {
   constexpr std::uint32_t exponent = 0x7F80'0000, significand = 0x007F'FFFF;

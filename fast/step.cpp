@@ -32,9 +32,9 @@ constexpr std::size_t groups_of_part = 32;
 /// The end time of the boxes, for contacts up to a time: the least power of two that is not below
 /// it, with a minimum, because at smaller ones the rounding of places in float would exceed the
 /// motion.
-double horizon_of(double time) {
-  constexpr double least_horizon = 0x1p-40;
-  if (time <= least_horizon) return least_horizon;
+double t_end_of(double time) {
+  constexpr double least_t_end = 0x1p-40;
+  if (time <= least_t_end) return least_t_end;
   int exponent = 0;
   const double fraction = std::frexp(time, &exponent);
   return std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
@@ -68,7 +68,7 @@ void collect(const Scene& scene, const Trees<2>& trees, const SearchPart& part,
 }
 
 std::vector<StepCollision> all_collisions(const Scene& scene) {
-  const Trees<2> trees = scene.trees<2>(horizon_of(scene.certified().t_max));
+  const Trees<2> trees = scene.trees<2>(t_end_of(scene.certified().t_max));
   const std::vector<SearchPart> parts = scene.parts(groups_of_part);
   std::vector<std::vector<StepCollision>> of_parts(parts.size());
   tbb::parallel_for(std::size_t{0}, parts.size(),
@@ -82,7 +82,7 @@ std::vector<StepCollision> all_collisions(const Scene& scene) {
 }
 
 bool has_collision(const Scene& scene) {
-  const Trees<2> trees = scene.trees<2>(horizon_of(scene.certified().t_max));
+  const Trees<2> trees = scene.trees<2>(t_end_of(scene.certified().t_max));
   const std::vector<SearchPart> parts = scene.parts(groups_of_part);
   std::atomic<bool> found = false;
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
@@ -104,8 +104,8 @@ class EarliestSearch {
  public:
   explicit EarliestSearch(const Scene& scene)
       : scene_(scene),
-        horizon_(horizon_of(scene.certified().t_max)),
-        trees_(scene.trees<2>(horizon_)),
+        t_end_(t_end_of(scene.certified().t_max)),
+        trees_(scene.trees<2>(t_end_)),
         parts_(scene.parts(groups_of_part)) {}
 
   [[nodiscard]] std::optional<StepImpact> run() {
@@ -131,10 +131,10 @@ class EarliestSearch {
   /// Fits the boxes to the remaining time, if it is much less than before.
   void look_nearer() {
     static constexpr double much = 0.25;
-    const double horizon = horizon_of(limit());
-    if (horizon > much * horizon_) return;
-    horizon_ = horizon;
-    scene_.fit(trees_, horizon);
+    const double t_end = t_end_of(limit());
+    if (t_end > much * t_end_) return;
+    t_end_ = t_end;
+    scene_.fit(trees_, t_end);
   }
 
   /// Searches with the wanted groups.
@@ -191,7 +191,7 @@ class EarliestSearch {
   }
 
   const Scene& scene_;
-  double horizon_;
+  double t_end_;
   Trees<2> trees_;
   std::vector<SearchPart> parts_;
   std::atomic<double> upper_ = std::numeric_limits<double>::infinity();

@@ -136,8 +136,8 @@ struct StepCandidates {
 
 class Step {
  public:
-  /// From the vertices before and after: matrices of float or double in any storage order, a row for
-  /// each vertex, which are copied. Keeps references to the elements, not to the groups.
+  /// From the vertices before and after: matrices of float or double in any storage order, a row
+  /// for each vertex, which are copied. Keeps references to the elements, not to the groups.
   /// \pre If edges are given, those of all faces are among them.
   /// \throws std::invalid_argument unless both are n×3, or for invalid options; std::domain_error
   /// naming the first vertex with a coordinate that is NaN or infinite; std::out_of_range naming

@@ -44,7 +44,7 @@ struct SearchOptions {
 
 /// The result of a search.
 struct SearchResult {
-  bool hit;
+  bool collides;
   double toi;
   double tolerance;
   std::int64_t checks;
@@ -64,7 +64,7 @@ class Search {
     workspace_.level.assign(1, {0.0, 0.0, 0.0});
     workspace_.upper_halves.clear();
     while (!workspace_.level.empty()) {
-      if (examine_level()) return hit();
+      if (examine_level()) return collision();
       std::swap(workspace_.level, workspace_.next_level);
     }
     if (remembered_ <= 1.0) return {true, remembered_, options_.tolerance, checks_};
@@ -114,7 +114,7 @@ class Search {
   }
 
   /// Examines the boxes of a level and creates the boxes of the next. True if the search ends with
-  /// a hit, at the level's first box that is not dropped.
+  /// a collision, at the level's first box that is not dropped.
   bool examine_level() {
     const std::optional<Axis> axis = axis_to_split();
     bool is_first = true;
@@ -172,7 +172,9 @@ class Search {
     halves.clear();
   }
 
-  [[nodiscard]] SearchResult hit() const { return {true, first_.toi, first_.tolerance, checks_}; }
+  [[nodiscard]] SearchResult collision() const {
+    return {true, first_.toi, first_.tolerance, checks_};
+  }
 
   struct First {
     double toi;
@@ -195,7 +197,7 @@ std::string_view fault_of(const TightInclusionOptions& options) {
   if (!(options.tolerance > 0.0 && options.tolerance < infinity)) {
     return "the tolerance must be positive and finite";
   }
-  if (!(options.min_separation >= 0.0 && options.min_separation < infinity)) {
+  if (!(options.separation.distance >= 0.0 && options.separation.distance < infinity)) {
     return "the minimum separation must be finite and not negative";
   }
   if (!(options.t_max >= 0.0 && options.t_max <= 1.0)) return "t_max must be in [0,1]";
@@ -234,14 +236,14 @@ class QuerySolver {
     search(result);
     if (options_.no_zero_toi) refine(result);
     result.tolerance /= scale_;
-    result.min_separation /= scale_;
+    result.separation.distance /= scale_;
     return result;
   }
 
  private:
   /// Sets scale, separation and filter.
   void prepare(Kind kind, const Query& query, Extent extent) {
-    const double greatest = std::max(std::ranges::max(extent.x_max), options_.min_separation);
+    const double greatest = std::max(std::ranges::max(extent.x_max), options_.separation.distance);
     if (greatest > greatest_unscaled) {
       scale_ = scale_down;
       Query scaled = query;
@@ -250,7 +252,7 @@ class QuerySolver {
     }
     tolerance_ = std::max(options_.tolerance * scale_, std::numeric_limits<double>::denorm_min());
     t_max_ = options_.t_max;
-    workspace_.problem.separation = options_.min_separation * scale_;
+    workspace_.problem.separation = options_.separation.distance * scale_;
     std::ranges::copy(filter(kind, extent.x_max), workspace_.problem.filter.begin());
   }
 
@@ -275,10 +277,10 @@ class QuerySolver {
                {tolerance_, options_.max_checks, options_.max_boxes, round_up_to_exact(t_max_)})
             .run();
     result.checks += found.checks;
-    result.verdict = found.hit ? Verdict::yes : Verdict::no;
-    result.toi = found.hit ? std::min(found.toi, t_max_) : Answer::none;
-    result.tolerance = found.hit ? found.tolerance : Answer::none;
-    result.min_separation = workspace_.problem.separation;
+    result.verdict = found.collides ? Verdict::yes : Verdict::no;
+    result.toi = found.collides ? std::min(found.toi, t_max_) : Answer::none;
+    result.tolerance = found.collides ? found.tolerance : Answer::none;
+    result.separation.distance = workspace_.problem.separation;
   }
 
   /// Searches again while the time of impact is 0, with options that depend on the last result.
@@ -300,7 +302,7 @@ class QuerySolver {
       // No contact was found, but only up to a shorter time or at a lower separation: the answer to
       // the query remains yes.
       const bool asked_for_more =
-          t_max_ < options_.t_max || separation < options_.min_separation * scale_;
+          t_max_ < options_.t_max || separation < options_.separation.distance * scale_;
       if (result.verdict == Verdict::no && asked_for_more) {
         result.verdict = Verdict::yes;
         result.toi = t_max_;
@@ -362,7 +364,7 @@ class TightInclusionMethod final : public Method {
     TightInclusionOptions all = base_;
     all.tolerance = options.tolerance;
     all.max_checks = options.max_checks;
-    all.min_separation = options.separation.distance;
+    all.separation = options.separation;
     all.t_max = options.t_max;
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const TightInclusionResult result = tight_inclusion(kind, queries[i], all);

@@ -52,7 +52,7 @@ struct TightInclusionOptions {
   std::size_t max_boxes = std::size_t{1} << 22U;
   /// d: the distance, measured in L∞, at which primitives are in contact; finite, not negative. The
   /// answer is conservative for the same distance in L2.
-  double min_separation = 0.0;
+  Separation separation = {};
   /// Only contacts up to this time, in [0,1], count; it is rounded up to a multiple of 2^-53.
   double t_max = 1.0;
   /// If the time of impact is 0, search again with less separation, a smaller tolerance or a
@@ -84,7 +84,7 @@ struct TightInclusionResult {
   double tolerance = Answer::none;
   /// The separation of `toi`: there is no contact at this separation before `toi`. Below the
   /// requested one only if no_zero_toi lowered it.
-  double min_separation = 0.0;
+  Separation separation = {};
   /// Boxes examined, over all searches.
   std::int64_t checks = 0;
   /// The number of further searches of no_zero_toi.

@@ -4,7 +4,8 @@
 /// Numbers of about 106 bits as unevaluated sums of two doubles, for any scalar with the operations
 /// of double, lanes included.
 ///
-/// **Errors.** Let u = 2^-53. All pairs are normalised: high is the double nearest to the sum, hence
+/// **Errors.** Let u = 2^-53. All pairs are normalised: high is the double nearest to the sum,
+/// hence
 /// |low| ≤ u |high|. While nothing overflows or underflows, sums and products are wrong by less
 /// than 8u² = 2^-103 of the truth, whatever the signs: an arithmetic of 103 digits in the sense of
 /// filters/derivation/rounding_model.hpp. The algorithms are AccurateDWPlusDW and DWTimesDW1 of
@@ -20,11 +21,12 @@
 ///   at most 6u, rounded by 4u². The sum is 9u², for a product that is at least 2 (1 − u)².
 ///
 /// *Sums.* Let |a.high| ≥ |b.high|, scaled so that 1 ≤ a.high < 2, and exactly s + s' = a.high +
-/// b.high, t + t' = a.low + b.low. Two operations round: c = s' + t, and w = t' + v', where v + v' =
-/// s + c exactly.
+/// b.high, t + t' = a.low + b.low. Two operations round: c = s' + t, and w = t' + v', where v + v'
+/// = s + c exactly.
 /// - If −a.high ≤ b.high ≤ −a.high/2, then s is exact, s' = 0 and c = t: only w is rounded, by at
-///   most u |t' + v'|, and not at all if v' = 0. Otherwise |s + t| is more than 2^53 last places of t:
-///   s is a multiple of them, as it is of the last place of b.high, of which t has at most 1½. So
+///   most u |t' + v'|, and not at all if v' = 0. Otherwise |s + t| is more than 2^53 last places of
+///   t: s is a multiple of them, as it is of the last place of b.high, of which t has at most 1½.
+///   So
 ///   |t'|, at most half a last place of t, is below u |v|, and |v'| ≤ u |v|. The error is at most
 ///   2u² |v|, for a sum that is at least (1 − 2u) |v|.
 /// - Otherwise σ ≤ s < 2σ for a σ of ½, 1 or 2. Then |s'| ≤ uσ, and |t| is at most 2u (3u/2 if σ =
@@ -59,7 +61,8 @@ struct DoubleDouble {
   Scalar low;
 };
 
-/// a + b exactly. \pre |a| ≥ |b|, or a is a multiple (0 is one) of the last place of b. [dekker1971]
+/// a + b exactly. \pre |a| ≥ |b|, or a is a multiple (0 is one) of the last place of b.
+/// [dekker1971]
 template <class Scalar>
 [[nodiscard]] constexpr DoubleDouble<Scalar> sum_of_ordered(const Scalar& a, const Scalar& b) {
   const Scalar sum = a + b;
@@ -84,8 +87,8 @@ template <class Scalar>
   return {difference, (a - a_part) - (b - b_part)};
 }
 
-/// a · b − product for product = fl(a · b), exactly: without a fused operation, by halves of 26 bits
-/// (Veltkamp; [dekker1971]). \pre |a|, |b| ≤ 2^990. Lanes with a fused operation overload it.
+/// a · b − product for product = fl(a · b), exactly: without a fused operation, by halves of 26
+/// bits (Veltkamp; [dekker1971]). \pre |a|, |b| ≤ 2^990. Lanes with a fused operation overload it.
 template <class Scalar>
 [[nodiscard]] constexpr Scalar product_error(const Scalar& a, const Scalar& b,
                                              const Scalar& product) {

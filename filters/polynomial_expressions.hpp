@@ -15,7 +15,7 @@
 /// blossom):
 ///
 ///     N = p × q:        N_a = p_a × q_a,     2 N_ab = p_a × q_b + p_b × q_a,     N_b
-///     det = r · N:      r_a·N_a,   (r_b·N_a + r_a·2N_ab) / 3,   (r_a·N_b + r_b·2N_ab) / 3,  r_b·N_b
+///     det = r · N:      r_a·N_a,   (r_b·N_a + r_a·2N_ab) / 3,   (r_a·N_b + r_b·2N_ab) / 3, r_b·N_b
 ///     x · (d × y):      x_a·(d×y_a),   (x_a·(d×y_b) + x_b·(d×y_a)) / 2,    x_b·(d×y_b)
 ///
 /// for a fixed direction d. The steps below compute them without the divisors. The last
@@ -127,7 +127,8 @@ struct ProjectedGap {
   }
 };
 
-/// Common parts of the two expressions of the determinant. Coordinates: r, p, q at t=0, then at t=1.
+/// Common parts of the two expressions of the determinant. Coordinates: r, p, q at t=0, then at
+/// t=1.
 struct DeterminantInputs {
   static constexpr std::size_t coordinates = 18;
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 1, 1, 1, 2, 2, 2,
@@ -174,7 +175,8 @@ struct DeterminantMiddle : DeterminantInputs {
   }
 };
 
-/// Common parts of the two expressions of an orientation. Coordinates: d, then x, y at t=0, then at t=1.
+/// Common parts of the two expressions of an orientation. Coordinates: d, then x, y at t=0, then at
+/// t=1.
 struct OrientationInputs {
   static constexpr std::size_t coordinates = 15;
   static constexpr std::array<std::size_t, coordinates> classes{0, 0, 0, 1, 1, 1, 2, 2,

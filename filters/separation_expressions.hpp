@@ -21,8 +21,8 @@ namespace touchstone::filters {
 /// x for x ∈ [0,1].
 inline constexpr Group<2, 1> unit_interval{{{0}, {1}}};
 
-/// d·(a − b) − D n, a and b moving, at a time t. Coordinates: d, n, then a, b at t=0, a, b at t=1, D.
-/// Weights: (1−t, t).
+/// d·(a − b) − D n, a and b moving, at a time t. Coordinates: d, n, then a, b at t=0, a, b at t=1,
+/// D. Weights: (1−t, t).
 struct AdvancedGap {
   static constexpr std::string_view name = "advanced_gap";
   static constexpr std::size_t coordinates = 17;

@@ -1,7 +1,8 @@
 /// \file
-/// The rules of the project that a compiler does not check: which module may include which, that every
-/// header has a test, how a header begins, and that a folder of verify is a namespace. Each rule is a function of paths and texts, so that the same function that reads the source
-/// tree is shown to find planted faults.
+/// The rules of the project that a compiler does not check: which module may include which, that
+/// every header has a test, how a header begins, and that a folder of verify is a namespace. Each
+/// rule is a function of paths and texts, so that the same function that reads the source tree is
+/// shown to find planted faults.
 
 #include <gtest/gtest.h>
 
@@ -34,8 +35,8 @@ struct Permission {
 
 /// A file obeys the lines of the longest `from` that fits its path.
 ///
-/// filters/ is two targets: the expressions and their bounds, which simulators include and which need
-/// nothing, and the derivation of the bounds.
+/// filters/ is two targets: the expressions and their bounds, which simulators include and which
+/// need nothing, and the derivation of the bounds.
 constexpr auto permissions = std::to_array<Permission>({
     {"exact/query.hpp", "Eigen/"},
 
@@ -133,8 +134,8 @@ constexpr auto permissions = std::to_array<Permission>({
     {"verify/plugin.h", "stdint.h"},
 });
 
-/// The folders of verify, and the folders that each may include besides itself: only some of those above it, so that there
-/// are no circles. All lines for verify above hold as well.
+/// The folders of verify, and the folders that each may include besides itself: only some of those
+/// above it, so that there are no circles. All lines for verify above hold as well.
 struct Layer {
   std::string_view folder;
   std::vector<std::string_view> includes;
@@ -228,7 +229,8 @@ constexpr auto headers_without_test = std::to_array<Exception>({
      "a part of the families, tested through their queries"},
 });
 
-/// Parts of a module that a permission for the whole module does not include: only lines that name them do.
+/// Parts of a module that a permission for the whole module does not include: only lines that name
+/// them do.
 constexpr std::array<std::string_view, 2> closed_parts{"exact/checker/", "filters/derivation/"};
 
 constexpr std::array<std::string_view, 5> modules{"exact", "filters", "fast", "adapters", "verify"};
@@ -389,7 +391,8 @@ Violations foreign_extensions(const Tree& tree) {
   return result;
 }
 
-/// The namespace of a source of verify: that of its folder; empty for other files, and for the program itself.
+/// The namespace of a source of verify: that of its folder; empty for other files, and for the
+/// program itself.
 std::string namespace_of(std::string_view path) {
   if (!path.starts_with("verify/") || path == "verify/cli/main.cpp") return "";
   if (!is_header(path) && !path.ends_with(".cpp")) return "";
@@ -524,7 +527,8 @@ TEST(PlantedFault, EachForbiddenIncludeIsFound) {
       {"exact/query.hpp", "#include <CGAL/Polynomial.h>\n"},
       {"verify/plugin.h", "#include \"verify/data/query_source.hpp\"\n"},
       {"exact/checker/proof.cpp", "#include \"exact/query.hpp\"\n"},
-      // The folders of verify: an arrow against their order, a generator of another folder, a folder without a rule.
+      // The folders of verify: an arrow against their order, a generator of another folder, a
+      // folder without a rule.
       {"verify/io/csv.cpp", "#include \"verify/data/dataset.hpp\"\n"},
       {"verify/judge/judge.cpp", "#include \"verify/solvers/solver.hpp\"\n"},
       {"verify/stability/new.cpp", "#include \"verify/fuzz/fuzz.hpp\"\n"},

@@ -1,5 +1,6 @@
 /// \file
-/// The documents have the numbers of their data: `./run results --check`, which is docs/documents.py.
+/// The documents have the numbers of their data: `./run results --check`, which is
+/// docs/documents.py.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -69,8 +69,8 @@ struct touchstone_answer {
 /// Defined by the plugin: returns touchstone_interface_version.
 int32_t touchstone_plugin_version(void);
 
-/// Defined by the plugin: the solver's name in reports, one line of UTF-8 text without control characters
-/// or invisible ones, that stays valid.
+/// Defined by the plugin: the solver's name in reports, one line of UTF-8 text without control
+/// characters or invisible ones, that stays valid.
 const char* touchstone_plugin_name(void);
 
 /// Defined by the plugin: answers one query. Must be thread-safe.

@@ -1,12 +1,14 @@
 #pragma once
 
 /// \file
-/// Touchstone in C99: exact answers about pairs of moving primitives and about whole steps of a mesh, for languages that
-/// call C (Rust, Julia, C#, Python …). The library is `touchstone_c`, shared.
+/// Touchstone in C99: exact answers about pairs of moving primitives and about whole steps of a
+/// mesh, for languages that call C (Rust, Julia, C#, Python …). The library is `touchstone_c`,
+/// shared.
 ///
-/// All points move on straight lines from t=0 to t=1. Coordinates are doubles, x, y, z of each point in turn. Functions
-/// that can fail return 0, or 2 for bad input: then touchstone_last_error() says what is wrong, and nothing else was
-/// written. Different threads may call everything at once, but for one step's touchstone_step_collisions.
+/// All points move on straight lines from t=0 to t=1. Coordinates are doubles, x, y, z of each
+/// point in turn. Functions that can fail return 0, or 2 for bad input: then
+/// touchstone_last_error() says what is wrong, and nothing else was written. Different threads may
+/// call everything at once, but for one step's touchstone_step_collisions.
 
 #include <stddef.h>
 #include <stdint.h>
@@ -51,9 +53,9 @@ typedef struct TouchstoneOptions {
 } TouchstoneOptions;
 
 typedef struct TouchstoneImpact {
-  int32_t verdict;  ///< TOUCHSTONE_NO, _YES or _ERROR
-  double
-      toi_lower;  ///< with yes: before the time of impact, or 0 if that is 0; else NaN, as all that follow
+  int32_t verdict;   ///< TOUCHSTONE_NO, _YES or _ERROR
+  double toi_lower;  ///< with yes: before the time of impact, or 0 if that is 0; else NaN, as all
+                     ///< that follow
   double toi_upper;  ///< with yes: not before the time of impact
   double u;          ///< where: the place f0 + u (f1 − f0) + v (f2 − f0) on the face,
   double v;          ///< or u on the first edge and v on the second, from their first points
@@ -92,7 +94,8 @@ typedef struct TouchstoneStep TouchstoneStep;
 /// "1.2.3".
 TOUCHSTONE_API const char* touchstone_version(void);
 
-/// What the last call of this thread that returned 2 (or null) found wrong; valid until its next call.
+/// What the last call of this thread that returned 2 (or null) found wrong; valid until its next
+/// call.
 TOUCHSTONE_API const char* touchstone_last_error(void);
 
 /// 0, 1, 1e-12, TOUCHSTONE_LINF, 0.
@@ -117,18 +120,19 @@ TOUCHSTONE_API void touchstone_step_free(TouchstoneStep* step);
 /// Does nothing touch? Writes 1 or 0.
 TOUCHSTONE_API int32_t touchstone_step_is_free(const TouchstoneStep* step, int32_t* is_free);
 
-/// The earliest impact, as the smallest toi_lower and toi_upper of all pairs; verdict TOUCHSTONE_NO and NaN if nothing
-/// touches. u and v are NaN.
+/// The earliest impact, as the smallest toi_lower and toi_upper of all pairs; verdict TOUCHSTONE_NO
+/// and NaN if nothing touches. u and v are NaN.
 TOUCHSTONE_API int32_t touchstone_step_earliest(const TouchstoneStep* step,
                                                 TouchstoneImpact* impact);
 
-/// All pairs that touch. They stay valid until the next call of this function that returns 0 with this step, or its end.
+/// All pairs that touch. They stay valid until the next call of this function that returns 0 with
+/// this step, or its end.
 TOUCHSTONE_API int32_t touchstone_step_collisions(TouchstoneStep* step,
                                                   const TouchstoneCollision** collisions,
                                                   size_t* count);
 
-/// A step size as large as can be: the step from x0 to fl(x0 + alpha (x1 − x0)) was decided to be free, and that of the
-/// next double not to be. Writes −1 if not even a step of size 0 is free.
+/// A step size as large as can be: the step from x0 to fl(x0 + alpha (x1 − x0)) was decided to be
+/// free, and that of the next double not to be. Writes −1 if not even a step of size 0 is free.
 /// Status 2 if x1 − x0 of a coordinate is greater than any double; the message names the vertex.
 TOUCHSTONE_API int32_t touchstone_step_free_step_size(const TouchstoneStep* step, double* alpha);
 

@@ -1,10 +1,12 @@
 #pragma once
 
 /// \file
-/// The interface of Tight-Inclusion (its `tight_inclusion/ccd.hpp`), answered by the certified solver.
+/// The interface of Tight-Inclusion (its `tight_inclusion/ccd.hpp`), answered by the certified
+/// solver.
 ///
-/// A program that includes that header finds this one instead once it links `touchstone::tight_inclusion_adapter`, and
-/// needs no change. Answers are exact, so some arguments have no meaning here:
+/// A program that includes that header finds this one instead once it links
+/// `touchstone::tight_inclusion_adapter`, and needs no change. Answers are exact, so some arguments
+/// have no meaning here:
 ///
 /// | argument | here |
 /// |---|---|
@@ -19,11 +21,11 @@
 /// | `no_zero_toi` | no meaning: it always holds (see `toi`) |
 /// | `ccd_method` | no meaning |
 ///
-/// The tolerances of the parameters, which that library's search works to, are computed as in [wang2021], section 4.2; the
-/// two functions above do not need them.
+/// The tolerances of the parameters, which that library's search works to, are computed as in
+/// [wang2021], section 4.2; the two functions above do not need them.
 ///
-/// A query with a coordinate that is NaN or infinite is a collision at 0: nothing can be said of it, so nothing may move.
-/// All functions may be called from several threads at once.
+/// A query with a coordinate that is NaN or infinite is a collision at 0: nothing can be said of
+/// it, so nothing may move. All functions may be called from several threads at once.
 
 #include <algorithm>
 #include <array>
@@ -75,8 +77,9 @@ inline bool take(const touchstone::fast::CertifiedResult& result, Scalar& toi, S
 /// F at the corners of the domain, numbered by the binary digits t, u, v.
 using Corners = std::array<Vector3, 8>;
 
-/// How wide an interval of t, of u and of v may be for F to vary by no more than the tolerance over a box of three such
-/// intervals: a third of it each. F is affine in each, so its greatest rate of change is that along an edge of the domain.
+/// How wide an interval of t, of u and of v may be for F to vary by no more than the tolerance over
+/// a box of three such intervals: a third of it each. F is affine in each, so its greatest rate of
+/// change is that along an edge of the domain.
 inline Array3 tolerances(const Corners& corners, Scalar distance_tolerance) {
   Array3 result;
   for (std::size_t parameter = 0; parameter < 3; ++parameter) {
@@ -104,12 +107,13 @@ inline bool edgeEdgeCCD(
     const long /*max_itr*/, Scalar& output_tolerance, bool /*no_zero_toi*/ = DEFAULT_NO_ZERO_TOI,
     const CCDRootFindingMethod /*ccd_method*/ = CCDRootFindingMethod::BREADTH_FIRST_SEARCH) {
   return touchstone_adapter::take(
-      touchstone::fast::edge_edge(ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1, eb1_t1,
-                                  touchstone_adapter::options(ms, t_max)),
+      touchstone::fast::solve_edge_edge(ea0_t0, ea1_t0, eb0_t0, eb1_t0, ea0_t1, ea1_t1, eb0_t1,
+                                        eb1_t1, touchstone_adapter::options(ms, t_max)),
       toi, tolerance, output_tolerance);
 }
 
-/// Do a vertex and a face collide? \throws std::invalid_argument if `ms` or `t_max` is out of range.
+/// Do a vertex and a face collide? \throws std::invalid_argument if `ms` or `t_max` is out of
+/// range.
 inline bool vertexFaceCCD(
     const Vector3& v_t0, const Vector3& f0_t0, const Vector3& f1_t0, const Vector3& f2_t0,
     const Vector3& v_t1, const Vector3& f0_t1, const Vector3& f1_t1, const Vector3& f2_t1,
@@ -117,13 +121,13 @@ inline bool vertexFaceCCD(
     const long /*max_itr*/, Scalar& output_tolerance, bool /*no_zero_toi*/ = DEFAULT_NO_ZERO_TOI,
     const CCDRootFindingMethod /*ccd_method*/ = CCDRootFindingMethod::BREADTH_FIRST_SEARCH) {
   return touchstone_adapter::take(
-      touchstone::fast::point_triangle(v_t0, f0_t0, f1_t0, f2_t0, v_t1, f0_t1, f1_t1, f2_t1,
-                                       touchstone_adapter::options(ms, t_max)),
+      touchstone::fast::solve_vertex_face(v_t0, f0_t0, f1_t0, f2_t0, v_t1, f0_t1, f1_t1, f2_t1,
+                                          touchstone_adapter::options(ms, t_max)),
       toi, tolerance, output_tolerance);
 }
 
-/// The widths of intervals of t, u and v over which F varies by at most `distance_tolerance`; infinity for what F does not
-/// depend on.
+/// The widths of intervals of t, u and v over which F varies by at most `distance_tolerance`;
+/// infinity for what F does not depend on.
 inline Array3 compute_edge_edge_tolerances(
     const Vector3& ea0_t0, const Vector3& ea1_t0, const Vector3& eb0_t0, const Vector3& eb1_t0,
     const Vector3& ea0_t1, const Vector3& ea1_t1, const Vector3& eb0_t1, const Vector3& eb1_t1,

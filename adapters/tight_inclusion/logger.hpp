@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The logger of Tight-Inclusion's `tight_inclusion/logger.hpp`, for programs that write to it: nothing here does. The
-/// program finds and links spdlog itself.
+/// The logger of Tight-Inclusion's `tight_inclusion/logger.hpp`, for programs that write to it:
+/// nothing here does. The program finds and links spdlog itself.
 
 #include <spdlog/spdlog.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The stopwatches of Tight-Inclusion's `tight_inclusion/timer.hpp`. The macro is empty, as in that library unless it is
-/// configured with timers.
+/// The stopwatches of Tight-Inclusion's `tight_inclusion/timer.hpp`. The macro is empty, as in that
+/// library unless it is configured with timers.
 
 #include <chrono>
 

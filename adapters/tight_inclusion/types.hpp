@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The types of Tight-Inclusion's interface: double, or float where TOUCHSTONE_TICCD_FLOAT is defined (as that library
-/// when it is configured for single precision).
+/// The types of Tight-Inclusion's interface: double, or float where TOUCHSTONE_TICCD_FLOAT is
+/// defined (as that library when it is configured for single precision).
 
 #include <Eigen/Core>
 

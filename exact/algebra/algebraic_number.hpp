@@ -9,11 +9,11 @@
 /// - *Refinement.* p changes sign across the cell, so one sign of p halves it. Quadratic interval
 ///   refinement [abbott2006] guesses where the secant crosses zero and asks for two signs there; a
 ///   right guess doubles the number of bits that the next guess gains, a wrong one halves it.
-/// - *Sign of q(α).* If the Bernstein form of q has no sign change on the cell, its sign is the sign
-///   of q(α). Otherwise refine; this ends unless q(α) = 0, which holds iff α is a root of gcd(p,q),
-///   that is iff this divisor changes sign across the cell.
-/// - *Comparison.* Refine until the cells are disjoint; this ends unless the numbers are equal, which
-///   holds iff the gcd of their polynomials has a root in the intersection of the cells.
+/// - *Sign of q(α).* If the Bernstein form of q has no sign change on the cell, its sign is the
+///   sign of q(α). Otherwise refine; this ends unless q(α) = 0, which holds iff α is a root of
+///   gcd(p,q), that is iff this divisor changes sign across the cell.
+/// - *Comparison.* Refine until the cells are disjoint; this ends unless the numbers are equal,
+///   which holds iff the gcd of their polynomials has a root in the intersection of the cells.
 
 #include <compare>
 #include <optional>

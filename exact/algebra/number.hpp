@@ -3,9 +3,9 @@
 /// \file
 /// The exact numbers of this module, and the only conversions between them and doubles.
 ///
-/// They are CGAL's number types, with CGAL's algebraic traits once CGAL's headers are included. CGAL
-/// chooses their classes by its configuration. This project needs GMP's C++ classes, which CGAL takes
-/// where libgmpxx is installed (CGAL_USE_GMPXX).
+/// They are CGAL's number types, with CGAL's algebraic traits once CGAL's headers are included.
+/// CGAL chooses their classes by its configuration. This project needs GMP's C++ classes, which
+/// CGAL takes where libgmpxx is installed (CGAL_USE_GMPXX).
 
 #include <gmpxx.h>
 

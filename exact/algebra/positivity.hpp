@@ -23,8 +23,8 @@ inline constexpr unsigned long bisection_limit = 128;
 [[nodiscard]] std::vector<Integer> bernstein_coefficients(const Polynomial& p,
                                                           const RationalInterval& interval);
 
-/// The Bernstein coefficients on [0,1] of the form Σ c_k (1−t)^(n−k) t^k (exact/contact/corner_motion.hpp), all
-/// multiplied by one positive number.
+/// The Bernstein coefficients on [0,1] of the form Σ c_k (1−t)^(n−k) t^k
+/// (exact/contact/corner_motion.hpp), all multiplied by one positive number.
 [[nodiscard]] std::vector<Integer> bernstein_coefficients(std::vector<Integer> form);
 
 /// The sign (−1, 1) that all of the numbers have; 0 if one is zero or they differ in sign.

@@ -86,7 +86,7 @@ void write_points(std::string& text, const Query& query) {
 }
 
 void write_separation(std::string& text, const Separation& separation) {
-  if (is_contact(separation)) return;
+  if (is_zero(separation)) return;
   text += "separation ";
   write_hexadecimal(text, separation.distance);
   text.append(" ").append(to_string(separation.norm)).append("\n");
@@ -175,13 +175,13 @@ void write(std::string& text, const Certificate& certificate, std::string_view l
   write_points(text, certificate.query);
   write_separation(text, certificate.separation);
   write_claim(text, certificate);
-  write_pieces(text, certificate.pieces);
+  write_subintervals(text, certificate.subintervals);
   if (certificate.contact) write_contact(text, *certificate.contact);
   text += "end\n";
 }
 
-void write_pieces(std::string& text, const std::vector<Piece>& pieces) {
-  for (const auto& [from, to, feature] : pieces) {
+void write_subintervals(std::string& text, const std::vector<Subinterval>& subintervals) {
+  for (const auto& [from, to, feature] : subintervals) {
     text += "separate ";
     write_interval(text, {from, to});
     text += ' ';

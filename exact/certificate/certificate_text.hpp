@@ -27,12 +27,13 @@ inline constexpr std::size_t label_limit = 1024;
 /// question marks, and only the last label_limit bytes remain. An empty label has no line.
 void write(std::string& text, const Certificate& certificate, std::string_view label = {});
 
-/// A stream of one certificate, from the first line to the closing line. \param label as for write()
+/// A stream of one certificate, from the first line to the closing line. \param label as for
+/// write()
 [[nodiscard]] std::string certificate_stream(const Certificate& certificate,
                                              std::string_view label = {});
 
-/// Appends the lines of pieces, or of a contact, as in a certificate.
-void write_pieces(std::string& text, const std::vector<Piece>& pieces);
+/// Appends the lines of subintervals, or of a contact, as in a certificate.
+void write_subintervals(std::string& text, const std::vector<Subinterval>& subintervals);
 void write_contact(std::string& text, const ContactProof& contact);
 
 /// Appends a finite double as C's %a writes it, in any locale and floating-point environment.

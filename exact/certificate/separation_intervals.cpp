@@ -10,8 +10,8 @@
 namespace touchstone::exact {
 namespace {
 
-/// The number of levels that are left at the deepest place of a piece after it was divided for the
-/// limit.
+/// The number of levels that are left at the deepest place of a subinterval after it was divided
+/// for the limit.
 constexpr unsigned long depth_left = 100;
 static_assert(depth_left + 2 <= bisection_limit);
 
@@ -35,7 +35,7 @@ Motion restricted(const Motion& motion, const Rational& until) {
   return result;
 }
 
-// ---- One piece ----------------------------------------------------------------------------------
+// ---- One subinterval ----------------------------------------------------------------------------------
 
 /// A separator that holds at all times of the motion and that a checker can verify.
 std::optional<Feature> single_feature(const std::vector<Separator>& separators) {
@@ -50,13 +50,13 @@ std::optional<Feature> single_feature(const std::vector<Separator>& separators) 
   return std::nullopt;
 }
 
-// ---- Many pieces --------------------------------------------------------------------------------
+// ---- Many subintervals --------------------------------------------------------------------------------
 // Here time is the fraction y of [0,until].
 
 /// As farthest, but a separator must exist.
 Span span_at(std::vector<Separator>& separators, const AlgebraicNumber& y) {
   std::optional<Span> span = farthest(separators, y);
-  if (!span) throw std::logic_error("touchstone: no separation where nothing was to touch");
+  if (!span) throw std::logic_error("touchstone: no separation where there should be no contact");
   return std::move(*span);
 }
 
@@ -88,16 +88,17 @@ Rational break_between(AlgebraicNumber lower, AlgebraicNumber upper, const Ratio
   throw CertificateLimitError("a break point between two features needs too many bits");
 }
 
-/// A piece with the times of its ends.
-struct LongPiece {
+/// A subinterval with the times of its ends.
+struct LongSubinterval {
   Rational from;
   Rational to;
   Separator* separator;
 };
 
-/// The fewest pieces, without regard to the checker's limit.
-std::vector<LongPiece> fewest_pieces(std::vector<Separator>& separators, const Rational& until) {
-  std::vector<LongPiece> pieces;
+/// The fewest subintervals, without regard to the checker's limit.
+std::vector<LongSubinterval> fewest_subintervals(std::vector<Separator>& separators,
+                                                 const Rational& until) {
+  std::vector<LongSubinterval> subintervals;
   Rational from = 0;
   Span span = span_at(separators, AlgebraicNumber(0));
   while (span.end) {
@@ -106,20 +107,22 @@ std::vector<LongPiece> fewest_pieces(std::vector<Separator>& separators, const R
     const auto begin = next.separator->begin_before(*span.end);
     if (begin && earliest < *begin) earliest = *begin;
     Rational to = break_between(std::move(earliest), *span.end, until);
-    pieces.push_back({from, to, span.separator});
+    subintervals.push_back({from, to, span.separator});
     from = std::move(to);
     span = std::move(next);
   }
-  pieces.push_back({from, until, span.separator});
-  return pieces;
+  subintervals.push_back({from, until, span.separator});
+  return subintervals;
 }
 
-/// The deepest place of all proofs that a piece needs; empty if it is within the checker's limit.
-std::optional<BisectionProof> beyond_checker(const LongPiece& piece, const Rational& until) {
-  const RationalInterval fractions{piece.from / until, piece.to / until};
+/// The deepest place of all proofs that a subinterval needs; empty if it is within the checker's
+/// limit.
+std::optional<BisectionProof> beyond_checker(const LongSubinterval& subinterval,
+                                             const Rational& until) {
+  const RationalInterval fractions{subinterval.from / until, subinterval.to / until};
   std::optional<BisectionProof> deepest;
-  for (std::size_t n = 0; n < piece.separator->size(); ++n) {
-    const auto bernstein = bernstein_coefficients(piece.separator->polynomial(n), fractions);
+  for (std::size_t n = 0; n < subinterval.separator->size(); ++n) {
+    const auto bernstein = bernstein_coefficients(subinterval.separator->polynomial(n), fractions);
     BisectionProof proof = prove_positive(bernstein, greatest_depth);
     if (proof.outcome != BisectionProof::Outcome::positive) {
       throw CertificateLimitError("a separation is too near to a contact for the limits");
@@ -131,27 +134,31 @@ std::optional<BisectionProof> beyond_checker(const LongPiece& piece, const Ratio
   return deepest;
 }
 
-/// Appends the piece in parts that a checker can verify. The neighbourhood of the deepest place is
-/// one part, whose proof needs at most depth_left + 2 levels.
-void append_visible(const LongPiece& whole, const Rational& until, std::vector<Piece>& pieces) {
-  std::vector<LongPiece> rest{whole};
+/// Appends the subinterval in parts that a checker can verify. The neighbourhood of the deepest
+/// place is one part, whose proof needs at most depth_left + 2 levels.
+void append_visible(const LongSubinterval& whole, const Rational& until,
+                    std::vector<Subinterval>& subintervals) {
+  std::vector<LongSubinterval> rest{whole};
   while (!rest.empty()) {
-    const LongPiece piece = std::move(rest.back());
+    const LongSubinterval subinterval = std::move(rest.back());
     rest.pop_back();
-    const auto deepest = beyond_checker(piece, until);
+    const auto deepest = beyond_checker(subinterval, until);
     if (!deepest) {
-      pieces.push_back({piece.from, piece.to, piece.separator->feature()});
+      subintervals.push_back({subinterval.from, subinterval.to, subinterval.separator->feature()});
       continue;
     }
     const unsigned long level = deepest->depth - depth_left;
     const Integer middle = deepest->index >> depth_left;
-    const Rational part = (piece.to - piece.from) * power_of_two(-static_cast<long>(level));
-    const Rational lower = std::max(piece.from, Rational(piece.from + part * (middle - 1)));
-    const Rational upper = std::min(piece.to, Rational(piece.from + part * (middle + 2)));
+    const Rational part =
+        (subinterval.to - subinterval.from) * power_of_two(-static_cast<long>(level));
+    const Rational lower =
+        std::max(subinterval.from, Rational(subinterval.from + part * (middle - 1)));
+    const Rational upper =
+        std::min(subinterval.to, Rational(subinterval.from + part * (middle + 2)));
     // The stack must yield the first part first.
-    if (upper < piece.to) rest.push_back({upper, piece.to, piece.separator});
-    rest.push_back({lower, upper, piece.separator});
-    if (piece.from < lower) rest.push_back({piece.from, lower, piece.separator});
+    if (upper < subinterval.to) rest.push_back({upper, subinterval.to, subinterval.separator});
+    rest.push_back({lower, upper, subinterval.separator});
+    if (subinterval.from < lower) rest.push_back({subinterval.from, lower, subinterval.separator});
   }
 }
 
@@ -162,18 +169,20 @@ bool is_within_limit(const Rational& number) {
          mpz_sizeinbase(number.get_den_mpz_t(), 2) <= number_limit;
 }
 
-std::vector<Piece> separate(const Motion& motion, const Rational& until) {
+std::vector<Subinterval> separate(const Motion& motion, const Rational& until) {
   std::vector<Separator> separators = exact::separators(restricted(motion, until));
   if (const auto feature = single_feature(separators)) return {{Rational(0), until, *feature}};
-  std::vector<Piece> pieces;
-  for (const LongPiece& piece : fewest_pieces(separators, until)) {
-    append_visible(piece, until, pieces);
+  std::vector<Subinterval> subintervals;
+  for (const LongSubinterval& subinterval : fewest_subintervals(separators, until)) {
+    append_visible(subinterval, until, subintervals);
   }
-  const auto too_long = [](const Piece& piece) { return !is_within_limit(piece.to); };
-  if (std::ranges::any_of(pieces, too_long)) {
+  const auto too_long = [](const Subinterval& subinterval) {
+    return !is_within_limit(subinterval.to);
+  };
+  if (std::ranges::any_of(subintervals, too_long)) {
     throw CertificateLimitError("a break point has too many bits");
   }
-  return pieces;
+  return subintervals;
 }
 
 }  // namespace touchstone::exact

@@ -1,14 +1,14 @@
 #pragma once
 
 /// \file
-/// The proof that there is no contact up to a time: the time is divided into pieces, each
+/// The proof that there is no contact up to a time: the time is divided into subintervals, each
 /// with one direction that separates all corners from the ball of the distance throughout the
-/// piece.
+/// subinterval.
 ///
 /// While the polygon conv{w_i(t)} is farther from the origin than the distance, the direction of
 /// some feature separates (exact/distance/separating_axes.hpp), on an open set of times. Finitely
-/// many of these sets cover the interval. The number of pieces is least if, at the first time not
-/// yet covered, the feature that holds longest is taken.
+/// many of these sets cover the interval. The number of subintervals is least if, at the first time
+/// not yet covered, the feature that holds longest is taken.
 
 #include <vector>
 
@@ -18,11 +18,11 @@
 
 namespace touchstone::exact {
 
-/// The fewest pieces that cover [0,until], each beginning at the end of the one before. A piece for
-/// which a checker would have to bisect more often than bisection_limit is divided further, into
-/// two or three if the polynomial has one minimum that is so close to zero. Break points are
-/// rationals of few bits.
-/// \param until In [0,1]; at 0 the only piece is a point.
+/// The fewest subintervals that cover [0,until], each beginning at the end of the one before. A
+/// subinterval for which a checker would have to bisect more often than bisection_limit is divided
+/// further, into two or three if the polynomial has one minimum that is so close to zero. Break
+/// points are rationals of few bits.
+/// \param until In [0,1]; at 0 the only subinterval is a point.
 /// \pre the motion is scaled uniformly, and nothing is within its distance in [0,until].
 /// \throws std::logic_error if something does.
 /// \throws CertificateLimitError if a break point needs more than number_limit bits. Where the
@@ -36,7 +36,7 @@ namespace touchstone::exact {
 /// vanish, at times as close to each other. At a distance > 0 in l2 the degree is 8 and the
 /// coefficients are below 2^(8s+24): the bounds are 2^(−128s−500) and 2^(−56s−400), and s ≤ 70 is
 /// enough.
-[[nodiscard]] std::vector<Piece> separate(const Motion& motion, const Rational& until);
+[[nodiscard]] std::vector<Subinterval> separate(const Motion& motion, const Rational& until);
 
 /// True if numerator and denominator have at most number_limit bits.
 [[nodiscard]] bool is_within_limit(const Rational& number);

@@ -51,8 +51,8 @@ mpq_class parse_hexadecimal(std::string_view text) {
   mpq_class number(parse_digits(std::string(whole).append(fraction), 16));
   // The integers of the fraction: number · 2^exponent / 1 or number / 2^−exponent.
   constexpr long limit = max_number_bits;
-  const long room = limit - static_cast<long>(mpz_sizeinbase(number.get_num_mpz_t(), 2));
-  if (exponent > room || 1 - exponent > limit) reject("too large or small a power of two");
+  const long margin = limit - static_cast<long>(mpz_sizeinbase(number.get_num_mpz_t(), 2));
+  if (exponent > margin || 1 - exponent > limit) reject("too large or small a power of two");
   exponent > 0 ? number <<= mp_bitcnt_t(exponent) : number >>= mp_bitcnt_t(-exponent);
   return number;
 }
@@ -242,19 +242,19 @@ void read_time_of_impact(Reader& reader, Certificate& certificate) {
   }
 }
 
-void read_pieces(Reader& reader, Certificate& certificate) {
-  for (certificate.pieces.clear(); reader.first_word() == "separate"; reader.end()) {
-    Piece& piece = certificate.pieces.emplace_back();
-    require_at_most(max_pieces, certificate.pieces.size(), "pieces");
-    piece.line = reader.begin("separate");
-    piece.from = read_number(reader);
-    piece.to = read_number(reader);
-    piece.feature = Feature(reader.one_of({"vertex", "edge", "face", "axis", "cross"}));
-    if (piece.feature >= Feature::axis) piece.axis = reader.one_of({"x", "y", "z"});
+void read_subintervals(Reader& reader, Certificate& certificate) {
+  for (certificate.subintervals.clear(); reader.first_word() == "separate"; reader.end()) {
+    Subinterval& subinterval = certificate.subintervals.emplace_back();
+    require_at_most(max_subintervals, certificate.subintervals.size(), "subintervals");
+    subinterval.line = reader.begin("separate");
+    subinterval.from = read_number(reader);
+    subinterval.to = read_number(reader);
+    subinterval.feature = Feature(reader.one_of({"vertex", "edge", "face", "axis", "cross"}));
+    if (subinterval.feature >= Feature::axis) subinterval.axis = reader.one_of({"x", "y", "z"});
     static constexpr std::array<std::size_t, 5> counts{1, 2, 0, 0, 2};
-    const std::size_t count = counts.at(std::size_t(piece.feature));
-    read_corners(reader, certificate, count, piece);
-    if (count == 0) piece.is_negative = reader.one_of({"+", "-"}) == 1;
+    const std::size_t count = counts.at(std::size_t(subinterval.feature));
+    read_corners(reader, certificate, count, subinterval);
+    if (count == 0) subinterval.is_negative = reader.one_of({"+", "-"}) == 1;
   }
 }
 
@@ -283,7 +283,7 @@ void read_contact(Reader& reader, Certificate& certificate) {
 void read_certificate(Reader& reader, Certificate& certificate) {
   read_query(reader, certificate);
   read_claim(reader, certificate);
-  if (certificate.has_pieces()) read_pieces(reader, certificate);
+  if (certificate.has_subintervals()) read_subintervals(reader, certificate);
   if (certificate.claim != Claim::no_collision) read_contact(reader, certificate);
   reader.begin("end");
   reader.end();

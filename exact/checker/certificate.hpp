@@ -23,7 +23,7 @@ namespace touchstone::checker {
 inline constexpr std::size_t max_line_bytes = 65'536;
 inline constexpr std::size_t max_label_bytes = 1'024;
 inline constexpr std::size_t max_number_bits = 16'384;
-inline constexpr std::size_t max_pieces = 4'096;
+inline constexpr std::size_t max_subintervals = 4'096;
 inline constexpr std::size_t max_root_degree = 8;
 
 /// Where a certificate proves nothing: throws, without a label.
@@ -39,8 +39,8 @@ void require_at_most(std::size_t limit, std::size_t count, std::string_view what
 /// \throws Rejection if it is none, or beyond the limits.
 [[nodiscard]] mpq_class parse_number(std::string_view word);
 
-/// The number in one form, whatever form it was read in: the shorter of the fraction in lowest terms and,
-/// where there is one, the hexadecimal float whose first digit is 1.
+/// The number in one form, whatever form it was read in: the shorter of the fraction in lowest
+/// terms and, where there is one, the hexadecimal float whose first digit is 1.
 [[nodiscard]] std::string to_text(const mpq_class& number);
 
 /// The text with every byte that is not printable ASCII as \xHH.
@@ -64,7 +64,7 @@ struct Part {
 enum class Feature : std::uint8_t { vertex, edge, face, axis, cross };
 
 /// `separate`: no contact in the interval.
-struct Piece : Part {
+struct Subinterval : Part {
   Feature feature = Feature::vertex;
   /// Of a face or an axis.
   bool is_negative = false;
@@ -92,16 +92,17 @@ struct Certificate {
   mpq_class distance = 0;
   bool is_l2 = false;
   Claim claim = Claim::no_collision;
-  /// The pieces cover [0,lower], the contact is in [lower,upper]. If upper is 0 there are no pieces.
+  /// The subintervals cover [0,lower], the contact is in [lower,upper]. If upper is 0 there are no
+  /// subintervals.
   mpq_class lower = 0, upper = 1;
-  std::vector<Piece> pieces;
+  std::vector<Subinterval> subintervals;
   Contact contact;
 
-  [[nodiscard]] bool has_pieces() const { return claim != Claim::collision && upper != 0; }
+  [[nodiscard]] bool has_subintervals() const { return claim != Claim::collision && upper != 0; }
 };
 
-/// The claim and the separation in one form, whatever form they were read in: a demand is the same text
-/// (checker.hpp). At distance 0 both norms are the same, and none is named.
+/// The claim and the separation in one form, whatever form they were read in: a demand is the same
+/// text (checker.hpp). At distance 0 both norms are the same, and none is named.
 [[nodiscard]] std::string to_text(const Certificate& certificate);
 [[nodiscard]] std::string separation_text(const Certificate& certificate);
 
@@ -109,7 +110,8 @@ struct Certificate {
 void require_demanded(const Options& options, const std::string& claim,
                       const std::string& separation, std::size_t line);
 
-/// The lines of a stream without those that are empty or comments, and the words of the line at hand.
+/// The lines of a stream without those that are empty or comments, and the words of the line at
+/// hand.
 class Reader {
  public:
   /// Reads nothing yet.
@@ -156,11 +158,12 @@ class Reader {
 [[nodiscard]] mpq_class read_number(Reader& reader);
 void read_separation(Reader& reader, Certificate& certificate);
 void read_time_of_impact(Reader& reader, Certificate& certificate);
-void read_pieces(Reader& reader, Certificate& certificate);
+void read_subintervals(Reader& reader, Certificate& certificate);
 void read_contact(Reader& reader, Certificate& certificate);
 
-/// Reads the certificate that begins at the present line and goes behind its `end`. Where it throws,
-/// the reader stands at the line at fault, and the certificate has its label if that came before.
+/// Reads the certificate that begins at the present line and goes behind its `end`. Where it
+/// throws, the reader stands at the line at fault, and the certificate has its label if that came
+/// before.
 /// \throws Rejection where the text is no certificate, std::runtime_error as Reader::advance.
 void read_certificate(Reader& reader, Certificate& certificate);
 

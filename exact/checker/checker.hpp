@@ -4,18 +4,20 @@
 /// The checker: believes a certificate only if it proves its claim.
 ///
 /// It shares nothing with the rest of the project: the standard library and GMP are all it needs.
-/// To be read in this order: certificate.hpp/.cpp turn text into what it says (exact/CERTIFICATES.md is
-/// the format), proof.hpp/.cpp are the mathematics, checker.cpp counts. For certificates of whole steps
-/// also places.hpp, which pairs need an argument, and step.hpp/.cpp, what is said of them.
+/// To be read in this order: certificate.hpp/.cpp turn text into what it says
+/// (exact/CERTIFICATES.md is the format), proof.hpp/.cpp are the mathematics, checker.cpp counts.
+/// For certificates of whole steps also places.hpp, which pairs need an argument, and
+/// step.hpp/.cpp, what is said of them.
 ///
 /// Four points move on straight lines. The *corners* are
 ///
 ///     vertex_face:  w = v−f0, v−f1, v−f2
 ///     edge_edge:    w = ea0−eb0, ea1−eb0, ea1−eb1, ea0−eb1     (a parallelogram, in cyclic order)
 ///
-/// and the primitives touch at time t iff 0 ∈ conv{w_i(t)}. A certificate may name a distance D ≥ 0 and a
-/// norm, l2 or linf: then t is a *contact* iff ‖x‖ ≤ D for some x ∈ conv{w_i(t)}; else D = 0. The
-/// *time of impact* (toi) is the least contact in [0,1]. ‖d‖* is |d| for l2, |d_x|+|d_y|+|d_z| for linf.
+/// and the primitives touch at time t iff 0 ∈ conv{w_i(t)}. A certificate may name a distance D ≥ 0
+/// and a norm, l2 or linf: then t is a *contact* iff ‖x‖ ≤ D for some x ∈ conv{w_i(t)}; else D = 0.
+/// The *time of impact* (toi) is the least contact in [0,1]. ‖d‖* is |d| for l2, |d_x|+|d_y|+|d_z|
+/// for linf.
 ///
 /// **Theorem.** Each of these proves what it says.
 ///   - *Separation* on [a,b]: a direction d(t) with d(t)·w_i(t) > D‖d(t)‖* for all i and all
@@ -30,14 +32,15 @@
 ///     is 0, or they point in opposite directions and |w_j| w_i + |w_i| w_j = 0.
 ///   - *Vertex* i, *edge* i, j, *face*: |w_i| ≤ D; or e = w_j−w_i ≠ 0, w_i·e ≤ 0 ≤ w_j·e and
 ///     |w_i×w_j| ≤ D|e|; or N ≠ 0, N·(w_i×w_j) ≥ 0 for all sides in cyclic order and |N·w_0| ≤ D|N|.
-///     Then t is a contact in either norm: the corner, or the foot of the perpendicular from 0 on the
-///     edge's line or the face's plane, is in the hull and within D by |·|, hence by linf.
-///   - *Axes*, linf: for each coordinate axis, N, and each product of a coordinate axis and a side as
-///     a, some corner has a·w ≤ D‖a‖* and some −a·w ≤ D‖a‖*. Then t is a contact: were there none,
-///     a facet's normal of the polytope cube ⊕ −conv{w_i} would be an axis for which one fails.
+///     Then t is a contact in either norm: the corner, or the foot of the perpendicular from 0 on
+///     the edge's line or the face's plane, is in the hull and within D by |·|, hence by linf.
+///   - *Axes*, linf: for each coordinate axis, N, and each product of a coordinate axis and a side
+///     as a, some corner has a·w ≤ D‖a‖* and some −a·w ≤ D‖a‖*. Then t is a contact: were there
+///     none, a facet's normal of the polytope cube ⊕ −conv{w_i} would be an axis for which one
+///     fails.
 ///   - *Root*: if a polynomial g has strictly opposite signs at LO < HI, it has a root t ∈ (LO,HI).
 ///     A polynomial that g divides is 0 at t; one that has a strict sign on [LO,HI] has it at t.
-/// So: separations of pieces that cover [0,1] prove `no_collision`; a contact in [0,1] proves
+/// So: separations of subintervals that cover [0,1] prove `no_collision`; a contact in [0,1] proves
 /// `collision`; separations that cover [0,LO] and a contact in [LO,HI] prove LO < toi ≤ HI; a
 /// contact at 0 proves toi = 0.
 
@@ -59,11 +62,11 @@ struct Options {
   std::string claim = {};
   /// Its separation, in the form of `demanded_separation`; empty: any.
   std::string separation = {};
-  /// How often boxes are compared in the search for the pairs of a step, at most: so many times a byte that
-  /// was read up to its end.
+  /// How often boxes are compared in the search for the pairs of a step, at most: so many times a
+  /// byte that was read up to its end.
   std::int64_t max_comparisons_per_byte = 256;
-  /// The sizes of all polynomials that the proof of one certificate looks at, halves included, in sum:
-  /// of a query, and of all pairs of a step.
+  /// The sizes of all polynomials that the proof of one certificate looks at, halves included, in
+  /// sum: of a query, and of all pairs of a step.
   std::int64_t max_work_bits = std::int64_t{1} << 28U, max_step_work_bits = std::int64_t{1} << 35U;
 };
 
@@ -86,7 +89,8 @@ struct Report {
   /// What accepted certificates of steps prove, in some lines each.
   std::vector<std::string> steps;
   /// Certificates that prove nothing, be it by their form or by their content; and one for a stream
-  /// that does not begin with its header, or one for a stream that does not end with the closing line.
+  /// that does not begin with its header, or one for a stream that does not end with the closing
+  /// line.
   std::uint64_t rejected = 0;
   /// The first of them, in the order of the stream.
   std::vector<Rejection> rejections;
@@ -97,20 +101,21 @@ struct Report {
   [[nodiscard]] bool all_accepted() const { return rejected == 0; }
 };
 
-/// The claim in the words of a certificate, its numbers in one form. `time_of_impact` and `earliest` without
-/// numbers stand for all times; `free` is `no_contact 1`.
+/// The claim in the words of a certificate, its numbers in one form. `time_of_impact` and
+/// `earliest` without numbers stand for all times; `free` is `no_contact 1`.
 /// \throws Rejection if it is no claim.
 [[nodiscard]] std::string demanded_claim(std::string_view words);
 
-/// The separation in one form. \param distance as certificates have it, or a decimal number, which stands for
-/// the double nearest to it. \param norm `linf` or `l2`
+/// The separation in one form. \param distance as certificates have it, or a decimal number, which
+/// stands for the double nearest to it. \param norm `linf` or `l2`
 /// \throws Rejection if it is none.
 [[nodiscard]] std::string demanded_separation(std::string_view distance, std::string_view norm);
 
-/// Reads a stream of certificates to its end and checks each. After a rejected one it goes on at the
-/// next `query` line; a stream whose first line is wrong is rejected as a whole, as one. The closing
-/// line must give the number of certificates, so that neither an empty nor a cut stream is accepted.
-/// Bounded memory and time a certificate, whatever the bytes. Thread-safe for different streams.
+/// Reads a stream of certificates to its end and checks each. After a rejected one it goes on at
+/// the next `query` line; a stream whose first line is wrong is rejected as a whole, as one. The
+/// closing line must give the number of certificates, so that neither an empty nor a cut stream is
+/// accepted. Bounded memory and time a certificate, whatever the bytes. Thread-safe for different
+/// streams.
 /// \throws std::runtime_error if the stream cannot be read.
 [[nodiscard]] Report check(std::istream& certificates, const Options& options = {});
 

@@ -3,18 +3,19 @@
 /// \file
 /// Where the vertices of a step are, in integers, and which primitives no axis keeps apart.
 ///
-/// Space is enlarged by the power of two that brings all coordinates and the distance D just below 2^50.
-/// A coordinate at the start and at the end of a stretch of time is then enclosed by integers, as is D.
-/// Their sums and products below are exact.
+/// Space is enlarged by the power of two that brings all coordinates and the distance D just below
+/// 2^50. A coordinate at the start and at the end of a stretch of time is then enclosed by
+/// integers, as is D. Their sums and products below are exact.
 ///
-/// **Theorem.** Let d be a vector of integers. If d·a > d·b + D‖d‖₁ for all vertices a of one primitive
-/// and b of the other, at the start and at the end, then there is no contact on the way: for one sign
-/// every ±d·w_i is above D‖d‖₁ ≥ D‖d‖* (checker.hpp) at both ends, and linear in between.
+/// **Theorem.** Let d be a vector of integers. If d·a > d·b + D‖d‖₁ for all vertices a of one
+/// primitive and b of the other, at the start and at the end, then there is no contact on the way:
+/// for one sign every ±d·w_i is above D‖d‖₁ ≥ D‖d‖* (checker.hpp) at both ends, and linear in
+/// between.
 ///
-/// **Which pairs are met.** The boxes of the primitives at both ends are the leaves of a tree, and every node
-/// has the box around its leaves. An axis that keeps the boxes of two nodes apart keeps every primitive below
-/// the one apart from every primitive below the other. All other pairs of nodes are followed down to the
-/// pairs of primitives.
+/// **Which pairs are met.** The boxes of the primitives at both ends are the leaves of a tree, and
+/// every node has the box around its leaves. An axis that keeps the boxes of two nodes apart keeps
+/// every primitive below the one apart from every primitive below the other. All other pairs of
+/// nodes are followed down to the pairs of primitives.
 
 #include <gmpxx.h>
 
@@ -91,8 +92,8 @@ class Places {
     return true;
   }
 
-  /// Calls take(a, b) for every a of `some` and b of `others` that no coordinate axis keeps apart; if
-  /// both are the same list, for every two of it, the smaller number first.
+  /// Calls take(a, b) for every a of `some` and b of `others` that no coordinate axis keeps apart;
+  /// if both are the same list, for every two of it, the smaller number first.
   /// \param comparisons_left how often boxes may still be compared
   /// \throws Rejection if that is not often enough.
   template <class Take>
@@ -168,8 +169,8 @@ class Places {
 
   using Leaf = std::vector<Node>::iterator;
 
-  /// Adds the tree of some leaves, which are divided in two halves along the axis and at the end where they
-  /// spread most.
+  /// Adds the tree of some leaves, which are divided in two halves along the axis and at the end
+  /// where they spread most.
   static std::size_t add_node(Tree& tree, Leaf first, Leaf last) {
     Node node = *first;
     if (last - first > 1) {

@@ -19,8 +19,8 @@ mpz_class scaled(const mpq_class& x, const mpz_class& factor) {
 
 /// c_0 r^n + c_1 r^(n−1) s + … + c_n s^n, where r and s are
 ///   - 1 and t: a polynomial in the time t; or
-///   - 1−u and u, for the point u of an interval's way from its start (0) to its end (1): then c_k is
-///     a positive multiple of the k-th Bernstein coefficient.
+///   - 1−u and u, for the point u of an interval's way from its start (0) to its end (1): then c_k
+///     is a positive multiple of the k-th Bernstein coefficient.
 using Form = std::vector<mpz_class>;
 
 /// sum + a·b, or sum − a·b with mpz_submul: in place, for most of the checker's time is spent here.
@@ -52,8 +52,8 @@ Form substitute(Form form, const mpz_class& x, const mpz_class& y) {
   return form;
 }
 
-/// Does the polynomial g (of degree ≥ 1, its leading coefficient not 0) divide p over the rationals?
-/// Long division, each step multiplied by g's leading coefficient. Everything divides 0.
+/// Does the polynomial g (of degree ≥ 1, its leading coefficient not 0) divide p over the
+/// rationals? Long division, each step multiplied by g's leading coefficient. Everything divides 0.
 bool divides(const Form& g, Form p) {
   for (; p.size() >= g.size(); p.pop_back()) {
     const mpz_class leading = p.back();
@@ -110,15 +110,15 @@ class Proof {
 
   void verify() try {
     find_corners();
-    if (certificate_.has_pieces()) prove_no_contact();
+    if (certificate_.has_subintervals()) prove_no_contact();
     if (certificate_.claim != Claim::no_collision) prove_contact(certificate_.contact);
   } catch (const Rejection& rejection) {
     reject(rejection.reason, line_);
   }
 
  private:
-  /// Brings the coordinates and the distance to integers: all of space is enlarged by one factor, which
-  /// changes no sign below. The corners are polynomials of degree 1 in t.
+  /// Brings the coordinates and the distance to integers: all of space is enlarged by one factor,
+  /// which changes no sign below. The corners are polynomials of degree 1 in t.
   void find_corners() {
     mpz_class factor = certificate_.distance.get_den();
     for (const mpq_class& x : certificate_.coordinates) factor = lcm(factor, x.get_den());
@@ -173,22 +173,23 @@ class Proof {
     if (!is_positive(on_interval(std::move(p)))) reject(doubt_);
   }
 
-  /// Proves that there is no contact in [0,lower]: the pieces follow one another without a gap.
+  /// Proves that there is no contact in [0,lower]: the subintervals follow one another without a
+  /// gap.
   void prove_no_contact() {
-    if (certificate_.pieces.empty()) reject("there is no piece");
+    if (certificate_.subintervals.empty()) reject("there is no subinterval");
     mpq_class reached = 0;
-    for (const Piece& piece : certificate_.pieces) {
-      enter(piece);
-      if (piece.from != reached) reject("the piece does not begin where it should");
-      if (piece.from > piece.to) reject("the piece ends before it begins");
-      prove_separation(piece);
-      reached = piece.to;
+    for (const Subinterval& subinterval : certificate_.subintervals) {
+      enter(subinterval);
+      if (subinterval.from != reached) reject("the subinterval does not begin where it should");
+      if (subinterval.from > subinterval.to) reject("the subinterval ends before it begins");
+      prove_separation(subinterval);
+      reached = subinterval.to;
     }
-    if (reached != certificate_.lower) reject("the last piece does not end where it should");
+    if (reached != certificate_.lower) reject("the last subinterval does not end where it should");
   }
 
-  /// The normal N = a×b of the polygon. N·w is the same for all corners: N is orthogonal to a and b,
-  /// hence also to w_3 − w_0 = b − a.
+  /// The normal N = a×b of the polygon. N·w is the same for all corners: N is orthogonal to a and
+  /// b, hence also to w_3 − w_0 = b − a.
   [[nodiscard]] Vector normal() const {
     return cross(corners_[1] - corners_[0], corners_[2] - corners_[0]);
   }
@@ -197,14 +198,14 @@ class Proof {
     return corners_[(corner + 1) % corners_.size()];
   }
 
-  /// The direction of a piece's feature, but for its sign.
-  [[nodiscard]] Vector direction(const Piece& piece) const {
-    if (piece.feature == Feature::face) return normal();
-    if (piece.feature == Feature::axis) return unit(piece.axis);
-    const Vector& d = corners_[piece.corners[0]];
-    if (piece.feature == Feature::vertex) return d;
-    const Vector e = corners_[piece.corners[1]] - d;
-    if (piece.feature == Feature::cross) return cross(unit(piece.axis), e);
+  /// The direction of a subinterval's feature, but for its sign.
+  [[nodiscard]] Vector direction(const Subinterval& subinterval) const {
+    if (subinterval.feature == Feature::face) return normal();
+    if (subinterval.feature == Feature::axis) return unit(subinterval.axis);
+    const Vector& d = corners_[subinterval.corners[0]];
+    if (subinterval.feature == Feature::vertex) return d;
+    const Vector e = corners_[subinterval.corners[1]] - d;
+    if (subinterval.feature == Feature::cross) return cross(unit(subinterval.axis), e);
     return d * dot(e, e) - e * dot(d, e);
   }
 
@@ -227,11 +228,11 @@ class Proof {
     return add_product(value, dot(d, d), {distance_ * distance_}, mpz_submul);
   }
 
-  /// Proves d·w > D‖d‖ for all corners w, d the direction of the piece's feature, ‖d‖ its length or,
-  /// for linf, the greatest of the σ·d.
-  void prove_separation(const Piece& piece) {
-    const Vector d = direction(piece) * Form{piece.is_negative ? -1 : 1};
-    const std::size_t count = piece.feature == Feature::face ? 1 : corners_.size();
+  /// Proves d·w > D‖d‖ for all corners w, d the direction of the subinterval's feature, ‖d‖ its
+  /// length or, for linf, the greatest of the σ·d.
+  void prove_separation(const Subinterval& subinterval) {
+    const Vector d = direction(subinterval) * Form{subinterval.is_negative ? -1 : 1};
+    const std::size_t count = subinterval.feature == Feature::face ? 1 : corners_.size();
     const std::vector<Form> sums = certificate_.is_l2 ? std::vector<Form>{Form{0}} : reaches(d);
     for (std::size_t n = 0; n < count; ++n) {
       const Form value = dot(d, corners_[n]);
@@ -346,7 +347,8 @@ class Proof {
   std::vector<Vector> corners_;
   /// Why is_positive saw it not.
   const char* doubt_ = "";
-  /// The interval of the part at hand: numerators of its start and its length, and their denominator.
+  /// The interval of the part at hand: numerators of its start and its length, and their
+  /// denominator.
   mpz_class from_, length_, denominator_;
   /// The polynomial whose root the time of the contact is.
   Form g_;

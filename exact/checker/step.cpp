@@ -30,8 +30,8 @@ double to_double(const mpq_class& number) {
   return number.get_d();
 }
 
-/// A line of a keyword and a number, and so many lines: each an item, of whose numbers take() takes the
-/// first `columns`. The others are as the first.
+/// A line of a keyword and a number, and so many lines: each an item, of whose numbers take() takes
+/// the first `columns`. The others are as the first.
 template <class Item, class Take>
 std::vector<Item> read_list(Reader& reader, std::string_view keyword, std::size_t columns,
                             const Take& take) {
@@ -101,7 +101,7 @@ class StepCheck {
     require_demanded(options_, claim, separation, line);
     if (pair_.claim == Claim::time_of_impact) read_earliest();
     pair_.claim = Claim::no_collision;
-    if (pair_.has_pieces()) prove_no_contact();
+    if (pair_.has_subintervals()) prove_no_contact();
     reader_.begin("end");
     reader_.end();
     return text_;
@@ -188,7 +188,7 @@ class StepCheck {
     }
   }
 
-  /// The arguments of a kind: a pair and its direction, or a pair and lines of pieces.
+  /// The arguments of a kind: a pair and its direction, or a pair and lines of subintervals.
   void read_arguments(PairKind& kind, const Places& places) {
     reader_.begin(kind.name);
     reader_.end();
@@ -203,7 +203,7 @@ class StepCheck {
         reader_.end();
       } else {
         reader_.end();
-        read_pieces(reader_, pair_);
+        read_subintervals(reader_, pair_);
         verify(pair_, work_bits_left_);
       }
     }

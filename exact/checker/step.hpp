@@ -1,22 +1,23 @@
 #pragma once
 
 /// \file
-/// The certificate of a whole step of a scene: every pair of primitives that can collide is looked for
-/// here, and each is kept apart by an axis or by what the certificate says of it.
+/// The certificate of a whole step of a scene: every pair of primitives that can collide is looked
+/// for here, and each is kept apart by an axis or by what the certificate says of it.
 ///
 /// A *primitive* is a vertex, an edge or a face; two *can collide* if
-///   - they are a vertex and a face, two edges, a point (a vertex without an edge) and a bare edge (one of
-///     no face), or two points;
+///   - they are a vertex and a face, two edges, a point (a vertex without an edge) and a bare edge
+///     (one of no face), or two points;
 ///   - they have no vertex in common; and
 ///   - the group of some vertex of the one and that of some vertex of the other are not held apart.
-/// Vertices that no face, edge or point names take no part. The edges are those of the faces and those
-/// listed. The corners of a vertex v and an edge e are those of v and the triangle e0 e1 e0, the corners
-/// of two vertices v and w those of v and the triangle w w w.
+/// Vertices that no face, edge or point names take no part. The edges are those of the faces and
+/// those listed. The corners of a vertex v and an edge e are those of v and the triangle e0 e1 e0,
+/// the corners of two vertices v and w those of v and the triangle w w w.
 ///
 /// **Theorem.** If a certificate is accepted, no pair that can collide has a contact in [0,T]
-/// (`no_contact T`), or in [0,LO], and one has in [LO,HI] (`earliest LO HI`). For a pair that is not
-/// kept apart by an axis (places.hpp) has an argument: a direction (places.hpp), or pieces without a gap
-/// (proof.hpp). All arguments are verified, whether or not they are needed.
+/// (`no_contact T`), or in [0,LO], and one has in [LO,HI] (`earliest LO HI`). For a pair that is
+/// not kept apart by an axis (places.hpp) has an argument: a direction (places.hpp), or
+/// subintervals without a gap (proof.hpp). All arguments are verified, whether or not they are
+/// needed.
 
 #include <cstddef>
 #include <cstdint>

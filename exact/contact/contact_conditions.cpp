@@ -74,15 +74,15 @@ Form<degree + 2> within(const Motion& motion, Form<degree> form) {
   return form * one<2>();
 }
 
-Found near_vertex(const Motion& motion, AlgebraicNumber& time, std::size_t corner) {
+Found contact_at_vertex(const Motion& motion, AlgebraicNumber& time, std::size_t corner) {
   Conditions conditions(time);
   const Form<2> excess = dot(motion, corner, corner) - within(motion, one<0>());
   if (conditions.sign(excess) > 0) return std::nullopt;
   return std::move(conditions).of(VertexContact{corner});
 }
 
-Found near_edge(const Motion& motion, AlgebraicNumber& time,
-                const std::array<std::size_t, 2>& corners) {
+Found contact_at_edge(const Motion& motion, AlgebraicNumber& time,
+                      const std::array<std::size_t, 2>& corners) {
   Conditions conditions(time);
   const auto [i, j] = corners;
   const Form<2> a_a = dot(motion, i, i), a_b = dot(motion, i, j), b_b = dot(motion, j, j);
@@ -96,7 +96,7 @@ Found near_edge(const Motion& motion, AlgebraicNumber& time,
   return std::move(conditions).of(EdgeContact{corners});
 }
 
-Found near_face(const Motion& motion, AlgebraicNumber& time) {
+Found contact_at_face(const Motion& motion, AlgebraicNumber& time) {
   Conditions conditions(time);
   std::array<Form<2>, 3> normal;
   Form<4> length{};
@@ -118,14 +118,15 @@ Found near_face(const Motion& motion, AlgebraicNumber& time) {
   return std::move(conditions).of(FaceContact{});
 }
 
-Found near_in_l2(const Motion& motion, AlgebraicNumber& time) {
+Found contact_in_l2(const Motion& motion, AlgebraicNumber& time) {
   for (std::size_t i = 0; i < motion.corner_count; ++i) {
-    if (Found found = near_vertex(motion, time, i)) return found;
+    if (Found found = contact_at_vertex(motion, time, i)) return found;
   }
   for (std::size_t i = 0; i < motion.corner_count; ++i) {
-    if (Found found = near_edge(motion, time, {i, (i + 1) % motion.corner_count})) return found;
+    if (Found found = contact_at_edge(motion, time, {i, (i + 1) % motion.corner_count}))
+      return found;
   }
-  return near_face(motion, time);
+  return contact_at_face(motion, time);
 }
 
 // ---- linf ---------------------------------------------------------------------------------------
@@ -224,7 +225,7 @@ std::optional<ContactConditions> find_contact(const Motion& motion, AlgebraicNum
 }
 
 std::optional<ContactConditions> find_near_contact(const Motion& motion, AlgebraicNumber& time) {
-  if (motion.norm == Norm::l2) return near_in_l2(motion, time);
+  if (motion.norm == Norm::l2) return contact_in_l2(motion, time);
   return CubeContact(motion, time).find();
 }
 

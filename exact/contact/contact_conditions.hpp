@@ -6,14 +6,14 @@
 /// P = conv{w_i} is the polygon of corners at that time. It contains the origin iff one of these
 /// parts does:
 ///   - the triangle i, j, k, with normal N' = (w_j − w_i) × (w_k − w_i): N'_axis ≠ 0,
-///     det(w_i, w_j, w_k) = 0, and (w_i × w_j)_axis, (w_j × w_k)_axis, (w_k × w_i)_axis each zero or
-///     of the sign of N'_axis;
+///     det(w_i, w_j, w_k) = 0, and (w_i × w_j)_axis, (w_j × w_k)_axis, (w_k × w_i)_axis each zero
+///     or of the sign of N'_axis;
 ///   - or the segment i, j: w_i × w_j = 0 and w_i · w_j ≤ 0.
 /// In l2, P is within the distance d of the origin iff one of these parts is, namely the one that
 /// contains the closest point:
 ///   - the vertex i: |w_i|² ≤ d²;
-///   - the edge i, j, with e = w_j − w_i ≠ 0: w_i·e ≤ 0 ≤ w_j·e, so that the foot of the perpendicular
-///     is on it, and |w_i × w_j|² ≤ d²|e|²;
+///   - the edge i, j, with e = w_j − w_i ≠ 0: w_i·e ≤ 0 ≤ w_j·e, so that the foot of the
+///     perpendicular is on it, and |w_i × w_j|² ≤ d²|e|²;
 ///   - the face, N ≠ 0: N·(w_i × w_j) ≥ 0 for every side i, j in cyclic order, likewise, and
 ///     (N·w_0)² ≤ d²|N|².
 /// In linf, P is within d iff none of the axes a of exact/distance/separating_axes.hpp separates:

@@ -193,7 +193,7 @@ std::vector<AlgebraicNumber> candidates(const Motion& motion, ContainsOrigin& co
 
 }  // namespace
 
-Verdict decide_contact(const Motion& motion) {
+Decision decide_contact(const Motion& motion) {
   ContainsOrigin contains_origin(motion);
   for (AlgebraicNumber& t : candidates(motion, contains_origin)) {
     const std::optional<ContactForms> forms = contains_origin.at(t);

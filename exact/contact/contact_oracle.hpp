@@ -37,8 +37,9 @@
 
 namespace touchstone::exact {
 
-/// The verdict at distance 0, with the place of contact. Each axis of the motion may have its own unit.
+/// The verdict at distance 0, with the place of contact. Each axis of the motion may have its own
+/// unit.
 /// \throws std::logic_error if F is not zero at the contact, that is if the oracle is wrong.
-[[nodiscard]] Verdict decide_contact(const Motion& motion);
+[[nodiscard]] Decision decide_contact(const Motion& motion);
 
 }  // namespace touchstone::exact

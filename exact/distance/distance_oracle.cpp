@@ -8,7 +8,7 @@
 
 namespace touchstone::exact {
 
-Verdict decide_distance(const Motion& motion) {
+Decision decide_distance(const Motion& motion) {
   std::optional<AlgebraicNumber> toi = end_of_separation(motion);
   if (toi && !find_near_contact(motion, *toi)) {
     throw std::logic_error("touchstone: no point is within the distance where the axes end");

@@ -3,8 +3,8 @@
 /// \file
 /// The oracle at a distance: whether and when a query comes within it, exactly.
 ///
-/// **Theorem.** A query collides at distance d iff P(t) = conv{w_i(t)} has a point x with ‖x‖ ≤ d for
-/// some t ∈ [0,1], where w_i are the corners of F. Proof: F(t,·,·) has the image P(t).
+/// **Theorem.** A query collides at distance d iff P(t) = conv{w_i(t)} has a point x with ‖x‖ ≤ d
+/// for some t ∈ [0,1], where w_i are the corners of F. Proof: F(t,·,·) has the image P(t).
 ///
 /// At every earlier time some axis separates. The search (exact/distance/separating_axes.hpp) goes
 /// from 0 to the first time at which no axis separates: a root of one of their polynomials, of
@@ -22,6 +22,6 @@ namespace touchstone::exact {
 /// The verdict at the motion's distance, which may be 0, without the place of contact.
 /// \pre the motion is scaled uniformly.
 /// \throws std::logic_error if search and conditions disagree, that is if the oracle is wrong.
-[[nodiscard]] Verdict decide_distance(const Motion& motion);
+[[nodiscard]] Decision decide_distance(const Motion& motion);
 
 }  // namespace touchstone::exact

@@ -84,7 +84,8 @@ class Separator {
   /// True if the feature holds at this time.
   bool holds_at(AlgebraicNumber& t);
 
-  /// The end of the open interval on which it holds from t on: the first root after t, if there is one.
+  /// The end of the open interval on which it holds from t on: the first root after t, if there is
+  /// one.
   /// \pre holds_at(t)
   struct End {
     std::optional<AlgebraicNumber> root;

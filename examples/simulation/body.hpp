@@ -60,8 +60,8 @@ using Map = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 [[nodiscard]] Body obstacle(const std::vector<Eigen::Vector3d>& vertices,
                             std::vector<fast::Face> faces);
 
-/// The cube [−1,1]³ with its layers rounded most of the way to spheres, of radius about 1. In a whole ball the elements
-/// along the cube's edges would be flat.
+/// The cube [−1,1]³ with its layers rounded most of the way to spheres, of radius about 1. In a
+/// whole ball the elements along the cube's edges would be flat.
 [[nodiscard]] Eigen::Vector3d rounded_cube(const Eigen::Vector3d& point);
 
 /// The body elsewhere.

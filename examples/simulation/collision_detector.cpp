@@ -85,9 +85,9 @@ void CollisionDetector::record(const fast::Step& step) {
   }
 }
 
-std::vector<CollisionDetector::Hit> CollisionDetector::hits(const fast::Step& step,
-                                                            const Separation& separation) {
-  std::vector<Hit> result;
+std::vector<CollisionDetector::Impact> CollisionDetector::impacts(const fast::Step& step,
+                                                                  const Separation& separation) {
+  std::vector<Impact> result;
   std::vector<Query> queries;
   std::vector<fast::Answer> answers;
   for (const Candidates& candidates : candidates_of(step.with_separation(separation))) {
@@ -121,13 +121,13 @@ double CollisionDetector::limit_by_method(const fast::Step& step) {
     if (!least) return 1.0;
     separation = {.distance = options_.p * least->distance.lower, .norm = *norm};
   }
-  std::vector<Hit> limits = hits(step, separation);
+  std::vector<Impact> limits = impacts(step, separation);
   if (!limits.empty() && ++statistics_.limited == options_.missed_limit) {
-    limits.erase(std::ranges::min_element(limits, {}, &Hit::toi));
+    limits.erase(std::ranges::min_element(limits, {}, &Impact::toi));
     ++statistics_.missed;
   }
   if (limits.empty()) return 1.0;
-  const double earliest = std::ranges::min(limits, {}, &Hit::toi).toi;
+  const double earliest = std::ranges::min(limits, {}, &Impact::toi).toi;
   return norm ? earliest : (1.0 - options_.p) * earliest;
 }
 
@@ -144,16 +144,17 @@ double CollisionDetector::step_size(const fast::Step& step) {
   return result;
 }
 
-std::vector<fast::ActiveContact> CollisionDetector::active_set(const fast::Step& step, double eta) {
+std::vector<fast::ActiveContact> CollisionDetector::active_set(const fast::Step& step,
+                                                               double distance) {
   record(step);
   ++statistics_.calls;
   const Stopwatch stopwatch(statistics_.seconds);
-  if (is_whole()) return fast::active_set(step, eta);
+  if (is_whole()) return fast::active_set(step, {.distance = distance, .norm = Norm::l2});
   const std::optional<Norm> norm = norm_of(solver_->info());
   std::vector<fast::ActiveContact> result;
-  for (const Hit& hit :
-       hits(step, {.distance = norm ? eta : 0.0, .norm = norm.value_or(Norm::l2)})) {
-    result.push_back(fast::contact_at(step, hit.kind, hit.pair, std::min(hit.toi, 1.0)));
+  for (const Impact& impact :
+       impacts(step, {.distance = norm ? distance : 0.0, .norm = norm.value_or(Norm::l2)})) {
+    result.push_back(fast::contact_at(step, impact.kind, impact.pair, std::min(impact.toi, 1.0)));
   }
   std::ranges::sort(result, [](const fast::ActiveContact& a, const fast::ActiveContact& b) {
     return std::tie(a.toi_lower, a.kind, a.pair) < std::tie(b.toi_lower, b.kind, b.pair);

@@ -60,14 +60,15 @@ class CollisionDetector {
   /// A step size in [0, 1] up to which the method finds no collision.
   [[nodiscard]] double step_size(const fast::Step& step);
 
-  /// The pairs that come within eta, with their contacts.
-  [[nodiscard]] std::vector<fast::ActiveContact> active_set(const fast::Step& step, double eta);
+  /// The pairs that come within the distance, with their contacts.
+  [[nodiscard]] std::vector<fast::ActiveContact> active_set(const fast::Step& step,
+                                                            double distance);
 
   [[nodiscard]] const DetectorStatistics& statistics() const { return statistics_; }
 
  private:
   /// A pair with its time of impact according to the method.
-  struct Hit {
+  struct Impact {
     fast::PairKind kind;
     fast::IndexPair pair;
     double toi;
@@ -75,7 +76,7 @@ class CollisionDetector {
 
   /// True if the certified solver takes the whole step, with its own broad phase.
   [[nodiscard]] bool is_whole() const;
-  [[nodiscard]] std::vector<Hit> hits(const fast::Step& step, const Separation& separation);
+  [[nodiscard]] std::vector<Impact> impacts(const fast::Step& step, const Separation& separation);
   [[nodiscard]] double limit_by_method(const fast::Step& step);
   void record(const fast::Step& step);
 

@@ -25,7 +25,8 @@ using Eigen::SparseMatrix;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// The difference of a contact's points as a sum over its vertices: first − second = Σ weights[i] x_vertices[i].
+/// The difference of a contact's points as a sum over its vertices: first − second = Σ weights[i]
+/// x_vertices[i].
 struct ContactWeights {
   std::array<std::int32_t, 4> vertices;
   std::array<double, 4> weights;
@@ -212,7 +213,8 @@ struct Constraints {
   }
 };
 
-/// The minimum of the quadratic energy around `unconstrained` under the constraints, by projected Gauss-Seidel.
+/// The minimum of the quadratic energy around `unconstrained` under the constraints, by projected
+/// Gauss-Seidel.
 VectorXd solve(Constraints& constraints, const VectorXd& unconstrained, double eta) {
   VectorXd x = unconstrained + constraints.responses * constraints.multipliers;
   VectorXd diagonal(constraints.size());

@@ -9,7 +9,8 @@
 ///
 /// M the masses and W the elastic energy. They differ in the treatment of contact.
 ///
-/// **Barrier** ([li2020]). Contact costs an energy that grows without bound: with distances d below d̂, κ times the sum of
+/// **Barrier** ([li2020]). Contact costs an energy that grows without bound: with distances d below
+/// d̂, κ times the sum of
 ///
 ///     b(d) = −(d/d̂ − 1)² log(d/d̂).
 ///

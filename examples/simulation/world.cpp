@@ -108,7 +108,8 @@ double element_energy(const Element<Columns>& element, const Eigen::VectorXd& x,
   return element.measure * at.value;
 }
 
-/// The element of these vertices at rest; `frame` has the coordinates of their edges from the first one as columns.
+/// The element of these vertices at rest; `frame` has the coordinates of their edges from the first
+/// one as columns.
 template <int Columns>
 Element<Columns> element_of(
     const std::array<std::int32_t, static_cast<std::size_t>(Columns + 1)>& vertices,
@@ -127,7 +128,8 @@ Element<Columns> element_of(
 
 double cotangent(const Vector3d& a, const Vector3d& b) { return a.dot(b) / a.cross(b).norm(); }
 
-/// The weights of [bergou2006] for the edge from a to b between the triangles (a, b, c) and (b, a, d).
+/// The weights of [bergou2006] for the edge from a to b between the triangles (a, b, c) and (b, a,
+/// d).
 Eigen::Vector4d hinge_weights(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                               const Vector3d& d) {
   const double ac = cotangent(b - a, c - a), ad = cotangent(b - a, d - a);

@@ -1,17 +1,20 @@
 #pragma once
 
 /// \file
-/// All bodies of a scene as one system: positions, masses, and the elastic energy with its derivatives.
+/// All bodies of a scene as one system: positions, masses, and the elastic energy with its
+/// derivatives.
 ///
-/// **Elements.** A tetrahedron or a triangle of cloth moves its material by a linear map F, of three or two columns:
-/// F = Σ x_a b_aᵀ, where the b_a are constants of the element. Tetrahedra have the energy density
+/// **Elements.** A tetrahedron or a triangle of cloth moves its material by a linear map F, of
+/// three or two columns: F = Σ x_a b_aᵀ, where the b_a are constants of the element. Tetrahedra
+/// have the energy density
 ///
 ///     μ/2 (|F|² − 3) − μ (J − 1) + λ/2 (J − 1)²,   J = det F
 ///
-/// ([smith2018], without its last term), a neo-Hookean one that stays finite when an element is turned inside out.
-/// Cloth has that of Saint Venant and Kirchhoff, μ |E|² + λ/2 (tr E)² with E = (FᵀF − I)/2, and bends with the quadratic
-/// energy of [bergou2006]. Each element's Hessian is projected to the nearest one without negative eigenvalues, so that
-/// a Newton step points downhill.
+/// ([smith2018], without its last term), a neo-Hookean one that stays finite when an element is
+/// turned inside out. Cloth has that of Saint Venant and Kirchhoff, μ |E|² + λ/2 (tr E)² with E =
+/// (FᵀF − I)/2, and bends with the quadratic energy of [bergou2006]. Each element's Hessian is
+/// projected to the nearest one without negative eigenvalues, so that a Newton step points
+/// downhill.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

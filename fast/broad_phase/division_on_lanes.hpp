@@ -152,11 +152,11 @@ class Division {
         float* const from = part_.seeds.centres[axis];
         const auto words = Lanes::load_words(from + i);
         Lanes::write(from + in_front, words, front);
-        Lanes::write(part_.room.centres[axis] + behind, words, back);
+        Lanes::write(part_.scratch.centres[axis] + behind, words, back);
       }
       const auto words = Lanes::load_words(part_.seeds.numbers + i);
       Lanes::write(part_.seeds.numbers + in_front, words, front);
-      Lanes::write(part_.room.numbers + behind, words, back);
+      Lanes::write(part_.scratch.numbers + behind, words, back);
       in_front += static_cast<std::size_t>(__builtin_popcount(front));
       behind += static_cast<std::size_t>(__builtin_popcount(back));
     }

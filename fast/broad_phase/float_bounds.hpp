@@ -6,7 +6,8 @@
 /// Boxes are only compared. A coordinate may therefore be replaced by any increasing function of
 /// it; the chosen one keeps coordinates of every size apart.
 ///
-/// **Places.** Let a coordinate be ±2^(i−1074) (1+f), 0 ≤ f < 1, and N = 2^23. Its place is ±n(i+f), where
+/// **Places.** Let a coordinate be ±2^(i−1074) (1+f), 0 ≤ f < 1, and N = 2^23. Its place is
+/// ±n(i+f), where
 ///
 ///     n(y) = N + y N/64                   for y < 64 j,
 ///            N + (y − 63 j) N             for 64 j ≤ y < 64 j + 192, the *window*,

@@ -73,9 +73,9 @@ class Splitting {
 };
 
 /// Arrays for seeds, and a second buffer of the same size.
-class SeedRoom {
+class SeedScratch {
  public:
-  explicit SeedRoom(std::size_t groups)
+  explicit SeedScratch(std::size_t groups)
       : groups_(groups),
         // NOLINTBEGIN(modernize-avoid-c-arrays): arrays without initialisation
         centres_(std::make_unique_for_overwrite<Sixteen<float>[]>(6 * groups)),
@@ -172,8 +172,8 @@ PrimitiveGroups::PrimitiveGroups(const FloatBounds& bounds, std::span<const Elem
       // NOLINTNEXTLINE(modernize-avoid-c-arrays): an array without initialisation
       members_(std::make_unique_for_overwrite<GroupMembers[]>(groups_)) {
   if (size_ == 0) return;
-  SeedRoom room(groups_);
-  const SeedPart all = room.part(size_);
+  SeedScratch scratch(groups_);
+  const SeedPart all = scratch.part(size_);
   sow(all.seeds, bounds, elements);
   const auto take = [&](std::size_t group, std::span<const std::int32_t> seeds) {
     set_members(members_[group], elements, seeds);

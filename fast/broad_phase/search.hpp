@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The search for pairs of primitives whose boxes do not exclude a contact, one implementation for each
-/// instruction set. (The algorithm: search_on_lanes.hpp.)
+/// The search for pairs of primitives whose boxes do not exclude a contact, one implementation for
+/// each instruction set. (The algorithm: search_on_lanes.hpp.)
 
 #include <array>
 #include <cstddef>
@@ -107,8 +107,8 @@ struct SearchKernel {
                        PairBuffer& pairs);
 
   /// Divides seeds by their centres on the axis of greatest spread: the `rank` least ones come
-  /// first in `seeds`, the others go to `room`; both keep their order. Among equal seeds the first
-  /// ones count as less. \pre count > rank ≥ 16
+  /// first in `seeds`, the others go to `scratch`; both keep their order. Among equal seeds the
+  /// first ones count as less. \pre count > rank ≥ 16
   void (*divide)(const SeedPart& part, std::size_t rank);
 
   void find(const SearchInput<1>& input, std::size_t first, std::size_t end,

@@ -141,21 +141,21 @@ class Search {
       const Node node = waiting[--count];
       const BoxLevel<instants>& level = all_.levels()[node.level];
       const Boxes& boxes = level.groups[node.number];
-      unsigned near =
+      unsigned within_reach =
           not_apart(load(boxes), *around_.group, around_.lane) & level.lanes(node.number);
-      if (within_) near &= from_group_on(group, node);
-      if (rules_.all_bodies != nullptr) near = that_meet(node, near);
+      if (within_) within_reach &= from_group_on(group, node);
+      if (rules_.all_bodies != nullptr) within_reach = that_meet(node, within_reach);
       if (node.level == 1) {
-        for (; near != 0; near &= near - 1) {
-          const auto lane = static_cast<std::size_t>(__builtin_ctz(near));
+        for (; within_reach != 0; within_reach &= within_reach - 1) {
+          const auto lane = static_cast<std::size_t>(__builtin_ctz(within_reach));
           meet(group, node.number * group_size + lane, {&boxes, lane});
         }
         continue;
       }
       // The last child goes to the stack first, and is visited last.
-      while (near != 0) {
-        const auto lane = static_cast<std::size_t>(31 - __builtin_clz(near));
-        near ^= 1U << lane;
+      while (within_reach != 0) {
+        const auto lane = static_cast<std::size_t>(31 - __builtin_clz(within_reach));
+        within_reach ^= 1U << lane;
         waiting[count++] = {node.level - 1, node.number * group_size + lane};
       }
     }
@@ -192,13 +192,14 @@ class Search {
     const bool is_self = within_ && group == other;
     for (; rows != 0; rows &= rows - 1) {
       const auto row = static_cast<std::size_t>(__builtin_ctz(rows));
-      unsigned hits = not_apart(loaded, *own_, row) & lanes;
-      if (is_self) hits &= ~0U << (row + 1);
-      if (hits == 0) continue;
-      hits &= ~sharing(own, row, others);
-      if (rules_.all_bodies != nullptr) hits = that_meet({group, row}, other, hits);
-      if (rules_.certainty != Certainty::all) hits = confirmed(own, row, others, loaded, hits);
-      append(own.numbers[row], others.numbers, hits);
+      unsigned overlapping = not_apart(loaded, *own_, row) & lanes;
+      if (is_self) overlapping &= ~0U << (row + 1);
+      if (overlapping == 0) continue;
+      overlapping &= ~sharing(own, row, others);
+      if (rules_.all_bodies != nullptr) overlapping = that_meet({group, row}, other, overlapping);
+      if (rules_.certainty != Certainty::all)
+        overlapping = confirmed(own, row, others, loaded, overlapping);
+      append(own.numbers[row], others.numbers, overlapping);
     }
   }
 
@@ -224,28 +225,28 @@ class Search {
   };
 
   /// The primitives of another group that meet an own primitive.
-  unsigned that_meet(const Row& row, std::size_t other, unsigned hits) const {
+  unsigned that_meet(const Row& row, std::size_t other, unsigned overlapping) const {
     const std::int32_t body = rules_.some_bodies->bodies(0, row.group)[row.lane];
     const IndexLanes& bodies = rules_.all_bodies->bodies(0, other);
-    for (unsigned rest = hits; rest != 0; rest &= rest - 1) {
+    for (unsigned rest = overlapping; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
       const bool is_mixed = body == BodyTree::mixed || bodies[lane] == BodyTree::mixed;
       const bool meets = is_mixed ? rules_.questions->primitives_meet(
                                         primitive(some_.members()[row.group], row.lane),
                                         primitive(all_.members()[other], lane))
                                   : rules_.questions->bodies_meet(body, bodies[lane]);
-      if (!meets) hits &= ~(1U << lane);
+      if (!meets) overlapping &= ~(1U << lane);
     }
-    return hits;
+    return overlapping;
   }
 
   /// The hits that are certain or confirmed.
   unsigned confirmed(const GroupMembers& own, std::size_t row, const GroupMembers& others,
-                     const Loaded& boxes, unsigned hits) const {
+                     const Loaded& boxes, unsigned overlapping) const {
     const unsigned sure =
         rules_.certainty == Certainty::unless_close ? not_apart(boxes, inner_, row) : 0U;
-    unsigned result = hits & sure;
-    for (unsigned rest = hits & ~sure; rest != 0; rest &= rest - 1) {
+    unsigned result = overlapping & sure;
+    for (unsigned rest = overlapping & ~sure; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(rest));
       if (rules_.questions->confirms(primitive(own, row), primitive(others, lane))) {
         result |= 1U << lane;
@@ -254,12 +255,12 @@ class Search {
     return result;
   }
 
-  void append(std::int32_t number, const IndexLanes& numbers, unsigned hits) {
+  void append(std::int32_t number, const IndexLanes& numbers, unsigned overlapping) {
     if (pairs_.count + group_size > PairBuffer::capacity) pairs_.flush();
     IndexPair* const to = pairs_.pairs.data() + pairs_.count;
     const IndexPair* const end =
-        within_ ? Lanes::template append<true>(to, number, numbers.data(), hits)
-                : Lanes::template append<false>(to, number, numbers.data(), hits);
+        within_ ? Lanes::template append<true>(to, number, numbers.data(), overlapping)
+                : Lanes::template append<false>(to, number, numbers.data(), overlapping);
     pairs_.count = static_cast<std::size_t>(end - pairs_.pairs.data());
   }
 

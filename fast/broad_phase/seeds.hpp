@@ -25,17 +25,17 @@ struct Seeds {
 /// that is not below `count`; both have this capacity.
 struct SeedPart {
   Seeds seeds;
-  Seeds room;
+  Seeds scratch;
   std::size_t count;
   std::size_t capacity;
 
   /// The two parts after the seeds from `rank` on, a multiple of sixteen, have been moved to the
   /// beginning of the second buffer.
   [[nodiscard]] SeedPart first(std::size_t rank) const {
-    return {seeds, room.from(capacity - rank), rank, rank};
+    return {seeds, scratch.from(capacity - rank), rank, rank};
   }
   [[nodiscard]] SeedPart others(std::size_t rank) const {
-    return {room, seeds.from(rank), count - rank, capacity - rank};
+    return {scratch, seeds.from(rank), count - rank, capacity - rank};
   }
 };
 

@@ -37,7 +37,7 @@ struct SweptBox {
 [[nodiscard]] SweptBox widened(const SweptBox& box, double distance);
 
 /// True if the swept boxes of two primitives are within the distance.
-[[nodiscard]] bool are_near(const MovingVertices& vertices, const Primitive& a, const Primitive& b,
-                            double distance);
+[[nodiscard]] bool are_within_distance(const MovingVertices& vertices, const Primitive& a,
+                                       const Primitive& b, double distance);
 
 }  // namespace touchstone::fast

@@ -41,20 +41,21 @@ CertifiedResult decided_exactly(Kind kind, const Query& query, const CertifiedOp
           .v = impact->v};
 }
 
-std::optional<CertifiedResult> result_of(const KernelHit& hit, const CertifiedOptions& options) {
+std::optional<CertifiedResult> result_of(const KernelImpact& impact,
+                                         const CertifiedOptions& options) {
   // (Where the time of impact is 0, both are.)
-  if (hit.toi_lower >= options.t_max && hit.toi_upper > 0.0) {
+  if (impact.toi_lower >= options.t_max && impact.toi_upper > 0.0) {
     return CertifiedResult{.verdict = Verdict::no, .stage = Stage::bisection};
   }
-  if (hit.toi_upper > options.t_max || options.toi_tolerance < least_kernel_tolerance) {
+  if (impact.toi_upper > options.t_max || options.toi_tolerance < least_kernel_tolerance) {
     return std::nullopt;
   }
   return CertifiedResult{.verdict = Verdict::yes,
                          .stage = Stage::bisection,
-                         .toi_lower = hit.toi_lower,
-                         .toi_upper = hit.toi_upper,
-                         .u = hit.u,
-                         .v = hit.v};
+                         .toi_lower = impact.toi_lower,
+                         .toi_upper = impact.toi_upper,
+                         .u = impact.u,
+                         .v = impact.v};
 }
 
 double limit_after(double toi_upper, double tolerance) {

@@ -21,8 +21,8 @@ void require_valid(const CertifiedOptions& options);
 [[nodiscard]] CertifiedResult decided_exactly(Kind kind, const Query& query,
                                               const CertifiedOptions& options);
 
-/// The result of a hit, if its enclosure is narrow enough and on one side of t_max.
-[[nodiscard]] std::optional<CertifiedResult> result_of(const KernelHit& hit,
+/// The result of a impact, if its enclosure is narrow enough and on one side of t_max.
+[[nodiscard]] std::optional<CertifiedResult> result_of(const KernelImpact& impact,
                                                        const CertifiedOptions& options);
 
 /// A time such that every contact after it has an enclosure with both ends above toi_upper.
@@ -42,12 +42,12 @@ const KernelOutput& decide_block(KernelInput block, double t_limit, const Certif
   const auto report_exactly = [&](std::size_t index) {
     report(index, decided_exactly(block.kind, query_of(index), options));
   };
-  for (std::size_t i = 0; i < output.hits.count; ++i) {
-    const KernelHit& hit = output.hits.items[i];
-    if (const auto result = result_of(hit, options)) {
-      report(std::size_t{hit.index}, *result);
+  for (std::size_t i = 0; i < output.impacts.count; ++i) {
+    const KernelImpact& impact = output.impacts.items[i];
+    if (const auto result = result_of(impact, options)) {
+      report(std::size_t{impact.index}, *result);
     } else {
-      report_exactly(hit.index);
+      report_exactly(impact.index);
     }
   }
   for (std::size_t i = 0; i < output.undecided.count; ++i) {

@@ -46,7 +46,7 @@ inline constexpr double least_kernel_tolerance = 0x1p-48;
 
 /// A collision: there is no contact up to toi_lower, and one up to toi_upper; or both are 0 and the
 /// toi is 0.
-struct KernelHit {
+struct KernelImpact {
   std::uint32_t index;  ///< in the block
   double toi_lower;
   double toi_upper;
@@ -64,7 +64,7 @@ struct KernelOutput {
   List<std::uint32_t> separated_in_direction;
   List<std::uint32_t> one_sided;  ///< the determinant keeps its sign
   List<std::uint32_t> rejected;   ///< by bisection, no contact up to t_limit
-  List<KernelHit> hits;
+  List<KernelImpact> impacts;
   List<std::uint32_t> undecided;  ///< for the exact stage
 };
 

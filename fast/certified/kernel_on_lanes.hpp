@@ -53,7 +53,7 @@ namespace touchstone::fast::kernel {
 template <class Lanes, bool separated, Kind kind, class Source>
 void run_stages(const KernelInput& input, KernelOutput& output) {
   output.separated_in_direction.count = output.one_sided.count = 0;
-  output.rejected.count = output.hits.count = output.undecided.count = 0;
+  output.rejected.count = output.impacts.count = output.undecided.count = 0;
   Indices open, mixed, far, undecided;
   if (input.axis_is_done) {
     for (; open.count < input.count; ++open.count) {

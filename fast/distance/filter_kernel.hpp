@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The filter of distances in L2 for many queries at a time, one implementation for each instruction
-/// set. (The algorithm: filter_on_lanes.hpp.)
+/// The filter of distances in L2 for many queries at a time, one implementation for each
+/// instruction set. (The algorithm: filter_on_lanes.hpp.)
 
 #include <cstddef>
 #include <span>

@@ -12,9 +12,9 @@
 ///   - vertex: |w_i|²;
 ///   - side, if w_i·e < 0 < w_j·e: |m|² / |e|²;
 ///   - face, if N ≠ 0 and N·(w_i × w_j) ≥ 0 for every side: (N·w_0)² / |N|².
-/// Proof. The conditions say that the foot of the perpendicular from the origin is on the side or in
-/// the face, so each is the square of the length of a point of P. The nearest point is in the relative
-/// interior of a vertex, a side or the face, and the foot on that. ∎
+/// Proof. The conditions say that the foot of the perpendicular from the origin is on the side or
+/// in the face, so each is the square of the length of a point of P. The nearest point is in the
+/// relative interior of a vertex, a side or the face, and the foot on that. ∎
 ///
 /// **Theorem 2** (L2, lower bounds). The distance is more than s iff for one direction a among w_i,
 /// |e|² w_i − (w_i·e) e and ±N, all a·w_k are positive and (a·w_k)² > s² |a|². With V = a·w_i and |a|²
@@ -25,9 +25,9 @@
 ///
 /// **Theorem 3** (L∞). The distance is the greatest of  max(min a·w_k, −max a·w_k) / |a|₁  over the
 /// axes a ≠ 0 among e_c, N and e_c × e, where e_c is a coordinate axis; and 0, if that is negative.
-/// Proof. An axis keeps P away from every cube of half side less than that. Conversely, if P misses the
-/// cube of half side s, one of the axes separates it (docs/theory.md, section 3.3): its quotient is
-/// more than s. ∎
+/// Proof. An axis keeps P away from every cube of half side less than that. Conversely, if P misses
+/// the cube of half side s, one of the axes separates it (docs/theory.md, section 3.3): its
+/// quotient is more than s. ∎
 
 #include <algorithm>
 #include <array>
@@ -163,8 +163,8 @@ struct AxisList {
   std::size_t count = 0;
 };
 
-/// All axes of theorem 3. Both ends of a side have the same product with e_c × e, and so have those of
-/// the opposite side of a parallelogram.
+/// All axes of theorem 3. Both ends of a side have the same product with e_c × e, and so have those
+/// of the opposite side of a parallelogram.
 template <class Number>
 [[nodiscard]] AxisList<Number> axes(const Polygon<Number>& p) {
   const auto& w = p.corner;

@@ -187,7 +187,7 @@ template void Scene::find(const Trees<1>& trees, const SearchPart& part, PairBuf
 template void Scene::find(const Trees<2>& trees, const SearchPart& part, PairBuffer& pairs) const;
 
 bool Scene::confirms(const Primitive& a, const Primitive& b) const {
-  return are_near(vertices_, a, b, certified_.separation.distance);
+  return are_within_distance(vertices_, a, b, certified_.separation.distance);
 }
 
 bool Scene::bodies_meet(std::int32_t a, std::int32_t b) const { return mesh_->bodies.meet(a, b); }
@@ -208,7 +208,7 @@ IndexPair Scene::reported(PairKind kind, const IndexPair& pair) const {
 }
 
 Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
-                                PairRoom& room) const {
+                                PairScratch& scratch) const {
   const PairRecord& record = record_of(kind);
   Candidates result{.kind = record.query_kind,
                     .pairs = pairs,
@@ -216,8 +216,9 @@ Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
                     .faces = mesh_->as_faces[record.all]};
   const auto& numbers = mesh_->numbers[record.some];
   if (numbers.empty()) return result;
-  for (std::size_t i = 0; i < pairs.size(); ++i) room[i] = {at(numbers, pairs[i][0]), pairs[i][1]};
-  result.pairs = std::span(room).first(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    scratch[i] = {at(numbers, pairs[i][0]), pairs[i][1]};
+  result.pairs = std::span(scratch).first(pairs.size());
   return result;
 }
 

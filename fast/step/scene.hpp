@@ -156,8 +156,8 @@ class Scene final : private PairQuestions {
   template <class Report>
   void decide(PairKind kind, std::span<const IndexPair> pairs, double t_limit,
               const Report& report) const {
-    PairRoom room;
-    const Candidates candidates = candidates_of(kind, pairs, room);
+    PairScratch scratch;
+    const Candidates candidates = candidates_of(kind, pairs, scratch);
     const KernelInput block{.kind = candidates.kind,
                             .count = pairs.size(),
                             .vertices = vertices_.data(),
@@ -181,15 +181,15 @@ class Scene final : private PairQuestions {
   [[nodiscard]] Query query_of(PairKind kind, const IndexPair& pair) const;
 
  private:
-  using PairRoom = std::array<IndexPair, kernel_block>;
+  using PairScratch = std::array<IndexPair, kernel_block>;
 
   [[nodiscard]] bool confirms(const Primitive& a, const Primitive& b) const override;
   [[nodiscard]] bool bodies_meet(std::int32_t a, std::int32_t b) const override;
   [[nodiscard]] bool primitives_meet(const Primitive& a, const Primitive& b) const override;
 
-  /// The pairs for the certified solver. \param room Memory for the numbers, if they differ.
+  /// The pairs for the certified solver. \param scratch Memory for the numbers, if they differ.
   [[nodiscard]] Candidates candidates_of(PairKind kind, std::span<const IndexPair> pairs,
-                                         PairRoom& room) const;
+                                         PairScratch& scratch) const;
 
   MovingVertices vertices_;
   CertifiedOptions certified_;

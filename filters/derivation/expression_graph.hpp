@@ -70,9 +70,9 @@ class Recorded {
 void require_multiaffine(const ExpressionGraph& graph, std::size_t weights);
 
 /// Throws std::invalid_argument, naming the expression, unless each coordinate has a class, each
-/// product of coordinates in its value has at most one of each class, and all have the same classes.
-/// With x_i the greatest magnitude of class i, the x^k of the rounding error may then be read as
-/// x_1 ⋯ x_k (rounding_model.hpp has the proof).
+/// product of coordinates in its value has at most one of each class, and all have the same
+/// classes. With x_i the greatest magnitude of class i, the x^k of the rounding error may then be
+/// read as x_1 ⋯ x_k (rounding_model.hpp has the proof).
 void require_classes(const ExpressionGraph& graph, std::span<const std::size_t> classes);
 
 /// The graph of an expression (filters/expressions.hpp has the rules).

@@ -35,7 +35,8 @@ struct ShippedExpression {
 [[nodiscard]] std::vector<mpq_class> shipped_coefficients(const DerivedBound& bound,
                                                           const Format& format);
 
-/// The C++ text that declares a bound: `inline constexpr ErrorBound<…> NAME_FORMAT{…};` and a comment.
+/// The C++ text that declares a bound: `inline constexpr ErrorBound<…> NAME_FORMAT{…};` and a
+/// comment.
 [[nodiscard]] std::string error_bound_declaration(const ExpressionGraph& graph,
                                                   const Format& format);
 

@@ -26,10 +26,10 @@ bool answers_single_queries() {
   // A vertex falls through a resting triangle: v, f0, f1, f2 at t=0, then at t=1.
   const Query query{{1, 1, 1,  0, 0, 0, 4, 0, 0, 0, 4, 0,  //
                      1, 1, -2, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
-  const fast::CertifiedResult certified = fast::certified(Kind::vertex_face, query);
+  const fast::CertifiedResult certified = fast::solve(Kind::vertex_face, query);
   const fast::TightInclusionResult inclusion = fast::tight_inclusion(Kind::vertex_face, query);
   const Eigen::Vector3d above(1, 1, 1), below(1, 1, -2), o(0, 0, 0), a(4, 0, 0), b(0, 4, 0);
-  const fast::CertifiedResult of_points = fast::point_triangle(above, o, a, b, below, o, a, b);
+  const fast::CertifiedResult of_points = fast::solve_vertex_face(above, o, a, b, below, o, a, b);
   return of_points.toi_lower == certified.toi_lower && certified.verdict == fast::Verdict::yes &&
          certified.toi_lower <= expected_toi && certified.toi_upper >= expected_toi &&
          inclusion.verdict == fast::Verdict::yes && inclusion.toi <= expected_toi;
@@ -38,7 +38,8 @@ bool answers_single_queries() {
 bool answers_a_solver(const fast::Step& step) {
   const auto least = fast::least_distance(step);
   const fast::LineSearchLimit limit = fast::line_search_limit(step, 0.5);
-  const std::vector<fast::ActiveContact> active = fast::active_set(step, 0.25);
+  const std::vector<fast::ActiveContact> active =
+      fast::active_set(step, {.distance = 0.25, .norm = Norm::l2});
   return least && least->distance.lower == 1.0 && limit.step_size <= 0.5 * expected_toi &&
          limit.step_size > 0.1 && active.size() == 3 && active[0].normal.z() == 1.0;
 }

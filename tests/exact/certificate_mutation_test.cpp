@@ -20,8 +20,8 @@
 #include "tests/support/trials.hpp"
 #include "verify/generate/families.hpp"
 
-// Certificates (exact/certificate.hpp) altered in every field: whatever the checker still accepts has
-// to be true, by the oracle asked about the altered query.
+// Certificates (exact/certificate.hpp) altered in every field: whatever the checker still accepts
+// has to be true, by the oracle asked about the altered query.
 
 namespace touchstone::exact::certificate_mutation_test {
 namespace {
@@ -69,7 +69,7 @@ class Mutations {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (lines_[i].starts_with("separation")) alter_separation(i);
       if (lines_[i].starts_with("claim")) alter_claim(i);
-      if (lines_[i].starts_with("separate")) alter_piece(i);
+      if (lines_[i].starts_with("separate")) alter_subinterval(i);
       if (lines_[i].starts_with("contact time")) alter_numbers("time", i, 2, 3);
       if (lines_[i].starts_with("contact root")) alter_root(i);
       if (lines_[i].starts_with("at ")) alter_place(i);
@@ -181,7 +181,7 @@ class Mutations {
     }
   }
 
-  void alter_piece(std::size_t line) {
+  void alter_subinterval(std::size_t line) {
     alter_numbers("break point", line, 1, 3);
     const Lines words = split(lines_[line], ' ');
     const std::string times = "separate " + words[1] + " " + words[2] + " ";

@@ -49,12 +49,12 @@ SegmentContact segment_of(const Certificate& certificate) {
 
 // ---- By hand ------------------------------------------------------------------------------------
 
-TEST(Prove, AMissHasPiecesAndNothingElse) {
+TEST(Prove, ACertificateOfNoCollisionHasSubintervalsAlone) {
   const Certificate certificate = tests::prove(over_triangle(1, 1, 3, 1));
   EXPECT_EQ(certificate.claim, Claim::no_collision);
   EXPECT_FALSE(certificate.contact);
-  EXPECT_EQ(certificate.pieces,
-            (std::vector<Piece>{{0, 1, {.sort = Feature::Sort::positive_face}}}));
+  EXPECT_EQ(certificate.subintervals,
+            (std::vector<Subinterval>{{0, 1, {.sort = Feature::Sort::positive_face}}}));
   EXPECT_EQ(rejection(certificate), "");
 }
 
@@ -64,8 +64,8 @@ TEST(Prove, AToiThatIsADoubleEndsItsInterval) {
     EXPECT_EQ(certificate.claim, Claim::time_of_impact);
     EXPECT_EQ(certificate.toi.lower, Rational(std::nextafter(0.75, 0.0)));
     EXPECT_EQ(certificate.toi.upper, Rational(3, 4));
-    ASSERT_EQ(certificate.pieces.size(), 1U);
-    EXPECT_EQ(certificate.pieces.front().to, certificate.toi.lower);
+    ASSERT_EQ(certificate.subintervals.size(), 1U);
+    EXPECT_EQ(certificate.subintervals.front().to, certificate.toi.lower);
     EXPECT_EQ(time_of(certificate), Rational(3, 4));
     EXPECT_EQ(triangle_of(certificate).axis, 2U);
     EXPECT_EQ(rejection(certificate), "");
@@ -120,12 +120,12 @@ TEST(Prove, WhatVanishesWithTheDeterminantIsDividedByTheSamePolynomial) {
   EXPECT_EQ(rejection(certificate), "");
 }
 
-TEST(Prove, ContactAtTheStartNeedsNoPieces) {
+TEST(Prove, ContactAtTheStartNeedsNoSubintervals) {
   const Certificate certificate = tests::prove(over_triangle(1, 1, 0, 1));
   EXPECT_EQ(certificate.claim, Claim::time_of_impact);
   EXPECT_EQ(certificate.toi.lower, 0);
   EXPECT_EQ(certificate.toi.upper, 0);
-  EXPECT_TRUE(certificate.pieces.empty());
+  EXPECT_TRUE(certificate.subintervals.empty());
   EXPECT_EQ(time_of(certificate), 0);
   EXPECT_EQ(rejection(certificate), "");
 }
@@ -135,9 +135,9 @@ TEST(Prove, BetweenZeroAndTheLeastDoubleAPointIsAPiece) {
   const Certificate certificate = tests::prove(over_triangle(1, 1, 0x1p-1024, -0x1p1000));
   EXPECT_EQ(certificate.toi.lower, 0);
   EXPECT_EQ(certificate.toi.upper, power_of_two(-1074));
-  ASSERT_EQ(certificate.pieces.size(), 1U);
-  EXPECT_EQ(certificate.pieces.front().from, 0);
-  EXPECT_EQ(certificate.pieces.front().to, 0);
+  ASSERT_EQ(certificate.subintervals.size(), 1U);
+  EXPECT_EQ(certificate.subintervals.front().from, 0);
+  EXPECT_EQ(certificate.subintervals.front().to, 0);
   EXPECT_EQ(rejection(certificate), "");
 }
 
@@ -166,7 +166,7 @@ TEST(Prove, MotionInACommonPlane) {
   const Certificate certificate = tests::prove(
       vertex_face(tests::with_vertex(-1, 1, 0, face), tests::with_vertex(2, 1, 0, face)));
   EXPECT_EQ(time_of(certificate), Rational(1, 3));
-  EXPECT_EQ(certificate.pieces.size(), 1U);
+  EXPECT_EQ(certificate.subintervals.size(), 1U);
   EXPECT_EQ(rejection(certificate), "");
 }
 
@@ -193,17 +193,17 @@ TEST(Prove, TheOtherHalfOfAParallelogramIsATriangleToo) {
 
 TEST(Prove, AtADistanceItSaysSoAndProvesIt) {
   for (const Norm norm : {Norm::linf, Norm::l2}) {
-    const Certificate hit = tests::prove(over_triangle(1, 1, 3, -1), Separation{1, norm});
-    EXPECT_EQ(hit.separation, (Separation{1, norm}));
-    EXPECT_EQ(hit.claim, Claim::time_of_impact);
-    EXPECT_EQ(time_of(hit), Rational(1, 2));
-    EXPECT_EQ(rejection(hit), "");
-    const Certificate miss = tests::prove(over_triangle(1, 1, 3, 1.5), Separation{1, norm});
-    EXPECT_EQ(miss.claim, Claim::no_collision);
-    EXPECT_EQ(rejection(miss), "");
+    const Certificate colliding = tests::prove(over_triangle(1, 1, 3, -1), Separation{1, norm});
+    EXPECT_EQ(colliding.separation, (Separation{1, norm}));
+    EXPECT_EQ(colliding.claim, Claim::time_of_impact);
+    EXPECT_EQ(time_of(colliding), Rational(1, 2));
+    EXPECT_EQ(rejection(colliding), "");
+    const Certificate apart = tests::prove(over_triangle(1, 1, 3, 1.5), Separation{1, norm});
+    EXPECT_EQ(apart.claim, Claim::no_collision);
+    EXPECT_EQ(rejection(apart), "");
     const Certificate at_once = tests::prove(over_edge(1, 2, 1, -1), Separation{1, norm});
     EXPECT_EQ(at_once.toi.upper, 0);
-    EXPECT_TRUE(at_once.pieces.empty());
+    EXPECT_TRUE(at_once.subintervals.empty());
     EXPECT_EQ(rejection(at_once), "");
   }
 }
@@ -231,18 +231,20 @@ TEST(Prove, WithoutADistanceTheTextIsAsWithoutASeparation) {
 }
 
 TEST(Prove, AtADistanceCannotProveAWrongVerdict) {
-  const PosedQuery hit = over_triangle(1, 1, 3, -1), miss = over_triangle(1, 1, 3, 1.5);
+  const PosedQuery colliding = over_triangle(1, 1, 3, -1), apart = over_triangle(1, 1, 3, 1.5);
   for (const Norm norm : {Norm::linf, Norm::l2}) {
     const Separation one{1, norm};
-    const auto of_hit = decide(hit.kind, hit.query, one),
-               of_miss = decide(miss.kind, miss.query, one);
-    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, of_miss)), std::logic_error);
-    EXPECT_THROW(static_cast<void>(prove(miss.kind, miss.query, of_hit)), std::logic_error);
-    const Verdict late{.separation = one, .toi = AlgebraicNumber(Rational(3, 4))};
-    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, late)), std::logic_error);
-    Verdict bad = of_hit;
+    const auto of_collision = decide(colliding.kind, colliding.query, one),
+               of_no_collision = decide(apart.kind, apart.query, one);
+    EXPECT_THROW(static_cast<void>(prove(colliding.kind, colliding.query, of_no_collision)),
+                 std::logic_error);
+    EXPECT_THROW(static_cast<void>(prove(apart.kind, apart.query, of_collision)), std::logic_error);
+    const Decision late{.separation = one, .toi = AlgebraicNumber(Rational(3, 4))};
+    EXPECT_THROW(static_cast<void>(prove(colliding.kind, colliding.query, late)), std::logic_error);
+    Decision bad = of_collision;
     bad.separation.distance = -1;
-    EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, bad)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(prove(colliding.kind, colliding.query, bad)),
+                 std::invalid_argument);
   }
 }
 
@@ -253,7 +255,7 @@ TEST(Prove, ClaimsACollisionAloneIfAsked) {
        {over_triangle(1, 1, 1, -2), tests::turning_triangle(4, 0, 1, 0.5)}) {
     const Certificate certificate = tests::prove(posed, {.collision_claim = Claim::collision});
     EXPECT_EQ(certificate.claim, Claim::collision);
-    EXPECT_TRUE(certificate.pieces.empty());
+    EXPECT_TRUE(certificate.subintervals.empty());
     EXPECT_TRUE(certificate.contact);
     EXPECT_EQ(rejection(certificate), "");
   }
@@ -279,17 +281,19 @@ TEST(Prove, RefusesWhatMakesNoSense) {
                std::invalid_argument);
   Query bad = posed.query;
   bad.coordinates[5] = std::numeric_limits<double>::infinity();
-  EXPECT_THROW(static_cast<void>(prove(posed.kind, bad, Verdict{})), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(prove(posed.kind, bad, Decision{})), std::invalid_argument);
 }
 
 TEST(Prove, CannotProveAWrongVerdict) {
-  const PosedQuery hit = over_triangle(1, 1, 1, -2), miss = over_triangle(1, 1, 3, 1);
-  const Verdict of_hit = decide(hit.kind, hit.query), of_miss = decide(miss.kind, miss.query);
-  EXPECT_THROW(static_cast<void>(prove(hit.kind, hit.query, of_miss)), std::logic_error);
-  EXPECT_THROW(static_cast<void>(prove(miss.kind, miss.query, of_hit)), std::logic_error);
+  const PosedQuery colliding = over_triangle(1, 1, 1, -2), apart = over_triangle(1, 1, 3, 1);
+  const Decision of_collision = decide(colliding.kind, colliding.query),
+                 of_no_collision = decide(apart.kind, apart.query);
+  EXPECT_THROW(static_cast<void>(prove(colliding.kind, colliding.query, of_no_collision)),
+               std::logic_error);
+  EXPECT_THROW(static_cast<void>(prove(apart.kind, apart.query, of_collision)), std::logic_error);
   // A contact that is not the first.
   const PosedQuery through_twice = tests::turning_triangle(8, 4, 1, 1);
-  Verdict late = decide(through_twice.kind, through_twice.query);
+  Decision late = decide(through_twice.kind, through_twice.query);
   *late.toi = AlgebraicNumber(1);
   EXPECT_THROW(static_cast<void>(prove(through_twice.kind, through_twice.query, late)),
                std::logic_error);
@@ -304,7 +308,7 @@ TEST(Prove, ScalesDoNotMatter) {
       const Certificate unscaled = tests::prove(posed);
       for (double& x : posed.query.coordinates) x = std::ldexp(x, exponent);
       const Certificate scaled = tests::prove(posed);
-      EXPECT_EQ(scaled.pieces, unscaled.pieces);
+      EXPECT_EQ(scaled.subintervals, unscaled.subintervals);
       EXPECT_EQ(scaled.toi.upper, unscaled.toi.upper);
       EXPECT_EQ(rejection(scaled), "");
     }
@@ -332,7 +336,7 @@ TEST(Prove, MissesByAHairHaveACertificate) {
       const Certificate certificate = tests::prove(posed);
       EXPECT_EQ(certificate.claim, Claim::no_collision);
       EXPECT_EQ(rejection(certificate), "") << gap;
-      EXPECT_LE(certificate.pieces.size(), 5U);
+      EXPECT_LE(certificate.subintervals.size(), 5U);
     }
   }
 }
@@ -343,7 +347,7 @@ TEST(Prove, MissesByAHairHaveACertificate) {
 class RoundTrip {
  public:
   void add(const PosedQuery& posed, const Separation& separation = {}) {
-    const Verdict verdict = decide(posed.kind, posed.query, separation);
+    const Decision verdict = decide(posed.kind, posed.query, separation);
     const Certificate certificate = prove(posed.kind, posed.query, verdict);
     ASSERT_EQ(certificate.claim == Claim::time_of_impact, verdict.collides());
     if (verdict.collides()) {
@@ -415,8 +419,8 @@ TEST(RoundTrip, AllFamiliesAtADistanceAreAccepted) {
         for (const Norm norm : {Norm::linf, Norm::l2}) {
           for (const double distance : {0.125, 1e-30}) trip.add(posed, {distance, norm});
           // The two oracles agree at distance 0.
-          const Verdict other = decide_distance(scale_uniformly(kind, posed.query, {0.0, norm}));
-          const Verdict verdict = decide(kind, posed.query);
+          const Decision other = decide_distance(scale_uniformly(kind, posed.query, {0.0, norm}));
+          const Decision verdict = decide(kind, posed.query);
           ASSERT_EQ(other.collides(), verdict.collides()) << family.name << posed;
           if (verdict.collides()) {
             ASSERT_TRUE(*other.toi == *verdict.toi) << family.name << posed;

@@ -35,7 +35,7 @@ using tests::trials;
 constexpr int queries_per_family_and_kind = trials(700);
 constexpr std::array<Kind, 2> both_kinds{Kind::vertex_face, Kind::edge_edge};
 
-Verdict decide(const PosedQuery& posed) { return exact::decide(posed.kind, posed.query); }
+Decision decide(const PosedQuery& posed) { return exact::decide(posed.kind, posed.query); }
 
 // ------------------------------------------------------------------ exact changes of a query
 
@@ -125,8 +125,8 @@ std::optional<Query> cut(const Query& query, const Rational& from, const Rationa
 
 // ------------------------------------------------------------------ comparing answers
 
-void expect_same_answer(const Verdict& original, Kind kind, const Query& changed) {
-  const Verdict verdict = decide({kind, changed});
+void expect_same_answer(const Decision& original, Kind kind, const Query& changed) {
+  const Decision verdict = decide({kind, changed});
   ASSERT_EQ(verdict.collides(), original.collides()) << PosedQuery{kind, changed};
   if (!verdict.collides()) return;
   EXPECT_TRUE(*verdict.toi == *original.toi) << PosedQuery{kind, changed};
@@ -161,14 +161,14 @@ void expect_toi_of_part(AlgebraicNumber part, AlgebraicNumber toi, const Rationa
 }
 
 struct Tally {
-  int hits = 0;
-  int misses = 0;
+  int collisions = 0;
+  int no_collisions = 0;
   int left_out = 0;
 
-  void count(bool collides) { ++(collides ? hits : misses); }
+  void count(bool collides) { ++(collides ? collisions : no_collisions); }
 };
 
-using Check = std::function<void(Random&, const PosedQuery&, const Verdict&, Tally&)>;
+using Check = std::function<void(Random&, const PosedQuery&, const Decision&, Tally&)>;
 
 /// Applies the check to the same random queries in every test, and requires both verdicts in
 /// numbers.
@@ -181,15 +181,16 @@ Tally check_families(const std::vector<Family>& families, const Check& check) {
       for (int i = 0; i < queries_per_family_and_kind; ++i) {
         const PosedQuery posed = random_query(random, kind, family);
         SCOPED_TRACE(posed);
-        const Verdict verdict = decide(posed);
+        const Decision verdict = decide(posed);
         tally.count(verdict.collides());
         check(random, posed, verdict, tally);
         if (testing::Test::HasFailure()) return total;
       }
-      EXPECT_GT(tally.hits, trials(15)) << to_string(kind) << ' ' << static_cast<int>(family);
-      EXPECT_GT(tally.misses, trials(100)) << to_string(kind) << ' ' << static_cast<int>(family);
-      total.hits += tally.hits;
-      total.misses += tally.misses;
+      EXPECT_GT(tally.collisions, trials(15)) << to_string(kind) << ' ' << static_cast<int>(family);
+      EXPECT_GT(tally.no_collisions, trials(100))
+          << to_string(kind) << ' ' << static_cast<int>(family);
+      total.collisions += tally.collisions;
+      total.no_collisions += tally.no_collisions;
       total.left_out += tally.left_out;
     }
   }
@@ -208,7 +209,7 @@ TEST(OracleMetamorphic, RenamingPointsChangesNothing) {
   static constexpr std::array<Order, 5> edges{
       {{1, 0, 2, 3}, {0, 1, 3, 2}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 0, 1}}};
   check_families(every_family,
-                 [](Random&, const PosedQuery& posed, const Verdict& verdict, Tally&) {
+                 [](Random&, const PosedQuery& posed, const Decision& verdict, Tally&) {
                    for (const Order& order : posed.kind == Kind::vertex_face ? faces : edges) {
                      expect_same_answer(verdict, posed.kind, with_points(posed.query, order));
                    }
@@ -219,7 +220,7 @@ TEST(OracleMetamorphic, PermutingAndFlippingAxesChangesNothing) {
   static constexpr std::array<std::array<std::size_t, 3>, 5> orders{
       {{0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
   check_families(every_family,
-                 [](Random&, const PosedQuery& posed, const Verdict& verdict, Tally&) {
+                 [](Random&, const PosedQuery& posed, const Decision& verdict, Tally&) {
                    for (const auto& order : orders) {
                      expect_same_answer(verdict, posed.kind, with_axes(posed.query, order));
                    }
@@ -231,7 +232,7 @@ TEST(OracleMetamorphic, PermutingAndFlippingAxesChangesNothing) {
 
 TEST(OracleMetamorphic, ScalingByPowersOfTwoChangesNothing) {
   const Tally tally = check_families(
-      every_family, [](Random& random, const PosedQuery& posed, const Verdict& verdict, Tally& t) {
+      every_family, [](Random& random, const PosedQuery& posed, const Decision& verdict, Tally& t) {
         const std::array<int, 3> own{random.between(-900, 900), random.between(-900, 900),
                                      random.between(-900, 900)};
         for (const auto& exponents : {std::array{300, 300, 300}, {-300, -300, -300}, own}) {
@@ -252,7 +253,7 @@ TEST(OracleMetamorphic, CarryingAllPointsAlongChangesNothing) {
                       random.between(-1000, 1000)};
   };
   check_families(integer_families,
-                 [&](Random& random, const PosedQuery& posed, const Verdict& verdict, Tally&) {
+                 [&](Random& random, const PosedQuery& posed, const Decision& verdict, Tally&) {
                    const std::array<int, 3> start = vector(random), end = vector(random);
                    expect_same_answer(verdict, posed.kind, carried(posed.query, start, start));
                    expect_same_answer(verdict, posed.kind, carried(posed.query, start, end));
@@ -261,7 +262,7 @@ TEST(OracleMetamorphic, CarryingAllPointsAlongChangesNothing) {
 
 TEST(OracleMetamorphic, ShearingSpaceChangesNothing) {
   check_families(integer_families,
-                 [](Random& random, const PosedQuery& posed, const Verdict& verdict, Tally&) {
+                 [](Random& random, const PosedQuery& posed, const Decision& verdict, Tally&) {
                    const auto to = static_cast<std::size_t>(random.between(0, 2));
                    const std::size_t from = (to + (random.coin() ? 1 : 2)) % 3;
                    expect_same_answer(verdict, posed.kind,
@@ -272,8 +273,8 @@ TEST(OracleMetamorphic, ShearingSpaceChangesNothing) {
 TEST(OracleMetamorphic, ReversingTimeKeepsTheVerdictAndBoundsTheToi) {
   int single_instants = 0, longer = 0;
   check_families(every_family,
-                 [&](Random&, const PosedQuery& posed, const Verdict& verdict, Tally&) {
-                   const Verdict backward = decide({posed.kind, reversed(posed.query)});
+                 [&](Random&, const PosedQuery& posed, const Decision& verdict, Tally&) {
+                   const Decision backward = decide({posed.kind, reversed(posed.query)});
                    ASSERT_EQ(backward.collides(), verdict.collides());
                    if (!verdict.collides()) return;
                    const AlgebraicNumber last = one_minus(*backward.toi);
@@ -302,7 +303,7 @@ GridTimes grid_times(const AlgebraicNumber& toi) {
 TEST(OracleMetamorphic, StoppingBeforeTheToiMissesAndAfterItCollides) {
   int stopped_before = 0, stopped_after = 0;
   check_families(integer_families,
-                 [&](Random&, const PosedQuery& posed, const Verdict& verdict, Tally&) {
+                 [&](Random&, const PosedQuery& posed, const Decision& verdict, Tally&) {
                    if (!verdict.collides()) return;
                    const AlgebraicNumber& toi = *verdict.toi;
                    const auto [lower, upper] = grid_times(toi);
@@ -311,7 +312,7 @@ TEST(OracleMetamorphic, StoppingBeforeTheToiMissesAndAfterItCollides) {
                      const std::optional<Query> after = cut(posed.query, 0, upper);
                      ASSERT_TRUE(before && after);
                      EXPECT_FALSE(decide({posed.kind, *before}).collides());
-                     const Verdict stopped = decide({posed.kind, *after});
+                     const Decision stopped = decide({posed.kind, *after});
                      ASSERT_TRUE(stopped.collides());
                      expect_toi_of_part(*stopped.toi, toi, 0, upper);
                      ++stopped_before;
@@ -319,7 +320,7 @@ TEST(OracleMetamorphic, StoppingBeforeTheToiMissesAndAfterItCollides) {
                    const double end = toi.enclosure().upper;
                    const std::optional<Query> at_enclosure = cut(posed.query, 0, Rational(end));
                    if (end == 0.0 || !at_enclosure) return;
-                   const Verdict stopped = decide({posed.kind, *at_enclosure});
+                   const Decision stopped = decide({posed.kind, *at_enclosure});
                    ASSERT_TRUE(stopped.collides());
                    expect_toi_of_part(*stopped.toi, toi, 0, Rational(end));
                    ++stopped_after;
@@ -331,14 +332,14 @@ TEST(OracleMetamorphic, StoppingBeforeTheToiMissesAndAfterItCollides) {
 TEST(OracleMetamorphic, StartingLaterKeepsTheContactAtTheToi) {
   int started_later = 0;
   check_families(integer_families,
-                 [&](Random&, const PosedQuery& posed, const Verdict& verdict, Tally&) {
+                 [&](Random&, const PosedQuery& posed, const Decision& verdict, Tally&) {
                    if (!verdict.collides()) return;
                    const AlgebraicNumber& toi = *verdict.toi;
                    const Rational from = grid_times(toi).lower;
                    if (sgn(from) <= 0) return;
                    const std::optional<Query> later = cut(posed.query, from, 1);
                    ASSERT_TRUE(later.has_value());
-                   const Verdict rest = decide({posed.kind, *later});
+                   const Decision rest = decide({posed.kind, *later});
                    ASSERT_TRUE(rest.collides());
                    expect_toi_of_part(*rest.toi, toi, from, 1);
                    ++started_later;
@@ -349,24 +350,24 @@ TEST(OracleMetamorphic, StartingLaterKeepsTheContactAtTheToi) {
 TEST(OracleMetamorphic, CollidesIffOneOfItsHalvesDoes) {
   const Rational half = Rational(1) / 2;
   int in_first = 0, in_second = 0;
-  check_families(integer_families,
-                 [&](Random&, const PosedQuery& original, const Verdict& original_verdict, Tally&) {
-                   // Even coordinates: a midpoint is an integer again.
-                   const Query even = *scaled(original.query, {1, 1, 1});
-                   const Verdict first = decide({original.kind, *cut(even, 0, half)});
-                   const Verdict second = decide({original.kind, *cut(even, half, 1)});
-                   ASSERT_EQ(original_verdict.collides(), first.collides() || second.collides());
-                   if (!original_verdict.collides()) return;
-                   const AlgebraicNumber& toi = *original_verdict.toi;
-                   EXPECT_EQ(first.collides(), toi <= half);
-                   if (first.collides()) {
-                     expect_toi_of_part(*first.toi, toi, 0, half);
-                     ++in_first;
-                   } else {
-                     expect_toi_of_part(*second.toi, toi, half, 1);
-                     ++in_second;
-                   }
-                 });
+  check_families(integer_families, [&](Random&, const PosedQuery& original,
+                                       const Decision& original_verdict, Tally&) {
+    // Even coordinates: a midpoint is an integer again.
+    const Query even = *scaled(original.query, {1, 1, 1});
+    const Decision first = decide({original.kind, *cut(even, 0, half)});
+    const Decision second = decide({original.kind, *cut(even, half, 1)});
+    ASSERT_EQ(original_verdict.collides(), first.collides() || second.collides());
+    if (!original_verdict.collides()) return;
+    const AlgebraicNumber& toi = *original_verdict.toi;
+    EXPECT_EQ(first.collides(), toi <= half);
+    if (first.collides()) {
+      expect_toi_of_part(*first.toi, toi, 0, half);
+      ++in_first;
+    } else {
+      expect_toi_of_part(*second.toi, toi, half, 1);
+      ++in_second;
+    }
+  });
   EXPECT_GT(in_first, trials(300));
   EXPECT_GT(in_second, trials(150));
 }

@@ -208,8 +208,9 @@ void print_summary(const Tally& tally) {
             << " unknown\nseconds a question: median " << times[times.size() / 2] << ", worst "
             << times.back() << ", total " << total << '\n';
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const auto& [misses, hits] = tally.agreed.at(static_cast<std::size_t>(kind));
-    std::cout << to_string(kind) << ": " << hits << " hits, " << misses << " misses agreed\n";
+    const auto& [no_collisions, collisions] = tally.agreed.at(static_cast<std::size_t>(kind));
+    std::cout << to_string(kind) << ": " << collisions << " collisions, " << no_collisions
+              << " others agreed\n";
   }
 }
 
@@ -227,7 +228,7 @@ TEST(OracleSmt, AgreesWithAnSmtSolver) {
   Tally tally;
   for (const PosedQuery& posed : queries_to_ask(scale)) {
     SCOPED_TRACE(posed);
-    const Verdict verdict = decide(posed.kind, posed.query);
+    const Decision verdict = decide(posed.kind, posed.query);
     compare_verdict(posed, verdict.collides(), tally);
     if (verdict.collides()) compare_toi(posed, *verdict.toi, tally);
   }

@@ -57,7 +57,7 @@ Rational ratio(long numerator, long denominator) {
   return result;
 }
 
-Verdict decide(const PosedQuery& posed) { return exact::decide(posed.kind, posed.query); }
+Decision decide(const PosedQuery& posed) { return exact::decide(posed.kind, posed.query); }
 
 // ------------------------------------------------------------------ contact at a fixed time
 
@@ -146,7 +146,7 @@ Rational greatest_coordinate(const Query& query) {
 }
 
 /// (u,v) at the exact toi lies in the domain, whatever is known of it numerically.
-void expect_parameters_in_domain(Kind kind, const Verdict& verdict) {
+void expect_parameters_in_domain(Kind kind, const Decision& verdict) {
   AlgebraicNumber t = *verdict.toi;
   const auto& [u, v, denominator] = *verdict.contact;
   EXPECT_EQ(t.sign_of(denominator), 1);
@@ -161,7 +161,7 @@ void expect_parameters_in_domain(Kind kind, const Verdict& verdict) {
 /// F in the middle of the box of width 2^-bits: zero if the box is a point, and otherwise at most
 /// the width times a bound on the sum of F's derivatives (4M, 2M and 2M for coordinates up to M,
 /// doubled because the box may reach out of the domain).
-void expect_root_of_contact_function(const PosedQuery& posed, const Verdict& verdict, long bits) {
+void expect_root_of_contact_function(const PosedQuery& posed, const Decision& verdict, long bits) {
   const Rational width = power_of_two(-bits);
   AlgebraicNumber t = *verdict.toi;
   t.refine(width);
@@ -191,7 +191,7 @@ void expect_tight_enclosure(const AlgebraicNumber& toi) {
   }
 }
 
-void check_contact(const PosedQuery& posed, const Verdict& verdict) {
+void check_contact(const PosedQuery& posed, const Decision& verdict) {
   ASSERT_TRUE(verdict.toi && verdict.contact);
   const AlgebraicNumber& toi = *verdict.toi;
   EXPECT_TRUE(toi >= Rational(0));
@@ -205,7 +205,7 @@ void check_contact(const PosedQuery& posed, const Verdict& verdict) {
   }
 }
 
-void expect_miss(const PosedQuery& posed) {
+void expect_no_collision(const PosedQuery& posed) {
   SCOPED_TRACE(posed);
   EXPECT_FALSE(decide(posed).collides());
 }
@@ -213,7 +213,7 @@ void expect_miss(const PosedQuery& posed) {
 /// A hit at a rational time.
 void expect_toi(const PosedQuery& posed, const Rational& toi) {
   SCOPED_TRACE(posed);
-  const Verdict verdict = decide(posed);
+  const Decision verdict = decide(posed);
   ASSERT_TRUE(verdict.collides());
   EXPECT_TRUE(*verdict.toi == toi) << toi << " expected, near " << verdict.toi->enclosure().lower;
   EXPECT_TRUE(touches_at(posed, toi));
@@ -224,7 +224,7 @@ void expect_toi(const PosedQuery& posed, const Rational& toi) {
 void expect_contact(const PosedQuery& posed, const Rational& toi, const Rational& u,
                     const Rational& v) {
   expect_toi(posed, toi);
-  const Verdict verdict = decide(posed);
+  const Decision verdict = decide(posed);
   ASSERT_TRUE(verdict.collides());
   const Rational width = power_of_two(-200);
   const ContactParameters parameters = contact_parameters(verdict, width);
@@ -244,7 +244,7 @@ void expect_contact(const PosedQuery& posed, const Rational& toi, const Rational
 void expect_irrational_toi(const PosedQuery& posed, const Polynomial& polynomial,
                            std::string_view decimal) {
   SCOPED_TRACE(posed);
-  const Verdict verdict = decide(posed);
+  const Decision verdict = decide(posed);
   ASSERT_TRUE(verdict.collides());
   const AlgebraicNumber& toi = *verdict.toi;
   EXPECT_FALSE(toi.rational());
@@ -269,8 +269,8 @@ TEST(Oracle, FindsTheHourglassContactAtOneMinusTheDoubleNearOneTenth) {
 }
 
 TEST(Oracle, FindsThatTheInflectionQueryMisses) {
-  expect_miss(vertex_face({1, 1, 0, 0, 0, 5, 2, 0, 2, 0, 1, 0},  //
-                          {1, 1, 0, 0, 0, -1, 0, 0, -2, 0, 7, 0}));
+  expect_no_collision(vertex_face({1, 1, 0, 0, 0, 5, 2, 0, 2, 0, 1, 0},  //
+                                  {1, 1, 0, 0, 0, -1, 0, 0, -2, 0, 7, 0}));
 }
 
 TEST(Oracle, FindsTheCoplanarContactAtTheQuotientOfItsDoubles) {
@@ -321,15 +321,15 @@ TEST(Oracle, MissesByTheLeastDouble) {
                              {over_two, 2.0},
                              {0.0, over_four},
                              {2.0, over_two}}) {
-    expect_miss(over_triangle(x, y, 1, -1));
-    expect_miss(over_triangle(x, y, 0, 0));
+    expect_no_collision(over_triangle(x, y, 1, -1));
+    expect_no_collision(over_triangle(x, y, 0, 0));
   }
   for (const auto& [x, y] : {std::pair{-least, 1.0}, {1.0, -least}, {over_four, 1.0}}) {
-    expect_miss(over_edge(x, y, 1, -1));
+    expect_no_collision(over_edge(x, y, 1, -1));
   }
-  expect_miss(over_triangle(1, 1, least, least));
-  expect_miss(over_triangle(1, 1, 1, least));
-  expect_miss(over_edge(1, 1, 1, least));
+  expect_no_collision(over_triangle(1, 1, least, least));
+  expect_no_collision(over_triangle(1, 1, 1, least));
+  expect_no_collision(over_edge(1, 1, 1, least));
   expect_contact(over_triangle(least, 1, 1, -1), ratio(1, 2), Rational(least) / 4, ratio(1, 4));
 }
 
@@ -356,7 +356,7 @@ TEST(Oracle, SkipsRootsOutsideThePrimitive) {
   // t(1−t) = 3/16 at 1/4 and 3/4, where u = (1−t)/s.
   expect_contact(turning_triangle(1, 1, 0, 0.1875), ratio(1, 4), ratio(3, 4), ratio(1, 4));
   expect_contact(turning_triangle(0.5, 1, 0, 0.1875), ratio(3, 4), ratio(1, 2), ratio(1, 4));
-  expect_miss(turning_triangle(0.125, 1, 0, 0.1875));
+  expect_no_collision(turning_triangle(0.125, 1, 0, 0.1875));
   // (t − 1/4)(t − 1/2)(t − 3/4) = 0 with v = z0 + t and u = 3/2 t − t².
   expect_contact(twisting_triangle({0, -0.09375, -0.125}, {1.375, 0.59375, 0.875}), ratio(1, 4),
                  ratio(5, 16), ratio(1, 8));
@@ -364,15 +364,15 @@ TEST(Oracle, SkipsRootsOutsideThePrimitive) {
                  ratio(1, 2), ratio(1, 8));
   expect_contact(twisting_triangle({0, -0.09375, -0.625}, {0.875, 0.59375, 0.375}), ratio(3, 4),
                  ratio(9, 16), ratio(1, 8));
-  expect_miss(twisting_triangle({0, -0.09375, -0.875}, {0.625, 0.59375, 0.125}));
+  expect_no_collision(twisting_triangle({0, -0.09375, -0.875}, {0.625, 0.59375, 0.125}));
 }
 
 TEST(Oracle, FindsTheDoubleRootAndSeparatesItFromItsNeighbours) {
   // t(1−t) = y: a double root at 1/2 for y = 1/4, none above, two below.
   expect_contact(turning_triangle(1, 1, 0, 0.25), ratio(1, 2), ratio(1, 2), ratio(1, 4));
-  expect_miss(turning_triangle(1, 1, 0, std::nextafter(0.25, 1.0)));
+  expect_no_collision(turning_triangle(1, 1, 0, std::nextafter(0.25, 1.0)));
   const PosedQuery below = turning_triangle(1, 1, 0, std::nextafter(0.25, 0.0));
-  const Verdict verdict = decide(below);
+  const Decision verdict = decide(below);
   ASSERT_TRUE(verdict.collides());
   check_contact(below, verdict);
   // 1/4 − 2^-55 = t(1−t) at 1/2 − 2^-27.5, which is irrational.
@@ -388,14 +388,14 @@ TEST(Oracle, DecidesPointOnPoint) {
   expect_toi(vertex_face(start, end), ratio(1, 3));
   FourPoints beside = end;
   beside[2] = std::nextafter(6.0, 7.0);
-  expect_miss(vertex_face(start, beside));
+  expect_no_collision(vertex_face(start, beside));
 
   const FourPoints edges_start{-1, -2, -3, -1, -2, -3, 0, 0, 0, 0, 0, 0};
   const FourPoints edges_end{2, 4, 6, 2, 4, 6, 0, 0, 0, 0, 0, 0};
   expect_toi(edge_edge(edges_start, edges_end), ratio(1, 3));
   FourPoints edges_beside = edges_end;
   edges_beside[2] = edges_beside[5] = std::nextafter(6.0, 7.0);
-  expect_miss(edge_edge(edges_start, edges_beside));
+  expect_no_collision(edge_edge(edges_start, edges_beside));
 }
 
 TEST(Oracle, DecidesPointOnEdge) {
@@ -407,18 +407,18 @@ TEST(Oracle, DecidesPointOnEdge) {
   const RationalInterval v = contact_parameters(decide(on_edge), 1).v;
   EXPECT_EQ(v.lower, ratio(1, 4));
   EXPECT_EQ(v.upper, ratio(1, 4));
-  expect_miss(
+  expect_no_collision(
       edge_edge({1, 1, 1, 1, 1, 1, 0, 0, 0, 4, 0, 0}, {1, 1, -2, 1, 1, -2, 0, 0, 0, 4, 0, 0}));
-  expect_miss(edge_edge({-least, 0, 1, -least, 0, 1, 0, 0, 0, 4, 0, 0},
-                        {-least, 0, -2, -least, 0, -2, 0, 0, 0, 4, 0, 0}));
+  expect_no_collision(edge_edge({-least, 0, 1, -least, 0, 1, 0, 0, 0, 4, 0, 0},
+                                {-least, 0, -2, -least, 0, -2, 0, 0, 0, 4, 0, 0}));
   const std::array<double, 9> line{0, 0, 0, 1, 0, 0, 4, 0, 0};
   for (const double x : {0.0, 0.5, 1.0, 2.0, 4.0}) {
     expect_toi(vertex_face(with_vertex(x, 0, 1, line), with_vertex(x, 0, -2, line)), ratio(1, 3));
   }
   for (const double x : {-least, std::nextafter(4.0, 5.0)}) {
-    expect_miss(vertex_face(with_vertex(x, 0, 1, line), with_vertex(x, 0, -2, line)));
+    expect_no_collision(vertex_face(with_vertex(x, 0, 1, line), with_vertex(x, 0, -2, line)));
   }
-  expect_miss(vertex_face(with_vertex(1, least, 1, line), with_vertex(1, least, -2, line)));
+  expect_no_collision(vertex_face(with_vertex(1, least, 1, line), with_vertex(1, least, -2, line)));
 }
 
 TEST(Oracle, DecidesAZeroAreaTriangleThatOpensLater) {
@@ -426,8 +426,8 @@ TEST(Oracle, DecidesAZeroAreaTriangleThatOpensLater) {
   expect_contact(
       vertex_face({2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0, 0}, {2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 2, 0}),
       ratio(1, 4), 0, 1);
-  expect_miss(vertex_face({2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0, 0},
-                          {2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0.25, 0}));
+  expect_no_collision(vertex_face({2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0, 0},
+                                  {2, 0.5, 0, 0, 0, 0, 4, 0, 0, 2, 0.25, 0}));
 }
 
 TEST(Oracle, DecidesParallelEdges) {
@@ -440,9 +440,9 @@ TEST(Oracle, DecidesParallelEdges) {
       edge_edge({0, 0, 0, 4, 0, 0, 4, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, 4, 0, -2, 6, 0, -2}),
       ratio(1, 3), 1, 0);
   const double gap = std::nextafter(4.0, 5.0);
-  expect_miss(
+  expect_no_collision(
       edge_edge({0, 0, 0, 4, 0, 0, gap, 0, 1, 6, 0, 1}, {0, 0, 0, 4, 0, 0, gap, 0, -2, 6, 0, -2}));
-  expect_miss(
+  expect_no_collision(
       edge_edge({0, 0, 0, 4, 0, 0, 2, 1, 1, 6, 1, 1}, {0, 0, 0, 4, 0, 0, 2, 1, -2, 6, 1, -2}));
 }
 
@@ -451,7 +451,8 @@ TEST(Oracle, DecidesCollinearEdges) {
   const FourPoints start{0, 0, 0, 1, 0, 0, 3, 0, 0, 4, 0, 0};
   expect_contact(edge_edge(start, {0, 0, 0, 1, 0, 0, -3, 0, 0, -2, 0, 0}), ratio(1, 3), 1, 0);
   expect_contact(edge_edge(start, {0, 0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0}), 1, 1, 0);
-  expect_miss(edge_edge(start, {0, 0, 0, 1, 0, 0, std::nextafter(1.0, 2.0), 0, 0, 2, 0, 0}));
+  expect_no_collision(
+      edge_edge(start, {0, 0, 0, 1, 0, 0, std::nextafter(1.0, 2.0), 0, 0, 2, 0, 0}));
   // The same on the line in direction (1,2,−3).
   expect_contact(edge_edge({0, 0, 0, 1, 2, -3, 3, 6, -9, 4, 8, -12},
                            {0, 0, 0, 1, 2, -3, -3, -6, 9, -2, -4, 6}),
@@ -476,11 +477,11 @@ TEST(Oracle, DecidesCoincidentPoints) {
 TEST(Oracle, DecidesRest) {
   for (const double z : {0.0, -0.0})
     expect_contact(over_triangle(1, 1, z, z), 0, ratio(1, 4), ratio(1, 4));
-  expect_miss(over_triangle(1, 1, 1, 1));
-  expect_miss(over_triangle(5, 1, 0, 0));
+  expect_no_collision(over_triangle(1, 1, 1, 1));
+  expect_no_collision(over_triangle(5, 1, 0, 0));
   expect_contact(over_edge(1, 2, 0, 0), 0, ratio(1, 4), ratio(1, 2));
-  expect_miss(over_edge(1, 2, 1, 1));
-  expect_miss(over_edge(5, 2, 0, 0));
+  expect_no_collision(over_edge(1, 2, 1, 1));
+  expect_no_collision(over_edge(5, 2, 0, 0));
 }
 
 TEST(Oracle, FindsTheFirstInstantOfAnIntervalOfCoplanarContact) {
@@ -494,7 +495,7 @@ TEST(Oracle, FindsTheFirstInstantOfAnIntervalOfCoplanarContact) {
   // It slides along the edge from outside, in the edge's own line.
   expect_contact(vertex_face(with_vertex(-1, 0, 0, face), with_vertex(2, 0, 0, face)), ratio(1, 3),
                  0, 0);
-  expect_miss(vertex_face(with_vertex(-1, 1, 0, face), with_vertex(-least, 1, 0, face)));
+  expect_no_collision(vertex_face(with_vertex(-1, 1, 0, face), with_vertex(-least, 1, 0, face)));
   // Crossed edges in one plane, the second arriving from the right: they meet at (4,0).
   expect_contact(
       edge_edge({0, 0, 0, 4, 0, 0, 6, -1, 0, 6, 1, 0}, {0, 0, 0, 4, 0, 0, 0, -1, 0, 0, 1, 0}),
@@ -506,13 +507,14 @@ TEST(Oracle, FindsAnIsolatedInstantOfCoplanarContact) {
   const std::array<double, 9> face{0, 0, 0, 1, 1, 0, -1, 1, 0};
   expect_contact(vertex_face(with_vertex(-1, 0, 0, face), with_vertex(2, 0, 0, face)), ratio(1, 3),
                  0, 0);
-  expect_miss(vertex_face(with_vertex(-1, -least, 0, face), with_vertex(2, -least, 0, face)));
+  expect_no_collision(
+      vertex_face(with_vertex(-1, -least, 0, face), with_vertex(2, -least, 0, face)));
   // A hanging edge slides along below the lower end of a standing one.
   expect_contact(
       edge_edge({0, 0, 0, 0, 2, 0, -1, 0, 0, -1, -2, 0}, {0, 0, 0, 0, 2, 0, 2, 0, 0, 2, -2, 0}),
       ratio(1, 3), 0, 0);
-  expect_miss(edge_edge({0, 0, 0, 0, 2, 0, -1, -least, 0, -1, -2, 0},
-                        {0, 0, 0, 0, 2, 0, 2, -least, 0, 2, -2, 0}));
+  expect_no_collision(edge_edge({0, 0, 0, 0, 2, 0, -1, -least, 0, -1, -2, 0},
+                                {0, 0, 0, 0, 2, 0, 2, -least, 0, 2, -2, 0}));
 }
 
 TEST(Oracle, FindsIrrationalTimesOfCoplanarMotion) {
@@ -541,10 +543,10 @@ TEST(Oracle, IsExactAcrossTheWholeRangeOfDoubles) {
     expect_contact(over_greatest_triangle(x, greatest, -least), large / (small + large), u,
                    (1 - u) / 2);
     expect_contact(over_greatest_triangle(x, greatest, -greatest), ratio(1, 2), u, (1 - u) / 2);
-    expect_miss(over_greatest_triangle(x, greatest, least));
+    expect_no_collision(over_greatest_triangle(x, greatest, least));
   }
-  expect_miss(over_greatest_triangle(-least, -least, greatest));
-  expect_miss(over_greatest_triangle(-least, greatest, -greatest));
+  expect_no_collision(over_greatest_triangle(-least, -least, greatest));
+  expect_no_collision(over_greatest_triangle(-least, greatest, -greatest));
   const auto first = decide(over_greatest_triangle(1, -least, greatest)).toi->enclosure();
   EXPECT_EQ(first, (DoubleInterval{0.0, least}));
   const auto last = decide(over_greatest_triangle(1, greatest, -least)).toi->enclosure();
@@ -558,27 +560,27 @@ TEST(Oracle, IsExactAcrossTheWholeRangeOfDoublesForEdges) {
   };
   const Rational small(least), large(greatest);
   expect_contact(query(least), small / (small + large), small / large, large / (small + large));
-  expect_miss(query(-least));
+  expect_no_collision(query(-least));
 }
 
 TEST(Oracle, DecidesSubnormalQueriesAsTheirMultiples) {
   Random random(20260101);
-  int hits = 0;
+  int collisions = 0;
   for (int i = 0; i < 400; ++i) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     const PosedQuery large = random_query(random, kind, Family::small_integers);
     PosedQuery small = large;
     for (double& x : small.query.coordinates) x *= least;
     SCOPED_TRACE(large);
-    const Verdict expected = decide(large), verdict = decide(small);
+    const Decision expected = decide(large), verdict = decide(small);
     ASSERT_EQ(verdict.collides(), expected.collides());
     if (!verdict.collides()) continue;
-    ++hits;
+    ++collisions;
     EXPECT_TRUE(*verdict.toi == *expected.toi);
     check_contact(small, verdict);
   }
-  EXPECT_GT(hits, 50);
-  EXPECT_LT(hits, 350);
+  EXPECT_GT(collisions, 50);
+  EXPECT_LT(collisions, 350);
 }
 
 TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
@@ -586,7 +588,7 @@ TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
   for (const double y : {0x1p-200, 0x1p-600, 0x1p-1074}) {
     const PosedQuery query = turning_triangle(2, 0, 2, y);
     SCOPED_TRACE(query);
-    const Verdict verdict = decide(query);
+    const Decision verdict = decide(query);
     ASSERT_TRUE(verdict.collides());
     EXPECT_TRUE(*verdict.toi > Rational(0));
     EXPECT_LT(verdict.toi->enclosure().upper, std::sqrt(y));
@@ -597,7 +599,7 @@ TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
   for (int i = 0; i < 200; ++i) {
     const PosedQuery query = turning_triangle(2, 0, 2, std::ldexp(17 + 2 * (i % 8), -12 - i / 8));
     SCOPED_TRACE(query);
-    const Verdict verdict = decide(query);
+    const Decision verdict = decide(query);
     ASSERT_TRUE(verdict.collides());
     check_contact(query, verdict);
   }
@@ -605,7 +607,7 @@ TEST(Oracle, EnclosesTimesThatAreTinyOrNextToADouble) {
   for (const double epsilon : {0x1p-100, 0x1p-601, -0x1p-100, -0x1p-601}) {
     const PosedQuery query = turning_triangle(1, epsilon, 1, 0.25);
     SCOPED_TRACE(query);
-    const Verdict verdict = decide(query);
+    const Decision verdict = decide(query);
     ASSERT_TRUE(verdict.collides());
     const double beside = std::nextafter(0.5, epsilon > 0 ? 0.0 : 1.0);
     EXPECT_EQ(verdict.toi->enclosure(),
@@ -621,20 +623,20 @@ TEST(Oracle, KnowsThePlaceOfContactAtDistanceZeroOnly) {
   };
   for (const Norm norm : {Norm::linf, Norm::l2}) {
     for (const double zero : {0.0, -0.0}) {
-      const Verdict verdict = at(zero, norm);
+      const Decision verdict = at(zero, norm);
       EXPECT_TRUE(verdict.toi && *verdict.toi == Rational(1));
       EXPECT_TRUE(verdict.contact);
       EXPECT_EQ(verdict.separation, (Separation{zero, norm}));
     }
-    const Verdict near = at(1.0, norm);
+    const Decision near = at(1.0, norm);
     EXPECT_TRUE(near.toi && *near.toi == ratio(1, 2));
     EXPECT_FALSE(near.contact);
     EXPECT_EQ(near.separation, (Separation{1.0, norm}));
     EXPECT_THROW(static_cast<void>(contact_parameters(near, 1)), std::invalid_argument);
   }
-  const Verdict miss = decide(over_triangle(1, 1, 2, 1));
-  EXPECT_FALSE(miss.collides() || miss.contact);
-  EXPECT_THROW(static_cast<void>(contact_parameters(miss, 1)), std::invalid_argument);
+  const Decision no_collision = decide(over_triangle(1, 1, 2, 1));
+  EXPECT_FALSE(no_collision.collides() || no_collision.contact);
+  EXPECT_THROW(static_cast<void>(contact_parameters(no_collision, 1)), std::invalid_argument);
 }
 
 TEST(Oracle, RejectsEveryCoordinateThatIsNotFinite) {
@@ -664,14 +666,14 @@ std::vector<PosedQuery> mixed_queries(std::size_t count) {
   return queries;
 }
 
-std::vector<Verdict> decide_all(std::span<const PosedQuery> queries) {
-  std::vector<Verdict> verdicts;
+std::vector<Decision> decide_all(std::span<const PosedQuery> queries) {
+  std::vector<Decision> verdicts;
   verdicts.reserve(queries.size());
   for (const PosedQuery& posed : queries) verdicts.push_back(decide(posed));
   return verdicts;
 }
 
-void expect_same(const Verdict& verdict, const Verdict& expected) {
+void expect_same(const Decision& verdict, const Decision& expected) {
   ASSERT_EQ(verdict.collides(), expected.collides());
   if (!verdict.collides()) return;
   EXPECT_EQ(verdict.toi->polynomial(), expected.toi->polynomial());
@@ -686,16 +688,16 @@ void expect_same(const Verdict& verdict, const Verdict& expected) {
 
 TEST(Oracle, GivesTheSameAnswersInFourThreadsAsInOne) {
   const std::vector<PosedQuery> queries = mixed_queries(2000);
-  const std::vector<Verdict> expected = decide_all(queries);
-  std::array<std::vector<Verdict>, thread_count> answers;
+  const std::vector<Decision> expected = decide_all(queries);
+  std::array<std::vector<Decision>, thread_count> answers;
   {
     std::vector<std::jthread> threads;
     threads.reserve(thread_count);
-    for (std::vector<Verdict>& answer : answers) {
+    for (std::vector<Decision>& answer : answers) {
       threads.emplace_back([&answer, &queries] { answer = decide_all(queries); });
     }
   }
-  for (const std::vector<Verdict>& answer : answers) {
+  for (const std::vector<Decision>& answer : answers) {
     ASSERT_EQ(answer.size(), expected.size());
     for (std::size_t i = 0; i < answer.size(); ++i) {
       SCOPED_TRACE(queries[i]);
@@ -708,7 +710,7 @@ TEST(Oracle, GivesVerdictsWhoseCopiesCanBeUsedByDistinctThreads) {
   // Each thread has a copy of its own and makes copies of that. Whatever the copies still have in
   // common must survive it.
   const PosedQuery query = twisting_triangle({0.75, 0.125, 0}, {0.75, 0.125, 1});
-  const Verdict original = decide(query);
+  const Decision original = decide(query);
   ASSERT_TRUE(original.collides());
   const DoubleInterval expected = original.toi->enclosure();
   std::array<int, thread_count> wrong{};
@@ -721,7 +723,7 @@ TEST(Oracle, GivesVerdictsWhoseCopiesCanBeUsedByDistinctThreads) {
         all_started.arrive_and_wait();
         for (int i = 0; i < 10000; ++i) {
           const std::vector<Contact> contacts(100, *own.contact);
-          const Verdict copy = own;
+          const Decision copy = own;
           if (i % 100 == 0 && copy.toi->enclosure() != expected) ++count;
         }
       });
@@ -738,10 +740,10 @@ TEST(Oracle, GivesVerdictsWhoseCopiesCanBeUsedByDistinctThreads) {
 Rational random_time(Random& random) { return ratio(random.between(1, 9972), 9973); }
 
 struct Tally {
-  int hits = 0;
-  int rational_hits = 0;
+  int collisions = 0;
+  int rational_collisions = 0;
   int touching_at_start = 0;
-  int misses = 0;
+  int no_collisions = 0;
 };
 
 /// No contact at the times k/60, nor at random ones, as far as they lie before the toi.
@@ -763,15 +765,15 @@ void expect_no_contact_before(const PosedQuery& posed, Random& random, const Alg
 
 void compare_with_second_way(const PosedQuery& posed, Random& random, Tally& tally) {
   SCOPED_TRACE(posed);
-  const Verdict verdict = decide(posed);
+  const Decision verdict = decide(posed);
   const AlgebraicNumber* toi = verdict.collides() ? &*verdict.toi : nullptr;
   expect_no_contact_before(posed, random, toi);
   if (toi == nullptr) {
-    ++tally.misses;
+    ++tally.no_collisions;
     return;
   }
-  ++tally.hits;
-  tally.rational_hits += toi->rational() ? 1 : 0;
+  ++tally.collisions;
+  tally.rational_collisions += toi->rational() ? 1 : 0;
   tally.touching_at_start += *toi == Rational(0) ? 1 : 0;
   EXPECT_EQ(*toi == Rational(0), touches_at(posed, 0));
   check_contact(posed, verdict);
@@ -789,19 +791,19 @@ TEST(Oracle, AgreesWithEliminationOnSmallIntegers) {
   Tally tally;
   compare_family_with_second_way(Family::tiny_integers, trials(2000), tally);
   compare_family_with_second_way(Family::small_integers, trials(2000), tally);
-  EXPECT_GT(tally.hits, trials(1000));
-  EXPECT_GT(tally.misses, trials(1000));
-  EXPECT_GT(tally.rational_hits, trials(500));
+  EXPECT_GT(tally.collisions, trials(1000));
+  EXPECT_GT(tally.no_collisions, trials(1000));
+  EXPECT_GT(tally.rational_collisions, trials(500));
   EXPECT_GT(tally.touching_at_start, trials(200));
-  EXPECT_GT(tally.hits - tally.rational_hits, trials(100));
+  EXPECT_GT(tally.collisions - tally.rational_collisions, trials(100));
 }
 
 TEST(Oracle, AgreesWithEliminationOnFullSignificands) {
   Tally tally;
   compare_family_with_second_way(Family::full_significands, trials(200), tally);
   compare_family_with_second_way(Family::near_contact, trials(200), tally);
-  EXPECT_GT(tally.hits, trials(40));
-  EXPECT_GT(tally.misses, trials(40));
+  EXPECT_GT(tally.collisions, trials(40));
+  EXPECT_GT(tally.no_collisions, trials(40));
 }
 
 }  // namespace

@@ -303,9 +303,9 @@ TEST(Separation, DistancesAreFiniteAndNotNegative) {
 
 TEST(Separation, OnlyZeroIsContact) {
   using Limits = std::numeric_limits<double>;
-  for (const double d : {0.0, -0.0}) EXPECT_TRUE(is_contact({.distance = d})) << d;
+  for (const double d : {0.0, -0.0}) EXPECT_TRUE(is_zero({.distance = d})) << d;
   for (const double d : {Limits::denorm_min(), -Limits::denorm_min(), 1.0, Limits::quiet_NaN()}) {
-    EXPECT_FALSE(is_contact({.distance = d})) << d;
+    EXPECT_FALSE(is_zero({.distance = d})) << d;
   }
 }
 

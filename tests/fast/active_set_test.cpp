@@ -46,7 +46,7 @@ Scene falling_point() {
 }
 
 TEST(ActiveSet, OfAFallingPointIsItsFace) {
-  const auto contacts = active_set(falling_point().step(), 0.5);
+  const auto contacts = active_set(falling_point().step(), {.distance = 0.5, .norm = Norm::l2});
   ASSERT_EQ(contacts.size(), 1U);
   const ActiveContact& one = contacts[0];
   EXPECT_EQ(one.kind, PairKind::vertex_face);
@@ -61,13 +61,16 @@ TEST(ActiveSet, OfAFallingPointIsItsFace) {
 TEST(ActiveSet, HasTheNormalOfTheSideThatAPrimitiveComesFrom) {
   for (const double eta : {0.0, 0.25}) {
     Scene scene = falling_point();
-    EXPECT_EQ(active_set(scene.step(), eta)[0].normal, Vector3d(0, 0, 1));
+    EXPECT_EQ(active_set(scene.step(), {.distance = eta, .norm = Norm::l2})[0].normal,
+              Vector3d(0, 0, 1));
     // From below, and with the face turned round.
     scene.start(3, 2) = -1;
     scene.end(3, 2) = 1;
-    EXPECT_EQ(active_set(scene.step(), eta)[0].normal, Vector3d(0, 0, -1));
+    EXPECT_EQ(active_set(scene.step(), {.distance = eta, .norm = Norm::l2})[0].normal,
+              Vector3d(0, 0, -1));
     scene.faces = {{0, 2, 1}};
-    EXPECT_EQ(active_set(scene.step(), eta)[0].normal, Vector3d(0, 0, -1));
+    EXPECT_EQ(active_set(scene.step(), {.distance = eta, .norm = Norm::l2})[0].normal,
+              Vector3d(0, 0, -1));
   }
 }
 
@@ -83,7 +86,8 @@ TEST(ActiveSet, HasTheCrossProductOfEdgesForNormal) {
   Places start(4, 3);
   start << -1, 0, 1, 1, 0, 1, 0, -1, 0, 0, 1, 0;
   for (const double eta : {0.0, 0.25}) {
-    const auto contacts = active_set(edges(start, {0, 0, -2}).step(), eta);
+    const auto contacts =
+        active_set(edges(start, {0, 0, -2}).step(), {.distance = eta, .norm = Norm::l2});
     ASSERT_EQ(contacts.size(), 1U);
     EXPECT_EQ(contacts[0].normal, Vector3d(0, 0, 1));
     EXPECT_NEAR((contacts[0].first - contacts[0].second).norm(), eta, 1e-10);
@@ -94,7 +98,7 @@ TEST(ActiveSet, HasADefinedNormalForParallelEdges) {
   Places start(4, 3);
   start << -1, 0, 1, 1, 0, 1, -1, 0, 0, 1, 0, 0;
   const auto normal = [&](const Places& at, const Vector3d& motion, double eta) {
-    const auto contacts = active_set(edges(at, motion).step(), eta);
+    const auto contacts = active_set(edges(at, motion).step(), {.distance = eta, .norm = Norm::l2});
     EXPECT_EQ(contacts.size(), 1U);
     return contacts.at(0).normal;
   };
@@ -121,7 +125,7 @@ TEST(ActiveSet, HasTheDirectionOfNearestPointsForCodimensionalPairs) {
   scene.edges = {{0, 1}};
   scene.points = {2};
   for (const double eta : {0.0, 1.0}) {
-    const auto contacts = active_set(scene.step(), eta);
+    const auto contacts = active_set(scene.step(), {.distance = eta, .norm = Norm::l2});
     ASSERT_EQ(contacts.size(), 1U);
     EXPECT_EQ(contacts[0].kind, PairKind::vertex_edge);
     EXPECT_TRUE(contacts[0].normal.isApprox(Vector3d(0, 0.6, 0.8)));
@@ -131,7 +135,7 @@ TEST(ActiveSet, HasTheDirectionOfNearestPointsForCodimensionalPairs) {
   scene.points = {0, 2};
   scene.end.row(2) << -1, -3, -4;
   for (const double eta : {0.0, 1.0}) {
-    const auto contacts = active_set(scene.step(), eta);
+    const auto contacts = active_set(scene.step(), {.distance = eta, .norm = Norm::l2});
     ASSERT_EQ(contacts.size(), 1U);
     EXPECT_EQ(contacts[0].kind, PairKind::vertex_vertex);
     EXPECT_TRUE(contacts[0].normal.isApprox(Vector3d(-1, -3, -4).normalized()));
@@ -148,7 +152,8 @@ TEST(ActiveSet, IsTheCollisionsAtThatSeparationInOrder) {
       const double eta = random.coin() ? shape.separation : 0.0;
       // The separation that a step is made with is of no matter.
       const auto contacts =
-          active_set(scene.step({.separation = {.distance = 3 * shape.separation}}), eta, norm);
+          active_set(scene.step({.separation = {.distance = 3 * shape.separation}}),
+                     {.distance = eta, .norm = norm});
       auto collisions = scene.step({.separation = {.distance = eta, .norm = norm}}).collisions();
       std::ranges::sort(collisions, {}, [](const StepCollision& one) {
         return std::tuple(one.toi_lower, one.toi_upper, one.kind, one.pair);
@@ -172,7 +177,7 @@ TEST(ActiveSet, NormalsPointFromTheSecondPrimitiveToTheFirst) {
   int seen = 0;
   for (int round = 0; round < tests::trials(20); ++round) {
     const Scene scene = tests::soup(random, 30, 0.2);
-    for (const ActiveContact& one : active_set(scene.step(), eta)) {
+    for (const ActiveContact& one : active_set(scene.step(), {.distance = eta, .norm = Norm::l2})) {
       const Vector3d between = one.first - one.second;
       if (one.toi_lower == 0.0) continue;
       EXPECT_NEAR(between.norm(), eta, 1e-9);
@@ -213,7 +218,7 @@ TEST(ActiveSet, ContactsAtTheirTimesAreThose) {
   for (int round = 0; round < tests::trials(20); ++round) {
     const Scene scene = tests::soup(random, 30, 0.2);
     const Step step = scene.step();
-    for (const ActiveContact& one : active_set(step, eta)) {
+    for (const ActiveContact& one : active_set(step, {.distance = eta, .norm = Norm::l2})) {
       const ActiveContact again = contact_at(step, one.kind, one.pair, one.toi_upper);
       EXPECT_EQ(again.toi_lower, one.toi_upper);
       EXPECT_EQ(again.toi_upper, one.toi_upper);
@@ -250,7 +255,9 @@ TEST(ActiveSet, PlantedFaultsAreFound) {
   const Scene scene = falling_point();
   const Step step = scene.step();
   for (const auto& fault : tests::planted_faults().active_set) {
-    EXPECT_NE(fault.part(step, 0.0, Norm::l2), active_set(step, 0.0)) << fault.name;
+    EXPECT_NE(fault.part(step, 0.0, Norm::l2),
+              active_set(step, {.distance = 0.0, .norm = Norm::l2}))
+        << fault.name;
   }
 }
 

@@ -203,7 +203,7 @@ TEST(BroadPhase, FindsExactlyAllPairsWithinTheSeparation) {
   for (const Shape& shape : shapes()) {
     for (const double separation : separations()) {
       const Scene scene = shape.make(random, 12 + random.between(0, 8));
-      const BroadPhaseOptions options{.min_separation = separation};
+      const BroadPhaseOptions options{.separation = {.distance = separation}};
       EXPECT_EQ(found_vertex_face(scene, options), all_vertex_face(scene, separation))
           << shape.name << ' ' << separation;
       EXPECT_EQ(found_edge_edge(scene, options), all_edge_edge(scene, separation))
@@ -244,7 +244,7 @@ TEST(BroadPhase, TouchingBoxesAreCandidatesAndTheNextDoubleIsNot) {
   EXPECT_EQ(found_vertex_face(vertex_beside_triangle(std::nextafter(1, 2))), Pairs{});
   EXPECT_EQ(found_vertex_face(vertex_beside_triangle(-tiniest)), Pairs{});
   for (const double separation : {0.5, 0.1, 0.3, 1e-16, tiniest, 7.0, 1e300}) {
-    const BroadPhaseOptions options{.min_separation = separation};
+    const BroadPhaseOptions options{.separation = {.distance = separation}};
     double x = 1 + separation;
     while (Rational(x) - 1 > Rational(separation)) x = std::nextafter(x, 0);
     while (Rational(std::nextafter(x, greatest)) - 1 <= Rational(separation)) {
@@ -263,7 +263,7 @@ TEST(BroadPhase, EachAxisSeparates) {
       Scene scene = vertex_beside_triangle(0.25);
       scene.start(0, axis) = scene.end(0, axis) = side;
       EXPECT_EQ(found_vertex_face(scene), Pairs{});
-      EXPECT_EQ(found_vertex_face(scene, {.min_separation = 2.5}), (Pairs{{0, 0}}));
+      EXPECT_EQ(found_vertex_face(scene, {.separation = {.distance = 2.5}}), (Pairs{{0, 0}}));
     }
   }
 }

@@ -1,5 +1,6 @@
 /// \file
-/// The certified solver by hand, in batches and as a method. (Against the oracle: deciders_test.cpp.)
+/// The certified solver by hand, in batches and as a method. (Against the oracle:
+/// deciders_test.cpp.)
 
 #include "fast/certified.hpp"
 
@@ -32,7 +33,7 @@ using tests::Random;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 CertifiedResult solve(const PosedQuery& posed, const CertifiedOptions& options = {}) {
-  return certified(posed.kind, posed.query, options);
+  return fast::solve(posed.kind, posed.query, options);
 }
 
 // ---- By hand ------------------------------------------------------------------------------------
@@ -60,8 +61,8 @@ TEST(Certified, EndsEachSortOfQueryInItsStage) {
 }
 
 TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
-  // A vertex that moves along x too, over the triangle (0,0,0), (1,0,0), (0,1,0): at t = 0.4, where it
-  // is in its plane, it is so far inside of the edge x = 0.
+  // A vertex that moves along x too, over the triangle (0,0,0), (1,0,0), (0,1,0): at t = 0.4, where
+  // it is in its plane, it is so far inside of the edge x = 0.
   const auto beside_edge = [](double inside) {
     Query query{};
     for (std::size_t end = 0; end < 2; ++end) {
@@ -75,16 +76,17 @@ TEST(Certified, WhatCrossesThePlaneNearAnEdgeIsDecidedInFloatingPoint) {
     return query;
   };
   for (const double inside : {0x1p-8, 0x1p-12, 0x1p-20, 0x1p-28}) {
-    const Query hit = beside_edge(inside), miss = beside_edge(-inside);
-    EXPECT_EQ(certified(Kind::vertex_face, hit).stage, Stage::bisection) << inside;
-    EXPECT_EQ(certified(Kind::vertex_face, hit).verdict, Verdict::yes) << inside;
-    EXPECT_EQ(certified(Kind::vertex_face, miss).stage, Stage::bisection) << inside;
-    EXPECT_EQ(certified(Kind::vertex_face, miss).verdict, Verdict::no) << inside;
-    for (const Query& query : {hit, miss}) {
-      EXPECT_FALSE(fault(Kind::vertex_face, query, certified(Kind::vertex_face, query))) << inside;
+    const Query colliding = beside_edge(inside), no_collision = beside_edge(-inside);
+    EXPECT_EQ(fast::solve(Kind::vertex_face, colliding).stage, Stage::bisection) << inside;
+    EXPECT_EQ(fast::solve(Kind::vertex_face, colliding).verdict, Verdict::yes) << inside;
+    EXPECT_EQ(fast::solve(Kind::vertex_face, no_collision).stage, Stage::bisection) << inside;
+    EXPECT_EQ(fast::solve(Kind::vertex_face, no_collision).verdict, Verdict::no) << inside;
+    for (const Query& query : {colliding, no_collision}) {
+      EXPECT_FALSE(fault(Kind::vertex_face, query, fast::solve(Kind::vertex_face, query)))
+          << inside;
     }
   }
-  EXPECT_EQ(certified(Kind::vertex_face, beside_edge(0x1p-50)).stage, Stage::exact);
+  EXPECT_EQ(fast::solve(Kind::vertex_face, beside_edge(0x1p-50)).stage, Stage::exact);
 }
 
 TEST(Certified, EveryStageIsReachedAndNamed) {
@@ -102,10 +104,10 @@ TEST(Certified, EveryStageIsReachedAndNamed) {
       ++reached.at(static_cast<std::size_t>(result.stage));
   }
   for (std::size_t i = 0; i < stages; ++i) {
-    EXPECT_GT(reached.at(i), 0U) << name(static_cast<Stage>(i));
+    EXPECT_GT(reached.at(i), 0U) << to_string(static_cast<Stage>(i));
   }
-  EXPECT_EQ(name(Stage::axis), "axis");
-  EXPECT_EQ(name(Stage::exact), "exact");
+  EXPECT_EQ(to_string(Stage::axis), "axis");
+  EXPECT_EQ(to_string(Stage::exact), "exact");
 }
 
 TEST(Certified, AStepToTheLowerEndNeverTouches) {

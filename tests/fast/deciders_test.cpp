@@ -1,6 +1,6 @@
 /// \file
-/// The deciders of the certified solver against the oracle: each of them on each family of queries, at contact and at
-/// separations of all magnitudes in both norms, for all tolerances and times.
+/// The deciders of the certified solver against the oracle: each of them on each family of queries,
+/// at contact and at separations of all magnitudes in both norms, for all tolerances and times.
 
 #include <gtest/gtest.h>
 
@@ -241,8 +241,8 @@ Separation draw_separation(Random& random, const Query& query) {
   return {.distance = std::max(distance, tiniest), .norm = norm};
 }
 
-/// Is F near 0 on every axis at toi_upper and (u,v), relative to its coordinates? By then F has moved on: corners are
-/// differences of coordinates, at most 4 of these apart.
+/// Is F near 0 on every axis at toi_upper and (u,v), relative to its coordinates? By then F has
+/// moved on: corners are differences of coordinates, at most 4 of these apart.
 void expect_contact_at_place(const PosedQuery& posed, const CertifiedResult& result) {
   const Rational upper(result.toi_upper);
   const auto f = tests::contact_function<Rational>(posed.kind, posed.query, upper,
@@ -258,12 +258,12 @@ void expect_contact_at_place(const PosedQuery& posed, const CertifiedResult& res
 }
 
 /// Is the result what the oracle says? And does a contact count up to its time exactly?
-void expect_truth(const Decider& decider, const PosedQuery& posed, const exact::Verdict& truth,
+void expect_truth(const Decider& decider, const PosedQuery& posed, const exact::Decision& truth,
                   const CertifiedResult& result, const CertifiedOptions& options) {
   const auto wrong = tests::fault(posed.kind, truth, result, options);
-  ASSERT_FALSE(wrong) << decider.name << ": " << *wrong << " [" << name(result.stage) << "] at "
-                      << options.separation.distance << " in " << to_string(options.separation.norm)
-                      << ": " << posed;
+  ASSERT_FALSE(wrong) << decider.name << ": " << *wrong << " [" << to_string(result.stage)
+                      << "] at " << options.separation.distance << " in "
+                      << to_string(options.separation.norm) << ": " << posed;
   if (result.verdict != Verdict::yes || options.t_max < 1.0) return;
   const auto collides_until = [&](double t_max) {
     CertifiedOptions until = options;
@@ -275,7 +275,7 @@ void expect_truth(const Decider& decider, const PosedQuery& posed, const exact::
   if (least_time > 0.0) {
     EXPECT_FALSE(collides_until(std::nextafter(least_time, 0.0))) << decider.name << ' ' << posed;
   }
-  const bool is_narrow = is_contact(options.separation) && options.toi_tolerance <= 1e-12;
+  const bool is_narrow = is_zero(options.separation) && options.toi_tolerance <= 1e-12;
   if (decider.knows_the_place && is_narrow) expect_contact_at_place(posed, result);
 }
 
@@ -302,7 +302,7 @@ TEST_P(Deciders, AreRightAboutContact) {
     for (std::size_t turn = 0; turn < options_in_turn.size(); ++turn) {
       const CertifiedOptions& options = options_in_turn.at(turn);
       std::vector<Query> share;
-      std::vector<exact::Verdict> truths;
+      std::vector<exact::Decision> truths;
       for (std::size_t i = turn; i < queries.size(); i += options_in_turn.size()) {
         share.push_back(queries[i]);
         truths.push_back(exact::decide(kind, queries[i]));
@@ -327,7 +327,7 @@ TEST_P(Deciders, AreRightAtSeparations) {
       CertifiedOptions options = options_in_turn.at(i % options_in_turn.size());
       options.separation = draw_separation(random, queries[i]);
       const PosedQuery posed{kind, queries[i]};
-      const exact::Verdict truth = exact::decide(kind, queries[i], options.separation);
+      const exact::Decision truth = exact::decide(kind, queries[i], options.separation);
       for (const Decider& decider : deciders) {
         expect_truth(decider, posed, truth, decider(posed, options), options);
         if (HasFailure()) return;

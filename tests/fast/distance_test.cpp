@@ -270,7 +270,7 @@ bool is_found(const DistanceOf& distance_of) {
       for (const tests::Family family : tests::all_families) {
         const PosedQuery posed = tests::random_query(random, kind, family);
         // Where they have just begun to touch they are hardly apart.
-        const CertifiedResult impact = certified(kind, posed.query);
+        const CertifiedResult impact = fast::solve(kind, posed.query);
         const double t = impact.verdict == Verdict::yes ? impact.toi_lower : random_time(random);
         for (const Norm norm : norms) {
           const std::optional<Distance> found = distance_of(kind, posed.query, t, norm);

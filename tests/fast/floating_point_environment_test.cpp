@@ -1,6 +1,6 @@
 /// \file
-/// Whatever the caller's floating-point state is, answers have the bits that they have in the usual one, and the caller's
-/// state stays.
+/// Whatever the caller's floating-point state is, answers have the bits that they have in the usual
+/// one, and the caller's state stays.
 
 #include <gtest/gtest.h>
 
@@ -105,7 +105,8 @@ void put(Bits& bits, const std::vector<IndexPair>& pairs) {
   for (const IndexPair& pair : pairs) put(bits, pair[0], pair[1]);
 }
 
-/// Hits and misses by a hair, degenerate ones, and subnormals, which a caller that flushes them would lose.
+/// Hits and misses by a hair, degenerate ones, and subnormals, which a caller that flushes them
+/// would lose.
 std::vector<Query> queries(Kind kind, std::size_t count = 300) {
   Random random(29);
   std::vector<Query> result(count);
@@ -136,7 +137,7 @@ std::function<Bits()> of_queries(const Ask& ask, std::size_t count) {
 }
 
 void ask_oracle(Bits& bits, Kind kind, const Query& query, const Separation& separation) {
-  const exact::Verdict verdict = exact::decide(kind, query, separation);
+  const exact::Decision verdict = exact::decide(kind, query, separation);
   put(bits, std::size_t{verdict.collides()});
   if (!verdict.collides()) return;
   const exact::DoubleInterval toi = verdict.toi->enclosure();
@@ -242,7 +243,7 @@ std::function<Bits()> of_broad_phase() {
     for (const tests::Scene& scene : scenes) {
       const MovingVertices vertices(scene.start, scene.end);
       for (const double separation : {0.0, 0.1, 0x1.8p-1073}) {
-        const BroadPhaseOptions options{.min_separation = separation};
+        const BroadPhaseOptions options{.separation = {.distance = separation}};
         put(bits, vertex_face_candidates(vertices, scene.faces, options));
         put(bits, edge_edge_candidates(vertices, scene.edges, options));
       }

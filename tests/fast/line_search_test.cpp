@@ -123,20 +123,21 @@ TEST(LineSearch, SaysWhatIsTooSmallForDoubles) {
 
 // ---- What it promises ---------------------------------------------------------------------------
 
-/// Is a pair, up to that time, nearer than p times its distance or that of the scene? By the oracle.
+/// Is a pair, up to that time, nearer than p times its distance or that of the scene? By the
+/// oracle.
 bool comes_nearer(Kind kind, const Query& query, double time, Norm norm, double p,
                   double distance) {
   // Nearer than p d is within what is less than it.
   const double less = std::nextafter(exact::round_down(Rational(p) * Rational(distance)), 0.0);
-  const exact::Verdict verdict = exact::decide(kind, query, {.distance = less, .norm = norm});
+  const exact::Decision verdict = exact::decide(kind, query, {.distance = less, .norm = norm});
   return verdict.collides() && *verdict.toi <= exact::AlgebraicNumber(Rational(time));
 }
 
 /// What is wrong with a limit by the scene's distance, or nothing.
 std::string fault(const Scene& scene, const LineSearchLimit& limit, double p, Norm norm) {
   const auto least = least_distance(scene.step(), 0.0, norm);
-  const bool touches = least && least->distance.upper == 0.0;
-  if ((limit.status == LineSearchStatus::in_contact) != touches) return "contact";
+  const bool is_in_contact = least && least->distance.upper == 0.0;
+  if ((limit.status == LineSearchStatus::in_contact) != is_in_contact) return "contact";
   if (!least || limit.step_size == 0.0) return "";
   if (limit.distance != least->distance) return "distance";
   const tests::AllPairs all(scene);
@@ -193,13 +194,14 @@ std::optional<double> limit_of_pairs(const Scene& scene, double p, Norm norm) {
     const Distance apart = exact_distance(kind, query, 0.0, norm);
     const double kept = std::nextafter(p * apart.upper, std::numeric_limits<double>::infinity());
     if (kept > apart.lower || (kept == apart.upper)) return std::nullopt;
-    const auto found = certified(kind, query, {.separation = {.distance = kept, .norm = norm}});
+    const auto found = fast::solve(kind, query, {.separation = {.distance = kept, .norm = norm}});
     if (found.verdict == Verdict::yes) result = std::min(result, found.toi_lower);
   }
   return result;
 }
 
-/// In how many of random scenes is the limit by the pairs' distances another, and how many have one?
+/// In how many of random scenes is the limit by the pairs' distances another, and how many have
+/// one?
 struct Compared {
   int different = 0;
   int limited = 0;
@@ -294,8 +296,8 @@ struct Repetition {
   bool stalled = false;  ///< the last step was 0
 };
 
-/// Repeats ours until the distance is below that, and checks each step: what is left of the distance is p,
-/// to the tolerance of the time and the rounding of places.
+/// Repeats ours until the distance is below that, and checks each step: what is left of the
+/// distance is p, to the tolerance of the time and the rounding of places.
 Repetition repeat(Scene scene, double p, StartDistance start_distance, double until) {
   Repetition result;
   while (result.least > until) {
@@ -338,8 +340,8 @@ TEST(LineSearch, RepeatedGoesOnToTheLeastDistances) {
 // ---- The published line search ------------------------------------------------------------------
 
 /// Algorithm 4 of [wang2021] up to its backtracking, as its text means it: p is halved until
-/// p < (d_i − δ − ε − ρ) / d_i, the distance is kept at p d_i, but at δ at least, and where the search
-/// for impacts ends with a greater δ, all of it is repeated with that.
+/// p < (d_i − δ − ε − ρ) / d_i, the distance is kept at p d_i, but at δ at least, and where the
+/// search for impacts ends with a greater δ, all of it is repeated with that.
 class PublishedLineSearch {
  public:
   explicit PublishedLineSearch(double delta) : delta_(delta) {}
@@ -364,7 +366,7 @@ class PublishedLineSearch {
         if (!all.are_near(named, kept)) continue;
         const auto found = tight_inclusion(Step::kind_of(named.first), all.query(named),
                                            {.tolerance = delta,
-                                            .min_separation = kept,
+                                            .separation = {.distance = kept},
                                             .t_max = alpha,
                                             .error_model = ErrorModel::published});
         if (found.verdict != Verdict::yes) continue;

@@ -65,7 +65,7 @@ std::vector<Refusal> of_solver(const std::string& name, const std::vector<double
     return [=](double x) { use(change(CertifiedOptions{}, x)); };
   };
   return {{name + "_of_certified", bad,
-           with([](const auto& o) { (void)certified(posed.kind, posed.query, o); })},
+           with([](const auto& o) { (void)fast::solve(posed.kind, posed.query, o); })},
           {name + "_of_solve", bad, with(solve_one)},
           {name + "_of_collisions", bad, with([](const auto& o) {
              (void)collisions(posed.kind, std::span(&posed.query, 1), o);
@@ -89,7 +89,8 @@ std::vector<Refusal> refusals() {
       {"eta_of_active_set", no_distance, [](double x) { (void)active_set(step(), x); }},
       {"separation_of_broad_phase", no_distance,
        [](double x) {
-         (void)edge_edge_candidates(step().vertices(), step().edges(), {.min_separation = x});
+         (void)edge_edge_candidates(step().vertices(), step().edges(),
+                                    {.separation = {.distance = x}});
        }},
       {"threads_of_broad_phase", no_count,
        [](double x) {

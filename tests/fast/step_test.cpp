@@ -500,7 +500,8 @@ TEST(FreeStepSize, IsFreeAndTheNextDoubleIsNot) {
   EXPECT_GT(none, 0);
 }
 
-/// A vertex that falls from a height to one below a resting triangle, which is at the height `floor`.
+/// A vertex that falls from a height to one below a resting triangle, which is at the height
+/// `floor`.
 Scene falling_vertex(double height, double floor = 0.0) {
   Scene scene{.start = Places(4, 3),
               .end = {},
@@ -563,8 +564,8 @@ TEST(FreeStepSize, IsThatOfTheRoundedStepAndNotOfTheExactOne) {
 }
 
 TEST(FreeStepSize, IsFoundBelowTheTimeOfImpactToo) {
-  // From 2^52 + 1 down to the floor at 2^52, where doubles are integers: the time of impact is 1/2, but the rounded place
-  // is the floor from 1/4 on, where it is half way (and 2^52 is even).
+  // From 2^52 + 1 down to the floor at 2^52, where doubles are integers: the time of impact is 1/2,
+  // but the rounded place is the floor from 1/4 on, where it is half way (and 2^52 is even).
   const Scene scene = falling_vertex(0x1p52 + 1.0, 0x1p52);
   const Step step = scene.step();
   EXPECT_GT(step.earliest()->toi_lower, 0.25);
@@ -580,7 +581,8 @@ TEST(Step, IsMovedWithItsScene) {
 
 // ---- Ranges of coordinates ----------------------------------------------------------------------
 
-/// The work of steps: pairs that the broad phase leaves, and those that floating point leaves of them.
+/// The work of steps: pairs that the broad phase leaves, and those that floating point leaves of
+/// them.
 struct Work {
   std::size_t pairs = 0;
   std::size_t exact = 0;

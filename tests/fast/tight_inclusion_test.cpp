@@ -100,13 +100,16 @@ INSTANTIATE_TEST_SUITE_P(
         NamedOptions{"ten_checks", with([](auto& options) { options.max_checks = 10; })},
         NamedOptions{"one_check", with([](auto& options) { options.max_checks = 1; })},
         NamedOptions{"little_memory", with([](auto& options) { options.max_boxes = 16; })},
-        NamedOptions{"separation_2", with([](auto& options) { options.min_separation = 1e-2; })},
-        NamedOptions{"separation_8", with([](auto& options) { options.min_separation = 1e-8; })},
-        NamedOptions{"separation_16", with([](auto& options) { options.min_separation = 1e-16; })},
+        NamedOptions{"separation_2",
+                     with([](auto& options) { options.separation.distance = 1e-2; })},
+        NamedOptions{"separation_8",
+                     with([](auto& options) { options.separation.distance = 1e-8; })},
+        NamedOptions{"separation_16",
+                     with([](auto& options) { options.separation.distance = 1e-16; })},
         NamedOptions{"separation_100",
-                     with([](auto& options) { options.min_separation = 1e-100; })},
+                     with([](auto& options) { options.separation.distance = 1e-100; })},
         NamedOptions{"separation_large",
-                     with([](auto& options) { options.min_separation = 1e10; })},
+                     with([](auto& options) { options.separation.distance = 1e10; })},
         NamedOptions{"refined", with([](auto& options) { options.no_zero_toi = true; })}),
     [](const auto& param) { return param.param.name; });
 
@@ -117,7 +120,7 @@ TEST_P(Conservative, OnAllFamilies) {
         const TightInclusionResult result = tight_inclusion(kind, known.query, options);
         EXPECT_FALSE(is_missed(known, result)) << family.name << ' ' << to_string(kind);
         // Lowering the separation may advance into contact, which is what no_zero_toi asks for.
-        if (!options.no_zero_toi || options.min_separation == 0.0) {
+        if (!options.no_zero_toi || options.separation.distance == 0.0) {
           EXPECT_FALSE(is_late(known, result)) << family.name << ' ' << to_string(kind);
         }
         EXPECT_TRUE(result.error.empty());
@@ -133,7 +136,7 @@ TEST(TightInclusion, GivesTheSameResultOnAllKernels) {
     for (const double d : {0.0, 1e-3}) {
       TightInclusionOptions options;
       options.max_checks = some_checks;
-      options.min_separation = d;
+      options.separation.distance = d;
       options.kernel = box_kernels().front();
       const TightInclusionResult expected = tight_inclusion(kind, known.query, options);
       for (const BoxKernel* const kernel : box_kernels()) {
@@ -156,7 +159,7 @@ TEST(TightInclusion, MissesNothingOnThePublicData) {
   for (const auto& file : files) {
     const auto source = verify::data::open_dataset(file);
     while (const auto recorded = source->next()) {
-      const exact::Verdict truth = exact::decide(source->kind(), recorded->query);
+      const exact::Decision truth = exact::decide(source->kind(), recorded->query);
       for (const ErrorModel model : {ErrorModel::derived, ErrorModel::published}) {
         TightInclusionOptions options;
         options.max_checks = some_checks;
@@ -188,12 +191,12 @@ TEST(MinimumSeparation, ReachesExactlyAsFarAsItSays) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const double d : {0x1p-3, 0x1.8p-20, 0x1p-40, 0.1, 1e-10}) {
       TightInclusionOptions options;
-      options.min_separation = d;
+      options.separation.distance = d;
       const double filter = error_filter(kind, {4, 4, 1}, d)[2];
       EXPECT_EQ(solve(stops_above(kind, 1.0, d), options).verdict, Verdict::yes) << d;
       EXPECT_EQ(solve(stops_above(kind, 1.0, d / 2), options).verdict, Verdict::yes) << d;
       EXPECT_EQ(solve(stops_above(kind, 1.0, d + 3 * filter),
-                      {.tolerance = filter / 8, .min_separation = d})
+                      {.tolerance = filter / 8, .separation = {.distance = d}})
                     .verdict,
                 Verdict::no)
           << d;
@@ -206,13 +209,13 @@ TEST(MinimumSeparation, IsReachedAtTheTimeItSays) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     for (const double d : {0x1p-1, 0x1p-3, 0x1p-10, 0x1p-30}) {
       TightInclusionOptions options;
-      options.min_separation = d;
+      options.separation.distance = d;
       const auto result = solve(stops_above(kind, 1.0, -1.0), options);
       ASSERT_EQ(result.verdict, Verdict::yes);
       EXPECT_LE(result.toi, (1.0 - d) / 2);
       EXPECT_GT(result.toi, (1.0 - d) / 2 - result.tolerance);
       EXPECT_LT(result.tolerance, 1e-2);
-      EXPECT_EQ(result.min_separation, d);
+      EXPECT_EQ(result.separation.distance, d);
     }
   }
 }
@@ -250,7 +253,7 @@ TEST(MinimumSeparation, FindsContactsMovedApartByIt) {
           ++moved;
           TightInclusionOptions options;
           options.max_checks = some_checks;
-          options.min_separation = d;
+          options.separation.distance = d;
           const auto result = tight_inclusion(kind, query, options);
           EXPECT_FALSE(is_missed(known, result)) << family.name << ' ' << d;
           EXPECT_FALSE(is_late(known, result)) << family.name << ' ' << d;
@@ -261,7 +264,8 @@ TEST(MinimumSeparation, FindsContactsMovedApartByIt) {
 
 // ---- A plain reading of the description ---------------------------------------------------------
 
-/// Algorithm 2 of [wang2021] with a priority queue, as it is described (docs/methods.md, section 2).
+/// Algorithm 2 of [wang2021] with a priority queue, as it is described (docs/methods.md, section
+/// 2).
 struct PlainReading {
   struct Item {
     int level;
@@ -351,7 +355,7 @@ PlainReading plain_reading(Kind kind, const Query& query, double tolerance) {
 }
 
 TEST(TightInclusion, AgreesWithAPlainReadingOfItsDescription) {
-  int hits = 0, misses = 0;
+  int collisions = 0, no_collisions = 0;
   for_each_family_query(
       12, [&](const verify::generate::Family& family, Kind kind, const auto& known) {
         TightInclusionOptions options;
@@ -367,10 +371,10 @@ TEST(TightInclusion, AgreesWithAPlainReadingOfItsDescription) {
         if (toi) {
           EXPECT_EQ(result.toi, *toi) << family.name;
         }
-        ++(toi ? hits : misses);
+        ++(toi ? collisions : no_collisions);
       });
-  EXPECT_GT(hits, 200);
-  EXPECT_GT(misses, 100);
+  EXPECT_GT(collisions, 200);
+  EXPECT_GT(no_collisions, 100);
 }
 
 // ---- Options ------------------------------------------------------------------------------------
@@ -381,10 +385,10 @@ TEST(Options, AreRefusedOutOfRange) {
   for (const auto& change : std::vector<std::function<void(TightInclusionOptions&)>>{
            [](auto& o) { o.tolerance = 0.0; }, [](auto& o) { o.tolerance = -1.0; },
            [](auto& o) { o.tolerance = infinity; }, [&](auto& o) { o.tolerance = nan; },
-           [](auto& o) { o.min_separation = -1e-300; },
-           [](auto& o) { o.min_separation = infinity; }, [&](auto& o) { o.min_separation = nan; },
-           [](auto& o) { o.t_max = -0.1; }, [](auto& o) { o.t_max = 1.1; },
-           [&](auto& o) { o.t_max = nan; },
+           [](auto& o) { o.separation.distance = -1e-300; },
+           [](auto& o) { o.separation.distance = infinity; },
+           [&](auto& o) { o.separation.distance = nan; }, [](auto& o) { o.t_max = -0.1; },
+           [](auto& o) { o.t_max = 1.1; }, [&](auto& o) { o.t_max = nan; },
            [](auto& o) {
              o.scene_filter = {{0.0, -1.0, 0.0}};
            },
@@ -475,9 +479,9 @@ TEST(TMax, CountsContactsUpToItOnly) {
 TEST(TMax, KeepsContactAtItselfAndGivesNoLaterTime) {
   const PosedQuery falling = over_triangle(1, 1, 1, -1);  // at a half
   EXPECT_EQ(solve(falling, {.t_max = 0.5}).verdict, Verdict::yes);
-  const PosedQuery touching = over_triangle(1, 1, 0, 1);  // at 0
+  const PosedQuery colliding = over_triangle(1, 1, 0, 1);  // at 0
   for (const double t_max : {0.0, 1e-300, 0.1}) {
-    const auto result = solve(touching, {.t_max = t_max});
+    const auto result = solve(colliding, {.t_max = t_max});
     EXPECT_EQ(result.verdict, Verdict::yes) << t_max;
     EXPECT_EQ(result.toi, 0.0);
   }
@@ -511,27 +515,27 @@ TEST(NoZeroToi, AdvancesWherePossible) {
 
   // Within the separation from the start.
   const PosedQuery within = over_triangle(1, 1, 0x1p-4, -1);
-  const auto lowered = solve(within, {.min_separation = 0x1p-3, .no_zero_toi = true});
+  const auto lowered = solve(within, {.separation = {.distance = 0x1p-3}, .no_zero_toi = true});
   EXPECT_EQ(lowered.verdict, Verdict::yes);
   EXPECT_GT(lowered.toi, 0.0);
-  EXPECT_LT(lowered.min_separation, 0x1p-4);
+  EXPECT_LT(lowered.separation.distance, 0x1p-4);
 }
 
 TEST(NoZeroToi, KeepsItsYesWhereALowerSeparationIsFree) {
   const PosedQuery moving_away = over_triangle(1, 1, 0x1.1p-4, 1);
-  const auto result = solve(moving_away, {.min_separation = 0x1p-3, .no_zero_toi = true});
+  const auto result = solve(moving_away, {.separation = {.distance = 0x1p-3}, .no_zero_toi = true});
   EXPECT_EQ(result.verdict, Verdict::yes);
   EXPECT_EQ(result.toi, 1.0);
-  EXPECT_EQ(result.min_separation, 0x1p-4);
+  EXPECT_EQ(result.separation.distance, 0x1p-4);
 }
 
 TEST(NoZeroToi, BoundsItsWork) {
-  const PosedQuery touching = over_triangle(1, 1, 0, 1);
-  const auto result = solve(touching, {.no_zero_toi = true, .max_refinements = 5});
+  const PosedQuery colliding = over_triangle(1, 1, 0, 1);
+  const auto result = solve(colliding, {.no_zero_toi = true, .max_refinements = 5});
   EXPECT_EQ(result.verdict, Verdict::yes);
   EXPECT_EQ(result.toi, 0.0);
   EXPECT_EQ(result.refinements, 5);
-  EXPECT_EQ(solve(touching, {.no_zero_toi = true}).refinements, 32);
+  EXPECT_EQ(solve(colliding, {.no_zero_toi = true}).refinements, 32);
 }
 
 TEST(SceneFilter, IsUsedAsItIs) {
@@ -643,9 +647,9 @@ TEST(Range, ParametersReachTheirLastBitAndStop) {
 TEST(Published, RegressionQueries) {
   const PosedQuery hourglass = tests::vertex_face({.1, .1, .1, 0, 0, 1, 1, 0, 1, 0, 1, 1},
                                                   {.1, .1, .1, 0, 0, 0, 0, 1, 0, 1, 0, 0});
-  const auto hit = solve(hourglass);
-  EXPECT_EQ(hit.verdict, Verdict::yes);
-  EXPECT_NEAR(hit.toi, 0.9, 1e-5);
+  const auto collision = solve(hourglass);
+  EXPECT_EQ(collision.verdict, Verdict::yes);
+  EXPECT_NEAR(collision.toi, 0.9, 1e-5);
 
   const PosedQuery inflection = tests::vertex_face({1, 1, 0, 0, 0, 5, 2, 0, 2, 0, 1, 0},
                                                    {1, 1, 0, 0, 0, -1, 0, 0, -2, 0, 7, 0});
@@ -729,13 +733,13 @@ TEST(Published, ContactsDeniedByTheReleaseAreFound) {
   }
 }
 
-/// The plainest contact that the release denies (verify/report/results.cpp): a vertex flies along the x
-/// axis, onto a resting triangle in a plane across it. All coordinates have two decimals.
+/// The plainest contact that the release denies (verify/report/results.cpp): a vertex flies along
+/// the x axis, onto a resting triangle in a plane across it. All coordinates have two decimals.
 TEST(Published, TheReleaseDeniesAVertexThatLandsOnATriangle) {
   const PosedQuery posed =
       tests::vertex_face({-0.01, 0, 0, 0.02, -0.01, -0.01, 0.02, 0.02, -0.01, 0.02, -0.01, 0.02},
                          {0.02, 0, 0, 0.02, -0.01, -0.01, 0.02, 0.02, -0.01, 0.02, -0.01, 0.02});
-  const exact::Verdict truth = exact::decide(posed.kind, posed.query);
+  const exact::Decision truth = exact::decide(posed.kind, posed.query);
   ASSERT_TRUE(truth.collides());
   EXPECT_TRUE(*truth.toi == Rational(1));
   const auto denied = solve_with(ErrorModel::released, posed.kind, posed.query);

@@ -1,6 +1,6 @@
 /// \file
-/// The table of planted faults in solvers: each hunted by the fuzzer, with the time and the queries it took. Exit status 1 if
-/// one is not found that should be, or one that should be harmless is.
+/// The table of planted faults in solvers: each hunted by the fuzzer, with the time and the queries
+/// it took. Exit status 1 if one is not found that should be, or one that should be harmless is.
 
 #include <fmt/format.h>
 
@@ -52,7 +52,7 @@ class Corpus {
  public:
   void add(const FaultySolver& solver, const verify::fuzz::Finding& finding) {
     const Query query = simplest(solver, finding);
-    const exact::Verdict truth = exact::decide(finding.kind, query, finding.separation);
+    const exact::Decision truth = exact::decide(finding.kind, query, finding.separation);
     auto& queries = queries_[{name_of(finding.separation), finding.kind}];
     const Labelled labelled{query, truth.collides()};
     if (std::ranges::find(queries, labelled) == queries.end()) queries.push_back(labelled);

@@ -25,7 +25,7 @@ class WithExactStage final : public fast::Method {
     const fast::CertifiedOptions all{
         .t_max = options.t_max, .separation = options.separation, .max_threads = 1};
     for (std::size_t i = 0; i < queries.size(); ++i) {
-      fast::CertifiedResult result = fast::certified(kind, queries[i], all);
+      fast::CertifiedResult result = fast::solve(kind, queries[i], all);
       if (result.stage == fast::Stage::exact && result.verdict != fast::Verdict::error) {
         const auto impact = decide_(kind, queries[i], all.separation, all.toi_tolerance, all.t_max);
         result = {.verdict = impact ? fast::Verdict::yes : fast::Verdict::no};
@@ -64,7 +64,8 @@ std::vector<FaultySolver> all_faulty_solvers() {
   return all;
 }
 
-/// A faulty solver under the name of its fault: what calls itself certified is not judged by the certified solver.
+/// A faulty solver under the name of its fault: what calls itself certified is not judged by the
+/// certified solver.
 class Named final : public fast::Method {
  public:
   explicit Named(const FaultySolver& solver) : method_(solver.make()), info_(method_->info()) {

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// The fuzzer against solvers with a planted fault (planted_faults.hpp), until it has found what is wrong: who tests the tester.
+/// The fuzzer against solvers with a planted fault (planted_faults.hpp), until it has found what is
+/// wrong: who tests the tester.
 
 #include <cstdint>
 #include <functional>
@@ -41,7 +42,8 @@ struct Hunt {
   std::uint64_t queries = 0;                     ///< asked until then
 };
 
-/// Hunts one fault: the fuzzer as anyone runs it, with its default generators and no queries to begin with.
+/// Hunts one fault: the fuzzer as anyone runs it, with its default generators and no queries to
+/// begin with.
 [[nodiscard]] Hunt hunt(const FaultySolver& solver, const HuntOptions& options);
 
 /// The simplest query in which the solver does the same wrong (verify/fuzz/recheck.hpp).

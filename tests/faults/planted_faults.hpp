@@ -1,8 +1,9 @@
 #pragma once
 
 /// \file
-/// The planted faults of faults.txt: copies of parts of the project with one fault each, for the tests of the parts and for
-/// the fuzzer (hunt.hpp). TOUCHSTONE_FAULTS says which of them a build plants.
+/// The planted faults of faults.txt: copies of parts of the project with one fault each, for the
+/// tests of the parts and for the fuzzer (hunt.hpp). TOUCHSTONE_FAULTS says which of them a build
+/// plants.
 
 #include <istream>
 #include <memory>
@@ -34,7 +35,8 @@ struct FaultInfo {
   Separation separation = {};
   /// Why it is no fault; empty if it is one.
   std::string_view harmless = {};
-  /// Which queries show it, where they are so rare that neither hunter is expected to meet one; else empty.
+  /// Which queries show it, where they are so rare that neither hunter is expected to meet one;
+  /// else empty.
   std::string_view rare = {};
 
   /// Does the fuzzer alone have to find it, and not the tests of the part?

@@ -81,8 +81,8 @@ TEST_F(FallingBox, IsStoppedByAnotherPairIfOneIsMissedOnce) {
   CollisionDetector all({.missed_one_in = 1'000'000'000'000}), second({.missed_limit = 2});
   const double limit = all.step_size(step());
   EXPECT_EQ(second.step_size(step()), limit);
-  // The tip touches an inner vertex of the box's mesh first, or one of many faces around it: another pair is later or at the
-  // same time, and none is missed any more.
+  // The tip touches an inner vertex of the box's mesh first, or one of many faces around it:
+  // another pair is later or at the same time, and none is missed any more.
   EXPECT_GE(second.step_size(step()), limit);
   EXPECT_EQ(second.statistics().missed, 1);
   EXPECT_EQ(second.step_size(step()), limit);

@@ -62,7 +62,8 @@ TEST_P(Energies, AreNothingAtRestAndAfterARotation) {
   }
 }
 
-/// Along a line the energy is a polynomial of degree 6 at most, whose derivatives seven values give exactly.
+/// Along a line the energy is a polynomial of degree 6 at most, whose derivatives seven values give
+/// exactly.
 TEST_P(Energies, HaveTheDerivativesOfThePolynomialsThatTheyAre) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const VectorXd x = world.start() + 0.1 * random_vector(world.coordinates(), seed);

@@ -91,8 +91,8 @@ enum class Motion { independent, translation };
 
 /// Wrong and correct answers of a method.
 struct Score {
-  int hits = 0;             ///< queries that collide
-  int misses = 0;           ///< queries that do not
+  int collisions = 0;       ///< queries that collide
+  int no_collisions = 0;    ///< queries that do not
   int false_negatives = 0;  ///< no, but they collide
   int false_positives = 0;  ///< yes, but they do not collide
   int late = 0;             ///< toi_lower above the exact time of impact
@@ -102,13 +102,13 @@ struct Score {
 
   /// Adds the answer of a method with verdicts alone.
   void count(bool collides, bool yes) {
-    ++(collides ? hits : misses);
+    ++(collides ? collisions : no_collisions);
     false_negatives += collides && !yes ? 1 : 0;
     false_positives += !collides && yes ? 1 : 0;
   }
 
-  void add(const exact::Verdict& truth, const fast::Answer& answer) {
-    (truth.collides() ? hits : misses) += 1;
+  void add(const exact::Decision& truth, const fast::Answer& answer) {
+    (truth.collides() ? collisions : no_collisions) += 1;
     if (answer.verdict == fast::Verdict::error) ++errors;
     if (answer.verdict == fast::Verdict::undecided) ++undecided;
     if (answer.verdict == fast::Verdict::no) {
@@ -124,8 +124,8 @@ struct Score {
   }
 
   friend std::ostream& operator<<(std::ostream& out, const Score& score) {
-    return out << score.hits << " hits with " << score.false_negatives << " FN, " << score.misses
-               << " misses with " << score.false_positives << " FP";
+    return out << score.collisions << " collisions with " << score.false_negatives << " FN, "
+               << score.no_collisions << " others with " << score.false_positives << " FP";
   }
 };
 

@@ -23,7 +23,7 @@ namespace touchstone::tests {
 /// The certificate of a query's own verdict.
 [[nodiscard]] inline exact::Certificate prove(const PosedQuery& posed, const Separation& separation,
                                               const exact::ProveOptions& options = {}) {
-  const exact::Verdict verdict = exact::decide(posed.kind, posed.query, separation);
+  const exact::Decision verdict = exact::decide(posed.kind, posed.query, separation);
   return exact::prove(posed.kind, posed.query, verdict, options);
 }
 [[nodiscard]] inline exact::Certificate prove(const PosedQuery& posed,

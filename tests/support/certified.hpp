@@ -39,7 +39,7 @@ namespace touchstone::tests {
 }
 
 /// What is wrong with a result about a query whose truth is known, or nothing.
-[[nodiscard]] inline std::optional<std::string> fault(Kind kind, const exact::Verdict& truth,
+[[nodiscard]] inline std::optional<std::string> fault(Kind kind, const exact::Decision& truth,
                                                       const fast::CertifiedResult& result,
                                                       const fast::CertifiedOptions& options) {
   bool collides = truth.collides();
@@ -66,7 +66,7 @@ namespace touchstone::tests {
 [[nodiscard]] inline fast::CertifiedResult exact_result(
     Kind kind, const Query& query, const fast::CertifiedOptions& options = {}) {
   const auto& [tolerance, t_max, separation, threads, kernel] = options;
-  const auto impact = is_contact(separation)
+  const auto impact = is_zero(separation)
                           ? fast::decide_exactly(kind, query, tolerance, t_max)
                           : fast::decide_exactly(kind, query, separation, tolerance, t_max);
   if (!impact) return {.verdict = fast::Verdict::no, .stage = fast::Stage::exact};

@@ -29,8 +29,8 @@ namespace touchstone::tests {
   m.nanoseconds = nanoseconds;
   m.repetitions = 5;
   m.certified_nanoseconds = 10.0;
-  m.hit_times.bins = {{8, 15}, {16, 5}};
-  m.miss_times.bins = {{0, 80}};
+  m.collision_times.bins = {{8, 15}, {16, 5}};
+  m.no_collision_times.bins = {{0, 80}};
   return m;
 }
 

@@ -42,7 +42,7 @@ class FunctionMethod final : public fast::Method {
 
 /// The truth as an answer, with the narrowest enclosure in doubles.
 [[nodiscard]] inline fast::Answer true_answer(Kind kind, const Query& query) {
-  const exact::Verdict verdict = exact::decide(kind, query);
+  const exact::Decision verdict = exact::decide(kind, query);
   if (!verdict.collides()) return {.verdict = fast::Verdict::no};
   const exact::DoubleInterval toi = verdict.toi->enclosure();
   return {.verdict = fast::Verdict::yes,

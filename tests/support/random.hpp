@@ -3,8 +3,8 @@
 /// \file
 /// Random numbers for tests: the same on every machine, from a seed in the test.
 ///
-/// The generator is that of the product (splitmix64). The distributions of the standard library are not
-/// used because their results differ between implementations.
+/// The generator is that of the product (splitmix64). The distributions of the standard library are
+/// not used because their results differ between implementations.
 
 #include <bit>
 #include <cmath>

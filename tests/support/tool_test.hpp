@@ -131,7 +131,8 @@ class ToolTest : public FolderTest {
   }
 };
 
-/// Tests that give the shell a subcommand's arguments as one text. Output goes to "out" and "err", JSON to "json".
+/// Tests that give the shell a subcommand's arguments as one text. Output goes to "out" and "err",
+/// JSON to "json".
 template <const char* subcommand>
 class ShellTest : public ToolTest {
  protected:

@@ -8,19 +8,20 @@
 ///   - *Coplanarity*, a cubic Y: Y(t) = 0 where they lie in a plane.
 ///   - *Inside*, three quartics G_i: at a root of Y there is contact iff all are ≥ 0.
 ///
-/// **Theorem (reduction).** Let k be Y's coefficients. Then `reduce` gives a quadratic J that has, at
-/// every root of Y in (0,1], the sign of G: J = 4 k_0² G · c/t² there, c > 0. Proof: subtract from G a
-/// multiple of Y so that the value at t = 0 vanishes, divide by t, and do the same again. ∎ It says
-/// nothing where k_0 = 0.
+/// **Theorem (reduction).** Let k be Y's coefficients. Then `reduce` gives a quadratic J that has,
+/// at every root of Y in (0,1], the sign of G: J = 4 k_0² G · c/t² there, c > 0. Proof: subtract
+/// from G a multiple of Y so that the value at t = 0 vanishes, divide by t, and do the same again.
+/// ∎ It says nothing where k_0 = 0.
 ///
 /// **Theorem (decomposition).** For J quadratic there are linear L and K with T·Y = L·J + K, T =
-/// (2j_1 − j_0 − j_2)² ≥ 0: polynomial division with remainder. So at a root of Y, J has the sign of
-/// −K/L; and at a root of J, Y has that of K.
+/// (2j_1 − j_0 − j_2)² ≥ 0: polynomial division with remainder. So at a root of Y, J has the sign
+/// of −K/L; and at a root of J, Y has that of K.
 ///
 /// A number type has a constructor from int, +, − and *, and a function half.
 ///
-/// Forms are arrays of coefficients over Bernstein's polynomials of their degree. The scale of a form
-/// is any positive number (those of Y are three times the usual ones), except where two are added.
+/// Forms are arrays of coefficients over Bernstein's polynomials of their degree. The scale of a
+/// form is any positive number (those of Y are three times the usual ones), except where two are
+/// added.
 
 #include <array>
 #include <cstddef>

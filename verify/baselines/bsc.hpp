@@ -5,9 +5,9 @@
 /// (docs/methods.md, sections 6 and 8).
 ///
 /// **Algorithm.** The coplanarity cubic is classified by its Bernstein coefficients: monotone, one
-/// extremum, or an inflection; its roots are counted, and at each the signs of three inside quartics
-/// are found from linear forms (bernstein.hpp). First in intervals; if they do not say yes, again in
-/// exact numbers. Before that, a quick no by absolute thresholds in doubles.
+/// extremum, or an inflection; its roots are counted, and at each the signs of three inside
+/// quartics are found from linear forms (bernstein.hpp). First in intervals; if they do not say
+/// yes, again in exact numbers. Before that, a quick no by absolute thresholds in doubles.
 ///
 /// **Answer.** A verdict, without a time of impact (a yes ignores t_max) and without separation.
 ///

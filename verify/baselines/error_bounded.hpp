@@ -3,9 +3,9 @@
 /// \file
 /// A double with a bound of its error, as TCCD computes ([wang2015]; docs/methods.md, section 7).
 ///
-/// **Theorem.** Without underflow the true value is within the bound of the double. A sum or product
-/// rounds by at most 2^-53 of its magnitude; the unit below is a little more than twice that, which
-/// also covers that the bounds are themselves rounded to nearest.
+/// **Theorem.** Without underflow the true value is within the bound of the double. A sum or
+/// product rounds by at most 2^-53 of its magnitude; the unit below is a little more than twice
+/// that, which also covers that the bounds are themselves rounded to nearest.
 ///
 /// **Underflow breaks it**: bounds are about 2^-52 of the values, so they vanish first. A value
 /// with a bound of 0 is then treated as exact, and a 0 with a bound of 0 as exactly zero. tccd.hpp

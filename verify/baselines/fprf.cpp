@@ -68,8 +68,8 @@ bool overlap(const TimeInterval& a, const TimeInterval& b) {
 std::optional<double> earliest_overlap(std::span<const Intervals> lists, const Intervals& forbidden,
                                        const TimeInterval& so_far = {0.0, 1.0}) {
   if (lists.empty()) {
-    const auto is_hit = [&](const TimeInterval& other) { return overlap(so_far, other); };
-    return std::ranges::any_of(forbidden, is_hit) ? std::nullopt : std::optional(so_far.from);
+    const auto is_forbidden = [&](const TimeInterval& other) { return overlap(so_far, other); };
+    return std::ranges::any_of(forbidden, is_forbidden) ? std::nullopt : std::optional(so_far.from);
   }
   std::optional<double> earliest;
   for (const TimeInterval& interval : lists.front()) {

@@ -135,8 +135,8 @@ class Try {
 
   /// Counts a patch's crossings. True if 0 is on it.
   bool count_crossings(const Patch& q) {
-    // The plane functions of two faces have the product V²/4 ≥ 0 in the middle of q0 q3: the positive
-    // pair of faces are always those along this diagonal.
+    // The plane functions of two faces have the product V²/4 ≥ 0 in the middle of q0 q3: the
+    // positive pair of faces are always those along this diagonal.
     const std::array<Triangle, 2> positive{{{q[0], q[1], q[3]}, {q[0], q[3], q[2]}}};
     const std::array<Triangle, 2> negative{{{q[0], q[1], q[2]}, {q[1], q[3], q[2]}}};
     if (!tetrahedron_holds_origin(q)) {
@@ -155,7 +155,8 @@ class Try {
     return false;
   }
 
-  /// The volumes of 0 with the faces of a patch's tetrahedron, by the corner that is not in the face.
+  /// The volumes of 0 with the faces of a patch's tetrahedron, by the corner that is not in the
+  /// face.
   template <class Number>
   static std::array<Number, 4> volumes(std::span<const std::array<Number, 3>> x, const Patch& q) {
     return {volume(x[q[1]], x[q[2]], x[q[3]]), -volume(x[q[0]], x[q[2]], x[q[3]]),

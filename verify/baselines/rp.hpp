@@ -3,10 +3,10 @@
 /// \file
 /// RP: root parity ([brochu2012]; docs/methods.md, section 9).
 ///
-/// **Theorem.** F maps the boundary of its domain (a prism for vertex-face, a cube for edge-edge) to
-/// a closed surface of triangles and bilinear patches. If 0 is not on it, the number of roots of F
-/// inside, each counted with its multiplicity, has the parity of the number of times that a ray from
-/// 0 crosses the surface.
+/// **Theorem.** F maps the boundary of its domain (a prism for vertex-face, a cube for edge-edge)
+/// to a closed surface of triangles and bilinear patches. If 0 is not on it, the number of roots of
+/// F inside, each counted with its multiplicity, has the parity of the number of times that a ray
+/// from 0 crosses the surface.
 ///
 /// **Algorithm.** If a plane through 0 has all corners of F strictly on one side, the answer is no.
 /// Otherwise the crossings of a segment from 0 to beyond the corners are counted: with triangles by

@@ -159,7 +159,7 @@ bool has_contact_beside_inflection(const Cubic& k, const Inside& inside) {
   const Number q = k[0] - three * k[1] + three * k[2] - k[3];
   if (q.sign() == 0) return true;
   Parts<3> cubics = subdivided<3>(k, n, q);
-  const auto touches = [&](Cubic& part, auto pick) {
+  const auto crosses = [&](Cubic& part, auto pick) {
     if (q.sign() < 0) std::ranges::transform(part, part.begin(), std::negate<>());
     const Course course = baselines::has_lone_end(part, certainly_opposite)
                               ? Course::monotone
@@ -167,7 +167,7 @@ bool has_contact_beside_inflection(const Cubic& k, const Inside& inside) {
     const auto inside_part = [&](std::size_t i) { return subdivided<4>(inside(i), n, q).*pick; };
     return has_contact(part, inside_part, course);
   };
-  return touches(cubics.before, &Parts<4>::before) || touches(cubics.after, &Parts<4>::after);
+  return crosses(cubics.before, &Parts<4>::before) || crosses(cubics.after, &Parts<4>::after);
 }
 
 }  // namespace

@@ -63,10 +63,10 @@ fast::Answer uirf(Kind kind, const Query& query, const fast::MethodOptions& opti
   const std::array<double, 1> tolerances{options.tolerance / greatest_displacement(query)};
   const auto found = search_box(Coplanarity(kind, query), Box{Interval(0.0, options.t_max)},
                                 tolerances, options.max_checks);
-  const bool hit = found.verdict == fast::Verdict::yes;
+  const bool collides = found.verdict == fast::Verdict::yes;
   return {.verdict = found.verdict,
           .checks = to_checks(found.checks),
-          .toi_lower = hit ? found.box[0].lower() : fast::Answer::none};
+          .toi_lower = collides ? found.box[0].lower() : fast::Answer::none};
 }
 
 std::unique_ptr<fast::Method> uirf_method() {

@@ -4,11 +4,11 @@
 /// Intervals whose lower end is stored negated, so that one rounding mode, upward, serves both ends
 /// ([brochu2012], [tang2014]; docs/methods.md, sections 8 and 9).
 ///
-/// **Theorem.** Under upward rounding the result of an operation holds every result of it on numbers
-/// of the operands, also where ends overflow or underflow: −lower and upper are each bounded from
-/// above, and rounding up keeps bounds from above. Neither end's stored number is ever −∞, so sums
-/// are never NaN; a product is where an end 0 meets an infinite one, and there the bound is 0 since
-/// the numbers themselves are finite.
+/// **Theorem.** Under upward rounding the result of an operation holds every result of it on
+/// numbers of the operands, also where ends overflow or underflow: −lower and upper are each
+/// bounded from above, and rounding up keeps bounds from above. Neither end's stored number is ever
+/// −∞, so sums are never NaN; a product is where an end 0 meets an infinite one, and there the
+/// bound is 0 since the numbers themselves are finite.
 ///
 /// The rounding mode is the caller's duty: upward_rounding.hpp.
 

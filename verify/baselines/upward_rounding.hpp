@@ -8,9 +8,9 @@ namespace touchstone::baselines {
 /// While it lives, this thread rounds towards +∞; then the mode before it is back, also where an
 /// exception ended its life. (BSC's published code forgets that, bsc.hpp.)
 ///
-/// The compiler knows of no mode, and may move arithmetic across the guard within a function. So the
-/// arithmetic belongs in a function that is called, and not inlined, while the guard lives, and in a
-/// file compiled with -frounding-math.
+/// The compiler knows of no mode, and may move arithmetic across the guard within a function. So
+/// the arithmetic belongs in a function that is called, and not inlined, while the guard lives, and
+/// in a file compiled with -frounding-math.
 class UpwardRounding {
  public:
   UpwardRounding();

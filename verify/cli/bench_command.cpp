@@ -119,7 +119,7 @@ class BenchRun {
 
   /// The candidates of a mesh, from index pairs too.
   void bench_candidates(const mesh::MovingMesh& mesh, Kind kind) {
-    const auto pairs = mesh::find_candidates(mesh, kind, 0, separation_.distance);
+    const auto pairs = mesh::find_candidates(mesh, kind, 0, separation_);
     const fast::Candidates candidates = mesh::candidates_of(mesh, kind, pairs);
     const auto with_queries = solvers::certified_queries(certified_);
     const auto with_pairs = solvers::certified_pairs(mesh.vertices, candidates, certified_);
@@ -135,7 +135,7 @@ class BenchRun {
     for (const Kind kind : chosen_kinds()) bench_candidates(patches, kind);
     for (const Kind kind : chosen_kinds()) {
       if (stopped()) return;
-      bench_group(generate::hard_set(kind, sources.seed, sources.count, separation_),
+      bench_group(generate::built_in_set(kind, sources.seed, sources.count, separation_),
                   solvers_.all(), separation_);
     }
   }
@@ -191,8 +191,8 @@ class BenchRun {
     const Separation separation = separation_for(arguments_.sources, source);
     if (so_far && !judge::same_separation(*so_far, separation)) {
       throw io::DatasetError(source.name(), {},
-                               "is for a minimum separation of " + judge::to_text(separation) +
-                                   ", the files before it for " + judge::to_text(*so_far));
+                             "is for a minimum separation of " + judge::to_text(separation) +
+                                 ", the files before it for " + judge::to_text(*so_far));
     }
     so_far = separation;
   }

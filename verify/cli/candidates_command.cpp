@@ -216,7 +216,7 @@ void add_candidates_command(CLI::App& app, Status& status) {
            "then by the smaller.\n" +
                std::string(writing_statuses));
   command->callback([arguments, &status] {
-    arguments->broad_phase.min_separation = arguments->min_separation.value_or(0.0);
+    arguments->broad_phase.separation.distance = arguments->min_separation.value_or(0.0);
     status = candidates(*arguments);
   });
 }

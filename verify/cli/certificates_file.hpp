@@ -33,13 +33,13 @@ class CertificatesFile {
   /// Appends whole certificates.
   void write(std::string_view certificates);
 
-  /// Completes the stream with this number of certificates, and the file; closes it as incomplete if the run was
-  /// interrupted.
+  /// Completes the stream with this number of certificates, and the file; closes it as incomplete
+  /// if the run was interrupted.
   void close(std::uint64_t certificates);
   /// The same with another closing line.
   void close(std::string_view closing_line);
-  /// Closes a stream that lacks certificates: without its closing line, so that the checker takes it for cut,
-  /// and in a file of another name (Output::close_incomplete).
+  /// Closes a stream that lacks certificates: without its closing line, so that the checker takes
+  /// it for cut, and in a file of another name (Output::close_incomplete).
   void close_incomplete();
 
  private:

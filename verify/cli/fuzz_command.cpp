@@ -150,7 +150,7 @@ class FoundQueries {
       if (file && file->queries != 0) written.push_back(file->path);
     }
     // First: without it the labels would be about contact.
-    if (!written.empty() && !is_contact(separation_)) {
+    if (!written.empty() && !is_zero(separation_)) {
       data::write_separation(folder_.empty() ? "." : folder_, separation_);
     }
     for (auto& file : files_) {
@@ -171,7 +171,7 @@ class FoundQueries {
   void require_same_separation(const fs::path& file) const {
     const Separation recorded = data::recorded_separation(file);
     if (judge::same_separation(recorded, separation_)) return;
-    if (is_contact(recorded) && is_without_datasets()) return;
+    if (is_zero(recorded) && is_without_datasets()) return;
     throw std::runtime_error(
         fmt::format("{}: its folder is for a minimum separation of {}, not {}; choose another",
                     file.string(), judge::to_text(recorded), judge::to_text(separation_)));

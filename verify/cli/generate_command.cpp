@@ -131,8 +131,7 @@ void require_same_separation(const fs::path& folder, const Separation& separatio
   const bool has_queries = fs::exists(folder / to_string(Kind::vertex_face)) ||
                            fs::exists(folder / to_string(Kind::edge_edge));
   const Separation recorded = data::recorded_separation(folder / "any");
-  if ((!has_queries && is_contact(recorded)) || judge::same_separation(recorded, separation))
-    return;
+  if ((!has_queries && is_zero(recorded)) || judge::same_separation(recorded, separation)) return;
   throw std::runtime_error(
       fmt::format("{}: is for a minimum separation of {}, not {}; choose another folder",
                   folder.string(), judge::to_text(recorded), judge::to_text(separation)));
@@ -143,7 +142,7 @@ std::vector<Written> write_families(const Arguments& arguments, Files& files) {
   const Separation separation = arguments.separation.given();
   require_same_separation(arguments.folder, separation);
   const std::vector<generate::Family> chosen_families = chosen(arguments.names, separation);
-  if (!is_contact(separation)) {
+  if (!is_zero(separation)) {
     fs::create_directories(arguments.folder);
     data::write_separation(arguments.folder, separation);
   }
@@ -202,14 +201,14 @@ Status generate(const Arguments& arguments) {
     json.push_back({{"file", written.file.string()}, {"queries", written.queries}});
     json.back()["collisions"] =
         written.is_known ? nlohmann::json(written.collisions) : nlohmann::json();
-    if (!is_contact(separation)) json.back()["separation"] = judge::to_json(separation);
+    if (!is_zero(separation)) json.back()["separation"] = judge::to_json(separation);
   }
   if (json_output) json_output.write(io::json_document(json));
   json_output.close();
   io::print(record.summary_stream(),
             fmt::format(
                 "{} queries, {} of them collisions{}, in {} files below {}\n", queries, collisions,
-                is_contact(separation)
+                is_zero(separation)
                     ? ""
                     : " at minimum separation " + judge::to_text(separation) + " by construction",
                 files.size(), io::printable(arguments.folder)));

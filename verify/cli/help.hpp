@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The help of a command: what it does, examples, its options by group (input, solver, output), then notes and exit
-/// statuses, in lines of at most 100 characters.
+/// The help of a command: what it does, examples, its options by group (input, solver, output),
+/// then notes and exit statuses, in lines of at most 100 characters.
 
 #include <CLI/CLI.hpp>
 #include <string>

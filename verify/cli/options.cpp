@@ -50,7 +50,7 @@ Separation SeparationArguments::given() const {
 }
 
 Separation SeparationArguments::settle(const Separation& recorded) const {
-  if (is_contact(recorded)) return given();
+  if (is_zero(recorded)) return given();
   const Separation asked{.distance = distance.value_or(recorded.distance),
                          .norm = norm.value_or(recorded.norm)};
   if (judge::same_separation(asked, recorded)) return asked;

@@ -211,7 +211,7 @@ class ReportRun {
       groups.emplace_back(patches.name, kind,
                           mesh::queries_of(patches, mesh::candidates_of(patches, kind, pairs)));
     }
-    for (const Kind kind : kinds()) groups.push_back(generate::hard_set(kind, seed, a_family));
+    for (const Kind kind : kinds()) groups.push_back(generate::built_in_set(kind, seed, a_family));
     return groups;
   }
 

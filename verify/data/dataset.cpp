@@ -36,8 +36,8 @@ bool is_ground_truth_name(const fs::path& path) {
 }
 
 /// A folder with all below it. Links to folders are followed when all folders that are there
-/// without links have been searched, and no folder is searched twice: so that a file keeps its plain
-/// path, and links in a ring come to an end.
+/// without links have been searched, and no folder is searched twice: so that a file keeps its
+/// plain path, and links in a ring come to an end.
 class Search {
  public:
   explicit Search(const LeftOut& on_left_out) : on_left_out_(on_left_out) {}

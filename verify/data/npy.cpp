@@ -23,7 +23,8 @@ static_assert(std::endian::native == std::endian::little, "queries are read as t
 constexpr std::string_view descr = "<f8";
 constexpr std::array<std::uint64_t, 2> extents{query_points, 3};
 
-/// Number of queries that the header announces. \throws NpyHeaderError if it is that of another array.
+/// Number of queries that the header announces. \throws NpyHeaderError if it is that of another
+/// array.
 std::uint64_t query_count(const NpyHeader& header) {
   if (header.descr != descr) {
     throw NpyHeaderError("dtype " + io::quote(header.descr) +

@@ -1,8 +1,9 @@
 #pragma once
 
 /// \file
-/// The header of NumPy's .npy files: "\x93NUMPY", two bytes of version (1 to 3), the length of the dictionary (2 bytes
-/// in version 1, else 4, little-endian) and the dictionary, of exactly descr, fortran_order and shape; then the data.
+/// The header of NumPy's .npy files: "\x93NUMPY", two bytes of version (1 to 3), the length of the
+/// dictionary (2 bytes in version 1, else 4, little-endian) and the dictionary, of exactly descr,
+/// fortran_order and shape; then the data.
 
 #include <cstddef>
 #include <cstdint>

@@ -14,8 +14,8 @@
 
 namespace touchstone::verify::data {
 
-/// A rational as a decimal such as "2.5E-1", rounded to the nearest of `significant_digits` > 0 digits,
-/// ties away from zero.
+/// A rational as a decimal such as "2.5E-1", rounded to the nearest of `significant_digits` > 0
+/// digits, ties away from zero.
 [[nodiscard]] std::string to_decimal(const exact::Rational& value, unsigned significant_digits);
 
 /// Significant digits of a time of impact whose decimal cannot be exact.

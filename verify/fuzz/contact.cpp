@@ -398,7 +398,8 @@ Query tilting(Kind kind, const Separation& separation, Random& random) {
   const Vector3d p(1, 1, 1), q(1, -1, 0), normal = p.cross(q).normalized();
   const double ends = random.uniform(5.0, 13.0) * distance,
                middle = random.uniform(0.2, 1.0) * ends;
-  // det = r·(p × q), and p × q = (1, 1, −2) is 4 times as long as a shift along (1, 1, −1) uses of it.
+  // det = r·(p × q), and p × q = (1, 1, −2) is 4 times as long as a shift along (1, 1, −1) uses of
+  // it.
   const Vector3d r = random.uniform(0.1, 0.45) * (p + q) + middle / 4.0 * Vector3d(1, 1, -1);
   // det grows by r·(a × b) from the middle to the ends, and not with the time itself.
   const Vector3d along = 0.5 * r.cross(normal);

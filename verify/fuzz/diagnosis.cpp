@@ -63,7 +63,7 @@ bool is_beyond_doubt(const judge::Question& question, const CertifiedResult& jud
   return !claimed ||
          (claimed->norm == Norm::linf &&
           judge::is_seen_within(kind, query, answer.toi_lower, claimed->distance)) ||
-         fast::certified(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
+         fast::solve(kind, query, {.separation = *claimed}).verdict == Verdict::yes;
 }
 
 std::optional<Diagnosis> diagnose(const judge::Question& question, const judge::GroundTruth& truth,

@@ -1,12 +1,13 @@
 #pragma once
 
 /// \file
-/// The faults of one answer as the fuzzer looks for them (verify/judge/judge.hpp): quickly first, then for certain.
+/// The faults of one answer as the fuzzer looks for them (verify/judge/judge.hpp): quickly first,
+/// then for certain.
 ///
 /// The certified solver decides blocks of queries at speed. Its verdicts and enclosures show at
-/// once that most answers are right; the others are *doubtful*, and only the oracle finds them wrong.
-/// So a fault of the certified solver costs a finding, which the oracle's share of all queries brings to light, and no
-/// correct solver is reported.
+/// once that most answers are right; the others are *doubtful*, and only the oracle finds them
+/// wrong. So a fault of the certified solver costs a finding, which the oracle's share of all
+/// queries brings to light, and no correct solver is reported.
 
 #include <optional>
 #include <string>
@@ -23,14 +24,14 @@ struct Diagnosis {
   std::string detail;
 };
 
-/// Is there nothing in the answer that could break the promise, by what the certified solver found? If not,
-/// it may still be right.
+/// Is there nothing in the answer that could break the promise, by what the certified solver found?
+/// If not, it may still be right.
 [[nodiscard]] bool is_beyond_doubt(const judge::Question& question,
                                    const fast::CertifiedResult& judged, const fast::Answer& answer,
                                    const judge::Standard& standard);
 
-/// The first fault of an answer to a valid query that breaks the promise, if there is one. An undecided that
-/// breaks a promise of exactness is called undecided.
+/// The first fault of an answer to a valid query that breaks the promise, if there is one. An
+/// undecided that breaks a promise of exactness is called undecided.
 /// \param truth of the query at the separation
 [[nodiscard]] std::optional<Diagnosis> diagnose(const judge::Question& question,
                                                 const judge::GroundTruth& truth,

@@ -25,8 +25,8 @@ struct FailingCase {
   std::optional<exact::DoubleInterval> toi = std::nullopt;
   std::string truth = {};   ///< "no collision", or "collision between … and …"
   std::string detail = {};  ///< what is wrong, in words
-  /// The proof of the truth, as a stream of one certificate (exact/CERTIFICATES.md); empty if beyond
-  /// the format's limits.
+  /// The proof of the truth, as a stream of one certificate (exact/CERTIFICATES.md); empty if
+  /// beyond the format's limits.
   std::string certificate = {};
 };
 
@@ -49,8 +49,9 @@ struct MissingBounds {
   [[nodiscard]] bool any() const { return lower || upper; }
 };
 
-/// Binary exponents of the greatest coordinate around a finding's at which, times a power of two, the
-/// query is not answered wrongly any more: the nearest ones that were asked, nothing where none is known.
+/// Binary exponents of the greatest coordinate around a finding's at which, times a power of two,
+/// the query is not answered wrongly any more: the nearest ones that were asked, nothing where none
+/// is known.
 struct ScaleRange {
   std::optional<int> end_below = std::nullopt;
   std::optional<int> end_above = std::nullopt;

@@ -33,7 +33,7 @@ std::string facts(const FuzzReport& report, const FindingGroup& group, const Fin
   add("asked with",
       fmt::format("tolerance {}, at most {} checks, minimum separation {}", options.tolerance,
                   options.max_checks,
-                  is_contact(options.separation) ? "0" : judge::to_text(options.separation)));
+                  is_zero(options.separation) ? "0" : judge::to_text(options.separation)));
   add("times powers of two", scale_text(finding, report.solver));
   add("findings of this sort", std::to_string(group.count));
   return result;

@@ -21,8 +21,8 @@ namespace touchstone::verify::fuzz {
                                   CallInterface interface, const std::string& name);
 
 /// Writes into a folder, which it creates: for each group of the report, by its number and kind of
-/// finding, the page, the program and the certificate if there is one (1-false_negative.md, .cpp and
-/// .cert), and findings.json (fuzz_report.hpp). Returns the pages.
+/// finding, the page, the program and the certificate if there is one (1-false_negative.md, .cpp
+/// and .cert), and findings.json (fuzz_report.hpp). Returns the pages.
 /// \throws DatasetError if a file cannot be written.
 [[nodiscard]] std::vector<std::filesystem::path> write_pages(const FuzzReport& report,
                                                              CallInterface interface,

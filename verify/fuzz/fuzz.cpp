@@ -348,7 +348,7 @@ class Run {
     }
     work += oracle_work;
     ++result_.judged_by_oracle;
-    const exact::Verdict verdict =
+    const exact::Decision verdict =
         exact::decide(question.kind, question.query, question.separation);
     const judge::GroundTruth truth = judge::truth_of(result_.queries, verdict);
     double reward = 0.0;
@@ -402,7 +402,7 @@ class Run {
   };
 
   /// Counts a finding, keeps the first of a class. Returns the reward, less for what is not new.
-  double report(std::size_t i, const Charge& charge, const exact::Verdict& verdict) {
+  double report(std::size_t i, const Charge& charge, const exact::Decision& verdict) {
     if (!seeks(options_, charge.diagnosis.what)) {
       ++result_.other_findings;
       return 0.0;
@@ -422,7 +422,7 @@ class Run {
   }
 
   /// Returns the finding's group.
-  std::size_t keep(std::size_t i, const Charge& charge, const exact::Verdict& verdict) {
+  std::size_t keep(std::size_t i, const Charge& charge, const exact::Decision& verdict) {
     const bool of_judge = charge.method == judge_name() && name_ != judge_name();
     const std::string& generator = result_.generators[block_.arms[i]].name;
     Finding finding{.what = charge.diagnosis.what,

@@ -3,10 +3,11 @@
 /// \file
 /// The search for wrong answers of one solver.
 ///
-/// Blocks of queries come from generators (generators.hpp) that the scheduler (scheduler.hpp) prefers
-/// by what they have brought so far. The solver answers them in a child process (solver_process.hpp), the
-/// certified solver judges (diagnosis.hpp), and the oracle judges a share again and everything that
-/// is doubtful. Some queries are asked once more as an exact image (symmetry.hpp).
+/// Blocks of queries come from generators (generators.hpp) that the scheduler (scheduler.hpp)
+/// prefers by what they have brought so far. The solver answers them in a child process
+/// (solver_process.hpp), the certified solver judges (diagnosis.hpp), and the oracle judges a share
+/// again and everything that is doubtful. Some queries are asked once more as an exact image
+/// (symmetry.hpp).
 ///
 /// The same seed gives the same queries and findings on every machine, for any solver that answers
 /// the same: what steers is counted work, the clock only ends the run. (A query near the time limit
@@ -43,8 +44,8 @@ struct FuzzProgress {
 };
 
 struct FuzzOptions {
-  /// Wall-clock seconds, with all that is done about findings; 0: no limit. What is answered by then
-  /// is judged, for a second more.
+  /// Wall-clock seconds, with all that is done about findings; 0: no limit. What is answered by
+  /// then is judged, for a second more.
   double seconds = 0.0;
   /// Queries asked, images included; 0: no limit. The run ends exactly there.
   std::uint64_t most_queries = 0;
@@ -55,15 +56,15 @@ struct FuzzOptions {
   fast::MethodOptions method = {};
   /// The promise to judge the method by, if not its own.
   std::optional<fast::Promise> promise = std::nullopt;
-  /// Wall-clock seconds a query may take; 0: no limit. Exact arithmetic takes one where coordinates from
-  /// 2^-1074 to 2^1023 meet a distance in L2.
+  /// Wall-clock seconds a query may take; 0: no limit. Exact arithmetic takes one where coordinates
+  /// from 2^-1074 to 2^1023 meet a distance in L2.
   double query_limit_seconds = 10.0;
   /// Limits of the method's process.
   solvers::ChildLimits limits = {};
   /// Groups of findings after which the run ends; 0: never.
   std::size_t most_groups = 0;
-  /// Wall-clock seconds for making the query of a finding simpler, or a tenth of what is left of the
-  /// run if that is less; 0: it stays as it is.
+  /// Wall-clock seconds for making the query of a finding simpler, or a tenth of what is left of
+  /// the run if that is less; 0: it stays as it is.
   double shrink_seconds = 0.0;
   /// Kinds of findings that are sought; empty: all. Others are counted and nothing else.
   std::vector<judge::Fault> only = {};
@@ -73,8 +74,8 @@ struct FuzzOptions {
   std::vector<Kind> kinds = {Kind::vertex_face, Kind::edge_edge};
   /// Share of the queries that the oracle judges again. Of the method `certified` it judges all.
   double oracle_share = 0.01;
-  /// May be null. Once true, the run ends within a quarter of a second and the time of judging a few
-  /// queries; what is answered by then is not all judged.
+  /// May be null. Once true, the run ends within a quarter of a second and the time of judging a
+  /// few queries; what is answered by then is not all judged.
   const std::atomic<bool>* stop = nullptr;
   /// Called now and then.
   std::function<void(const FuzzProgress&)> on_progress = nullptr;

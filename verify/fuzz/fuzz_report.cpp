@@ -150,7 +150,7 @@ nlohmann::json solver_json(const SolverCall& solver) {
 std::string scale_text(const Finding& finding, const SolverCall& asked) {
   const auto& [below, above] = finding.scales;
   if (!below && !above) {
-    const bool is_asked = finding.what != judge::Fault::hang && is_contact(finding.separation) &&
+    const bool is_asked = finding.what != judge::Fault::hang && is_zero(finding.separation) &&
                           finding.shrinking == Shrinking::complete;
     if (!is_asked) return "not asked at other scales";
     return fmt::format("wrong at any scale from 2^{} to 2^{}", least_scale(asked.options.tolerance),
@@ -164,7 +164,7 @@ std::string scale_text(const Finding& finding, const SolverCall& asked) {
 
 std::string to_line(const Finding& finding) {
   std::string about(to_string(finding.kind));
-  if (!is_contact(finding.separation)) {
+  if (!is_zero(finding.separation)) {
     about += " at minimum separation " + judge::to_text(finding.separation);
   }
   return fmt::format("{} of {}, {}: {}", to_string(finding.what), io::printable(finding.method),
@@ -178,7 +178,7 @@ std::string to_text(const FuzzReport& report) {
       "{} ({}), seed {}{}: {} queries in {:.1f} s, {} of them images, {} collisions\n"
       "{:.0f} queries a second, {:.0f} without the method's own time; {} judged by the oracle\n",
       report.solver.method, solvers::to_string(report.solver.promise), report.seed,
-      is_contact(separation) ? "" : ", minimum separation " + judge::to_text(separation),
+      is_zero(separation) ? "" : ", minimum separation " + judge::to_text(separation),
       result.queries, result.seconds, result.images, result.collisions, result.queries_per_second(),
       result.judged_per_second(), result.judged_by_oracle);
   text += end_text(report);

@@ -124,7 +124,7 @@ Query contact_aligned(Kind kind, const GeneratorContext& context, Random& random
 }
 
 Query everyday(Kind kind, const GeneratorContext& /*context*/, Random& random) {
-  if (one_in(random, 8)) return generate::everyday_near_miss(kind, random);
+  if (one_in(random, 8)) return generate::everyday_near_contact(kind, random);
   Query query = generate::everyday_contact(kind, random);
   if (one_in(random, 8)) nudge(query, random);
   return query;
@@ -179,7 +179,7 @@ Query mutate(Kind kind, const GeneratorContext& context, Random& random) {
 /// which is irrelevant among coordinates of a very different size.
 std::pair<int, int> draw_exponents(const Separation& separation, Random& random) {
   constexpr int most = 1000, near = 30;
-  if (is_contact(separation) || one_in(random, 8)) return {-most, most};
+  if (is_zero(separation) || one_in(random, 8)) return {-most, most};
   const int middle = std::clamp(std::ilogb(separation.distance), near - most, most - near);
   return {middle - near, middle + near};
 }
@@ -267,7 +267,7 @@ std::span<const Generator> generators() { return all_generators; }
 std::vector<Generator> generators(const Separation& separation) {
   std::vector<Generator> result;
   std::ranges::copy_if(all_generators, std::back_inserter(result), [&](const Generator& generator) {
-    return !generator.needs_distance || !is_contact(separation);
+    return !generator.needs_distance || !is_zero(separation);
   });
   return result;
 }

@@ -33,7 +33,7 @@ std::uint64_t drift(const Query& query, const Query& original) {
 // ---- Degeneracy ---------------------------------------------------------------------------------
 
 /// Halves a query that is so large that differences would overflow.
-Query with_room(const Query& query) {
+Query with_margin(const Query& query) {
   constexpr int most = 1000;
   Query result = query;
   if (size_exponent(query) < most) return result;
@@ -58,14 +58,14 @@ double extent(const Query& query) {
 /// The query's shape, about 1 in extent: its products neither overflow nor vanish. All coordinates
 /// are 0 if all points coincide.
 Query shape(const Query& query) {
-  const Query roomy = with_room(query);
-  const double size = extent(roomy);
+  const Query padded = with_margin(query);
+  const double size = extent(padded);
   Query result{};
   if (size == 0.0) return result;
   const int exponent = std::ilogb(size);
   for (std::size_t i = 0; i < coordinate_count; ++i) {
     result.coordinates[i] =
-        std::ldexp(roomy.coordinates[i] - roomy.coordinates[i % point_axes], -exponent);
+        std::ldexp(padded.coordinates[i] - padded.coordinates[i % point_axes], -exponent);
   }
   return result;
 }
@@ -145,12 +145,12 @@ bool Plainness::is_worse_somewhere(const Plainness& other) const {
 }
 
 Plainness plainness(Kind kind, const Query& query, const Query& original) {
-  constexpr unsigned room_for_sum = 8;
+  constexpr unsigned bits_for_sum = 8;
   const std::vector<double> all = magnitudes(query);
   Plainness result;
   for (const double x : all) {
     result.beyond += away(std::ilogb(x), least_everyday, greatest_everyday);
-    result.size += std::bit_cast<std::uint64_t>(x) >> room_for_sum;
+    result.size += std::bit_cast<std::uint64_t>(x) >> bits_for_sum;
   }
   result.degenerate = degeneracy(kind, query);
   result.drift = drift(query, original);

@@ -16,8 +16,8 @@ namespace {
 using fast::Answer;
 using fast::Verdict;
 
-/// The rest of a block is not asked after so many queries that ended the solver's process or took too
-/// long.
+/// The rest of a block is not asked after so many queries that ended the solver's process or took
+/// too long.
 constexpr std::size_t most_failures = 4;
 
 /// Was the query asked alone, in a process of its own, before it was a finding?
@@ -32,7 +32,7 @@ bool lacks_same_bounds(const Answer& a, const Answer& b) {
 }
 
 /// Empty where it would exceed the format's limits.
-std::string certificate(Kind kind, const Query& query, const exact::Verdict& verdict,
+std::string certificate(Kind kind, const Query& query, const exact::Decision& verdict,
                         std::string_view label) {
   try {
     return exact::certificate_stream(exact::prove(kind, query, verdict, {}), label);
@@ -62,7 +62,7 @@ base::Deadline solver_deadline(const base::Deadline& deadline) {
 }
 
 FailingCase failing_case(Kind kind, const Query& query, const Answer& answer,
-                         const exact::Verdict& verdict, std::string detail,
+                         const exact::Decision& verdict, std::string detail,
                          std::string_view label) {
   std::optional<exact::DoubleInterval> toi;
   if (verdict.collides()) toi = verdict.toi->enclosure();
@@ -90,7 +90,7 @@ std::optional<FailingCase> Recheck::ask(const Query& query, const base::Deadline
   if (!is_finite(query) || deadline.is_over()) return std::nullopt;
   const std::optional<Reply> reply = reply_to(query, deadline);
   if (!reply) return std::nullopt;
-  const exact::Verdict verdict = exact::decide(finding_.kind, query, separation_);
+  const exact::Decision verdict = exact::decide(finding_.kind, query, separation_);
   const auto diagnosis = diagnose_reply(query, judge::truth_of(0, verdict), *reply);
   if (!diagnosis || !is_same(*diagnosis)) return std::nullopt;
   return failing_case(finding_.kind, query, reply->answer, verdict, diagnosis->detail,
@@ -101,7 +101,7 @@ std::optional<Recheck::Reply> Recheck::reply_to(const Query& query,
                                                 const base::Deadline& deadline) {
   if (of_judge_) {
     return Reply{
-        .answer = answer_of(fast::certified(finding_.kind, query, {.separation = separation_})),
+        .answer = answer_of(fast::solve(finding_.kind, query, {.separation = separation_})),
         .failure = std::nullopt};
   }
   Reply reply;

@@ -35,12 +35,12 @@ namespace touchstone::verify::fuzz {
 
 /// The evidence of a fault. \param verdict of the query, at the run's separation
 [[nodiscard]] FailingCase failing_case(Kind kind, const Query& query, const fast::Answer& answer,
-                                       const exact::Verdict& verdict, std::string detail,
+                                       const exact::Decision& verdict, std::string detail,
                                        std::string_view label);
 
-/// Does a solver do the same wrong to another query? Each call asks it alone, in a child process, and
-/// the oracle. What was found by an image of a query is wrong in any way. Of a finding against the
-/// judge, the judge is asked.
+/// Does a solver do the same wrong to another query? Each call asks it alone, in a child process,
+/// and the oracle. What was found by an image of a query is wrong in any way. Of a finding against
+/// the judge, the judge is asked.
 class Recheck {
  public:
   /// \param options those of the run that found it

@@ -19,8 +19,8 @@ namespace touchstone::verify::fuzz {
 /// "v", "f0" and so on of a vertex and a triangle, "ea0" and so on of two edges.
 [[nodiscard]] std::string_view point_name(Kind kind, std::size_t point);
 
-/// A line a point, at t=0 and then at t=1: its name in the kind, and its coordinates in decimal and in
-/// hexadecimal. Both give the very doubles.
+/// A line a point, at t=0 and then at t=1: its name in the kind, and its coordinates in decimal and
+/// in hexadecimal. Both give the very doubles.
 [[nodiscard]] std::string as_points(Kind kind, const Query& query);
 
 /// The same in decimal only, each point at t=0 and at t=1 on one line.

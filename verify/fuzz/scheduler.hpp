@@ -36,8 +36,8 @@ class CoverageTable {
 };
 
 struct SchedulerOptions {
-  /// The factor by which the weight of earlier results decreases with each unit of later work: half after 0.7 /
-  /// this.
+  /// The factor by which the weight of earlier results decreases with each unit of later work: half
+  /// after 0.7 / this.
   double forgetting = 1e-4;
   /// The share of draws for exploration, 0 to 1, which is divided by the parts of the arms,
   /// independent of their rewards.

@@ -86,15 +86,15 @@ Shape shape_of(Kind kind, const Query& query) {
 }  // namespace
 
 int least_scale(double tolerance) {
-  constexpr int room = 4;
+  constexpr int margin = 4;
   // Written so that NaN and 0 fail too.
   if (!(tolerance > 0x1p-44)) return scales_to_ask.front();
-  return std::min(std::ilogb(tolerance) + room, 0);
+  return std::min(std::ilogb(tolerance) + margin, 0);
 }
 
 ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
                        const base::Deadline& deadline, const Finding& finding) {
-  if (finding.what == judge::Fault::hang || !is_contact(finding.separation)) return {};
+  if (finding.what == judge::Fault::hang || !is_zero(finding.separation)) return {};
   ScaleSearch search(method, options, deadline, finding);
   return {.end_below = search.end_below(), .end_above = search.end_above()};
 }

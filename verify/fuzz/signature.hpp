@@ -3,11 +3,11 @@
 /// \file
 /// What findings of one cause have in common, as far as it can be told from outside.
 ///
-/// A fault of rounding depends on the scale: multiplied by powers of two, which changes nothing else, the
-/// query is right somewhere, and where that is tells one wrong bound from another. It shows in queries of
-/// any shape and time, of both kinds. A fault of logic does not depend on the scale; it shows in one kind
-/// of queries, of one degeneracy, at one time of contact. So findings are of one group if they are of one
-/// solver and kind of finding, and
+/// A fault of rounding depends on the scale: multiplied by powers of two, which changes nothing
+/// else, the query is right somewhere, and where that is tells one wrong bound from another. It
+/// shows in queries of any shape and time, of both kinds. A fault of logic does not depend on the
+/// scale; it shows in one kind of queries, of one degeneracy, at one time of contact. So findings
+/// are of one group if they are of one solver and kind of finding, and
 ///
 /// - the fault ends in the same ranges of scale, if it ends anywhere, or else
 /// - kind, degeneracy (plainness.hpp) and time of contact are the same.
@@ -60,13 +60,14 @@ struct Signature {
 
 inline constexpr int greatest_scale = 40;
 
-/// The least scale of which something is to be learnt, -40 or more: smaller than 16 times the tolerance
-/// that solvers are asked with, all is near all.
+/// The least scale of which something is to be learnt, -40 or more: smaller than 16 times the
+/// tolerance that solvers are asked with, all is near all.
 [[nodiscard]] int least_scale(double tolerance);
 
-/// The scales at which the finding's simplest query is wrong, around its own: it is asked again times
-/// powers of two, up and down, until it is right or the greatest coordinate is beyond 2^least_scale() to
-/// 2^greatest_scale. Of a hang, and of what is about a separation, nothing is asked, and no end is known.
+/// The scales at which the finding's simplest query is wrong, around its own: it is asked again
+/// times powers of two, up and down, until it is right or the greatest coordinate is beyond
+/// 2^least_scale() to 2^greatest_scale. Of a hang, and of what is about a separation, nothing is
+/// asked, and no end is known.
 [[nodiscard]] ScaleRange scale_range(const fast::Method& method, const FuzzOptions& options,
                                      const base::Deadline& deadline, const Finding& finding);
 

@@ -103,11 +103,11 @@ std::string plugin_main(const Reproduction& found) {
   return result + last_line(wrong_as_found_of_plugin(found));
 }
 
-constexpr Names of_public_code{.is_yes = "hit", .is_no = "!hit", .lower = "toi"};
+constexpr Names of_public_code{.is_yes = "collides", .is_no = "!collides", .lower = "toi"};
 
 std::string printing(const Reproduction& found) {
   return fmt::format(
-             "  std::printf(\"%s, toi %.17g; truth: {}\\n\", hit ? \"yes\" : \"no\", toi);\n",
+             "  std::printf(\"%s, toi %.17g; truth: {}\\n\", collides ? \"yes\" : \"no\", toi);\n",
              found.failing.truth) +
          last_line(wrong_as_found(found, of_public_code));
 }
@@ -124,7 +124,7 @@ std::string ticcd_main(const Reproduction& found) {
       "  const auto p = [&x](int i) { return ticcd::Vector3(x[i][0], x[i][1], x[i][2]); };\n"
       "  ticcd::Scalar toi = 0, tolerance = 0;\n";
   result += fmt::format(
-      "  const bool hit = ticcd::{}({},\n"
+      "  const bool collides = ticcd::{}({},\n"
       "                              ticcd::Array3(-1, -1, -1), {}, toi, {}, {}, {}, tolerance);\n",
       found.kind == Kind::vertex_face ? "vertexFaceCCD" : "edgeEdgeCCD", all_points,
       options.separation.distance, options.tolerance, options.t_max,
@@ -141,10 +141,11 @@ std::string ipc_toolkit_main(const Reproduction& found) {
   result +=
       "  const auto p = [&x](int i) { return Eigen::Vector3d(x[i][0], x[i][1], x[i][2]); };\n"
       "  double toi = 0;\n";
-  result += fmt::format("  const bool hit = ipc::AdditiveCCD({}).{}(\n      {}, toi, {}, {});\n",
-                        options.max_checks > 0 ? options.max_checks : -1,
-                        found.kind == Kind::vertex_face ? "point_triangle_ccd" : "edge_edge_ccd",
-                        all_points, options.separation.distance, options.t_max);
+  result +=
+      fmt::format("  const bool collides = ipc::AdditiveCCD({}).{}(\n      {}, toi, {}, {});\n",
+                  options.max_checks > 0 ? options.max_checks : -1,
+                  found.kind == Kind::vertex_face ? "point_triangle_ccd" : "edge_edge_ccd",
+                  all_points, options.separation.distance, options.t_max);
   return result + printing(found);
 }
 

@@ -67,7 +67,7 @@ KnownQuery coplanar_interval(Recipe& recipe) {
   set(query, 0, 0, x);
   set(query, 0, 1, sampler.within(1, centre));
   const auto toi = meeting_time(x, side);
-  if (!toi) return miss_along(query, 0, -1.0);
+  if (!toi) return no_collision_along(query, 0, -1.0);
   return collision(query, toi, planar_contact(recipe.kind, query, *toi, {0, 1}));
 }
 
@@ -89,9 +89,9 @@ KnownQuery instant(Recipe& recipe, Sampler& sampler, Offset offset, Ending endin
   const Line y = approach(1, target, ending, sampler);
   set(query, 0, 0, sampler.nudged(s, vertex_face ? -steps : steps));
   set(query, 0, 1, y);
-  const std::size_t touched = vertex_face ? 1 : 2;
-  set(query, touched, 0, s);
-  set(query, touched, 1, target);
+  const std::size_t primitive = vertex_face ? 1 : 2;
+  set(query, primitive, 0, s);
+  set(query, primitive, 1, target);
   if (vertex_face) {
     set(query, 2, 0, sampler.within(0, right));
     set(query, 2, 1, sampler.within(1, left));
@@ -103,10 +103,11 @@ KnownQuery instant(Recipe& recipe, Sampler& sampler, Offset offset, Ending endin
     set(query, 3, 0, sampler.within(0, left));
     set(query, 3, 1, offset == Offset::inside ? target : sampler.within(1, centre));
   }
-  if (offset == Offset::outside) return miss_along(query, 0, outside_direction(recipe.kind));
+  if (offset == Offset::outside)
+    return no_collision_along(query, 0, outside_direction(recipe.kind));
   if (offset == Offset::inside) return collision(query, std::nullopt, std::nullopt);
   const auto toi = meeting_time(y, target);
-  if (!toi) return miss(query);
+  if (!toi) return no_collision(query);
   return collision(query, toi, Contact{Rational(0), Rational(0)});
 }
 

@@ -57,7 +57,7 @@ KnownQuery on_a_line(Recipe& recipe, const Places& places, bool ranges_meet, Cha
   }
   if (change == Change::moved_off_line) shift_first(recipe.kind, shift, moment);
   const Query query = to_query(recipe, moment);
-  if (!ranges_meet || change == Change::moved_off_line) return miss(query);
+  if (!ranges_meet || change == Change::moved_off_line) return no_collision(query);
   return collision(query, moment.time.value(), contact_at_zero(recipe.kind, places));
 }
 
@@ -90,9 +90,9 @@ KnownQuery parallel_edges(Recipe& recipe) {
   const std::size_t variant = recipe.variant % 5;
   const Places overlapping{-random.between(1, 8), random.between(1, 8), -random.between(1, 8),
                            random.between(1, 8)};
-  const Places touching{-random.between(1, 8), 0, 0, random.between(1, 8)};
+  const Places meeting_places{-random.between(1, 8), 0, 0, random.between(1, 8)};
   const Places apart{-random.between(1, 8), 0, 1, random.between(2, 8)};
-  if (variant == 3) return on_a_line(recipe, touching, true, Change::none);
+  if (variant == 3) return on_a_line(recipe, meeting_places, true, Change::none);
   if (variant == 4) return on_a_line(recipe, apart, false, Change::none);
   return on_a_line(recipe, overlapping, true, variant == 2 ? Change::moved_off_line : Change::none);
 }
@@ -118,7 +118,7 @@ KnownQuery zero_area_triangle(Recipe& recipe) {
 KnownQuery zero_length_edges(Recipe& recipe) {
   const std::size_t variant = recipe.variant % 4;
   const bool all_collapse = variant == 1 || variant == 3;
-  const bool touches = variant < 2;
+  const bool collides = variant < 2;
   const GridSize size(recipe);
   const std::int64_t before = recipe.random.between(1, 8);
   const std::int64_t after = recipe.random.between(1, 8);
@@ -141,9 +141,9 @@ KnownQuery zero_length_edges(Recipe& recipe) {
   const Vector front = all_collapse ? p : p + after * g;
   moment.position = recipe.vertex_face() ? std::array<Vector, 4>{p, back, front, front}
                                          : std::array<Vector, 4>{back, front, p, p};
-  if (!touches) shift_first(recipe.kind, shift, moment);
+  if (!collides) shift_first(recipe.kind, shift, moment);
   const Query query = to_query(recipe, moment);
-  if (!touches) return miss(query);
+  if (!collides) return no_collision(query);
   Rational along{Integer(all_collapse ? 0 : before), Integer(before + after)};
   along.canonicalize();
   return collision(query, moment.time.value(), Contact{along, Rational(0)});
@@ -184,7 +184,7 @@ KnownQuery collinear_edges(Recipe& recipe) {
   }
   if (variant == 4) shift_first(recipe.kind, shift, moment);
   const Query query = to_query(recipe, moment);
-  if (gap1 > 0 || variant == 4) return miss(query);
+  if (gap1 > 0 || variant == 4) return no_collision(query);
   Rational toi{Integer(gap0), Integer(gap0 - gap1)};
   toi.canonicalize();
   return collision(query, toi, Contact{Rational(0), Rational(0)});

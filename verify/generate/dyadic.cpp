@@ -86,7 +86,7 @@ KnownQuery interior_dyadic(Recipe& recipe) {
   const Weights weights = draw_weights(recipe, inside ? Place::interior : Place::outside);
   const Moment moment = draw_rigid(recipe, weights, draw_inner_time(recipe.random));
   const Query query = to_query(recipe, moment);
-  return inside ? collision(query, moment.time.value(), weights.contact()) : miss(query);
+  return inside ? collision(query, moment.time.value(), weights.contact()) : no_collision(query);
 }
 
 /// F(τ,u,v) = 0 by integer arithmetic, whatever the four velocities are. There may be an earlier
@@ -125,7 +125,7 @@ KnownQuery shifted(Recipe& recipe, const Weights& weights, Moment moment, const 
   const Query query = to_query(recipe, moment);
   const bool in_time = t >= 0 && t <= 1;
   const bool in_domain = u >= 0 && v >= 0 && (recipe.vertex_face() ? u + v <= 1 : u <= 1 && v <= 1);
-  return in_time && in_domain ? collision(query, t, Contact{u, v}) : miss(query);
+  return in_time && in_domain ? collision(query, t, Contact{u, v}) : no_collision(query);
 }
 
 KnownQuery boundary_dyadic(Recipe& recipe, Place place) {
@@ -180,8 +180,8 @@ KnownQuery no_motion(Recipe& recipe) {
   if (recipe.random.coin()) moment.velocity.fill(draw_vector(recipe.random, size.velocity));
   if (variant == 5) shift_first(recipe.kind, off_plane, moment);
   const Query query = to_query(recipe, moment);
-  const bool touches = variant != 5 && places.at(variant) != Place::outside;
-  return touches ? collision(query, Rational(0), weights.contact()) : miss(query);
+  const bool collides = variant != 5 && places.at(variant) != Place::outside;
+  return collides ? collision(query, Rational(0), weights.contact()) : no_collision(query);
 }
 
 constexpr std::array<Definition, 6> dyadic_list{{

@@ -103,7 +103,7 @@ KnownQuery start_left(Recipe& recipe) {
   if (variant == 0) return collision(query, Rational(0), contact_of_pair);
   const std::size_t axis = variant - 1;
   query.at(0, roles.first, axis) = sampler.nudged(query.at(0, roles.first, axis), 1);
-  return variant == 1 ? miss_along(query, 0, 1.0) : miss(query);
+  return variant == 1 ? no_collision_along(query, 0, 1.0) : no_collision(query);
 }
 
 /// The pair's first point goes from p to q and its second from q to p, any doubles: in each
@@ -112,7 +112,7 @@ KnownQuery start_left(Recipe& recipe) {
 /// queries without collision y is shared instead, first above second by one unit in the last place,
 /// and the rest is apart in y: y separates.
 KnownQuery swap_at_half(Recipe& recipe) {
-  const bool misses = recipe.variant % 3 == 2;
+  const bool is_apart = recipe.variant % 3 == 2;
   const Roles roles(recipe.kind);
   Sampler sampler(recipe);
   Query query{};
@@ -123,7 +123,7 @@ KnownQuery swap_at_half(Recipe& recipe) {
     query.at(0, roles.second, axis) = query.at(1, roles.first, axis);
     query.at(1, roles.second, axis) = query.at(0, roles.first, axis);
   }
-  if (!misses) return collision(query, Rational(1, 2), contact_of_pair);
+  if (!is_apart) return collision(query, Rational(1, 2), contact_of_pair);
   const Line shared = sampler.within(1, centre);
   set(query, roles.second, 1, shared);
   set(query, roles.first, 1, sampler.nudged(shared, 1));
@@ -131,7 +131,7 @@ KnownQuery swap_at_half(Recipe& recipe) {
   for (std::size_t point = roles.rest_begin_of_second; point < moving_points; ++point) {
     set(query, point, 1, sampler.within(1, left));
   }
-  return miss_along(query, 1, 1.0);
+  return no_collision_along(query, 1, 1.0);
 }
 
 constexpr std::array<Definition, 3> endpoint_list{{

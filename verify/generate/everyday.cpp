@@ -19,7 +19,7 @@ namespace {
 using Layout = std::array<Vector, moving_points>;
 
 /// What the primitives have in common at the end of the contact.
-struct Touch {
+struct ContactPlaces {
   Layout places{};
   /// The points that are one, if two are.
   std::optional<std::array<std::size_t, 2>> shared;
@@ -30,43 +30,43 @@ class Scene {
  public:
   Scene(Kind kind, std::int64_t size, Random& random) : kind_(kind), size_(size), random_(random) {}
 
-  [[nodiscard]] Touch draw_touch(bool is_inside) {
-    Touch touch;
-    for (Vector& place : touch.places) place = draw_place();
+  [[nodiscard]] ContactPlaces draw_contact(bool is_inside) {
+    ContactPlaces contact;
+    for (Vector& place : contact.places) place = draw_place();
     if (is_inside) {
-      touch_in_a_plane(touch.places);
-      return touch;
+      place_in_a_plane(contact.places);
+      return contact;
     }
     switch (draws::below(random_, 3)) {
       case 0:
-        touch_at_a_point(touch);
+        share_a_point(contact);
         break;
       case 1:
-        touch_on_a_side(touch.places);
+        place_on_a_side(contact.places);
         break;
       default:
-        touch_in_a_plane(touch.places);
+        place_in_a_plane(contact.places);
     }
-    return touch;
+    return contact;
   }
 
-  /// Where the points are at the other end: each primitive stays, moves along an axis, or anywhere, and
-  /// now and then each point by itself.
-  [[nodiscard]] Layout moved(const Touch& touch) {
-    Layout result = touch.places;
+  /// Where the points are at the other end: each primitive stays, moves along an axis, or anywhere,
+  /// and now and then each point by itself.
+  [[nodiscard]] Layout moved(const ContactPlaces& contact) {
+    Layout result = contact.places;
     const std::array<Vector, 2> motions{draw_motion(), draw_motion()};
     for (std::size_t point = 0; point < moving_points; ++point) {
       result.at(point) = result.at(point) + motions.at(point < second() ? 0 : 1);
       if (draws::one_in(random_, 3)) result.at(point) = result.at(point) + draw_place();
     }
-    if (touch.shared && random_.coin())
-      result.at((*touch.shared)[0]) = result.at((*touch.shared)[1]);
+    if (contact.shared && random_.coin())
+      result.at((*contact.shared)[0]) = result.at((*contact.shared)[1]);
     return result;
   }
 
   /// The first primitive lower or higher by up to a size, the second one where it is.
-  [[nodiscard]] std::array<Layout, 2> crossing(const Touch& touch) {
-    std::array<Layout, 2> ends{touch.places, touch.places};
+  [[nodiscard]] std::array<Layout, 2> crossing(const ContactPlaces& contact) {
+    std::array<Layout, 2> ends{contact.places, contact.places};
     const std::int64_t height = between(size_ / 4 + 1, size_ + 1);
     const std::int64_t down = random_.coin() ? height : -height;
     for (std::size_t point = 0; point < second(); ++point) {
@@ -100,15 +100,15 @@ class Scene {
     return motion;
   }
 
-  void touch_at_a_point(Touch& touch) {
+  void share_a_point(ContactPlaces& contact) {
     const std::size_t of_first = draws::below(random_, second());
     const std::size_t of_second = second() + draws::below(random_, moving_points - second());
-    touch.places.at(of_first) = touch.places.at(of_second);
-    touch.shared = {of_first, of_second};
+    contact.places.at(of_first) = contact.places.at(of_second);
+    contact.shared = {of_first, of_second};
   }
 
   /// The first point lies between the last two, which lie along x.
-  void touch_on_a_side(Layout& places) {
+  void place_on_a_side(Layout& places) {
     const Vector middle = places[0];
     places[2] = places[3] = middle;
     places[2][0] -= up_to(size_);
@@ -116,7 +116,7 @@ class Scene {
   }
 
   /// All at one height, and about the first point, or across each other.
-  void touch_in_a_plane(Layout& places) {
+  void place_in_a_plane(Layout& places) {
     const std::int64_t half = size_ / 2;
     const auto far = [&] { return between(half, size_); };
     const auto near = [&] { return between(-half / 2, half / 2); };
@@ -170,14 +170,14 @@ constexpr int least_power = -3, greatest_power = 4;
 std::array<Layout, 2> draw_ends(Kind kind, const EverydayScene& options, Random& random) {
   // Layout are sums of up to four draws: the first, two of the shape, and a motion.
   Scene scene(kind, power_of_ten(options.digits) / 4, random);
-  const Touch touch = scene.draw_touch(options.time == TouchTime::between);
+  const ContactPlaces contact = scene.draw_contact(options.time == ContactMoment::between);
   std::array<Layout, 2> ends;
-  if (options.time == TouchTime::between) {
-    ends = scene.crossing(touch);
+  if (options.time == ContactMoment::between) {
+    ends = scene.crossing(contact);
   } else {
-    const std::size_t end = options.time == TouchTime::at_start ? 0 : 1;
-    ends.at(end) = touch.places;
-    ends.at(1 - end) = scene.moved(touch);
+    const std::size_t end = options.time == ContactMoment::at_start ? 0 : 1;
+    ends.at(end) = contact.places;
+    ends.at(1 - end) = scene.moved(contact);
   }
   if (options.clearance == 0) return ends;
   const std::size_t axis = draws::below(random, 3);
@@ -192,7 +192,7 @@ EverydayScene draw_scene(Random& random) {
   return {.digits = 1 + static_cast<int>(draws::below(random, most_digits)),
           .exponent = static_cast<int>(random.between(least_power, greatest_power)),
           .as_float = draws::one_in(random, 3),
-          .time = random.coin() ? TouchTime::at_start : TouchTime::at_end,
+          .time = random.coin() ? ContactMoment::at_start : ContactMoment::at_end,
           .clearance = 0};
 }
 
@@ -216,7 +216,7 @@ Query everyday_contact(Kind kind, Random& random) {
   return everyday_query(kind, draw_scene(random), random);
 }
 
-Query everyday_near_miss(Kind kind, Random& random) {
+Query everyday_near_contact(Kind kind, Random& random) {
   EverydayScene scene = draw_scene(random);
   scene.clearance = 1;
   return everyday_query(kind, scene, random);

@@ -2,14 +2,15 @@
 
 /// \file
 /// Contacts as people have them: at the very beginning or end of a step, at features that both
-/// primitives share, with coordinates up to 1e-3, 1e-2, … or 1e4 that are short decimals, as people type them and
-/// exporters print them.
+/// primitives share, with coordinates up to 1e-3, 1e-2, … or 1e4 that are short decimals, as people
+/// type them and exporters print them.
 ///
-/// **Why they touch.** A scene is placed at one end of the step in whole units. There either a point of
-/// one primitive is a point of the other, or lies on a side of it along an axis, or both lie in one
-/// plane across an axis, one point inside the triangle or the edges across each other, by more than a
-/// unit. The unit is a power of ten, and each coordinate the double nearest to that decimal, or to the
-/// float nearest to it. Rounding keeps order and equality of coordinates, hence the contact.
+/// **Why they touch.** A scene is placed at one end of the step in whole units. There either a
+/// point of one primitive is a point of the other, or lies on a side of it along an axis, or both
+/// lie in one plane across an axis, one point inside the triangle or the edges across each other,
+/// by more than a unit. The unit is a power of ten, and each coordinate the double nearest to that
+/// decimal, or to the float nearest to it. Rounding keeps order and equality of coordinates, hence
+/// the contact.
 
 #include <cstdint>
 
@@ -19,7 +20,7 @@
 namespace touchstone::verify::generate {
 
 /// When the primitives of a scene touch.
-enum class TouchTime : std::uint8_t {
+enum class ContactMoment : std::uint8_t {
   at_start,
   at_end,
   between  ///< in the middle of the step, well inside both: no rounding matters
@@ -30,14 +31,14 @@ struct EverydayScene {
   int digits = 3;         ///< significant decimal digits of the greatest coordinates, 1 to 15
   int exponent = 0;       ///< the greatest coordinates are below 10 to this power, -3 to 15
   bool as_float = false;  ///< Is each decimal rounded to a float?
-  TouchTime time = TouchTime::at_end;
-  /// Units, of the last digit, by which the first primitive is away from where it would touch, on one
-  /// axis and all the time; so much more than 10^digits that nothing touches.
+  ContactMoment time = ContactMoment::at_end;
+  /// Units, of the last digit, by which the first primitive is away from where it would touch, on
+  /// one axis and all the time; so much more than 10^digits that nothing touches.
   std::int64_t clearance = 0;
 };
 
-/// A query of such a scene. Without clearance it touches then, and may touch earlier too; of those that
-/// share a point then, half share it all the time.
+/// A query of such a scene. Without clearance it touches then, and may touch earlier too; of those
+/// that share a point then, half share it all the time.
 [[nodiscard]] Query everyday_query(Kind kind, const EverydayScene& scene, Random& random);
 
 /// One that touches at t=0 or at t=1. Coordinates are decimals of at most six digits, or the floats
@@ -45,6 +46,6 @@ struct EverydayScene {
 [[nodiscard]] Query everyday_contact(Kind kind, Random& random);
 
 /// The same, but the first primitive is a unit away on one axis.
-[[nodiscard]] Query everyday_near_miss(Kind kind, Random& random);
+[[nodiscard]] Query everyday_near_contact(Kind kind, Random& random);
 
 }  // namespace touchstone::verify::generate

@@ -35,7 +35,7 @@
 namespace touchstone::verify::generate {
 
 /// The verdicts that occur in a family.
-enum class Verdicts : std::uint8_t { collisions, misses, both };
+enum class Verdicts : std::uint8_t { collisions, no_collisions, both };
 
 /// A named kind of degeneracy.
 struct Family {

@@ -91,14 +91,14 @@ KnownQuery collision(const Query& query, std::optional<Rational> toi,
   return known;
 }
 
-KnownQuery miss(const Query& query) {
+KnownQuery no_collision(const Query& query) {
   KnownQuery known;
   known.query = query;
   return known;
 }
 
-KnownQuery miss_along(const Query& query, std::size_t axis, double direction) {
-  KnownQuery known = miss(query);
+KnownQuery no_collision_along(const Query& query, std::size_t axis, double direction) {
+  KnownQuery known = no_collision(query);
   known.separating_direction = std::array<double, 3>{};
   known.separating_direction->at(axis) = direction;
   return known;

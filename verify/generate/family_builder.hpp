@@ -70,10 +70,10 @@ using Contact = std::array<exact::Rational, 2>;
 /// The outcomes of a construction.
 [[nodiscard]] KnownQuery collision(const Query& query, std::optional<exact::Rational> toi,
                                    std::optional<Contact> contact);
-[[nodiscard]] KnownQuery miss(const Query& query);
+[[nodiscard]] KnownQuery no_collision(const Query& query);
 
 /// No collision, proved by F·axis: it is > 0 (direction +1) or < 0 (direction −1) for all t, u, v.
-[[nodiscard]] KnownQuery miss_along(const Query& query, std::size_t axis, double direction);
+[[nodiscard]] KnownQuery no_collision_along(const Query& query, std::size_t axis, double direction);
 
 /// Coordinate `axis` of a corner at time t.
 [[nodiscard]] exact::Rational corner_at(const Query& query, const Corner& corner, std::size_t axis,

@@ -58,9 +58,9 @@ void draw_corner(Kind kind, int steps, Sampler& sampler, Query& query) {
   const Line c = sampler.within(1, centre);
   set(query, 0, 0, sampler.nudged(s, vertex_face ? -steps : steps));
   set(query, 0, 1, c);
-  const std::size_t touched = vertex_face ? 1 : 2;
-  set(query, touched, 0, s);
-  set(query, touched, 1, c);
+  const std::size_t primitive = vertex_face ? 1 : 2;
+  set(query, primitive, 0, s);
+  set(query, primitive, 1, c);
   if (vertex_face) {
     set(query, 2, 0, sampler.within(0, right));
     set(query, 2, 1, sampler.within(1, left));
@@ -96,10 +96,10 @@ void set_heights(Kind kind, const Line& first, const Line& second, Query& query)
 
 KnownQuery level_outcome(Kind kind, Offset offset, const Line& first, const Line& second,
                          const Query& query) {
-  if (offset == Offset::outside) return miss_along(query, 0, outside_direction(kind));
+  if (offset == Offset::outside) return no_collision_along(query, 0, outside_direction(kind));
   const auto toi = meeting_time(first, second);
   if (toi) return collision(query, toi, planar_contact(kind, query, *toi, {0, 1}));
-  return miss_along(query, 2, first.start < second.start ? -1.0 : 1.0);
+  return no_collision_along(query, 2, first.start < second.start ? -1.0 : 1.0);
 }
 
 }  // namespace touchstone::verify::generate

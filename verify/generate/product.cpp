@@ -151,7 +151,7 @@ KnownQuery triangular_outcome(Kind kind, const Pairs& pairs, const Query& query)
       return collision(query, t, triangular_parameters(kind, query, t));
     }
   }
-  return miss(query);
+  return no_collision(query);
 }
 
 /// Avoiding corners, as far as coordinates are shared: y1 and the z that decide are drawn anywhere.
@@ -191,11 +191,11 @@ bool avoids(Kind kind, const Pairs& pairs, const Query& query) {
 KnownQuery draw_avoiding(Kind kind, const Pairs& pairs, Sampler& sampler) {
   Query query = avoiding(kind, pairs, sampler);
   while (!avoids(kind, pairs, query)) query = avoiding(kind, pairs, sampler);
-  return miss(query);
+  return no_collision(query);
 }
 
-KnownQuery from_pairs(Recipe& recipe, const Pairs& pairs, bool misses, Sampler& sampler) {
-  if (misses) return draw_avoiding(recipe.kind, pairs, sampler);
+KnownQuery from_pairs(Recipe& recipe, const Pairs& pairs, bool is_apart, Sampler& sampler) {
+  if (is_apart) return draw_avoiding(recipe.kind, pairs, sampler);
   return triangular_outcome(recipe.kind, pairs, triangular(recipe.kind, pairs, sampler));
 }
 

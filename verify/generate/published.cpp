@@ -85,7 +85,7 @@ KnownQuery hourglass(Recipe& recipe) {
     toi = *meeting_time(line_of(query, 0, 2), line_of(query, first_of_second, 2));
     contact = planar_contact(recipe.kind, query, toi, {0, 1});
   }
-  return in_domain(recipe.kind, *contact) ? collision(query, toi, contact) : miss(query);
+  return in_domain(recipe.kind, *contact) ? collision(query, toi, contact) : no_collision(query);
 }
 
 constexpr Points printed_inflection{
@@ -99,7 +99,8 @@ constexpr Points edge_inflection{
 /// hence at all times (29, 1, 8 and 5, 1, 2; the parallelogram's fourth corner: 36 and 6). A change
 /// of every coordinate by at most 1/256 changes d·w by at most 13·2/256 < 1.
 KnownQuery inflection(Recipe& recipe) {
-  KnownQuery known = miss(to_query(recipe.vertex_face() ? printed_inflection : edge_inflection));
+  KnownQuery known =
+      no_collision(to_query(recipe.vertex_face() ? printed_inflection : edge_inflection));
   known.separating_direction = {8.0, 1.0, -4.0};
   if (recipe.index == 0) {
     recipe.as_printed = true;
@@ -167,9 +168,9 @@ KnownQuery sliding_degenerate(Recipe& recipe) {
   Sampler sampler(recipe);
   const Query query =
       recipe.as_printed ? to_query(printed_sliding) : draw_sliding(recipe, slide, sampler);
-  if (slide == Slide::beside) return miss_along(query, 0, 1.0);
+  if (slide == Slide::beside) return no_collision_along(query, 0, 1.0);
   const auto toi = meeting_time(line_of(query, 0, 1), line_of(query, 2, 1));
-  if (!toi) return miss_along(query, 1, -1.0);
+  if (!toi) return no_collision_along(query, 1, -1.0);
   return collision(query, toi, planar_contact(recipe.kind, query, *toi, {0, 1}));
 }
 
@@ -182,7 +183,7 @@ constexpr std::array<Definition, 3> published_list{{
     {{"inflection",
       "The printed cubic with an inflection and two roots; the direction (8,1,-4) separates all "
       "corners by 1 at both ends, more than the perturbations can change.",
-      Verdicts::misses},
+      Verdicts::no_collisions},
      inflection},
     {{"sliding-degenerate",
       "Coplanar motion with shared x: a side comes down on the vertex, y separates before, and the "

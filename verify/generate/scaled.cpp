@@ -46,11 +46,12 @@ KnownQuery mixed_scales(Recipe& recipe) {
   return known;
 }
 
-/// Crossing heights over a plan (see passing_planes.hpp) at extreme scales: x within a few million of the
-/// smallest subnormal, y and z up to 3/4 of the largest double and beyond, so that differences of
-/// coordinates overflow. In few-bit queries the second height is the smallest subnormal, of
-/// changing sign. The plans and heights only compare coordinates and divide exact differences, so
-/// they hold at any scale at which their zones are apart: a unit in x has at least 32 subnormals.
+/// Crossing heights over a plan (see passing_planes.hpp) at extreme scales: x within a few million
+/// of the smallest subnormal, y and z up to 3/4 of the largest double and beyond, so that
+/// differences of coordinates overflow. In few-bit queries the second height is the smallest
+/// subnormal, of changing sign. The plans and heights only compare coordinates and divide exact
+/// differences, so they hold at any scale at which their zones are apart: a unit in x has at least
+/// 32 subnormals.
 KnownQuery extreme_range(Recipe& recipe) {
   static constexpr std::array<Spot, 3> spots{Spot::interior, Spot::edge, Spot::corner};
   static constexpr std::array<Offset, 3> offsets{Offset::none, Offset::outside, Offset::inside};

@@ -3,8 +3,8 @@
 /// construction in either norm.
 ///
 /// **Level.** All of the first primitive is at height p(t), all of the second at q(t), and their
-/// projections meet at all times (passing_planes.hpp). So |F| ≥ |p − q| everywhere and F = (0, 0, p − q)
-/// somewhere: the distance is |p − q| in both norms.
+/// projections meet at all times (passing_planes.hpp). So |F| ≥ |p − q| everywhere and F = (0, 0, p
+/// − q) somewhere: the distance is |p − q| in both norms.
 ///
 /// **Dominated.** One point of F is o(t) ≥ 0, componentwise, and all others are ≥ o(t) on all axes.
 /// Hence the distance is ‖o‖ in both norms. With the vertex (end) at A and a vertex (end) of the
@@ -41,7 +41,8 @@ namespace {
 using Vector3 = std::array<double, 3>;
 using IntegerVector = std::array<std::int64_t, 3>;
 
-/// The course of an offset, as factors at t=0 and t=1: powers of two or 0, so that products are exact.
+/// The course of an offset, as factors at t=0 and t=1: powers of two or 0, so that products are
+/// exact.
 struct Course {
   double start;
   double end;
@@ -78,7 +79,7 @@ Sampler draw_scene(Recipe& recipe) {
 }
 
 KnownQuery outcome(const Query& query, const Arrival& arrived) {
-  return arrived.comes ? collision(query, arrived.time, std::nullopt) : miss(query);
+  return arrived.comes ? collision(query, arrived.time, std::nullopt) : no_collision(query);
 }
 
 /// A difference of two coordinates, assigned to one of them, or half to each.
@@ -126,7 +127,8 @@ KnownQuery grazing(Recipe& recipe) {
   return level(recipe, {.start = height, .end = height});
 }
 
-/// The height comes down to d, or a neighbour of d, at t=1 only, or leaves it at t=0, or ends above.
+/// The height comes down to d, or a neighbour of d, at t=1 only, or leaves it at t=0, or ends
+/// above.
 KnownQuery endpoint(Recipe& recipe) {
   const double height = draw_neighbour(recipe.random, recipe.separation.distance);
   const Course course = draw_one(recipe.random, arrivals);
@@ -256,8 +258,8 @@ KnownQuery corner_to_corner(Recipe& recipe, Shape shape) {
   return outcome(query, arrival(nearest.offset(), recipe.separation));
 }
 
-/// Along x the second primitive reaches from left to right of the first one's nearest point, or of a
-/// parallel edge of it.
+/// Along x the second primitive reaches from left to right of the first one's nearest point, or of
+/// a parallel edge of it.
 void draw_along_x(Recipe& recipe, bool parallel, Sampler& scene, Query& query) {
   const bool vertex_face = recipe.vertex_face();
   const std::size_t second = vertex_face ? 1 : 2;

@@ -72,8 +72,8 @@ KnownQuery needle_triangle(Recipe& recipe) {
   const Line first = sampler.from_to(2, below, above);
   const Line second = sampler.within(2, centre);
   set_heights(recipe.kind, first, second, query);
-  if (steps == -1) return miss_along(query, 0, -1.0);
-  if (steps == 9) return miss_along(query, 0, 1.0);
+  if (steps == -1) return no_collision_along(query, 0, -1.0);
+  if (steps == 9) return no_collision_along(query, 0, 1.0);
   return level_outcome(recipe.kind, Offset::none, first, second, query);
 }
 

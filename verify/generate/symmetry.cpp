@@ -104,7 +104,7 @@ Symmetry draw_symmetry(Kind kind, const Query& query, const Separation& separati
   for (double& factor : symmetry.factors) factor = random.coin() ? 1.0 : -1.0;
   symmetry.reversed = draws::one_in(random, 4);
   const Symmetry isometry = symmetry;
-  if (is_contact(separation) && draws::one_in(random, 3)) multiply(random, symmetry);
+  if (is_zero(separation) && draws::one_in(random, 3)) multiply(random, symmetry);
   if (draws::one_in(random, 3)) shift(query, random, symmetry);
   return image(symmetry, query) ? symmetry : isometry;
 }

@@ -106,7 +106,7 @@ KnownQuery tangential(Recipe& recipe) {
     shift_first(recipe.kind, {0, 0, recipe.vertex_face() ? epsilon : -epsilon}, moment);
   }
   const Query query = to_query(recipe, moment);
-  if (variant == 2) return miss(query);
+  if (variant == 2) return no_collision(query);
   if (variant == 1) return collision(query, std::nullopt, std::nullopt);
   const exact::Rational toi = tangency.time.value();
   return collision(query, toi, planar_contact(recipe.kind, query, toi, {0, 1}));

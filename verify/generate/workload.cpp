@@ -151,9 +151,9 @@ mesh::MovingMesh moving_patches(const PatchOptions& options) {
           .edges = fast::edges_of(faces)};
 }
 
-data::QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
-                          const Separation& separation) {
-  data::QueryGroup group("hard set", kind);
+data::QueryGroup built_in_set(Kind kind, std::uint64_t seed, std::uint64_t count,
+                              const Separation& separation) {
+  data::QueryGroup group("built-in set", kind);
   for (const Family& family : families(separation)) {
     if (!supports(family, kind)) continue;
     group.read(

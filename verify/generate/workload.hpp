@@ -34,10 +34,10 @@ struct PatchOptions {
 /// \throws std::invalid_argument for options out of range.
 [[nodiscard]] mesh::MovingMesh moving_patches(const PatchOptions& options = {});
 
-/// All queries of one kind of the generated hard set for a separation
+/// All queries of one kind of the built-in set for a separation
 /// (verify/generate/families.hpp), `count` for each family.
-[[nodiscard]] data::QueryGroup hard_set(Kind kind, std::uint64_t seed, std::uint64_t count,
-                                        const Separation& separation = {});
+[[nodiscard]] data::QueryGroup built_in_set(Kind kind, std::uint64_t seed, std::uint64_t count,
+                                            const Separation& separation = {});
 
 struct EndContactOptions {
   /// No coordinate is greater in magnitude; positive and finite.

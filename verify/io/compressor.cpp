@@ -53,9 +53,9 @@ Decompressor::Decompressor() : context_(ZSTD_createDCtx()) {
   if (!context_) throw std::runtime_error("decompression failed: no memory");
 }
 
-std::size_t Decompressor::decompress(std::string_view& bytes, std::span<char> room) {
+std::size_t Decompressor::decompress(std::string_view& bytes, std::span<char> buffer) {
   ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
-  ZSTD_outBuffer out{room.data(), room.size(), 0};
+  ZSTD_outBuffer out{buffer.data(), buffer.size(), 0};
   const std::size_t left = ZSTD_decompressStream(as_decompression(context_.get()), &out, &in);
   if (ZSTD_isError(left) != 0) {
     throw std::runtime_error(std::string("decompression failed: ") + ZSTD_getErrorName(left));

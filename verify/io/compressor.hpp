@@ -45,7 +45,7 @@ class Decompressor {
   /// Consumes compressed bytes from the front, and writes the decompressed ones. Returns the number
   /// of bytes written; if they fill the buffer there may be more.
   /// \throws std::runtime_error with the reason if the bytes are no such stream.
-  [[nodiscard]] std::size_t decompress(std::string_view& bytes, std::span<char> room);
+  [[nodiscard]] std::size_t decompress(std::string_view& bytes, std::span<char> buffer);
 
   /// True if every frame is complete.
   [[nodiscard]] bool is_complete() const { return is_complete_; }

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// What every page of HTML that this project writes has in common: it needs nothing else, no network and
-/// no other file, and its policy (Content-Security-Policy) forbids to load anything.
+/// What every page of HTML that this project writes has in common: it needs nothing else, no
+/// network and no other file, and its policy (Content-Security-Policy) forbids to load anything.
 
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
@@ -17,8 +17,8 @@ namespace touchstone::verify::io {
 /// \param style the rules of its style sheet
 [[nodiscard]] std::string html_beginning(std::string_view title, std::string_view style);
 
-/// A script element of that text, or an element of JSON with an id, as a script reads it. In JSON no
-/// "<" ends the element, and what is no UTF-8 becomes U+FFFD.
+/// A script element of that text, or an element of JSON with an id, as a script reads it. In JSON
+/// no "<" ends the element, and what is no UTF-8 becomes U+FFFD.
 /// \pre the text of a script holds no "</script"
 [[nodiscard]] std::string script_element(std::string_view script);
 [[nodiscard]] std::string json_element(std::string_view id, const nlohmann::json& json);

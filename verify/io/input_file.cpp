@@ -137,15 +137,15 @@ bool LineReader::fill() {
   std::memmove(buffer_.get(), buffer_.get() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  const std::size_t room = std::min(chunk, buffer_size - end_);
-  const std::size_t count = read({buffer_.get() + end_, room});
+  const std::size_t space = std::min(chunk, buffer_size - end_);
+  const std::size_t count = read({buffer_.get() + end_, space});
   end_ += count;
   return count > 0;
 }
 
 /// At least one byte, or none at the end.
-std::size_t LineReader::read(std::span<char> room) {
-  if (!decompressor_) return file_.read(room);
+std::size_t LineReader::read(std::span<char> space) {
+  if (!decompressor_) return file_.read(space);
   for (;;) {
     if (compressed_left_.empty()) {
       compressed_.resize(chunk);
@@ -154,15 +154,15 @@ std::size_t LineReader::read(std::span<char> room) {
     }
     const bool is_at_end = compressed_left_.empty();
     if (is_at_end && decompressor_->is_complete()) return 0;
-    const std::size_t count = decompress(room);
+    const std::size_t count = decompress(space);
     if (count > 0) return count;
     if (is_at_end) throw DatasetError(path(), {}, "its compressed stream is cut");
   }
 }
 
-std::size_t LineReader::decompress(std::span<char> room) {
+std::size_t LineReader::decompress(std::span<char> space) {
   try {
-    return decompressor_->decompress(compressed_left_, room);
+    return decompressor_->decompress(compressed_left_, space);
   } catch (const std::runtime_error& error) {
     throw DatasetError(path(), {}, error.what());
   }

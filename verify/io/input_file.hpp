@@ -63,8 +63,8 @@ struct Line {
   bool too_long;
 };
 
-/// The lines of a text file, compressed if its name ends in ".zst" (compressor.hpp). Blank lines (nothing, or spaces and tabs) at the end of the file are
-/// no lines; all others are.
+/// The lines of a text file, compressed if its name ends in ".zst" (compressor.hpp). Blank lines
+/// (nothing, or spaces and tabs) at the end of the file are no lines; all others are.
 class LineReader {
  public:
   /// Maximum length of a line in bytes, without its line end.
@@ -94,8 +94,8 @@ class LineReader {
   Line take_line(std::size_t length, std::size_t terminator);
   void pass_over_line();
   bool fill();
-  std::size_t read(std::span<char> room);
-  std::size_t decompress(std::span<char> room);
+  std::size_t read(std::span<char> space);
+  std::size_t decompress(std::span<char> space);
 
   InputFile file_;
   std::optional<Decompressor> decompressor_;

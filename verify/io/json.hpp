@@ -12,8 +12,8 @@
 
 namespace touchstone::verify::io {
 
-/// A number as JSON, which has finite ones only: null for nothing and for NaN, and the words "Infinity"
-/// and "-Infinity".
+/// A number as JSON, which has finite ones only: null for nothing and for NaN, and the words
+/// "Infinity" and "-Infinity".
 [[nodiscard]] nlohmann::json number_to_json(std::optional<double> number);
 
 /// The reverse of number_to_json, with NaN for null.
@@ -23,7 +23,8 @@ namespace touchstone::verify::io {
 /// The text; null if it is empty.
 [[nodiscard]] nlohmann::json text_or_null(std::string_view text);
 
-/// Values may be nested so deep: JSON from outside must not exhaust the stack of what walks through it.
+/// Values may be nested so deep: JSON from outside must not exhaust the stack of what walks through
+/// it.
 inline constexpr int deepest_json = 100;
 
 /// The JSON in a file.
@@ -33,8 +34,8 @@ inline constexpr int deepest_json = 100;
 [[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path, std::size_t most_bytes,
                                        const nlohmann::json::parser_callback_t& accept = nullptr);
 
-/// JSON as it is written to a file: in ASCII, so that no name in it acts on a terminal. What is no UTF-8
-/// becomes U+FFFD.
+/// JSON as it is written to a file: in ASCII, so that no name in it acts on a terminal. What is no
+/// UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string json_document(const nlohmann::json& json);
 
 }  // namespace touchstone::verify::io

@@ -4,8 +4,9 @@
 /// Files that appear completely or not at all.
 ///
 /// The data is written to <name>.touchstone.partial-<process> beside the target, which takes the
-/// target's name when it is complete; an existing file is unchanged until then. A search for datasets
-/// does not find such a name. The next run with the same target removes the file of a killed one.
+/// target's name when it is complete; an existing file is unchanged until then. A search for
+/// datasets does not find such a name. The next run with the same target removes the file of a
+/// killed one.
 ///
 /// Devices and pipes, and all files below /dev and /proc, are written to directly; a symbolic link
 /// remains one.

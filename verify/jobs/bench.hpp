@@ -3,10 +3,10 @@
 /// \file
 /// Speed and error of solvers on one group of queries, in one run.
 ///
-/// **Speed.** As in timing.hpp. Each repetition times every solver once and, among them, a pass that
-/// only reads the queries: the physical limit. What counts is the median of the repetitions. A solver
-/// that would take longer than BenchOptions::seconds for all queries is timed on a sample. Afterwards
-/// single queries are timed.
+/// **Speed.** As in timing.hpp. Each repetition times every solver once and, among them, a pass
+/// that only reads the queries: the physical limit. What counts is the median of the repetitions. A
+/// solver that would take longer than BenchOptions::seconds for all queries is timed on a sample.
+/// Afterwards single queries are timed.
 ///
 /// **Error.** Queries are decided by the oracle and the answers to them judged. Of large groups not
 /// all queries are: an evenly spread sample, and those that any solver calls a collision (or is
@@ -38,8 +38,8 @@ struct BenchOptions {
   std::size_t repetitions = 5;
   /// A solver is timed on as many queries as take it about this long; positive.
   double seconds = 2.0;
-  /// Of a group with more queries so many are judged, and at most as many again that any solver calls
-  /// a collision; 0: none.
+  /// Of a group with more queries so many are judged, and at most as many again that any solver
+  /// calls a collision; 0: none.
   std::size_t judge = 200'000;
   /// At most so many single queries are timed; 0: none.
   std::size_t singles = 20'000;
@@ -51,9 +51,9 @@ struct BenchOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Nanoseconds that single queries take, one call each, without what the clock itself takes. Each is
-/// the shortest of up to three sweeps over the queries, so that what else happens on the machine is
-/// left out.
+/// Nanoseconds that single queries take, one call each, without what the clock itself takes. Each
+/// is the shortest of up to three sweeps over the queries, so that what else happens on the machine
+/// is left out.
 struct SingleTimes {
   std::size_t queries = 0;
   double p50 = 0.0;

@@ -17,8 +17,9 @@
 
 namespace touchstone::verify::jobs {
 
-/// The answers of a solver to the queries of one block. All below is about the first `count` of them, no more than are
-/// complete (Passes::complete). A call may reach beyond these; it then counts in part.
+/// The answers of a solver to the queries of one block. All below is about the first `count` of
+/// them, no more than are complete (Passes::complete). A call may reach beyond these; it then
+/// counts in part.
 class BlockAnswers {
  public:
   /// Asks the solver in one of the passes. Block and solver must live as long as this.

@@ -21,7 +21,7 @@ std::span<const DecidedPart> BlockTruth::parts(std::size_t count) const {
 }
 
 void BlockTruth::decide(std::size_t first, std::size_t count, DecidedPart& part) {
-  std::vector<exact::Verdict> verdicts;
+  std::vector<exact::Decision> verdicts;
   verdicts.reserve(count);
   const double start = base::thread_nanoseconds();
   for (std::size_t i = 0; i < count; ++i) {
@@ -29,7 +29,7 @@ void BlockTruth::decide(std::size_t first, std::size_t count, DecidedPart& part)
   }
   part.nanoseconds = base::thread_nanoseconds() - start;
   for (std::size_t i = 0; i < count; ++i) {
-    const exact::Verdict& verdict = verdicts[i];
+    const exact::Decision& verdict = verdicts[i];
     const std::uint64_t index = block_.indices[first + i];
     for (judge::Mismatch& mismatch :
          judge::judge_label(index, block_.labels[first + i], verdict, options_.comparison)) {
@@ -43,7 +43,7 @@ void BlockTruth::decide(std::size_t first, std::size_t count, DecidedPart& part)
   if (options_.certificates) prove(first, verdicts, part);
 }
 
-void BlockTruth::prove(std::size_t first, const std::vector<exact::Verdict>& verdicts,
+void BlockTruth::prove(std::size_t first, const std::vector<exact::Decision>& verdicts,
                        DecidedPart& part) const {
   const double start = base::thread_nanoseconds();
   for (std::size_t i = 0; i < verdicts.size(); ++i) {

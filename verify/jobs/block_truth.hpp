@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// The oracle's part of the judgement on a block of queries: verdicts, labels compared with them, and certificates.
+/// The oracle's part of the judgement on a block of queries: verdicts, labels compared with them,
+/// and certificates.
 
 #include <cstddef>
 #include <span>
@@ -49,7 +50,7 @@ class BlockTruth {
 
  private:
   void decide(std::size_t first, std::size_t count, DecidedPart& part);
-  void prove(std::size_t first, const std::vector<exact::Verdict>& verdicts,
+  void prove(std::size_t first, const std::vector<exact::Decision>& verdicts,
              DecidedPart& part) const;
 
   const Block& block_;

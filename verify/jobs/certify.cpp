@@ -12,7 +12,8 @@
 namespace touchstone::verify::jobs {
 namespace {
 
-/// The parallel stage: the truth about the queries of one block, and the judgement on labels and answers.
+/// The parallel stage: the truth about the queries of one block, and the judgement on labels and
+/// answers.
 class BlockJudgement {
  public:
   BlockJudgement(const Block& block, const CertifyOptions& options,

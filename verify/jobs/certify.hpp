@@ -36,12 +36,12 @@ struct CertifyOptions {
   exact::Rational toi_tolerance = default_toi_tolerance();
   /// Called for every query, in order, never from two threads at once.
   std::function<void(const judge::GroundTruth&)> on_truth = nullptr;
-  /// Called with the certificates of queries (exact/certificate.hpp), whole ones and in order, never
-  /// from two threads at once. Without it none are made.
+  /// Called with the certificates of queries (exact/certificate.hpp), whole ones and in order,
+  /// never from two threads at once. Without it none are made.
   std::function<void(std::string_view)> on_certificates = nullptr;
-  /// Called with each query that a solver answered wrongly (an answer that breaks its promise), or that has
-  /// a mismatch; with the answers of all solvers; in order, never from two threads at once. Of a great many
-  /// wrong answers in a row some are left out.
+  /// Called with each query that a solver answered wrongly (an answer that breaks its promise), or
+  /// that has a mismatch; with the answers of all solvers; in order, never from two threads at
+  /// once. Of a great many wrong answers in a row some are left out.
   std::function<void(judge::WrongQuery)> on_wrong = nullptr;
   /// Called now and then with the fraction of the source that is read; never from two threads at
   /// once.
@@ -98,8 +98,8 @@ struct CertifyResult {
   CertifyResult& operator+=(const CertifyResult& other);
 };
 
-/// Decides every query of the source, and judges labels (verify/judge/label.hpp) and answers (verify/judge/judge.hpp).
-/// Errors of the source end up in the result.
+/// Decides every query of the source, and judges labels (verify/judge/label.hpp) and answers
+/// (verify/judge/judge.hpp). Errors of the source end up in the result.
 [[nodiscard]] CertifyResult certify(data::QuerySource& source, const CertifyOptions& options = {});
 
 /// Sums of all counts, in a result called "total"; the mismatches and wrong answers stay with their

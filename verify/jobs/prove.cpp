@@ -49,7 +49,7 @@ class BlockProofs {
 
  private:
   void prove_part(std::size_t first, std::size_t count, ProvedPart& part) const {
-    std::vector<exact::Verdict> verdicts;
+    std::vector<exact::Decision> verdicts;
     verdicts.reserve(count);
     const double start = base::thread_nanoseconds();
     for (std::size_t i = 0; i < count; ++i) {
@@ -83,7 +83,7 @@ void count(const exact::Certificate& certificate, ProofCounts& counts) {
     default:
       ++counts.time_of_impact;
   }
-  ++counts.pieces[certificate.pieces.size()];
+  ++counts.subintervals[certificate.subintervals.size()];
 }
 
 double per_certificate(double sum, const ProofCounts& counts) {
@@ -101,7 +101,7 @@ ProofCounts& ProofCounts::operator+=(const ProofCounts& other) {
   no_collision += other.no_collision;
   collision += other.collision;
   time_of_impact += other.time_of_impact;
-  for (const auto& [size, certificates] : other.pieces) pieces[size] += certificates;
+  for (const auto& [size, certificates] : other.subintervals) subintervals[size] += certificates;
   bytes += other.bytes;
   nanoseconds += other.nanoseconds;
   beyond_limits.insert(beyond_limits.end(), other.beyond_limits.begin(), other.beyond_limits.end());
@@ -112,7 +112,7 @@ std::string certificate_label(std::string_view source, std::uint64_t index) {
   return fmt::format("{}:{}", io::printable(source), index);
 }
 
-void append_certificate(Kind kind, const Query& query, const exact::Verdict& verdict,
+void append_certificate(Kind kind, const Query& query, const exact::Decision& verdict,
                         std::string_view label, const exact::ProveOptions& options,
                         std::string& text, ProofCounts& counts) {
   try {
@@ -132,11 +132,11 @@ std::string to_text(const ProofCounts& counts) {
   claims.add({"collision", std::to_string(counts.collision)});
   claims.add({"time of impact", std::to_string(counts.time_of_impact)});
   claims.add({"total", std::to_string(counts.certificates())});
-  io::TextTable pieces({io::word_column("pieces", 15), {"certificates"}});
-  for (const auto& [size, certificates] : counts.pieces) {
-    pieces.add({std::to_string(size), std::to_string(certificates)});
+  io::TextTable subintervals({io::word_column("subintervals", 15), {"certificates"}});
+  for (const auto& [size, certificates] : counts.subintervals) {
+    subintervals.add({std::to_string(size), std::to_string(certificates)});
   }
-  std::string text = claims.text() + '\n' + pieces.text();
+  std::string text = claims.text() + '\n' + subintervals.text();
   text += fmt::format("\n{} bytes, {:.1f} bytes/certificate, {:.2f} µs/certificate\n", counts.bytes,
                       per_certificate(static_cast<double>(counts.bytes), counts),
                       per_certificate(1e-3 * counts.nanoseconds, counts));
@@ -144,15 +144,15 @@ std::string to_text(const ProofCounts& counts) {
 }
 
 nlohmann::json to_json(const ProofCounts& counts) {
-  nlohmann::json pieces = nlohmann::json::object();
-  for (const auto& [size, certificates] : counts.pieces) {
-    pieces[std::to_string(size)] = certificates;
+  nlohmann::json subintervals = nlohmann::json::object();
+  for (const auto& [size, certificates] : counts.subintervals) {
+    subintervals[std::to_string(size)] = certificates;
   }
   return {{"certificates", counts.certificates()},
           {"no_collision", counts.no_collision},
           {"collision", counts.collision},
           {"time_of_impact", counts.time_of_impact},
-          {"pieces", std::move(pieces)},
+          {"subintervals", std::move(subintervals)},
           {"bytes", counts.bytes},
           {"bytes_per_certificate", per_certificate(static_cast<double>(counts.bytes), counts)},
           {"us_per_certificate", per_certificate(1e-3 * counts.nanoseconds, counts)},

@@ -26,8 +26,8 @@ struct ProofCounts {
   std::uint64_t no_collision = 0;
   std::uint64_t collision = 0;
   std::uint64_t time_of_impact = 0;
-  /// Certificates by the number of their pieces.
-  std::map<std::size_t, std::uint64_t> pieces = {};
+  /// Certificates by the number of their subintervals.
+  std::map<std::size_t, std::uint64_t> subintervals = {};
   std::uint64_t bytes = 0;   ///< of the certificates' text
   double nanoseconds = 0.0;  ///< processor time of proving and writing, the oracle's not included
   /// The reasons for queries without certificate: it would exceed the format's limits.
@@ -42,7 +42,7 @@ struct ProofCounts {
 [[nodiscard]] std::string certificate_label(std::string_view source, std::uint64_t index);
 
 /// Appends the certificate of a query to the text, and counts it, without its time.
-void append_certificate(Kind kind, const Query& query, const exact::Verdict& verdict,
+void append_certificate(Kind kind, const Query& query, const exact::Decision& verdict,
                         std::string_view label, const exact::ProveOptions& options,
                         std::string& text, ProofCounts& counts);
 

@@ -79,10 +79,10 @@ std::optional<FirstContact> first_contact(const fast::Step& step) {
   const std::optional<fast::StepImpact> impact = step.earliest();
   if (!impact) return std::nullopt;
   // Their enclosures do not tell which is the first: the oracle does.
-  std::optional<std::pair<Pair, exact::Verdict>> first;
+  std::optional<std::pair<Pair, exact::Decision>> first;
   for (const fast::StepCollision& collision : impact->pairs) {
     const Pair pair{collision.kind, collision.pair};
-    exact::Verdict verdict =
+    exact::Decision verdict =
         exact::decide(fast::Step::kind_of(pair.kind), step.query_of(pair.kind, pair.numbers),
                       step.certified().separation);
     if (verdict.toi && (!first || *verdict.toi < *first->second.toi)) {
@@ -301,11 +301,11 @@ class StepProver {
                                                     step_.certified().separation);
       // At distance 0 both norms mean the same, and l2 has fewer features.
       if (sgn(motion.distance) == 0) motion.norm = Norm::l2;
-      const std::vector<exact::Piece> pieces = exact::separate(motion, end_);
-      if (pieces.size() > exact::piece_limit) {
-        throw exact::CertificateLimitError("a separation needs too many pieces");
+      const std::vector<exact::Subinterval> subintervals = exact::separate(motion, end_);
+      if (subintervals.size() > exact::subinterval_limit) {
+        throw exact::CertificateLimitError("a separation needs too many subintervals");
       }
-      exact::write_pieces(text, pieces);
+      exact::write_subintervals(text, subintervals);
     } catch (const exact::CertificateLimitError& error) {
       arguments.failure = fmt::format("{} {} {}: {}", kind_names.at(pair.kind_number()),
                                       pair.numbers[0], pair.numbers[1], error.what());

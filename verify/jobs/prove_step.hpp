@@ -5,7 +5,7 @@
 /// contact is between two neighbouring doubles (exact/CERTIFICATES.md, "Steps").
 ///
 /// The checker needs an argument for each pair that no axis separates until then. Most have a
-/// direction of small integers (step_places.hpp), the others the pieces of the oracle.
+/// direction of small integers (step_places.hpp), the others the subintervals of the oracle.
 
 #include <atomic>
 #include <cstdint>
@@ -41,7 +41,7 @@ struct StepProof {
   /// The claim, as in the certificate: "no_contact T" or "earliest LO HI".
   std::string claim = {};
   std::uint64_t directions = 0;    ///< pairs with a direction
-  std::uint64_t certificates = 0;  ///< pairs with pieces
+  std::uint64_t certificates = 0;  ///< pairs with subintervals
   std::uint64_t bytes = 0;
   /// The reason for a missing proof; empty if there is one.
   std::string failure = {};

@@ -22,8 +22,8 @@ struct SolveOptions {
   Separation separation = {};
   /// Cores to use; 0: all of them.
   unsigned threads = 0;
-  /// Called for every query with its index and, where more is known of it than the answer shows, its
-  /// failure (else null); in order, never from two threads at once.
+  /// Called for every query with its index and, where more is known of it than the answer shows,
+  /// its failure (else null); in order, never from two threads at once.
   std::function<void(std::uint64_t, const fast::Answer&, const judge::Failure*)> on_answer =
       nullptr;
   /// Called now and then with the fraction of the source that is done; never from two threads at
@@ -40,7 +40,8 @@ struct SolveResult {
   std::uint64_t no = 0;
   std::uint64_t undecided = 0;
   std::uint64_t errors = 0;  ///< answers that are errors, or yes with times that are not finite
-  /// Queries without an answer by their failure (verify/judge/fault.hpp): undecided ones and errors.
+  /// Queries without an answer by their failure (verify/judge/fault.hpp): undecided ones and
+  /// errors.
   std::array<std::uint64_t, judge::fault_count> failures{};
   /// Processes that the solver ended at no particular query: see solver_process.hpp.
   std::uint64_t unplaced_crashes = 0;

@@ -31,8 +31,8 @@ class Stream {
   Stream(data::QuerySource& source, const StreamOptions& options, std::size_t blocks_in_flight)
       : source_(source), options_(options), in_flight_(blocks_in_flight) {}
 
-  /// The next block, in the place of one that is finished; null at the end. Errors of the source are kept, and end the
-  /// stream.
+  /// The next block, in the place of one that is finished; null at the end. Errors of the source
+  /// are kept, and end the stream.
   Token* read() {
     Token& token = in_flight_[read_++ % in_flight_.size()];
     token = {};
@@ -82,8 +82,9 @@ class Stream {
 
   data::QuerySource& source_;
   const StreamOptions& options_;
-  /// The pipeline has pointers only: oneTBB may lose what it owns if work throws. Blocks begin and end in their order, so
-  /// of so many one after another the first is finished before the next is read.
+  /// The pipeline has pointers only: oneTBB may lose what it owns if work throws. Blocks begin and
+  /// end in their order, so of so many one after another the first is finished before the next is
+  /// read.
   std::vector<Token> in_flight_;
   std::size_t read_ = 0;
   StreamResult result_;

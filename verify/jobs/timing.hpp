@@ -3,15 +3,16 @@
 /// \file
 /// The measuring engine of benchmarks and reports: how long a solver takes for queries of a group.
 ///
-/// **Sample.** A solver is timed on an evenly spread sample of the group, which grows until it takes
-/// about as long as it may, or all that may be asked are in it. It has sixteen queries times a power of
-/// two, or all; smaller samples are part of larger ones, and the same sample is found again.
+/// **Sample.** A solver is timed on an evenly spread sample of the group, which grows until it
+/// takes about as long as it may, or all that may be asked are in it. It has sixteen queries times
+/// a power of two, or all; smaller samples are part of larger ones, and the same sample is found
+/// again.
 ///
 /// **Time.** A repetition is one call for the whole sample, or the mean of several where one takes
-/// little, and its time processor time: of the calling thread, or of the child process that it waits
-/// for. The repetitions of several solvers are to be interleaved (order_of_repetition). Single queries
-/// are timed by the wall clock, one call each; what else happens on the machine is left out by taking
-/// the shortest of up to three sweeps over them.
+/// little, and its time processor time: of the calling thread, or of the child process that it
+/// waits for. The repetitions of several solvers are to be interleaved (order_of_repetition).
+/// Single queries are timed by the wall clock, one call each; what else happens on the machine is
+/// left out by taking the shortest of up to three sweeps over them.
 
 #include <atomic>
 #include <cstddef>
@@ -94,12 +95,13 @@ class TimedSolver {
   void choose_sample(const SampleLimits& limits);
   /// Times the sample once more.
   void repeat();
-  /// Nanoseconds of each of `count` queries that are evenly spread over the sample, each solved alone,
-  /// without what the clock itself takes. After `seconds` no further sweep is begun. Nothing once *stop
-  /// is true (it may be null).
+  /// Nanoseconds of each of `count` queries that are evenly spread over the sample, each solved
+  /// alone, without what the clock itself takes. After `seconds` no further sweep is begun. Nothing
+  /// once *stop is true (it may be null).
   [[nodiscard]] std::optional<std::vector<double>> time_singles(
       std::size_t count, double seconds, const std::atomic<bool>* stop) const;
-  /// Judges the latest answers to those queries whose truth is given, by their positions in the group.
+  /// Judges the latest answers to those queries whose truth is given, by their positions in the
+  /// group.
   /// \pre the truths are in the order of their positions.
   [[nodiscard]] judge::Judgement judge(std::span<const judge::GroundTruth> truths) const;
 
@@ -147,8 +149,8 @@ template <class Work>
   return (base::thread_nanoseconds() - start) / static_cast<double>(calls);
 }
 
-/// The order of measurements in a repetition: a rotation of 0, …, `items`−1, so that no item always runs
-/// behind the same other one.
+/// The order of measurements in a repetition: a rotation of 0, …, `items`−1, so that no item always
+/// runs behind the same other one.
 [[nodiscard]] std::vector<std::size_t> order_of_repetition(std::size_t items,
                                                            std::size_t repetition);
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The faults of a solver's answers: the one enumeration by which jobs, tables, pictures and printed programs tell
-/// them apart. A failure is a fault too: an answer that is missing.
+/// The faults of a solver's answers: the one enumeration by which jobs, tables, pictures and
+/// printed programs tell them apart. A failure is a fault too: an answer that is missing.
 
 #include <array>
 #include <cstddef>
@@ -31,7 +31,8 @@ enum class Fault : std::uint8_t {
   hang,        ///< it took longer than the limit
   undecided,   ///< it answered undecided by itself
   // Claims of a yes, or of two answers together.
-  beyond_tolerance,  ///< yes, but they never come as near as its tolerance claims (claimed_distance.hpp)
+  beyond_tolerance,  ///< yes, but they never come as near as its tolerance claims
+                     ///< (claimed_distance.hpp)
   asymmetry,         ///< another answer than to an exact image of the query, and wrong
 };
 inline constexpr std::size_t fault_count = 13;
@@ -61,8 +62,8 @@ inline constexpr std::span all_failures = std::span(all_faults).subspan<4, 7>();
 /// The fault of that name, if there is one.
 [[nodiscard]] std::optional<Fault> fault_from_name(std::string_view name);
 
-/// The text, for tables: "false negative", "false positive", "late toi", "early toi_upper", "beyond tolerance",
-/// "asymmetry", "hang", "undecided", and "error" for every error.
+/// The text, for tables: "false negative", "false positive", "late toi", "early toi_upper", "beyond
+/// tolerance", "asymmetry", "hang", "undecided", and "error" for every error.
 [[nodiscard]] std::string_view to_text(Fault fault);
 
 /// The first fault of that text, if there is one.
@@ -106,8 +107,8 @@ struct QueryFailure {
 /// The failure that an answer itself shows: no_verdict, not_finite or undecided.
 [[nodiscard]] std::optional<Failure> failure_of(const fast::Answer& answer);
 
-/// The verdict that a query with that failure counts as: undecided, a conservative yes, if the solver was
-/// undecided or too slow, else error.
+/// The verdict that a query with that failure counts as: undecided, a conservative yes, if the
+/// solver was undecided or too slow, else error.
 [[nodiscard]] fast::Verdict verdict_of(Fault failure);
 
 /// "no", "yes", "undecided" or "error".

@@ -4,7 +4,7 @@
 
 namespace touchstone::verify::judge {
 
-GroundTruth truth_of(std::uint64_t index, const exact::Verdict& verdict) {
+GroundTruth truth_of(std::uint64_t index, const exact::Decision& verdict) {
   GroundTruth truth{.index = index, .collides = verdict.collides(), .toi = std::nullopt};
   if (truth.collides) truth.toi = verdict.toi->enclosure();
   return truth;

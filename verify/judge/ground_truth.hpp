@@ -23,7 +23,7 @@ struct GroundTruth {
 };
 
 /// The truth of query number `index` of its source from the oracle's verdict.
-[[nodiscard]] GroundTruth truth_of(std::uint64_t index, const exact::Verdict& verdict);
+[[nodiscard]] GroundTruth truth_of(std::uint64_t index, const exact::Decision& verdict);
 
 /// "no collision", "collision at 0.5" or "collision after 0.1 and before 0.2", both exclusive, so
 /// that a time of impact that differs from the exact one by less than a spacing of doubles is

@@ -24,9 +24,9 @@ class GroundTruthCache {
   /// The group must live as long as this. \param threads cores to use; 0: all of them
   explicit GroundTruthCache(const data::QueryGroup& group, unsigned threads = 0);
 
-  /// The truth of the queries at these positions, in their order; `index` is the position. Those that
-  /// are not known yet are decided; once *stop is true (it may be null) no more of them, and then only
-  /// those before the first unknown one are returned.
+  /// The truth of the queries at these positions, in their order; `index` is the position. Those
+  /// that are not known yet are decided; once *stop is true (it may be null) no more of them, and
+  /// then only those before the first unknown one are returned.
   /// \param on_progress called now and then with the fraction that is done, from this thread; may be null
   /// \throws std::invalid_argument if a coordinate is not finite, or the separation not valid;
   /// std::out_of_range for a position beyond the group.

@@ -1,17 +1,19 @@
 #pragma once
 
 /// \file
-/// The judge: the one place where an answer is found right or wrong. Every job, page and printed program has its
-/// faults from here. Labels are judged beside it (label.hpp).
+/// The judge: the one place where an answer is found right or wrong. Every job, page and printed
+/// program has its faults from here. Labels are judged beside it (label.hpp).
 ///
 /// - A yes and an undecided both mean "take it for a collision"; so an undecided is never a false
 ///   negative, and one about a query that does not collide is a false positive, as a yes is.
 /// - Truth is about the separation that was asked for, in the norm that was asked for.
-/// - A failure that is an error is an answer to nothing, and has no other fault; a hang counts as undecided.
+/// - A failure that is an error is an answer to nothing, and has no other fault; a hang counts as
+/// undecided.
 /// - Times of impact are judged for a yes to a query that does collide, and only where the solver
 ///   gives them. All comparisons are exact: the truth is enclosed by neighbouring doubles, or is
 ///   one, so a double t is above it iff t > lower, and below it iff t < upper.
-/// - The tolerance is judged for a yes to a query that does not collide: what collides is near enough for any claim.
+/// - The tolerance is judged for a yes to a query that does not collide: what collides is near
+/// enough for any claim.
 
 #include <optional>
 #include <vector>
@@ -40,27 +42,29 @@ struct Standard {
 /// The standard of a method that makes this promise of itself.
 [[nodiscard]] Standard standard_of(const fast::MethodInfo& info);
 
-/// All faults of an answer, a failure first; none if it is right. Some break no promise: see breaks().
+/// All faults of an answer, a failure first; none if it is right. Some break no promise: see
+/// breaks().
 /// \param truth of the query at the separation. \pre truth.toi is there if it collides
 /// \param failure why there is no answer; null: as the answer shows (failure_of)
 [[nodiscard]] std::vector<Fault> judge(const Question& question, const GroundTruth& truth,
                                        const fast::Answer& answer, const Standard& standard,
                                        const Failure* failure = nullptr);
 
-/// All of these but beyond_tolerance: the faults of verdict and times, for which the truth is enough. The truth may
-/// also be known less closely; then faults of times may be seen where there are none.
+/// All of these but beyond_tolerance: the faults of verdict and times, for which the truth is
+/// enough. The truth may also be known less closely; then faults of times may be seen where there
+/// are none.
 [[nodiscard]] std::vector<Fault> judge_verdict(const GroundTruth& truth, const fast::Answer& answer,
                                                const Failure* failure = nullptr);
 
-/// The separation within which a yes claims that the primitives come, if it claims one: beyond it, the answer is
-/// beyond_tolerance.
+/// The separation within which a yes claims that the primitives come, if it claims one: beyond it,
+/// the answer is beyond_tolerance.
 [[nodiscard]] std::optional<Separation> claim_of(const Question& question,
                                                  const fast::Answer& answer,
                                                  const Standard& standard);
 
 /// Does that fault break the promise? Every solver, whatever it promises, is to be free of false
-/// negatives, of times of impact that exclude the true one, of errors, and of a yes that claims more
-/// nearness than there is; one that promises exactness also of false positives.
+/// negatives, of times of impact that exclude the true one, of errors, and of a yes that claims
+/// more nearness than there is; one that promises exactness also of false positives.
 [[nodiscard]] bool breaks(Fault fault, fast::Promise promise);
 
 }  // namespace touchstone::verify::judge

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// Judgements added up: how often a solver's answers to some queries have each fault (judge.hpp), which ones they are,
-/// and how far off the times of impact are.
+/// Judgements added up: how often a solver's answers to some queries have each fault (judge.hpp),
+/// which ones they are, and how far off the times of impact are.
 
 #include <array>
 #include <cstddef>
@@ -87,7 +87,8 @@ struct Judgement {
   std::uint64_t missing = 0;  ///< not answered (in recorded answers), and not in `queries`
   std::optional<std::uint64_t> first_missing;       ///< index of the first of these
   std::array<std::uint64_t, fault_count> faults{};  ///< answers with each fault
-  /// Processes that the method ended at no particular query (solver_process.hpp): errors, but in no count of faults.
+  /// Processes that the method ended at no particular query (solver_process.hpp): errors, but in no
+  /// count of faults.
   std::uint64_t unplaced_crashes = 0;
   std::uint64_t checks = 0;  ///< steps of the method, summed over the queries, where it counts them
   double nanoseconds = 0.0;  ///< processor time of the method, summed over the queries

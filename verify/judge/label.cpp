@@ -23,8 +23,8 @@ std::string decimal_text(const exact::AlgebraicNumber& number, unsigned digits) 
   return data::to_decimal(refined.interval().lower, digits);
 }
 
-/// A recorded time of impact and the true one, which it is not: so many digits that the texts differ, from
-/// 45 on, as published times have them.
+/// A recorded time of impact and the true one, which it is not: so many digits that the texts
+/// differ, from 45 on, as published times have them.
 Mismatch toi_mismatch(std::uint64_t index, const exact::Rational& recorded,
                       const exact::AlgebraicNumber& toi) {
   Mismatch mismatch{Mismatch::Of::toi, index, {}, {}};
@@ -60,7 +60,7 @@ std::string to_text(const Mismatch& mismatch) {
 }
 
 std::vector<Mismatch> judge_label(std::uint64_t index, const Label& label,
-                                  const exact::Verdict& truth, const LabelComparison& comparison) {
+                                  const exact::Decision& truth, const LabelComparison& comparison) {
   std::vector<Mismatch> mismatches;
   const std::string true_verdict = verdict_text(truth.collides());
   if (comparison.uses_verdict(label) && *label.collides != truth.collides()) {

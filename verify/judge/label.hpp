@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// Where a label is judged: what a source records of a query, its verdict and its time of impact, against the truth.
+/// Where a label is judged: what a source records of a query, its verdict and its time of impact,
+/// against the truth.
 ///
 /// What is recorded about another separation is compared as far as something follows from it
 /// (separation_inference.hpp): collisions, which must be no later.
@@ -48,10 +49,10 @@ struct Mismatch {
 /// "recorded label: no collision, the truth is collision".
 [[nodiscard]] std::string to_text(const Mismatch& mismatch);
 
-/// Judges the label of query number `index`: verdict first, then time. A time of impact of a query that does not collide
-/// is a mismatch; a collision without one is not.
+/// Judges the label of query number `index`: verdict first, then time. A time of impact of a query
+/// that does not collide is a mismatch; a collision without one is not.
 [[nodiscard]] std::vector<Mismatch> judge_label(std::uint64_t index, const Label& label,
-                                                const exact::Verdict& truth,
+                                                const exact::Decision& truth,
                                                 const LabelComparison& comparison);
 
 }  // namespace touchstone::verify::judge

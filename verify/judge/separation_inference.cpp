@@ -8,19 +8,19 @@
 namespace touchstone::verify::judge {
 
 bool same_separation(const Separation& a, const Separation& b) {
-  return a == b || (is_contact(a) && is_contact(b));
+  return a == b || (is_zero(a) && is_zero(b));
 }
 
 Inference infer(const Separation& claimed, const Separation& asked) {
   if (same_separation(claimed, asked)) return Inference::all;
   const bool norm_allows =
-      is_contact(claimed) || claimed.norm == asked.norm || claimed.norm == Norm::l2;
+      is_zero(claimed) || claimed.norm == asked.norm || claimed.norm == Norm::l2;
   const bool follows = norm_allows && claimed.distance <= asked.distance;
   return follows ? Inference::collisions : Inference::nothing;
 }
 
 std::optional<Separation> common_separation(std::span<const Separation> all) {
-  if (all.empty() || is_contact(all.front())) return std::nullopt;
+  if (all.empty() || is_zero(all.front())) return std::nullopt;
   const bool is_one = std::ranges::all_of(
       all, [&](const Separation& other) { return same_separation(other, all.front()); });
   return is_one ? std::optional(all.front()) : std::nullopt;

@@ -3,10 +3,11 @@
 /// \file
 /// A mesh over time: frames with the same elements and other positions of the vertices.
 ///
-/// They come from mesh files (.ply, .obj; a file each, or all of a folder in the order of the numbers in their names), or
-/// from one .npz archive as NumPy's `savez` and `savez_compressed` write it: `V`, float32 or float64 of shape (T, n, 3);
-/// `F`, faces, int32 or int64 of shape (m, 3); `E`, edges of their own, of shape (k, 2); and `P`, points, of shape (p,).
-/// F, E and P may be missing. Of `V` one frame is in memory at a time.
+/// They come from mesh files (.ply, .obj; a file each, or all of a folder in the order of the
+/// numbers in their names), or from one .npz archive as NumPy's `savez` and `savez_compressed`
+/// write it: `V`, float32 or float64 of shape (T, n, 3); `F`, faces, int32 or int64 of shape (m,
+/// 3); `E`, edges of their own, of shape (k, 2); and `P`, points, of shape (p,). F, E and P may be
+/// missing. Of `V` one frame is in memory at a time.
 
 #include <cstddef>
 #include <filesystem>
@@ -35,7 +36,8 @@ class Frames {
   [[nodiscard]] virtual std::size_t count() const = 0;
   /// What a user calls frame `i`: its file's name without a folder, or its number.
   [[nodiscard]] virtual std::string name(std::size_t i) const = 0;
-  /// The vertices of the next frame, the first one first. \pre it was called less than count() times.
+  /// The vertices of the next frame, the first one first. \pre it was called less than count()
+  /// times.
   /// \throws io::DatasetError if it cannot be read, or its mesh is another.
   [[nodiscard]] virtual Vertices next() = 0;
 };
@@ -45,8 +47,8 @@ class Frames {
 [[nodiscard]] std::vector<std::filesystem::path> frame_files(
     std::span<const std::filesystem::path> paths);
 
-/// Opens mesh files, or one archive: the result of frame_files. \throws io::DatasetError naming what
-/// is in error.
+/// Opens mesh files, or one archive: the result of frame_files. \throws io::DatasetError naming
+/// what is in error.
 [[nodiscard]] std::unique_ptr<Frames> open_frames(std::vector<std::filesystem::path> files);
 
 }  // namespace touchstone::verify::mesh

@@ -20,8 +20,8 @@ namespace touchstone::verify::mesh {
 /// lines.
 [[nodiscard]] Groups read_groups(const std::filesystem::path& path, std::size_t vertices);
 
-/// The groups' numbers of pairs of names. \throws std::invalid_argument naming one that no group has, and those that
-/// there are.
+/// The groups' numbers of pairs of names. \throws std::invalid_argument naming one that no group
+/// has, and those that there are.
 [[nodiscard]] std::vector<std::array<std::int32_t, 2>> numbers_of(
     const Groups& groups, std::span<const std::pair<std::string, std::string>> names);
 

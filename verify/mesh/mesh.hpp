@@ -39,8 +39,8 @@ struct Mesh {
   /// Those of the faces and those that the file names by themselves, each once: ordered and
   /// numbered as fast::edges_of does.
   std::vector<fast::Edge> edges;
-  /// The vertices that the file names as points by themselves, or by an edge from a vertex to itself:
-  /// ascending, each once.
+  /// The vertices that the file names as points by themselves, or by an edge from a vertex to
+  /// itself: ascending, each once.
   std::vector<std::int32_t> points;
   Groups groups;
 };

@@ -19,9 +19,8 @@ MovingMesh read_step(const std::filesystem::path& before, const std::filesystem:
 }
 
 std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind, int max_threads,
-                                             double min_separation) {
-  const fast::BroadPhaseOptions options{.min_separation = min_separation,
-                                        .max_threads = max_threads};
+                                             const Separation& separation) {
+  const fast::BroadPhaseOptions options{.separation = separation, .max_threads = max_threads};
   return kind == Kind::vertex_face
              ? fast::vertex_face_candidates(mesh.vertices, mesh.faces, options)
              : fast::edge_edge_candidates(mesh.vertices, mesh.edges, options);

@@ -32,7 +32,7 @@ struct MovingMesh {
 /// enough for either norm. \param max_threads 0: all cores
 [[nodiscard]] std::vector<fast::IndexPair> find_candidates(const MovingMesh& mesh, Kind kind,
                                                            int max_threads = 0,
-                                                           double min_separation = 0.0);
+                                                           const Separation& separation = {});
 
 /// Pairs of a kind with the arrays of their indices; refers to the mesh and to the pairs.
 [[nodiscard]] fast::Candidates candidates_of(const MovingMesh& mesh, Kind kind,

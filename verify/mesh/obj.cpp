@@ -20,7 +20,8 @@ namespace {
 constexpr std::int32_t no_group = -1;
 constexpr std::size_t most_vertices = std::numeric_limits<std::int32_t>::max();
 
-/// Reads line by line. A corner may name a vertex that comes later, so these are checked at the end.
+/// Reads line by line. A corner may name a vertex that comes later, so these are checked at the
+/// end.
 class ObjReader {
  public:
   explicit ObjReader(const std::filesystem::path& path) : path_(path), lines_(path) {}

@@ -389,7 +389,8 @@ class BodyReader {
     if (!is_whole(type)) input_.fail(element.name + ": " + name + " must be of a whole type");
   }
 
-  /// Calls use() for each element, with its values in row_ and those of the wanted list in corners_.
+  /// Calls use() for each element, with its values in row_ and those of the wanted list in
+  /// corners_.
   template <class Use>
   void for_each(const Element& element, std::size_t wanted, const Use& use) {
     if (element.properties.empty()) return;

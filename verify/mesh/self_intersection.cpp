@@ -40,7 +40,8 @@ bool meets(const Point& a, const Point& b, const std::array<Point, 3>& face) {
 bool enters(const Point& v, const Point& q, const Point& r, const Point& w) {
   if (w == v) return false;
   if (CGAL::collinear(v, q, r)) {
-    // The triangle is a segment through v, or v itself: they overlap iff w is on the side of one of its ends.
+    // The triangle is a segment through v, or v itself: they overlap iff w is on the side of one of
+    // its ends.
     const auto overlaps = [&](const Point& end) {
       return end != v && CGAL::collinear(v, w, end) &&
              !CGAL::collinear_are_strictly_ordered_along_line(w, v, end);
@@ -79,8 +80,8 @@ class Search {
   }
 
  private:
-  /// Calls use(pairs) for all pairs whose boxes overlap, some at a time, in several threads at once: the candidates of a
-  /// step in which faces rest, and a vertex moves along each edge.
+  /// Calls use(pairs) for all pairs whose boxes overlap, some at a time, in several threads at
+  /// once: the candidates of a step in which faces rest, and a vertex moves along each edge.
   template <class Use>
   void for_each_overlap(const Use& use) const {
     const auto resting = static_cast<std::int32_t>(vertices_.rows());
@@ -102,7 +103,8 @@ class Search {
     const fast::Step step(before, after, elements,
                           {.groups = {.of_vertices = groups, .apart = apart}});
     step.candidates([&](const fast::StepCandidates& candidates) {
-      // A face that names one vertex three times makes this one a point, which the moving ones are too.
+      // A face that names one vertex three times makes this one a point, which the moving ones are
+      // too.
       if (candidates.kind != fast::PairKind::vertex_face) return;
       std::vector<Piercing> pairs;
       for (const auto& [vertex, face] : candidates.pairs) {

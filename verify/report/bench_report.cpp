@@ -64,7 +64,7 @@ std::string stages_text(const jobs::SolverResult& solver) {
 
 /// ", minimum separation 1e-08 (l2)"; nothing at distance 0.
 std::string separation_text(const Separation& separation) {
-  if (is_contact(separation)) return "";
+  if (is_zero(separation)) return "";
   return ", minimum separation " + judge::to_text(separation);
 }
 
@@ -249,7 +249,7 @@ nlohmann::json json_of(const jobs::BenchResult& group) {
                       {"interrupted", group.interrupted},
                       {"memory_pass", json_of(group.memory_pass)},
                       {"methods", std::move(methods)}};
-  if (!is_contact(group.separation)) json["separation"] = judge::to_json(group.separation);
+  if (!is_zero(group.separation)) json["separation"] = judge::to_json(group.separation);
   return json;
 }
 
@@ -286,7 +286,7 @@ nlohmann::json json_of(const std::optional<jobs::StepResult>& step) {
                       {"interrupted", step->interrupted},
                       {"memory_pass_s", step->memory_pass.processor},
                       {"times", std::move(times)}};
-  if (!is_contact(step->separation)) json["separation"] = judge::to_json(step->separation);
+  if (!is_zero(step->separation)) json["separation"] = judge::to_json(step->separation);
   return json;
 }
 

@@ -37,21 +37,22 @@ struct BenchReport {
 /// `queries`, `judged`, `collisions` (of those judged), `interrupted`, `memory_pass` and `methods`;
 /// `step`, null if none was measured.
 ///
-/// Times are objects of `ns_per_query` (the median), `min_ns_per_query` and `repetitions`, the first
-/// two null if there was no repetition. Each of `methods` has `name`, `promise`, `queries` (timed),
-/// `time`, `passes` (median time by that of the memory pass, or null), `single` (null, or `queries`,
-/// `p50_ns`, `p99_ns`, `max_ns`), `stages` (null, or the number of queries by the stage's name),
-/// `judged`, the fields of a judgement (judgement_report.hpp), `broke_promise`, and `wrong_answers`, a
-/// list of `source`, `index`, `fault`, `answer` and `truth`.
+/// Times are objects of `ns_per_query` (the median), `min_ns_per_query` and `repetitions`, the
+/// first two null if there was no repetition. Each of `methods` has `name`, `promise`, `queries`
+/// (timed), `time`, `passes` (median time by that of the memory pass, or null), `single` (null, or
+/// `queries`, `p50_ns`, `p99_ns`, `max_ns`), `stages` (null, or the number of queries by the
+/// stage's name), `judged`, the fields of a judgement (judgement_report.hpp), `broke_promise`, and
+/// `wrong_answers`, a list of `source`, `index`, `fault`, `answer` and `truth`.
 ///
 /// With a separation, groups and step have it as `separation`, an object of `min_separation` and
 /// `norm`.
 ///
 /// `step` has `name`, `vertices`, `edges`, `faces`, `vertex_face` and `edge_edge` (`candidates` and
 /// `collisions` each), `earliest` (null, or `toi_lower` and `toi_upper`), `earliest_agrees`,
-/// `interrupted`, `memory_pass_s` (the time of reading the mesh once), and `times`, a list of `threads` and of
-/// seconds: `trees_s`, `candidates_s`, `collisions_s` and `earliest_s` (jobs::StepTimes) are wall time,
-/// `trees_processor_s` and so on processor time of all threads together.
+/// `interrupted`, `memory_pass_s` (the time of reading the mesh once), and `times`, a list of
+/// `threads` and of seconds: `trees_s`, `candidates_s`, `collisions_s` and `earliest_s`
+/// (jobs::StepTimes) are wall time, `trees_processor_s` and so on processor time of all threads
+/// together.
 [[nodiscard]] nlohmann::json to_json(const BenchReport& report);
 
 }  // namespace touchstone::verify::report

@@ -42,7 +42,7 @@ std::string_view name_of(judge::Mismatch::Of of) {
 
 bool has_separation(const std::vector<jobs::CertifyResult>& results) {
   return !std::ranges::all_of(
-      results, [](const jobs::CertifyResult& result) { return is_contact(result.separation); });
+      results, [](const jobs::CertifyResult& result) { return is_zero(result.separation); });
 }
 
 /// The separation of all sources, if it is one, and more than contact.
@@ -95,8 +95,8 @@ nlohmann::json counts(const jobs::CertifyResult& result) {
           {"interrupted", result.interrupted}};
 }
 
-/// Does the table of methods have a column of tolerances? It has if there is a separation, or a method
-/// claims too much.
+/// Does the table of methods have a column of tolerances? It has if there is a separation, or a
+/// method claims too much.
 enum class Tolerances : std::uint8_t { hidden, shown };
 
 io::TextRow method_row(const std::string& name, std::string_view kind,
@@ -212,7 +212,7 @@ std::string to_text(const std::vector<jobs::CertifyResult>& results) {
                        {"queries", 9},
                        {"collisions", 10},
                        {"labels", 9},
-                       {"mislabelled", 11},
+                       {"wrong labels", 11},
                        {"tois", 9},
                        {"wrong tois", 10},
                        {"µs/query", 8}});
@@ -246,7 +246,7 @@ nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results) {
     nlohmann::json file = counts(result);
     file["file"] = result.name;
     file["kind"] = kind_text(result);
-    if (!is_contact(result.separation)) {
+    if (!is_zero(result.separation)) {
       file["separation"] = judge::to_json(result.separation);
       file["compared"] = name_of(result.compared);
     }

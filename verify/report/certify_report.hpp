@@ -15,34 +15,35 @@ namespace touchstone::verify::report {
 /// says what was compared if the recorded answers are about another one. Then
 /// a line for each source and one for the total, then each mismatch with source, index and both
 /// answers. Where solvers were judged follow a line for each with its total, below it a line
-/// for each source where it broke its promise, the number of its failures of each kind (if there are
-/// any but undecided answers of its own), and the answers that broke its promise: the first twenty of
-/// a fault and source, and how many more there are.
+/// for each source where it broke its promise, the number of its failures of each kind (if there
+/// are any but undecided answers of its own), and the answers that broke its promise: the first
+/// twenty of a fault and source, and how many more there are.
 [[nodiscard]] std::string to_text(const std::vector<jobs::CertifyResult>& results);
 
 /// The total's fields `queries`, `collisions`, `labels`, `label_mismatches`, `tois`,
 /// `toi_mismatches`, `us_per_query`, `skipped`, `rounded`, `errors` (that ended the reading of a
-/// file), `interrupted`; `mismatches`, a list of objects with `file`, `index`, `kind`, `of` ("label"
-/// or "toi"), `recorded` and `truth`; `files`, a list with the total's fields a source, its name as
-/// `file`, its `kind`, and `error` if one ended the reading.
+/// file), `interrupted`; `mismatches`, a list of objects with `file`, `index`, `kind`, `of`
+/// ("label" or "toi"), `recorded` and `truth`; `files`, a list with the total's fields a source,
+/// its name as `file`, its `kind`, and `error` if one ended the reading.
 ///
-/// With a separation, the total (if it is that of all sources) and each file have it as `separation`,
-/// an object of `min_separation` and `norm`, and each file has `compared`: "all", "collisions"
-/// (recorded about another separation, so only these are compared) or "nothing".
+/// With a separation, the total (if it is that of all sources) and each file have it as
+/// `separation`, an object of `min_separation` and `norm`, and each file has `compared`: "all",
+/// "collisions" (recorded about another separation, so only these are compared) or "nothing".
 ///
 /// `methods`, in the total and in each file, is a list of `name`, `promise` (what it was held to:
 /// "none", "conservative", "exact"), `queries`, the fields of a judgement (judgement_report.hpp),
-/// `missing`, `failures` (an object of the number of queries without an answer by the name of the failure),
-/// `unplaced_crashes` (errors at no particular query), `beyond_tolerance` and `ns_per_query` (null where
-/// no time was taken). In the total each has `wrong_answers`, a list of `file`, `index`, `kind`, `fault`,
-/// `answer` and `truth`, of each source and fault the first Judgement::most_kept.
+/// `missing`, `failures` (an object of the number of queries without an answer by the name of the
+/// failure), `unplaced_crashes` (errors at no particular query), `beyond_tolerance` and
+/// `ns_per_query` (null where no time was taken). In the total each has `wrong_answers`, a list of
+/// `file`, `index`, `kind`, `fault`, `answer` and `truth`, of each source and fault the first
+/// Judgement::most_kept.
 [[nodiscard]] nlohmann::json to_json(const std::vector<jobs::CertifyResult>& results);
 
 /// The header of the truth as CSV: `file,index,kind,collides,toi_lower,toi_upper`.
 [[nodiscard]] std::string truth_header();
 
-/// A row of it: collides as 0 or 1, the ends of the enclosure (neighbouring doubles or equal) with as
-/// many digits as give the same double again, empty without collision. The file's name is quoted
+/// A row of it: collides as 0 or 1, the ends of the enclosure (neighbouring doubles or equal) with
+/// as many digits as give the same double again, empty without collision. The file's name is quoted
 /// where CSV demands it.
 [[nodiscard]] std::string truth_row(const std::string& file, Kind kind,
                                     const judge::GroundTruth& truth);

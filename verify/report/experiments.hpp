@@ -4,18 +4,18 @@
 /// Which experiments a report holds, and their run over groups of queries.
 ///
 /// - *field*: every method as it is meant to be used, without separation (the paper's table 1).
-/// - *separation*: methods that measure a distance, at d from 1e-100 to 1, each in its own norms and
-///   judged in them (tables 2, 3).
+/// - *separation*: methods that measure a distance, at d from 1e-100 to 1, each in its own norms
+///   and judged in them (tables 2, 3).
 /// - *tolerance*: methods that are driven by a tolerance, at δ from 1e-8 to 1.
 /// - *checks*: Tight-Inclusion with m_I from 10 to 1,000,000.
-/// - *filter*: Tight-Inclusion with its three filters, the derived, the published and the released one,
-///   if more than one of them takes part: what each misses of the built-in families, and of contacts at
-///   t=1 (verify/generate/workload.hpp) at scales from 0.001 to 1000. It has queries of its own, of the kinds of
-///   the groups.
+/// - *filter*: Tight-Inclusion with its three filters, the derived, the published and the released
+///   one, if more than one of them takes part: what each misses of the built-in families, and of
+///   contacts at t=1 (verify/generate/workload.hpp) at scales from 0.001 to 1000. It has queries of
+///   its own, of the kinds of the groups.
 /// - *stability*: every method on the hard queries of verify/stability/.
 ///
-/// Which method takes part in which experiment, its fast::MethodInfo says. Variants of a method take
-/// part in *field*, *filter* and *stability*.
+/// Which method takes part in which experiment, its fast::MethodInfo says. Variants of a method
+/// take part in *field*, *filter* and *stability*.
 
 #include <atomic>
 #include <cstddef>
@@ -59,9 +59,9 @@ struct ExperimentOptions {
   std::vector<const solvers::Solver*> recorded = {};
   /// Those to do; all if empty.
   std::vector<Experiment> experiments = {};
-  /// Of a group so many queries are asked at most, an evenly spread sample; positive. A quarter of them
-  /// over the separation, where the oracle takes longest, fourteen times. In the experiment on filters it
-  /// bounds those of a family (at most 500) and of a scale (at most 10,000).
+  /// Of a group so many queries are asked at most, an evenly spread sample; positive. A quarter of
+  /// them over the separation, where the oracle takes longest, fourteen times. In the experiment on
+  /// filters it bounds those of a family (at most 500) and of a scale (at most 10,000).
   std::size_t count = 2000;
   /// Of a method on a group in a trial: MeasureOptions::seconds.
   double seconds = 0.2;

@@ -75,12 +75,12 @@ using MethodSlots = std::map<std::string, int>;
 FigureSeries& series_of(FigurePanel& panel, const std::string& name, const std::string& role,
                         int slot);
 
-/// Which of the points are on the Pareto front, by ascending x: no other point is at least as small in
-/// both coordinates and smaller in one. Of equal points all are.
+/// Which of the points are on the Pareto front, by ascending x: no other point is at least as small
+/// in both coordinates and smaller in one. Of equal points all are.
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const FigurePoint> points);
 
-/// The figures as page.js reads them, without their tables; numbers are as number_to_json (io/json.hpp) writes
-/// them.
+/// The figures as page.js reads them, without their tables; numbers are as number_to_json
+/// (io/json.hpp) writes them.
 [[nodiscard]] nlohmann::json to_json(const std::vector<Figure>& figures);
 
 }  // namespace touchstone::verify::report

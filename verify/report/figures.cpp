@@ -235,9 +235,9 @@ class Builder {
     for (const auto& [place, chosen] : by_place(Experiment::field)) {
       FigurePanel panel{.title = place, .caption = {}, .series = {}, .front = {}};
       for (const Measurement* m : chosen) {
-        if (m->hit_times.count() + m->miss_times.count() == 0) continue;
-        add_histogram(*m, m->miss_times, "misses", panel, figure.data);
-        add_histogram(*m, m->hit_times, "hits", panel, figure.data);
+        if (m->collision_times.count() + m->no_collision_times.count() == 0) continue;
+        add_histogram(*m, m->no_collision_times, "no_collisions", panel, figure.data);
+        add_histogram(*m, m->collision_times, "collisions", panel, figure.data);
       }
       figure.panels.push_back(std::move(panel));
     }
@@ -252,7 +252,7 @@ class Builder {
       const double from = TimeHistogram::lower_end(bin);
       series.points.push_back({from, static_cast<double>(count) / all, {}, false});
       data.rows.push_back({m.group, std::string(to_string(m.kind)), m.method,
-                           role == "hits" ? "1" : "0", fmt::format("{:.6g}", from),
+                           role == "collisions" ? "1" : "0", fmt::format("{:.6g}", from),
                            fmt::format("{:.6g}", TimeHistogram::lower_end(bin + 1)),
                            fmt::format("{}", count)});
     }

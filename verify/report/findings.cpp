@@ -60,7 +60,8 @@ std::vector<Sum> sums_of(const Measurements& measurements) {
   return sums;
 }
 
-/// The descriptions of the listed items, separated by commas; items that are not in the list are left out.
+/// The descriptions of the listed items, separated by commas; items that are not in the list are
+/// left out.
 template <class List, class Say>
 std::string list(const List& all, const Say& say) {
   std::string text;

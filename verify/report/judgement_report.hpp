@@ -26,8 +26,8 @@ namespace touchstone::verify::report {
 
 // ---- Text ---------------------------------------------------------------------------------------
 
-/// The columns of false negatives, false positives, late and early times of impact, undecided answers
-/// and errors.
+/// The columns of false negatives, false positives, late and early times of impact, undecided
+/// answers and errors.
 [[nodiscard]] std::vector<io::TextColumn> fault_columns();
 /// Their cells.
 [[nodiscard]] io::TextRow fault_cells(const judge::Judgement& judgement);
@@ -53,8 +53,9 @@ struct NamedJudgement {
   std::string_view kind;   ///< of the queries
 };
 
-/// The answers that broke the promise, a line each: "false negative: METHOD: SOURCE: vertex-face query 4:
-/// answer no, truth collision at 0.5"; of a fault the first twenty, then how many more there are.
+/// The answers that broke the promise, a line each: "false negative: METHOD: SOURCE: vertex-face
+/// query 4: answer no, truth collision at 0.5"; of a fault the first twenty, then how many more
+/// there are.
 /// \param place_of where the query of a wrong answer comes from, by the answer's position in
 /// Judgement::wrong_answers.
 [[nodiscard]] std::string wrong_answers_text(
@@ -71,9 +72,10 @@ using FailureCounts = std::array<std::uint64_t, judge::fault_count>;
 
 // ---- JSON ---------------------------------------------------------------------------------------
 
-/// `false_negatives`, `false_positives` (undecided answers among them), `late_toi`, `early_toi_upper`,
-/// `beyond_tolerance`, `undecided`, `errors`, and `toi_error`: null where no time of impact was given, else `count`, `p50`,
-/// `p90`, `p99` and `max` of the distance from toi_lower to the exact time of impact, quantiles to 1.6%.
+/// `false_negatives`, `false_positives` (undecided answers among them), `late_toi`,
+/// `early_toi_upper`, `beyond_tolerance`, `undecided`, `errors`, and `toi_error`: null where no
+/// time of impact was given, else `count`, `p50`, `p90`, `p99` and `max` of the distance from
+/// toi_lower to the exact time of impact, quantiles to 1.6%.
 [[nodiscard]] nlohmann::json to_json(const judge::Judgement& judgement);
 
 /// `index`, `fault` (its text, verify/judge/fault.hpp), `answer` and `truth`.

@@ -221,7 +221,7 @@ class Run {
       const fast::Answer& answer = timed_[index].answers()[i];
       said.collisions += collides ? 1U : 0U;
       said.at_limit += is_at_limit(answer, said.max_checks) ? 1U : 0U;
-      (collides ? said.hit_times : said.miss_times).add(single_times_[index][i]);
+      (collides ? said.collision_times : said.no_collision_times).add(single_times_[index][i]);
       const bool is_yes = answer.verdict == fast::Verdict::yes;
       if (is_yes && answer.tolerance >= 0.0) tolerances.add(answer.tolerance);
     }

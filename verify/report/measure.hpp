@@ -3,10 +3,10 @@
 /// \file
 /// Measures methods on one group of queries, side by side.
 ///
-/// **Sample and time.** As in verify/jobs/timing.hpp. A sample grows until it would take the method, or
-/// the reference, more than MeasureOptions::seconds. Nothing is said of queries that were not asked.
-/// Each query is also timed alone, for the histograms. The reference runs on each of the samples too, so
-/// that ratios compare the same queries.
+/// **Sample and time.** As in verify/jobs/timing.hpp. A sample grows until it would take the
+/// method, or the reference, more than MeasureOptions::seconds. Nothing is said of queries that
+/// were not asked. Each query is also timed alone, for the histograms. The reference runs on each
+/// of the samples too, so that ratios compare the same queries.
 ///
 /// Where settings of a method are compared (MeasureOptions::same_sample), all of them are asked the
 /// smallest of their samples.
@@ -38,8 +38,8 @@ struct Setting {
   bool in_children = false;
 };
 
-/// Called with each query that a method answered wrongly, and that answer: one that breaks the method's promise.
-/// Of a great many some are left out.
+/// Called with each query that a method answered wrongly, and that answer: one that breaks the
+/// method's promise. Of a great many some are left out.
 using OnWrong = std::function<void(judge::WrongQuery)>;
 
 struct MeasureOptions {
@@ -61,8 +61,8 @@ struct MeasureOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Measures the settings on the group of `truths`, in their order. Once stopped, those are left out that
-/// have no time, no reference or no truth yet.
+/// Measures the settings on the group of `truths`, in their order. Once stopped, those are left out
+/// that have no time, no reference or no truth yet.
 /// \param reference the method whose time stands in Measurement::certified_nanoseconds
 /// \throws std::invalid_argument for options out of range or an empty group.
 [[nodiscard]] std::vector<Measurement> measure(const data::QueryGroup& group,
@@ -71,15 +71,16 @@ struct MeasureOptions {
                                                const fast::Method& reference,
                                                const MeasureOptions& options);
 
-/// Judges the answers of a method to all queries of the group of `truths`; nothing is timed. No result
-/// once *stop is true (it may be null).
+/// Judges the answers of a method to all queries of the group of `truths`; nothing is timed. No
+/// result once *stop is true (it may be null).
 [[nodiscard]] std::optional<Measurement> judge_all(
     const data::QueryGroup& group, judge::GroundTruthCache& truths, const fast::Method& method,
     const fast::MethodOptions& options, Experiment experiment,
     const std::atomic<bool>* stop = nullptr, const OnWrong& on_wrong = nullptr);
 
-/// Judges recorded answers to those queries of the group of `truths` that they have an answer to, by the names of their
-/// sources; nothing is timed. No result if there are none, or once *stop is true (it may be null).
+/// Judges recorded answers to those queries of the group of `truths` that they have an answer to,
+/// by the names of their sources; nothing is timed. No result if there are none, or once *stop is
+/// true (it may be null).
 [[nodiscard]] std::optional<Measurement> judge_recorded(const data::QueryGroup& group,
                                                         judge::GroundTruthCache& truths,
                                                         const solvers::Solver& recorded,

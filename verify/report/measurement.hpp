@@ -106,8 +106,8 @@ struct Measurement {
   /// Of methods that have stages, all in their order.
   std::vector<StageShare> stages;
   /// Of one call a query, of those that collide and of those that do not.
-  TimeHistogram hit_times;
-  TimeHistogram miss_times;
+  TimeHistogram collision_times;
+  TimeHistogram no_collision_times;
 };
 
 /// Of those that do not collide; 0 if there are none.
@@ -165,8 +165,8 @@ struct Measurements {
   bool interrupted = false;
 };
 
-/// By what, where and when they were made, for a sentence: " with Touchstone 1.2 (commit) on PROCESSOR,
-/// 2026-01-31"; empty if not known.
+/// By what, where and when they were made, for a sentence: " with Touchstone 1.2 (commit) on
+/// PROCESSOR, 2026-01-31"; empty if not known.
 [[nodiscard]] std::string origin_text(const Measurements& measurements);
 
 /// The same with all names and texts printable (printable.hpp): for what people read.

@@ -87,8 +87,8 @@ Json json_of(const Measurement& measurement) {
           {"toi_error", json_of(m.toi_error)},
           {"achieved_tolerance", json_of(m.achieved_tolerance)},
           {"stages", json_of(m.stages)},
-          {"hit_times", json_of(m.hit_times)},
-          {"miss_times", json_of(m.miss_times)}};
+          {"collision_times", json_of(m.collision_times)},
+          {"no_collision_times", json_of(m.no_collision_times)}};
 }
 
 Separation separation_from(const Json& json) {
@@ -139,8 +139,8 @@ Measurement measurement_from(const Json& json) {
   for (const Json& stage : json.at("stages")) {
     m.stages.push_back({stage.at(0).get<std::string>(), stage.at(1).get<std::uint64_t>()});
   }
-  m.hit_times = histogram_from(json.at("hit_times"));
-  m.miss_times = histogram_from(json.at("miss_times"));
+  m.collision_times = histogram_from(json.at("collision_times"));
+  m.no_collision_times = histogram_from(json.at("no_collision_times"));
   return m;
 }
 

@@ -257,7 +257,7 @@ std::string stability_page(const stability::StabilityResult& result, const std::
                          "{} queries a cell, half of them collisions; seed {}{}. Errors of times "
                          "of impact are in units of the motion's duration.",
                          result.count, result.seed,
-                         is_contact(result.separation)
+                         is_zero(result.separation)
                              ? ""
                              : "; minimum separation " + judge::to_text(result.separation)),
       .findings = {},

@@ -1,15 +1,16 @@
 #pragma once
 
 /// \file
-/// A report, or a map of stability, as one HTML page that needs nothing else: no network, no other file.
-/// Its policy (Content-Security-Policy) forbids to load anything.
+/// A report, or a map of stability, as one HTML page that needs nothing else: no network, no other
+/// file. Its policy (Content-Security-Policy) forbids to load anything.
 ///
-/// A report opens with its findings (findings.hpp) and the first figure of time against error; tables and
-/// further figures follow. The tables are in the page as they are; the figures are drawn by d3 in the browser from the data that
-/// stand in the page. Every table and figure has a link to its numbers as CSV, inside the page too; every
-/// figure has one to itself as an SVG file. Tables are sorted by the column that the reader chooses; the first
-/// column, and that of the false negatives behind it, stay in view. The page fits screens from a
-/// telephone's on, and paper, and follows the reader's light or dark scheme.
+/// A report opens with its findings (findings.hpp) and the first figure of time against error;
+/// tables and further figures follow. The tables are in the page as they are; the figures are drawn
+/// by d3 in the browser from the data that stand in the page. Every table and figure has a link to
+/// its numbers as CSV, inside the page too; every figure has one to itself as an SVG file. Tables
+/// are sorted by the column that the reader chooses; the first column, and that of the false
+/// negatives behind it, stay in view. The page fits screens from a telephone's on, and paper, and
+/// follows the reader's light or dark scheme.
 
 #include <string>
 
@@ -18,12 +19,14 @@
 
 namespace touchstone::verify::report {
 
-/// The page as HTML. \param before an earlier report: what has changed since it stands below the first figure; may be null.
+/// The page as HTML. \param before an earlier report: what has changed since it stands below the
+/// first figure; may be null.
 [[nodiscard]] std::string report_page(const Measurements& measured,
                                       const Measurements* before = nullptr);
 
-/// The map of stability as HTML: who keeps their promise, the worst of each hardness as a table, and as
-/// figures the worst outcome, the errors of the time of impact, time and checks of every cell.
+/// The map of stability as HTML: who keeps their promise, the worst of each hardness as a table,
+/// and as figures the worst outcome, the errors of the time of impact, time and checks of every
+/// cell.
 /// \param command the command line that made it
 [[nodiscard]] std::string stability_page(const stability::StabilityResult& result,
                                          const std::string& command);

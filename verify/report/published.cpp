@@ -131,7 +131,7 @@ constexpr auto separation = std::to_array<Row>({
 
 /// The published dataset that a group of queries stands beside.
 std::string_view published_name(std::string_view dataset) {
-  return dataset == "simulated" ? simulation : dataset;
+  return dataset == "own-simulation" ? simulation : dataset;
 }
 
 std::optional<PublishedNumbers> find(std::span<const Row> table, const Row& wanted) {

@@ -5,8 +5,8 @@
 /// table of MSRF against Tight-Inclusion and, in the appendix, of FPRF against it (over the minimum
 /// separation d).
 ///
-/// They were measured on another machine and on more data: 12K and 15K handcrafted queries, 18M and 41M
-/// of simulations (vertex-face, edge-edge). Of these 4,884 and one step each are public.
+/// They were measured on another machine and on more data: 12K and 15K handcrafted queries, 18M and
+/// 41M of simulations (vertex-face, edge-edge). Of these 4,884 and one step each are public.
 
 #include <optional>
 #include <string_view>
@@ -23,7 +23,7 @@ struct PublishedNumbers {
 };
 
 /// So many queries a published dataset has, as printed; empty if it is none.
-/// \param dataset "handcrafted", "simulation", or "simulated": queries that `./run simulate --record` wrote, which stand
+/// \param dataset "handcrafted", "simulation", or "own-simulation": queries that `./run simulate --record` wrote, which stand
 ///     beside the published ones of simulations
 [[nodiscard]] std::string_view published_size(std::string_view dataset, Kind kind);
 

@@ -48,7 +48,8 @@ constexpr auto differences = std::to_array<Difference>({
      "Misses contacts with an even number of roots. The public handcrafted sample holds fewer of "
      "them than the whole, so no miss here is no disagreement."},
     {"rrp",
-     "As RP; besides, it misses what touches while nothing moves relative to it, and contacts with "
+     "As RP; besides, it misses what collides while nothing moves relative to it, and contacts "
+     "with "
      "a "
      "triangle that is degenerate at t = 0 or t = 1."},
     {"bsc",
@@ -227,7 +228,8 @@ class Writer {
         "simulation part here is the pairs of two steps "
         "that a conservative solver called colliding, so nearly all of them collide; the published "
         "sets are all candidates. Rates and mean times over them are not comparable, and slow "
-        "methods look slower here: colliding pairs are the dear ones. The group `simulated` holds "
+        "methods look slower here: colliding pairs are the dear ones. The group `own-simulation` "
+        "holds "
         "all "
         "candidates of the four scenes as `./run simulate` makes them: other meshes, materials and "
         "steps than the published ones.\n"

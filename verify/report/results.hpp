@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The tables of a report as a document (docs/results.md), the published numbers beside ours, with what
-/// the data say in sentences and why the numbers differ.
+/// The tables of a report as a document (docs/results.md), the published numbers beside ours, with
+/// what the data say in sentences and why the numbers differ.
 
 #include <string>
 

@@ -165,7 +165,7 @@ std::string promise_text(const jobs::MethodResult& method) {
 
 std::string to_text(const stability::StabilityResult& result) {
   std::string text;
-  if (!is_contact(result.separation)) {
+  if (!is_zero(result.separation)) {
     text += fmt::format("minimum separation {}\n", judge::to_text(result.separation));
   }
   for (std::size_t i = 0; i < result.total.methods.size(); ++i) text += method_text(result, i);
@@ -188,7 +188,7 @@ nlohmann::json to_json(const stability::StabilityResult& result) {
                       {"disagreements", result.total.label_mismatches},
                       {"hardnesses", nlohmann::json::array()},
                       {"methods", nlohmann::json::array()}};
-  if (!is_contact(result.separation)) json["separation"] = judge::to_json(result.separation);
+  if (!is_zero(result.separation)) json["separation"] = judge::to_json(result.separation);
   const stability::Hardness* latest = nullptr;
   for (const stability::StabilityCell& cell : result.cells) {
     if (cell.hardness == latest) continue;

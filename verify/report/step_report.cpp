@@ -82,7 +82,7 @@ io::TextTable table_of(const StepReport& report) {
   std::vector<io::TextColumn> columns{io::word_column("step", 10)};
   for (const fast::PairKind kind : kinds) {
     columns.push_back({std::string(fast::to_string(kind)), 11});
-    if (has_counts) columns.push_back({"touch", 7});
+    if (has_counts) columns.push_back({"collide", 7});
   }
   columns.push_back({"earliest", 11});
   if (report.alpha) columns.push_back({"free alpha", 20});
@@ -92,11 +92,11 @@ io::TextTable table_of(const StepReport& report) {
   for (std::size_t i = 0; i < report.steps.size(); ++i) {
     const StepRecord& step = report.steps[i];
     io::TextRow row{step_name(report, i)};
-    const jobs::PairCounts touching =
+    const jobs::PairCounts colliding =
         has_counts ? jobs::counts_of(*step.collisions) : jobs::PairCounts{};
     for (const fast::PairKind kind : kinds) {
       row.push_back(std::to_string(count_of(step.candidates, kind)));
-      if (has_counts) row.push_back(std::to_string(count_of(touching, kind)));
+      if (has_counts) row.push_back(std::to_string(count_of(colliding, kind)));
     }
     row.push_back(earliest_text(report, step));
     if (report.alpha) row.push_back(io::number_text(step.free_alpha, "{}"));
@@ -141,7 +141,7 @@ void append_collisions(std::string& text, const StepReport& report, std::size_t 
   std::vector<fast::StepCollision> pairs = known_collisions(report.steps[i]);
   if (pairs.empty()) return;
   std::ranges::stable_sort(pairs, {}, &fast::StepCollision::toi_lower);
-  text += fmt::format("\n{}: pairs that touch{}\n", step_name(report, i),
+  text += fmt::format("\n{}: pairs that collide{}\n", step_name(report, i),
                       report.question == jobs::StepQuestion::earliest ? " first" : "");
   io::TextTable table(
       {io::word_column("  pair", 30), {"from t", 24}, {"to", 24}, {"u", 10}, {"v", 10}});
@@ -175,14 +175,14 @@ void append_proof(std::string& text, const StepReport& report, std::size_t i) {
     text += fmt::format("no proof: {}\n", proof->interrupted ? "interrupted" : proof->failure);
     return;
   }
-  text += fmt::format("proved: {}; pairs by a direction: {}, by pieces: {}; {} bytes\n",
+  text += fmt::format("proved: {}; pairs by a direction: {}, by subintervals: {}; {} bytes\n",
                       proof->claim, proof->directions, proof->certificates, proof->bytes);
 }
 
 std::string heading(const StepReport& report) {
   std::string text = fmt::format("{} vertices, {} edges, {} faces", report.vertices,
                                  report.edges.size(), report.faces.size());
-  if (!is_contact(report.separation)) {
+  if (!is_zero(report.separation)) {
     text += ", minimum separation " + judge::to_text(report.separation);
   }
   if (report.alpha) text += fmt::format(", alpha {}", *report.alpha);
@@ -288,7 +288,7 @@ nlohmann::json to_json(const StepReport& report) {
   nlohmann::json steps = nlohmann::json::array();
   for (std::size_t i = 0; i < report.steps.size(); ++i) steps.push_back(json_of(report, i));
   return {{"separation",
-           is_contact(report.separation) ? nlohmann::json() : judge::to_json(report.separation)},
+           is_zero(report.separation) ? nlohmann::json() : judge::to_json(report.separation)},
           {"alpha", report.alpha ? nlohmann::json(*report.alpha) : nlohmann::json()},
           {"question", name_of(report.question)},
           {"vertices", report.vertices},

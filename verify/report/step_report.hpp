@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// Steps of a simulation and what touches in them, for people (tables) and for machines (JSON, CSV).
+/// Steps of a simulation and what touches in them, for people (tables) and for machines (JSON,
+/// CSV).
 
 #include <array>
 #include <cstdint>
@@ -42,18 +43,21 @@ struct StepReport {
 /// Does something touch in a step, or does a frame intersect itself?
 [[nodiscard]] bool has_collisions(const StepReport& report);
 
-/// A line for each step; then, for each step, the pairs that touch, the earliest ten; then the edges that pierce faces, ten
-/// of a frame; last what a verdict on frames means.
+/// A line for each step; then, for each step, the pairs that touch, the earliest ten; then the
+/// edges that pierce faces, ten of a frame; last what a verdict on frames means.
 [[nodiscard]] std::string to_text(const StepReport& report);
 
-/// `separation` (as in bench_report.hpp, null for contact), `alpha` (or null), `question` (all, earliest or free),
-/// `vertices`, `edges`, `faces`, `interrupted`; `frames`, a list of `name`, `pierced` (how many edges pierce faces) and
-/// `piercings` (pairs of an edge and a face); and `steps`, a list of `frames` (two names), `candidates` and `collisions`
-/// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; `collisions` is null unless all were asked for),
-/// `toi_lower` and `toi_upper` (null if nothing touches, or only freedom was asked for), `earliest` (the pairs of the
-/// earliest impact, as below), `free`, `pierced` (how many pairs pierce in one of the two frames or both),
-/// `free_alpha` (with alpha), `proof` (if a certificate was written: `claim`, `directions` and `certificates`, the pairs
-/// that are argued by each, `bytes`, and `complete`), and `seconds` and `processor_seconds` (`broad_phase`, `narrow_phase`, `total`).
+/// `separation` (as in bench_report.hpp, null for contact), `alpha` (or null), `question` (all,
+/// earliest or free), `vertices`, `edges`, `faces`, `interrupted`; `frames`, a list of `name`,
+/// `pierced` (how many edges pierce faces) and `piercings` (pairs of an edge and a face); and
+/// `steps`, a list of `frames` (two names), `candidates` and `collisions`
+/// (`vertex_face`, `edge_edge`, `vertex_edge`, `vertex_vertex`; `collisions` is null unless all
+/// were asked for), `toi_lower` and `toi_upper` (null if nothing touches, or only freedom was asked
+/// for), `earliest` (the pairs of the earliest impact, as below), `free`, `pierced` (how many pairs
+/// pierce in one of the two frames or both), `free_alpha` (with alpha), `proof` (if a certificate
+/// was written: `claim`, `directions` and `certificates`, the pairs that are argued by each,
+/// `bytes`, and `complete`), and `seconds` and `processor_seconds` (`broad_phase`, `narrow_phase`,
+/// `total`).
 ///
 /// A pair has `kind`, `first`, `second` (numbers from 0), `toi_lower`, `toi_upper`, `u` and `v`.
 [[nodiscard]] nlohmann::json to_json(const StepReport& report);

@@ -2,8 +2,8 @@
 
 /// \file
 /// The tables of a report: the paper's table 1 and its tables over the minimum separation, the
-/// published numbers beside ours where the data are those of the paper. The page and docs/results.md
-/// show the same tables.
+/// published numbers beside ours where the data are those of the paper. The page and
+/// docs/results.md show the same tables.
 
 #include <string>
 #include <string_view>
@@ -24,20 +24,21 @@ struct Table {
 [[nodiscard]] std::vector<std::string> column_meanings();
 
 /// Table 1, one for each group and kind: a row a method with its time, that as a multiple of the
-/// certified solver's on the same queries, how many queries were asked, the counts of the judge, how many
-/// reached the limit of checks, and the error of the time of impact. A group named "handcrafted" or
-/// "simulation" has the published numbers too.
+/// certified solver's on the same queries, how many queries were asked, the counts of the judge,
+/// how many reached the limit of checks, and the error of the time of impact. A group named
+/// "handcrafted" or "simulation" has the published numbers too.
 [[nodiscard]] std::vector<Table> field_tables(const Measurements& measurements);
 
-/// The tables over d, one for each group and kind: of `method` beside Tight-Inclusion and the certified
-/// solver, in which each is judged in its own norm, and the certified solver in both. Empty without
-/// measurements of the method.
+/// The tables over d, one for each group and kind: of `method` beside Tight-Inclusion and the
+/// certified solver, in which each is judged in its own norm, and the certified solver in both.
+/// Empty without measurements of the method.
 [[nodiscard]] std::vector<Table> separation_tables(const Measurements& measurements,
                                                    std::string_view method);
 
-/// The contacts that Tight-Inclusion misses with each of its filters: the contacts at t=1, a table for each number of
-/// digits with a row a kind and scale; then the built-in families, a row for each and kind of which one
-/// of them misses something. A column a method: how many of the collisions. Empty without measurements.
+/// The contacts that Tight-Inclusion misses with each of its filters: the contacts at t=1, a table
+/// for each number of digits with a row a kind and scale; then the built-in families, a row for
+/// each and kind of which one of them misses something. A column a method: how many of the
+/// collisions. Empty without measurements.
 [[nodiscard]] std::vector<Table> filter_tables(const Measurements& measurements);
 
 /// The difference between the filters, for a reader of these tables.

@@ -37,8 +37,8 @@ enum class Column : std::uint64_t {
 };
 constexpr std::size_t most_columns = 8;
 
-/// The greatest size of a record of several lines: only long names with line ends make such records,
-/// and a stray quote is to be found before the end of the file.
+/// The greatest size of a record of several lines: only long names with line ends make such
+/// records, and a stray quote is to be found before the end of the file.
 constexpr std::size_t longest_record = std::size_t{1} << 16U;
 
 using Fields = std::array<std::string, most_columns>;

@@ -5,11 +5,11 @@
 ///
 ///     file,index,kind,verdict,toi_lower,toi_upper,tolerance,failure
 ///
-/// file: its path, printable (printable.hpp). verdict: yes, no, undecided or error. The three fields behind
-/// are empty where a solver gives none. failure: why there is no answer (failure.hpp: "crash: SIGSEGV",
-/// "hang", …), else empty; a file may do without this column.
-/// A query is known by all of file, index and kind: the families of the built-in set have queries
-/// of both kinds under one name.
+/// file: its path, printable (printable.hpp). verdict: yes, no, undecided or error. The three
+/// fields behind are empty where a solver gives none. failure: why there is no answer (failure.hpp:
+/// "crash: SIGSEGV", "hang", …), else empty; a file may do without this column. A query is known by
+/// all of file, index and kind: the families of the built-in set have queries of both kinds under
+/// one name.
 
 #include <cstdint>
 #include <deque>
@@ -101,12 +101,13 @@ class RecordedAnswers {
   std::map<Key, Rows, KeyLess> rows_;
 };
 
-/// Reads a file of answers. The header must have these columns in this order, the last one or not; rows may come in any
-/// order, lines may end in LF or CRLF, and names (or any other field) may stand in quotes, where a
-/// line end counts as LF. Times of impact are finite decimal numbers or empty; no range is asked of
-/// them, since to judge them is the judge's task. A failure must go with the verdict (verdict_of). Times with any other verdict than yes may be any
-/// number and are dropped: solvers write 1, infinity or the last step there. Tolerances are numbers
-/// from 0 on, or empty; one of "inf" claims nothing.
+/// Reads a file of answers. The header must have these columns in this order, the last one or not;
+/// rows may come in any order, lines may end in LF or CRLF, and names (or any other field) may
+/// stand in quotes, where a line end counts as LF. Times of impact are finite decimal numbers or
+/// empty; no range is asked of them, since to judge them is the judge's task. A failure must go
+/// with the verdict (verdict_of). Times with any other verdict than yes may be any number and are
+/// dropped: solvers write 1, infinity or the last step there. Tolerances are numbers from 0 on, or
+/// empty; one of "inf" claims nothing.
 /// \throws DatasetError naming line, column (number of the field) and reason if anything else is
 /// found, or two rows that answer the same query.
 [[nodiscard]] RecordedAnswers load_answers(const std::filesystem::path& path);

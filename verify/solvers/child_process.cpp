@@ -155,8 +155,8 @@ ChildEnds keep_only(const ChildEnds& ends) {
   return {.socket = first_free, .lifeline = first_free + 1, .output = STDOUT_FILENO};
 }
 
-/// The last registered function runs first: the clean-up of the parent's copy is not for this process,
-/// whose threads it would wait for.
+/// The last registered function runs first: the clean-up of the parent's copy is not for this
+/// process, whose threads it would wait for.
 void leave_without_clean_up() {
   ::on_exit(
       [](int status, void*) {

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// A child process for code that is not trusted: a copy of this process made by fork(), of which this
-/// one survives whatever it does.
+/// A child process for code that is not trusted: a copy of this process made by fork(), of which
+/// this one survives whatever it does.
 ///
 /// - It leads a process group of its own: the keys of a terminal do not reach it, and what it has
 ///   started in turn (unless that left the group) is killed when it ends.
@@ -31,8 +31,8 @@ namespace touchstone::verify::solvers {
 
 /// Limits of a child process.
 struct ChildLimits {
-  /// Bytes of memory that it may allocate (heap, stacks, private maps), beyond what it is made with;
-  /// 0: no limit. Not under the sanitizers, whose own memory has no bound.
+  /// Bytes of memory that it may allocate (heap, stacks, private maps), beyond what it is made
+  /// with; 0: no limit. Not under the sanitizers, whose own memory has no bound.
   std::uint64_t memory_bytes = std::uint64_t{4} << 30U;
   /// Bytes of a file that it writes; 0: no limit. Beyond, the system ends it with SIGXFSZ.
   std::uint64_t file_bytes = std::uint64_t{256} << 20U;
@@ -116,7 +116,8 @@ class ChildProcess {
   /// Sleeps until there is a message or the end, at most for this long, and takes what it prints.
   [[nodiscard]] Event wait(Seconds longest, std::string& message, CapturedOutput& output);
 
-  /// Kills it if it still runs, and what is left of its group, and takes the rest of what it printed.
+  /// Kills it if it still runs, and what is left of its group, and takes the rest of what it
+  /// printed.
   ChildEnd end(CapturedOutput& output);
 
   /// Processor seconds so far, of all its threads; 0 if it has ended.

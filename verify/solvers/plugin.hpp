@@ -4,8 +4,8 @@
 /// Anyone's solver as a Method: a shared library that speaks the interface of verify/plugin.h.
 ///
 /// The library is never loaded in this process, unless this process calls solve(): it is asked for
-/// its version and its name in a child process, and solve() loads it where it is first called, which
-/// is for a child to do (SolverProcess). What it answers is handed on as it is.
+/// its version and its name in a child process, and solve() loads it where it is first called,
+/// which is for a child to do (SolverProcess). What it answers is handed on as it is.
 
 #include <atomic>
 #include <filesystem>
@@ -27,19 +27,18 @@ struct PluginOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Loads a plugin, in a child process. A path without a slash is a file in the working directory: no
-/// search takes place.
+/// Loads a plugin, in a child process. A path without a slash is a file in the working directory:
+/// no search takes place.
 ///
 /// The method's name is what the library calls itself. solve() loads the library into the process
-/// that calls it, where it stays as long as the method lives. It throws what the library throws, and
-/// answers Verdict::error for a verdict that is none. Times of impact with any other verdict than yes
-/// are dropped, and so is a tolerance that is none (negative or NaN); infinite times of impact are
-/// not: judge::failure_of() tells of them.
+/// that calls it, where it stays as long as the method lives. It throws what the library throws,
+/// and answers Verdict::error for a verdict that is none. Times of impact with any other verdict
+/// than yes are dropped, and so is a tolerance that is none (negative or NaN); infinite times of
+/// impact are not: judge::failure_of() tells of them.
 /// \throws DatasetError naming the file and the reason if it cannot be loaded, lacks a function, is
 /// made for a version of the interface that this program does not know, has no printable name, or
-/// ends its process, throws or takes too long on the way; Interrupted if the options' stop turns true;
-/// std::system_error if no process can be
-/// made.
+/// ends its process, throws or takes too long on the way; Interrupted if the options' stop turns
+/// true; std::system_error if no process can be made.
 [[nodiscard]] std::unique_ptr<fast::Method> load_plugin(const std::filesystem::path& library,
                                                         const PluginOptions& options = {});
 

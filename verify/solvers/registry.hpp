@@ -20,8 +20,8 @@ namespace touchstone::verify::solvers {
 /// Their names, in their order, with commas.
 [[nodiscard]] std::string method_names();
 
-/// The names of those that are judged where the user names none: all that promise something, in their
-/// default setting, without the baselines.
+/// The names of those that are judged where the user names none: all that promise something, in
+/// their default setting, without the baselines.
 [[nodiscard]] std::vector<std::string> default_methods();
 
 /// The method of that name.

@@ -1,8 +1,9 @@
 #pragma once
 
 /// \file
-/// A solver under test: a method in this process or in child processes, a file of its answers, or the
-/// certified solver through an interface of its own. Every job asks all of them in the same way.
+/// A solver under test: a method in this process or in child processes, a file of its answers, or
+/// the certified solver through an interface of its own. Every job asks all of them in the same
+/// way.
 
 #include <atomic>
 #include <cstddef>
@@ -43,8 +44,8 @@ struct SolverTime {
 
 /// Data that comes with the answers.
 struct SolveReply {
-  /// Where that is not the time of the whole call in this thread: what the solver itself took, without
-  /// the making of child processes.
+  /// Where that is not the time of the whole call in this thread: what the solver itself took,
+  /// without the making of child processes.
   std::optional<SolverTime> time = std::nullopt;
   /// Positions in the span of the queries without an answer, ascending.
   std::vector<std::size_t> missing = {};
@@ -121,8 +122,8 @@ class Solver {
 [[nodiscard]] std::unique_ptr<Solver> recorded_solver(std::string_view name,
                                                       const RecordedAnswers& answers);
 
-/// The certified solver by its own interface, fast::collisions, as `certified_queries`: on the array
-/// of queries, in one thread. Its separation is that of the request.
+/// The certified solver by its own interface, fast::collisions, as `certified_queries`: on the
+/// array of queries, in one thread. Its separation is that of the request.
 [[nodiscard]] std::unique_ptr<Solver> certified_queries(const fast::CertifiedOptions& certified);
 
 /// The same from index pairs, as `certified_pairs`. The queries that it is asked must be those of

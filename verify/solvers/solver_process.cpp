@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 /// Queries for which there is room; longer calls are cut into pieces.
-constexpr std::size_t room = 4096;
+constexpr std::size_t capacity = 4096;
 /// Queries in a step.
 constexpr std::size_t longest_step = 512;
 /// A step that takes less than this share of the limit may be followed by one twice as long.
@@ -79,10 +79,10 @@ struct Shared {
   std::size_t first;          ///< queries from this number
   std::size_t last;           ///< to before this one are to be solved,
   std::size_t careful_until;  ///< those before this one in steps of one
-  std::array<Query, room> queries;
-  std::array<fast::Answer, room> answers;
-  std::array<bool, room> has_thrown;
-  std::array<ShortText, room> thrown;  ///< what() of what it threw
+  std::array<Query, capacity> queries;
+  std::array<fast::Answer, capacity> answers;
+  std::array<bool, capacity> has_thrown;
+  std::array<ShortText, capacity> thrown;  ///< what() of what it threw
 };
 static_assert(std::atomic<std::size_t>::is_always_lock_free &&
               std::atomic<double>::is_always_lock_free);
@@ -225,8 +225,8 @@ class SolverProcess::Impl {
     (*memory_).options = method_options;
     while (run_.answered < queries.size() && !is_stopped() && !has_failed_enough()) {
       const std::size_t first = run_.answered;
-      const std::size_t count = std::min(room, queries.size() - first);
-      solve_piece(queries.subspan(first, count), answers.subspan(first, count), first);
+      const std::size_t count = std::min(capacity, queries.size() - first);
+      solve_part(queries.subspan(first, count), answers.subspan(first, count), first);
     }
     return std::move(run_);
   }
@@ -256,8 +256,8 @@ class SolverProcess::Impl {
   }
 
   /// Answers what fits into the shared memory, which begins at number `offset` of all.
-  void solve_piece(std::span<const Query> queries, std::span<fast::Answer> answers,
-                   std::size_t offset) {
+  void solve_part(std::span<const Query> queries, std::span<fast::Answer> answers,
+                  std::size_t offset) {
     Shared& shared = *memory_;
     std::ranges::copy(queries, shared.queries.begin());
     std::ranges::fill(std::span(shared.has_thrown).first(queries.size()), false);
@@ -323,8 +323,8 @@ class SolverProcess::Impl {
       if (!stop.hang) searched_until_ = stop.end;
       return begin;
     }
-    // A step that was too slow, and then the query alone, are twice; what ends a child it is to do in
-    // a child of its own.
+    // A step that was too slow, and then the query alone, are twice; what ends a child it is to do
+    // in a child of its own.
     const bool is_sure = stop.hang && begin < slow_until_;
     if (!is_sure && doubtful_ != begin) {
       shared.careful_until = std::max(shared.careful_until, begin + 1);

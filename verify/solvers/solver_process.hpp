@@ -5,11 +5,11 @@
 /// each, so that a solver that crashes, hangs or takes all memory costs one query and not the run.
 ///
 /// Queries and answers lie in memory shared with the child, along with the number of the query that
-/// it is at. It works in steps: of one query at first, of more as they prove to be fast. The limit of
-/// time is that of a step. If a step ends the child or takes too long, a new child solves its queries
-/// one by one; a query that ends it is asked once more, alone in a child of its own, before that
-/// counts as its failure, and the next child goes on behind it. So the time that a solver is measured
-/// to take does not depend on the limit.
+/// it is at. It works in steps: of one query at first, of more as they prove to be fast. The limit
+/// of time is that of a step. If a step ends the child or takes too long, a new child solves its
+/// queries one by one; a query that ends it is asked once more, alone in a child of its own, before
+/// that counts as its failure, and the next child goes on behind it. So the time that a solver is
+/// measured to take does not depend on the limit.
 ///
 /// Limits and the relation of the child to this process: child_process.hpp.
 
@@ -41,11 +41,11 @@ struct SolverProcessOptions {
 
 /// The result of one call.
 struct SolverRun {
-  /// Queries answered, from the first on; those with a failure count. Fewer than were asked if it was
-  /// stopped, at the limit of failures, or out of time.
+  /// Queries answered, from the first on; those with a failure count. Fewer than were asked if it
+  /// was stopped, at the limit of failures, or out of time.
   std::size_t answered = 0;
-  /// Crashes, exits, exceptions and hangs, by ascending position: the query does it alone too. (What
-  /// else goes wrong, the answers show: failure_of.)
+  /// Crashes, exits, exceptions and hangs, by ascending position: the query does it alone too.
+  /// (What else goes wrong, the answers show: failure_of.)
   std::vector<judge::QueryFailure> failures = {};
   /// Times it ended its process at queries none of which does it alone. These are answered.
   std::uint64_t unplaced_crashes = 0;

@@ -202,8 +202,8 @@ class Scene {
     put(3, draw(-0.05, 0.05, setup_.size), base + setup_.breadth, setup_.drift);
   }
 
-  /// Over the interior, or beside the side along x; nearly parallel it goes along x from one side of
-  /// the triangle to the other.
+  /// Over the interior, or beside the side along x; nearly parallel it goes along x from one side
+  /// of the triangle to the other.
   void place_vertex(bool beside) {
     const std::int64_t base = points_[0][1][1];
     const std::int64_t inside =
@@ -285,11 +285,11 @@ class Scene {
 constexpr int decimal_exponent = -1;
 constexpr int usual_digits = 3;
 
-generate::TouchTime draw_time(std::size_t index, int level, Random& random) {
+generate::ContactMoment draw_time(std::size_t index, int level, Random& random) {
   const bool is_at_an_end =
       index != Index::ends || random.between(1, 100) <= static_cast<std::int64_t>(level);
-  if (!is_at_an_end) return generate::TouchTime::between;
-  return random.coin() ? generate::TouchTime::at_start : generate::TouchTime::at_end;
+  if (!is_at_an_end) return generate::ContactMoment::between;
+  return random.coin() ? generate::ContactMoment::at_start : generate::ContactMoment::at_end;
 }
 
 /// Queries without collision have a clearance of one unit, increased with each attempt until no
@@ -435,7 +435,7 @@ HardQuery make_hard_query(const HardSort& sort, std::uint64_t seed, std::uint64_
   HardQuery made;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     made.query = draw_query(sort, wanted, separation, attempt, random);
-    made.collides = fast::certified(sort.kind, made.query, {.separation = separation}).verdict ==
+    made.collides = fast::solve(sort.kind, made.query, {.separation = separation}).verdict ==
                     fast::Verdict::yes;
     if (made.collides == wanted) break;
   }

@@ -7,10 +7,10 @@
 /// integers in a frame in which its *size*, about the longest side of its triangle or edge, is 2^50
 /// (less, if another length is larger):
 ///
-/// - vertex_face: at all times the triangle lies in a plane of constant z, with one side along x. The
-///   vertex goes down towards it, over its interior or beside that side.
-/// - edge_edge: each edge lies in a plane of constant z at all times, edge b along x. Edge a goes down
-///   towards it, across its interior, or with one end beside it.
+/// - vertex_face: at all times the triangle lies in a plane of constant z, with one side along x.
+///   The vertex goes down towards it, over its interior or beside that side.
+/// - edge_edge: each edge lies in a plane of constant z at all times, edge b along x. Edge a goes
+///   down towards it, across its interior, or with one end beside it.
 ///
 /// The x of moving points drift independently, so the motion is not rigid and the determinant is a
 /// cubic. Contact is possible only when the two planes coincide, at the root of a linear equation.
@@ -21,9 +21,9 @@
 /// symmetry are applied.
 ///
 /// Four kinds of difficulty are about numbers as people type them and exporters print them: scenes
-/// of short decimals (verify/generate/everyday.hpp), whose collisions are contacts exactly at t=0 or
-/// t=1, and whose other queries have the least possible clearance. They have size 1/10, times the
-/// level's factor if it has one.
+/// of short decimals (verify/generate/everyday.hpp), whose collisions are contacts exactly at t=0
+/// or t=1, and whose other queries have the least possible clearance. They have size 1/10, times
+/// the level's factor if it has one.
 ///
 /// With a separation, contact is at that distance, except in scenes of decimals; the size is at
 /// least 16 times as much. Irrational lengths are then rounded to the grid of the frame, so each

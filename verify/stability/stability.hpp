@@ -1,11 +1,11 @@
 #pragma once
 
 /// \file
-/// Judges methods on queries of growing difficulty: each on the hard queries (hardness.hpp) of every sort, level
-/// and kind, one cell of a map each.
+/// Judges methods on queries of growing difficulty: each on the hard queries (hardness.hpp) of
+/// every sort, level and kind, one cell of a map each.
 ///
 /// The truth of a query comes twice: from the certified solver as its label, and from the oracle,
-/// which judges; where they differ, that is counted as a mislabelled query (CertifyResult). All but
+/// which judges; where they differ, that is counted as a wrong label (CertifyResult). All but
 /// the times is a function of options and methods, the same for any number of threads.
 
 #include <atomic>
@@ -64,13 +64,13 @@ struct StabilityResult {
 
 /// Faults of a method in some queries.
 struct Outcome {
-  /// The worst of it, nothing if nothing is wrong: a false negative is worse than a time of impact that
-  /// excludes the true one, that than an error, that than a claim of too much nearness, that than a
-  /// false positive.
-  /// An error of any kind is a crash here.
+  /// The worst of it, nothing if nothing is wrong: a false negative is worse than a time of impact
+  /// that excludes the true one, that than an error, that than a claim of too much nearness, that
+  /// than a false positive. An error of any kind is a crash here.
   std::optional<judge::Fault> worst = std::nullopt;
-  /// The rate of a fault as a fraction of the queries where it is possible: of those that collide (false
-  /// negatives, times of impact), of those that do not (false positives, nearness), or of all.
+  /// The rate of a fault as a fraction of the queries where it is possible: of those that collide
+  /// (false negatives, times of impact), of those that do not (false positives, nearness), or of
+  /// all.
   double rate = 0.0;
 };
 

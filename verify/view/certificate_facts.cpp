@@ -40,20 +40,20 @@ double as_double(const mpq_class& value, std::string_view name) {
 std::string_view axis_name(std::size_t axis) { return std::string_view("xyz").substr(axis, 1); }
 
 /// As the certificate names it.
-std::string feature_text(const checker::Piece& piece) {
-  const char sign = piece.is_negative ? '-' : '+';
-  switch (piece.feature) {
+std::string feature_text(const checker::Subinterval& subinterval) {
+  const char sign = subinterval.is_negative ? '-' : '+';
+  switch (subinterval.feature) {
     case checker::Feature::vertex:
-      return fmt::format("vertex {}", piece.corners[0]);
+      return fmt::format("vertex {}", subinterval.corners[0]);
     case checker::Feature::edge:
-      return fmt::format("edge {} {}", piece.corners[0], piece.corners[1]);
+      return fmt::format("edge {} {}", subinterval.corners[0], subinterval.corners[1]);
     case checker::Feature::face:
       return fmt::format("face {}", sign);
     case checker::Feature::axis:
-      return fmt::format("axis {} {}", axis_name(piece.axis), sign);
+      return fmt::format("axis {} {}", axis_name(subinterval.axis), sign);
     default:
-      return fmt::format("cross {} {} {}", axis_name(piece.axis), piece.corners[0],
-                         piece.corners[1]);
+      return fmt::format("cross {} {} {}", axis_name(subinterval.axis), subinterval.corners[0],
+                         subinterval.corners[1]);
   }
 }
 
@@ -84,18 +84,18 @@ CertifiedQuery certified_query(std::string_view stream) {
 
 nlohmann::json certificate_facts(const std::string& stream) {
   const checker::Certificate certificate = parsed(stream);
-  nlohmann::json pieces = nlohmann::json::array();
-  for (const checker::Piece& piece : certificate.pieces) {
-    pieces.push_back({{"from", piece.from.get_str()},
-                      {"to", piece.to.get_str()},
-                      {"feature", feature_text(piece)}});
+  nlohmann::json subintervals = nlohmann::json::array();
+  for (const checker::Subinterval& subinterval : certificate.subintervals) {
+    subintervals.push_back({{"from", subinterval.from.get_str()},
+                            {"to", subinterval.to.get_str()},
+                            {"feature", feature_text(subinterval)}});
   }
   std::istringstream lines(stream);
   const checker::Report report = checker::check(lines);
   return {{"claim", claim_text(certificate.claim)},
           {"accepted", report.all_accepted()},
           {"reason", report.rejections.empty() ? "" : report.rejections.front().reason},
-          {"pieces", pieces},
+          {"subintervals", subintervals},
           {"text", stream}};
 }
 

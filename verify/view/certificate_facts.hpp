@@ -1,7 +1,7 @@
 #pragma once
 
 /// \file
-/// The contents of a certificate for a view: its query, and the pieces of time with their
+/// The contents of a certificate for a view: its query, and the subintervals of time with their
 /// separating directions. The checker (exact/checker/) reads and checks it, also if another program
 /// wrote it.
 
@@ -26,9 +26,9 @@ struct CertifiedQuery {
 /// is not a double.
 [[nodiscard]] CertifiedQuery certified_query(std::string_view stream);
 
-/// An object of `claim`, `accepted`, `reason` (of the checker, if rejected), `pieces`, a list of
-/// `from`, `to` (rationals as text) and `feature` ("edge 0 1"), and `text`, the stream. \throws as
-/// above
+/// An object of `claim`, `accepted`, `reason` (of the checker, if rejected), `subintervals`, a list
+/// of `from`, `to` (rationals as text) and `feature` ("edge 0 1"), and `text`, the stream. \throws
+/// as above
 [[nodiscard]] nlohmann::json certificate_facts(const std::string& stream);
 
 }  // namespace touchstone::verify::view

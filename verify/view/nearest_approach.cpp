@@ -14,7 +14,7 @@ namespace {
 std::uint64_t bits_of(double distance) { return std::bit_cast<std::uint64_t>(distance); }
 double distance_of(std::uint64_t bits) { return std::bit_cast<double>(bits); }
 
-exact::Verdict at_distance(Kind kind, const Query& query, std::uint64_t bits) {
+exact::Decision at_distance(Kind kind, const Query& query, std::uint64_t bits) {
   return exact::decide(kind, query, {.distance = distance_of(bits), .norm = Norm::l2});
 }
 
@@ -31,10 +31,10 @@ std::optional<NearestApproach> nearest_approach(Kind kind, const Query& query) {
   if (exact::decide(kind, query).collides()) return std::nullopt;
   std::uint64_t above = 0;
   std::uint64_t at_most = bits_of(std::numeric_limits<double>::max());
-  exact::Verdict verdict = at_distance(kind, query, at_most);
+  exact::Decision verdict = at_distance(kind, query, at_most);
   if (!verdict.collides()) return std::nullopt;
   const auto ask = [&](std::uint64_t bits) {
-    exact::Verdict answer = at_distance(kind, query, bits);
+    exact::Decision answer = at_distance(kind, query, bits);
     if (!answer.collides()) {
       above = bits;
       return;
@@ -42,7 +42,8 @@ std::optional<NearestApproach> nearest_approach(Kind kind, const Query& query) {
     at_most = bits;
     verdict = std::move(answer);
   };
-  // From the guess downwards in steps that double, so that few of the questions are far from the answer.
+  // From the guess downwards in steps that double, so that few of the questions are far from the
+  // answer.
   const std::uint64_t start = bits_of(guess(kind, query));
   static constexpr std::uint64_t factor_of_two = std::uint64_t{1} << 52U;
   for (std::uint64_t step = 1; above == 0; step *= 2) {

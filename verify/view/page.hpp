@@ -6,9 +6,9 @@
 /// The page shows one query at a time: its primitives at a time that a slider chooses, with their
 /// traces; in a second picture the corners w_i(t) and the origin, which is in their convex hull iff
 /// there is contact (docs/theory.md, section 1.3); below them the line of time with the time of
-/// impact, the pieces of a certificate and the answers of solvers. The page computes positions
-/// exactly, in integers, and rounds only for drawing, relative to the place of contact and the size
-/// of the visible part; so it shows coordinates and gaps of any size.
+/// impact, the subintervals of a certificate and the answers of solvers. The page computes
+/// positions exactly, in integers, and rounds only for drawing, relative to the place of contact
+/// and the size of the visible part; so it shows coordinates and gaps of any size.
 ///
 /// A step may precede them: its mesh at the time of a slider, and the colliding pairs by time, each
 /// with a link to its query.

@@ -42,7 +42,8 @@ nlohmann::json enclosure(const exact::RationalInterval& interval) {
                                                      : nlohmann::json()}};
 }
 
-/// A time to look at: the number itself where it is known to be rational, else one within 2^-256 of it.
+/// A time to look at: the number itself where it is known to be rational, else one within 2^-256 of
+/// it.
 exact::Rational time_near(exact::AlgebraicNumber number) {
   if (!number.rational()) number.refine_to_level(time_bits);
   if (number.rational()) return *number.rational();
@@ -60,7 +61,7 @@ nlohmann::json moment(const exact::AlgebraicNumber& number_in_time) {
           {"time", near.get_str()}};
 }
 
-nlohmann::json truth_facts(const exact::Verdict& verdict) {
+nlohmann::json truth_facts(const exact::Decision& verdict) {
   nlohmann::json truth{{"collides", verdict.collides()},
                        {"text", judge::to_text(judge::truth_of(0, verdict))}};
   if (!verdict.toi) return truth;
@@ -83,7 +84,7 @@ nlohmann::json approach_facts(const ViewedQuery& viewed) {
 }
 
 /// The oracle's own certificate. \return nothing where it is beyond the format's limits
-std::string proof_of(const ViewedQuery& viewed, const exact::Verdict& verdict) {
+std::string proof_of(const ViewedQuery& viewed, const exact::Decision& verdict) {
   try {
     return exact::certificate_stream(exact::prove(viewed.kind, viewed.query, verdict),
                                      io::printable(viewed.label));
@@ -92,7 +93,7 @@ std::string proof_of(const ViewedQuery& viewed, const exact::Verdict& verdict) {
   }
 }
 
-nlohmann::json certificate_of(const ViewedQuery& viewed, const exact::Verdict& verdict) {
+nlohmann::json certificate_of(const ViewedQuery& viewed, const exact::Decision& verdict) {
   const bool is_given = !viewed.certificate.empty();
   const std::string stream = is_given ? viewed.certificate : proof_of(viewed, verdict);
   if (stream.empty()) return {};
@@ -181,7 +182,7 @@ ViewedQuery viewed_query(judge::WrongQuery wrong) {
 
 nlohmann::json query_facts(const ViewedQuery& viewed,
                            std::span<const solvers::Solver* const> solvers) {
-  const exact::Verdict verdict = exact::decide(viewed.kind, viewed.query, viewed.separation);
+  const exact::Decision verdict = exact::decide(viewed.kind, viewed.query, viewed.separation);
   nlohmann::json coordinates = nlohmann::json::array(), notes = nlohmann::json::array();
   for (const double x : viewed.query.coordinates) coordinates.push_back(number(x));
   for (const std::string& note : viewed.notes) notes.push_back(io::printable(note));

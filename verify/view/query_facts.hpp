@@ -1,9 +1,9 @@
 #pragma once
 
 /// \file
-/// All that a view says about one query: what it is, the oracle's verdict, time and place, a certificate
-/// of it, how near the primitives come, and the answers of the solvers that were asked, each held
-/// against the truth.
+/// All that a view says about one query: what it is, the oracle's verdict, time and place, a
+/// certificate of it, how near the primitives come, and the answers of the solvers that were asked,
+/// each held against the truth.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -34,8 +34,8 @@ struct ViewedQuery {
 /// A query that the judge found a fault in: its faults are the notes.
 [[nodiscard]] ViewedQuery viewed_query(judge::WrongQuery wrong);
 
-/// As the script of a page reads it, see verify/view/page/facts.js. Doubles are texts, in hexadecimal,
-/// and rationals "P/Q".
+/// As the script of a page reads it, see verify/view/page/facts.js. Doubles are texts, in
+/// hexadecimal, and rationals "P/Q".
 /// \throws std::invalid_argument if a coordinate is NaN or infinite, the separation is not valid, or the
 /// certificate is none.
 [[nodiscard]] nlohmann::json query_facts(const ViewedQuery& viewed,

@@ -193,7 +193,8 @@ void check_header(const fs::path& path, std::string_view first_line) {
   }
 }
 
-/// Each certificate is made a stream of its own: the lines from `query` to `end`, between header and closing line.
+/// Each certificate is made a stream of its own: the lines from `query` to `end`, between header
+/// and closing line.
 std::vector<ViewedQuery> read_certificates(const fs::path& path, const QueryFileOptions& options) {
   io::LineReader lines(path);
   Selection selection(options);

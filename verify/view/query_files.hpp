@@ -27,7 +27,8 @@ namespace touchstone::verify::view {
 
 /// The queries of a file to read.
 struct QueryFileOptions {
-  /// Positions in the file, counted from 0, each read once, in the order of the file; empty: from the first on.
+  /// Positions in the file, counted from 0, each read once, in the order of the file; empty: from
+  /// the first on.
   std::vector<std::uint64_t> indices = {};
   /// The maximum number of queries.
   std::size_t most = 100;

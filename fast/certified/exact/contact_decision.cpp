@@ -577,7 +577,8 @@ class Decision {
       return at_irrational<FineTime>(event, root, lower, upper);
     }
     if (too_late) return Outcome::decided;
-    // The cell may reach beyond the interval, where other roots may be; there may be one at `upper`.
+    // The cell may reach beyond the interval, where other roots may be; there may be one at
+    // `upper`.
     const AnyTime low = compare(*first, lower) < 0 ? as<AnyTime>(lower) : *first;
     const bool is_within = compare(*last, upper) < 0;
     const AnyTime high = is_within ? *last : as<AnyTime>(upper);

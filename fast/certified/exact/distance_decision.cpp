@@ -263,15 +263,15 @@ bool holds(const Separator& separator, Instant& at) {
   return true;
 }
 
-/// The end of the time in which a separator holds; empty if it is beyond the horizon.
+/// The end of the time in which a separator holds; empty if it is beyond the end.
 using End = std::optional<Instant>;
 
-/// Makes `end` the first root of the form between `from` and the horizon, if that is earlier.
-void shorten(End& end, Instant& from, const Dyadic& horizon, const Polynomial& form) {
+/// Makes `end` the first root of the form between `from` and the end, if that is earlier.
+void shorten(End& end, Instant& from, const Dyadic& t_end, const Polynomial& form) {
   // The sign is computed first: this narrows the end, up to which the form is examined.
   if (end && end->sign_of(form) > 0 && is_positive_between(form, from.upper(), end->lower()))
     return;
-  End root = first_root_after(from, horizon, form);
+  End root = first_root_after(from, t_end, form);
   if (root) root->narrow();
   if (root && (!end || compare(*root, *end) < 0)) end = std::move(root);
 }
@@ -279,19 +279,19 @@ void shorten(End& end, Instant& from, const Dyadic& horizon, const Polynomial& f
 /// The first root of the forms of a separator that holds at `from`. The forms that are least at the
 /// beginning are examined first; up to the time that they give, most signs are known and no others
 /// are needed.
-End end_of(const Separator& separator, Instant& from, const Dyadic& horizon) {
+End end_of(const Separator& separator, Instant& from, const Dyadic& t_end) {
   End end;
   const Signs first = separator.signs_between(from.lower(), from.upper());
   for (std::size_t value = 0; value < separator.values.size(); ++value) {
-    shorten(end, from, horizon, separator.form(value, first));
+    shorten(end, from, t_end, separator.form(value, first));
   }
-  const Signs signs = separator.signs_between(from.lower(), end ? end->upper() : horizon);
+  const Signs signs = separator.signs_between(from.lower(), end ? end->upper() : t_end);
   const auto known =
       static_cast<std::size_t>(std::ranges::count_if(signs, [](int sign) { return sign != 0; }));
   if (signs == first && known == separator.spreads.size()) return end;
   for (std::size_t value = 0; value < separator.values.size(); ++value) {
     static_cast<void>(all_forms(separator, value, signs, [&](const Polynomial& form) {
-      shorten(end, from, horizon, form);
+      shorten(end, from, t_end, form);
       return true;
     }));
   }
@@ -304,7 +304,7 @@ struct Reach {
   End end;                 ///< the end of one that holds long
 };
 
-Reach reach(const std::vector<Separator>& separators, Instant& from, const Dyadic& horizon) {
+Reach reach(const std::vector<Separator>& separators, Instant& from, const Dyadic& t_end) {
   Reach result;
   for (const Separator& separator : separators) {
     if (result.end) {
@@ -312,7 +312,7 @@ Reach reach(const std::vector<Separator>& separators, Instant& from, const Dyadi
       if (!holds(separator, sure)) continue;
     }
     if (!holds(separator, from)) continue;
-    End end = end_of(separator, from, horizon);
+    End end = end_of(separator, from, t_end);
     if (!end) return {true, {}};
     // The order of two ends that are this close is irrelevant.
     if (!result.end || compare(end->lower(), result.end->lower()) > 0) result.end = std::move(end);
@@ -324,10 +324,10 @@ Reach reach(const std::vector<Separator>& separators, Instant& from, const Dyadi
 /// The first time not later than `latest` at which `reach_from(t, latest)` finds no separator.
 template <class ReachFrom>
 End walk(ReachFrom&& reach_from, std::uint64_t latest) {
-  const Dyadic horizon = dyadic_of(latest);
+  const Dyadic t_end = dyadic_of(latest);
   Instant now(Dyadic{0, 0});
   for (;;) {
-    Reach found = reach_from(now, horizon);
+    Reach found = reach_from(now, t_end);
     if (!found.separated) return now;
     if (!found.end) return std::nullopt;
     static_cast<void>(found.end->is_above(latest));  // so that its bounds are not
@@ -338,17 +338,16 @@ End walk(ReachFrom&& reach_from, std::uint64_t latest) {
 End first_instant(const Setting& setting, Norm norm, std::uint64_t latest) {
   if (norm == Norm::linf) {
     const auto separators = cube_separators(setting);
-    return walk(
-        [&](Instant& now, const Dyadic& horizon) { return reach(separators, now, horizon); },
-        latest);
+    return walk([&](Instant& now, const Dyadic& t_end) { return reach(separators, now, t_end); },
+                latest);
   }
   const BallParts parts(setting);
   const auto low = low_ball_separators(setting, parts);
   return walk(
-      [&](Instant& now, const Dyadic& horizon) {
-        Reach found = reach(low, now, horizon);
+      [&](Instant& now, const Dyadic& t_end) {
+        Reach found = reach(low, now, t_end);
         if (found.separated) return found;
-        return reach(ball_separators_at(now, setting, parts), now, horizon);
+        return reach(ball_separators_at(now, setting, parts), now, t_end);
       },
       latest);
 }

@@ -4,13 +4,13 @@
 /// The first time at which a moving polygon is within a distance of the origin: any motion with
 /// integer coordinates of any size, any distance, both norms.
 ///
-/// P(t) is the polygon with the corners w_k(t) (contact_conditions.hpp), B the closed ball of radius d of a
-/// norm: for linf the cube [−d,d]³. A *separator* is a direction a(t) with forms in t; it *holds* at
-/// t iff all its forms are positive there, and then a·w_k(t) > max of a·b over b ∈ B for all k, so
-/// that P(t) does not meet B.
+/// P(t) is the polygon with the corners w_k(t) (contact_conditions.hpp), B the closed ball of
+/// radius d of a norm: for linf the cube [−d,d]³. A *separator* is a direction a(t) with forms in
+/// t; it *holds* at t iff all its forms are positive there, and then a·w_k(t) > max of a·b over b ∈
+/// B for all k, so that P(t) does not meet B.
 ///
-/// **Theorem 1** (l2). P(t) does not meet B iff one of these holds at t, where i, k are corners, ij is
-/// a side of the polygon, e = w_j − w_i, C = |w_i × w_j|² and N the polygon's normal:
+/// **Theorem 1** (l2). P(t) does not meet B iff one of these holds at t, where i, k are corners, ij
+/// is a side of the polygon, e = w_j − w_i, C = |w_i × w_j|² and N the polygon's normal:
 ///   - vertex, a = w_i:  |w_i|² − d², and for every k ≠ i  w_i·w_k and (w_i·w_k)² − d²|w_i|²;
 ///   - side, a = |e|² w_i − (w_i·e) e:  C − d²|e|², and for every other k  a·w_k and
 ///     (a·w_k)² − d²|e|²C;

@@ -154,9 +154,9 @@ void move_into_domain(Kind kind, double& u, double& v) {
   u = u >= least ? std::min(u, 1.0) : 0.0;
   v = v >= least ? std::min(v, 1.0) : 0.0;
   if (kind == Kind::edge_edge) return;
-  double room = 1.0 - u;  // exact, or rounded within [1/2, 1]; there 1 − room is exact
-  if (1.0 - room < u) room = std::bit_cast<double>(std::bit_cast<std::uint64_t>(room) - 1);
-  v = std::min(v, room);
+  double rest = 1.0 - u;  // exact, or rounded within [1/2, 1]; there 1 − rest is exact
+  if (1.0 - rest < u) rest = std::bit_cast<double>(std::bit_cast<std::uint64_t>(rest) - 1);
+  v = std::min(v, rest);
 }
 
 }  // namespace

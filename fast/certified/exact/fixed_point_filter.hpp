@@ -4,9 +4,9 @@
 /// Forms on intervals in fixed point with an error bound, which suffices for most signs.
 ///
 /// With Bernstein's coefficients b_k = c_k / binomial(n,k), a form is Σ b_k binomial(n,k)
-/// (1−t)^(n−k) t^k. Its coefficients on an interval [s,e] come from them by de Casteljau's steps, which
-/// replace all neighbours a, b by (1−t) a + t b: the one of index k takes n − k steps with t = s and k
-/// with t = e.
+/// (1−t)^(n−k) t^k. Its coefficients on an interval [s,e] come from them by de Casteljau's steps,
+/// which replace all neighbours a, b by (1−t) a + t b: the one of index k takes n − k steps with t
+/// = s and k with t = e.
 ///
 /// **Bound.** Let the c_k be in units that make the greatest one below 2^60, and t in units of
 /// 2^-60, both without their fractions. Then every computed coefficient is within 2 + 3n units of

@@ -151,21 +151,21 @@ class Advance {
     const Value half = a + (b - a) * Value(0.5);
     const Mask is_shorter = is_ahead & (on_way < a + (b - a) * Value(0.875));
     const Value next = to_exact(select(apart, whole, select(is_shorter, on_way, half)));
-    const Mask is_first = step == Value(0.0), touches = seen.gap <= Value(0.0);
+    const Mask is_first = step == Value(0.0), is_in_contact = seen.gap <= Value(0.0);
     const Mask is_close = is_ahead & (seen.time <= one + Value(near_in_time)) &
                           ((seen.time - from <= seen.time * Value(near_in_time)) |
                            (seen.gap <= bound * Value(near_in_bounds)) | (next <= from));
     const Value apart_value = select(apart, one, Value(0.0));
     const Mask fails = apart_value < Value(0.5);
     const Mask arrives = is_close & select_mask(is_first, apart, Mask::all());
-    const Mask touches_at_start = is_first & fails & touches;
+    const Mask contact_at_start = is_first & fails & is_in_contact;
     const Mask is_over = apart & (b >= Value(input_.t_limit));
     const Mask is_hopeless = (is_first & fails) | (next <= from) | (step >= Value(most_steps));
     from.store(state_[begin].data());
     next.store(state_[end].data());
     (step + one).store(state_[steps].data());
-    finish(is_over.bits() & active_, (arrives | touches_at_start).bits() & active_,
-           is_hopeless.bits() & active_, select(touches_at_start, Value(0.0), seen.time));
+    finish(is_over.bits() & active_, (arrives | contact_at_start).bits() & active_,
+           is_hopeless.bits() & active_, select(contact_at_start, Value(0.0), seen.time));
   }
 
   void finish(unsigned over, unsigned arrived, unsigned hopeless, const Value& time) {

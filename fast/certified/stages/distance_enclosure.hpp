@@ -289,7 +289,7 @@ class DistanceEnclosure {
       found = found.or_else(arrival.template around<Norm::l2>(found.corrected));
     }
     const unsigned proved = valid_bits(found.proved, count);
-    store_hits<Lanes>(output, indices, proved, {found.lower, found.upper}, {found.u, found.v});
+    store_impacts<Lanes>(output, indices, proved, {found.lower, found.upper}, {found.u, found.v});
     append_lanes<Lanes>(unproved, indices, first_lanes<Lanes>(count) & ~proved);
   }
 };

@@ -118,17 +118,18 @@ inline void append_lanes(Indices& list, const std::array<std::uint32_t, Lanes::w
 }
 
 template <class Lanes>
-inline void store_hits(KernelOutput& output, const std::array<std::uint32_t, Lanes::width>& indices,
-                       unsigned lanes, const std::array<typename Lanes::Value, 2>& enclosure,
-                       const std::array<typename Lanes::Value, 2>& uv) {
+inline void store_impacts(KernelOutput& output,
+                          const std::array<std::uint32_t, Lanes::width>& indices, unsigned lanes,
+                          const std::array<typename Lanes::Value, 2>& enclosure,
+                          const std::array<typename Lanes::Value, 2>& uv) {
   alignas(64) std::array<Numbers<Lanes>, 4> rows;
   enclosure[0].store(rows[0].data());
   enclosure[1].store(rows[1].data());
   uv[0].store(rows[2].data());
   uv[1].store(rows[3].data());
   for_each_lane(lanes, [&](std::size_t lane) {
-    append<Lanes>(output.hits, KernelHit{indices[lane], rows[0][lane], rows[1][lane], rows[2][lane],
-                                         rows[3][lane]});
+    append<Lanes>(output.impacts, KernelImpact{indices[lane], rows[0][lane], rows[1][lane],
+                                               rows[2][lane], rows[3][lane]});
   });
 }
 

@@ -156,8 +156,8 @@ class Refinement {
       found = found.or_else(Enclosure(determinant, lanes, found.corrected(), half_width));
     }
     const unsigned proved = valid_bits(found.proved, count);
-    store_hits<Lanes>(output, lanes.indices, proved, {found.lower, found.upper},
-                      contact<kind>(points, found.toi));
+    store_impacts<Lanes>(output, lanes.indices, proved, {found.lower, found.upper},
+                         contact<kind>(points, found.toi));
     if constexpr (separated) {
       keep_approaches(lanes, determinant, zero, first_lanes<Lanes>(count) & ~proved, approaches);
     } else {

@@ -20,7 +20,7 @@ using tests::Random;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Said {
-  bool hit = false;
+  bool collision = false;
   double toi = -1.0;
 };
 
@@ -28,11 +28,11 @@ Said ask(const ipc::NarrowPhaseCCD& ccd, Kind kind, const Query& query, double m
          double tmax = 1.0) {
   const auto p = [&](std::size_t i) { return Vector3d(query.coordinates.data() + 3 * i); };
   Said said;
-  said.hit = kind == Kind::vertex_face
-                 ? ccd.point_triangle_ccd(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), said.toi,
-                                          min_distance, tmax)
-                 : ccd.edge_edge_ccd(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), said.toi,
-                                     min_distance, tmax);
+  said.collision = kind == Kind::vertex_face
+                       ? ccd.point_triangle_ccd(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7),
+                                                said.toi, min_distance, tmax)
+                       : ccd.edge_edge_ccd(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), said.toi,
+                                           min_distance, tmax);
   return said;
 }
 
@@ -47,14 +47,14 @@ TEST(IpcAdapter, LeavesItsPartOfTheDistance) {
   EXPECT_NEAR(ask(ccd, Kind::vertex_face, falling(1)).toi, 0.375, 1e-12);
   EXPECT_LT(ask(ccd, Kind::vertex_face, falling(1)).toi, 0.375);
   EXPECT_NEAR(ask(ccd, Kind::vertex_face, falling(1), 0.5).toi, 0.1875, 1e-12);
-  EXPECT_FALSE(ask(ccd, Kind::vertex_face, falling(1), 0.0, 0.25).hit);
+  EXPECT_FALSE(ask(ccd, Kind::vertex_face, falling(1), 0.0, 0.25).collision);
   EXPECT_EQ(ask(ccd, Kind::vertex_face, falling(1), 0.0, 0.25).toi, infinity);
   EXPECT_NEAR(ask(NarrowPhaseCCD(1.0), Kind::vertex_face, falling(1)).toi, 0.5, 1e-12);
 }
 
 TEST(IpcAdapter, IsInContactAtZeroExactlyWhereItIs) {
   const NarrowPhaseCCD ccd;
-  EXPECT_TRUE(ask(ccd, Kind::vertex_face, falling(0)).hit);
+  EXPECT_TRUE(ask(ccd, Kind::vertex_face, falling(0)).collision);
   EXPECT_EQ(ask(ccd, Kind::vertex_face, falling(0)).toi, 0.0);
   EXPECT_EQ(ask(ccd, Kind::vertex_face, falling(0.5), 0.5).toi, 0.0);
   EXPECT_GT(ask(ccd, Kind::vertex_face, falling(std::nextafter(0.5, 1.0)), 0.5).toi, 0.0);
@@ -71,7 +71,7 @@ TEST(IpcAdapter, NeverStalls) {
   const NarrowPhaseCCD ccd;
   for (double height = 1.0; height > 1e-300; height *= 0x1p-20) {
     const Said said = ask(ccd, Kind::vertex_face, falling(height));
-    EXPECT_TRUE(said.hit);
+    EXPECT_TRUE(said.collision);
     EXPECT_NEAR(said.toi / (0.8 * height / 2.0), 1.0, 1e-9) << height;
   }
 }
@@ -79,20 +79,20 @@ TEST(IpcAdapter, NeverStalls) {
 TEST(IpcAdapter, AgreesWithTheOracleOnFreedom) {
   Random random(3);
   const NarrowPhaseCCD ccd;
-  int hits = 0;
+  int collisions = 0;
   for (int i = 0; i < 400; ++i) {
     Query query;
     for (double& x : query.coordinates) x = random.between(-3, 3);
     const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
-    const exact::Verdict truth = exact::decide(kind, query);
+    const exact::Decision truth = exact::decide(kind, query);
     const Said said = ask(ccd, kind, query);
-    EXPECT_TRUE(said.hit || !truth.collides()) << i;
+    EXPECT_TRUE(said.collision || !truth.collides()) << i;
     if (!truth.collides()) continue;
-    ++hits;
+    ++collisions;
     const double upper = truth.toi->enclosure().upper;
     EXPECT_TRUE(upper == 0.0 ? said.toi == 0.0 : said.toi < upper) << i;
   }
-  EXPECT_GT(hits, 50);
+  EXPECT_GT(collisions, 50);
 }
 
 TEST(IpcAdapter, AnswersForPointsAndEdgesInTwoAndThreeDimensions) {
@@ -114,7 +114,7 @@ TEST(IpcAdapter, AnswersForPointsAndEdgesInTwoAndThreeDimensions) {
 TEST(IpcAdapter, StopsWhatIsNotFinite) {
   Query query = falling(1);
   query.coordinates[0] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(ask(NarrowPhaseCCD(), Kind::vertex_face, query).hit);
+  EXPECT_TRUE(ask(NarrowPhaseCCD(), Kind::vertex_face, query).collision);
   EXPECT_EQ(ask(NarrowPhaseCCD(), Kind::vertex_face, query).toi, 0.0);
 }
 

@@ -17,7 +17,7 @@ using ticcd::Vector3;
 
 /// What a call says.
 struct Said {
-  bool hit = false;
+  bool collision = false;
   double toi = -1.0;
   double tolerance = -1.0;
 };
@@ -29,33 +29,34 @@ Said ask(Kind kind, const Query& query, double ms = 0.0, double t_max = 1.0) {
   };
   const ticcd::Array3 err(-1, -1, -1);
   Said said;
-  said.hit = kind == Kind::vertex_face
-                 ? ticcd::vertexFaceCCD(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), err, ms,
-                                        said.toi, 1e-6, t_max, 10, said.tolerance)
-                 : ticcd::edgeEdgeCCD(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), err, ms,
-                                      said.toi, 1e-6, t_max, -1, said.tolerance, true,
-                                      ticcd::CCDRootFindingMethod::DEPTH_FIRST_SEARCH);
+  said.collision = kind == Kind::vertex_face
+                       ? ticcd::vertexFaceCCD(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), err,
+                                              ms, said.toi, 1e-6, t_max, 10, said.tolerance)
+                       : ticcd::edgeEdgeCCD(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), err, ms,
+                                            said.toi, 1e-6, t_max, -1, said.tolerance, true,
+                                            ticcd::CCDRootFindingMethod::DEPTH_FIRST_SEARCH);
   return said;
 }
 
 TEST(TightInclusionAdapter, AnswersAsTheSolver) {
   Random random(5);
-  int hits = 0, misses = 0;
+  int collisions = 0, no_collisions = 0;
   for (int i = 0; i < 2000; ++i) {
     Query query;
     for (double& x : query.coordinates) x = random.between(-3, 3);
     const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
     const double ms = i % 3 == 0 ? 0.5 : 0.0, t_max = i % 5 == 0 ? 0.5 : 1.0;
-    const fast::CertifiedResult expected = fast::certified(
+    const fast::CertifiedResult expected = fast::solve(
         kind, query, {.t_max = t_max, .separation = {.distance = ms, .norm = Norm::linf}});
     const Said said = ask(kind, query, ms, t_max);
-    ASSERT_EQ(said.hit, expected.verdict == fast::Verdict::yes) << i;
-    EXPECT_EQ(said.toi, said.hit ? expected.toi_lower : std::numeric_limits<double>::infinity());
+    ASSERT_EQ(said.collision, expected.verdict == fast::Verdict::yes) << i;
+    EXPECT_EQ(said.toi,
+              said.collision ? expected.toi_lower : std::numeric_limits<double>::infinity());
     EXPECT_EQ(said.tolerance, 1e-6);
-    ++(said.hit ? hits : misses);
+    ++(said.collision ? collisions : no_collisions);
   }
-  EXPECT_GT(hits, 200);
-  EXPECT_GT(misses, 200);
+  EXPECT_GT(collisions, 200);
+  EXPECT_GT(no_collisions, 200);
 }
 
 /// The case that the released library misses.
@@ -63,7 +64,7 @@ TEST(TightInclusionAdapter, FindsAContactAtTheEnd) {
   const Said said = ask(Kind::vertex_face,
                         {{-0.01, 0, 0, 0.02, -0.01, -0.01, 0.02, 0.02, -0.01, 0.02, -0.01, 0.02,
                           0.02,  0, 0, 0.02, -0.01, -0.01, 0.02, 0.02, -0.01, 0.02, -0.01, 0.02}});
-  EXPECT_TRUE(said.hit);
+  EXPECT_TRUE(said.collision);
   EXPECT_GT(said.toi, 0.999);
   EXPECT_LT(said.toi, 1.0);
 }
@@ -82,10 +83,10 @@ TEST(TightInclusionAdapter, ATimeOfZeroIsAContactAtZero) {
 
 TEST(TightInclusionAdapter, StopsWhatIsNotFinite) {
   Query query{{9, 9, 9, 0, 0, 0, 4, 0, 0, 0, 4, 0, 9, 9, 8, 0, 0, 0, 4, 0, 0, 0, 4, 0}};
-  EXPECT_FALSE(ask(Kind::vertex_face, query).hit);
+  EXPECT_FALSE(ask(Kind::vertex_face, query).collision);
   query.coordinates[0] = std::numeric_limits<double>::quiet_NaN();
   const Said said = ask(Kind::vertex_face, query);
-  EXPECT_TRUE(said.hit);
+  EXPECT_TRUE(said.collision);
   EXPECT_EQ(said.toi, 0.0);
   query.coordinates[0] = 9;
   EXPECT_THROW(static_cast<void>(ask(Kind::vertex_face, query, -1.0)), std::invalid_argument);

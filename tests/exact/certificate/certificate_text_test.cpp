@@ -94,9 +94,10 @@ TEST(WriteCertificate, WritesEveryFeatureAndContact) {
   Certificate certificate;
   certificate.kind = Kind::edge_edge;
   using Sort = Feature::Sort;
-  certificate.pieces = {{0, Rational(1, 4), {.sort = Sort::vertex, .i = 3}},
-                        {Rational(1, 4), Rational(1, 2), {.sort = Sort::edge, .i = 2, .j = 3}},
-                        {Rational(1, 2), 1, {.sort = Sort::negative_face}}};
+  certificate.subintervals = {
+      {0, Rational(1, 4), {.sort = Sort::vertex, .i = 3}},
+      {Rational(1, 4), Rational(1, 2), {.sort = Sort::edge, .i = 2, .j = 3}},
+      {Rational(1, 2), 1, {.sort = Sort::negative_face}}};
   std::string text;
   write(text, certificate);
   EXPECT_TRUE(text.starts_with("query edge_edge\npoint "));
@@ -104,7 +105,7 @@ TEST(WriteCertificate, WritesEveryFeatureAndContact) {
       text.ends_with("claim no_collision\nseparate 0 1/4 vertex 3\nseparate 1/4 1/2 edge 2 3\n"
                      "separate 1/2 1 face -\nend\n"));
   certificate.claim = Claim::collision;
-  certificate.pieces.clear();
+  certificate.subintervals.clear();
   certificate.contact = {
       RootTime{{Rational(1, 2), 1}, Polynomial(Integer(-1), Integer(0), Integer(2))},
       SegmentContact{{1, 2}}};
@@ -117,9 +118,10 @@ TEST(WriteCertificate, NamesADistanceAndWhatBelongsToIt) {
   using Sort = Feature::Sort;
   Certificate certificate;
   certificate.separation = {.distance = 0.125, .norm = Norm::linf};
-  certificate.pieces = {{0, Rational(1, 4), {.sort = Sort::positive_axis, .axis = 0}},
-                        {Rational(1, 4), Rational(1, 2), {.sort = Sort::negative_axis, .axis = 2}},
-                        {Rational(1, 2), 1, {.sort = Sort::cross, .i = 2, .j = 0, .axis = 1}}};
+  certificate.subintervals = {
+      {0, Rational(1, 4), {.sort = Sort::positive_axis, .axis = 0}},
+      {Rational(1, 4), Rational(1, 2), {.sort = Sort::negative_axis, .axis = 2}},
+      {Rational(1, 2), 1, {.sort = Sort::cross, .i = 2, .j = 0, .axis = 1}}};
   std::string text;
   write(text, certificate);
   EXPECT_TRUE(text.ends_with(
@@ -127,7 +129,7 @@ TEST(WriteCertificate, NamesADistanceAndWhatBelongsToIt) {
       "separate 0 1/4 axis x +\nseparate 1/4 1/2 axis z -\nseparate 1/2 1 cross y 2 0\nend\n"));
   certificate.separation.norm = Norm::l2;
   certificate.claim = Claim::collision;
-  certificate.pieces.clear();
+  certificate.subintervals.clear();
   for (const auto& [place, line] :
        {std::pair<ContactPlace, const char*>(VertexContact{2}, "at vertex 2"),
         {EdgeContact{{1, 2}}, "at edge 1 2"},
@@ -158,7 +160,7 @@ TEST(WriteCertificate, NamesTheLeastDistanceAndNoneOfZero) {
 
 TEST(CertificateStream, BeginsWithItsHeaderAndEndsWithItsCount) {
   Certificate certificate;
-  certificate.pieces = {{0, 1, {.sort = Feature::Sort::positive_face}}};
+  certificate.subintervals = {{0, 1, {.sort = Feature::Sort::positive_face}}};
   std::string text;
   write(text, certificate, "x:1");
   EXPECT_EQ(certificate_stream(certificate, "x:1"),

@@ -17,8 +17,8 @@
 namespace touchstone::exact {
 
 /// For messages of failed expectations.
-void PrintTo(const Piece& piece, std::ostream* out) {
-  const auto& [from, to, feature] = piece;
+void PrintTo(const Subinterval& subinterval, std::ostream* out) {
+  const auto& [from, to, feature] = subinterval;
   *out << '[' << from << ", " << to << "] " << static_cast<int>(feature.sort) << ' ' << feature.i
        << ' ' << feature.j << ' ' << feature.axis;
 }
@@ -32,11 +32,11 @@ using Sort = Feature::Sort;
 constexpr Feature face_above{.sort = Sort::positive_face};
 constexpr Feature face_below{.sort = Sort::negative_face};
 
-std::vector<Piece> separate_all(const PosedQuery& posed) {
+std::vector<Subinterval> separate_all(const PosedQuery& posed) {
   return separate(scale_uniformly(posed.kind, posed.query), 1);
 }
 
-std::vector<Piece> one(const Feature& feature) { return {{0, 1, feature}}; }
+std::vector<Subinterval> one(const Feature& feature) { return {{0, 1, feature}}; }
 
 /// All corners are one point that moves from (−a,1,0) to (b,1,0): it is nearest at a/(a+b).
 Motion passing_point(const Integer& a, const Integer& b, const Integer& distance) {
@@ -101,12 +101,12 @@ bool some_direction_separates(const Motion& motion) {
   });
 }
 
-void expect_cover(const std::vector<Piece>& pieces, const Rational& until) {
-  ASSERT_FALSE(pieces.empty());
-  EXPECT_EQ(pieces.back().to, until);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    EXPECT_LE(pieces[i].from, pieces[i].to);
-    EXPECT_EQ(pieces[i].from, i == 0 ? Rational(0) : pieces[i - 1].to);
+void expect_cover(const std::vector<Subinterval>& subintervals, const Rational& until) {
+  ASSERT_FALSE(subintervals.empty());
+  EXPECT_EQ(subintervals.back().to, until);
+  for (std::size_t i = 0; i < subintervals.size(); ++i) {
+    EXPECT_LE(subintervals[i].from, subintervals[i].to);
+    EXPECT_EQ(subintervals[i].from, i == 0 ? Rational(0) : subintervals[i - 1].to);
   }
 }
 
@@ -121,9 +121,9 @@ TEST(Separate, TakesEachFeatureForWhatItIs) {
   // Parallel edges beside each other: no area, so a side of the parallelogram.
   const auto parallel = tests::edge_edge({0, 0, 0, 4, 0, 0, -1, 1, 0, 3, 1, 0},
                                          {0, 0, 0, 4, 0, 0, -1, 2, 0, 3, 2, 0});
-  const auto pieces = separate_all(parallel);
-  ASSERT_EQ(pieces.size(), 1U);
-  EXPECT_EQ(pieces.front().feature.sort, Sort::edge);
+  const auto subintervals = separate_all(parallel);
+  ASSERT_EQ(subintervals.size(), 1U);
+  EXPECT_EQ(subintervals.front().feature.sort, Sort::edge);
 }
 
 TEST(Separate, BreaksAtAShortNumberBetweenTwoFeatures) {
@@ -132,8 +132,8 @@ TEST(Separate, BreaksAtAShortNumberBetweenTwoFeatures) {
   const auto posed = tests::vertex_face({1, 1, 0.125, 0, 0, 0, 4, 0, 0, 0, 4, 0},
                                         {-3.5, 1, -0.25, 0, 0, 0, 4, 0, 0, 0, 4, 0});
   const Rational quarter(1, 4);
-  const std::vector<Piece> expected{{0, quarter, face_above},
-                                    {quarter, 1, {.sort = Sort::edge, .i = 2, .j = 0}}};
+  const std::vector<Subinterval> expected{{0, quarter, face_above},
+                                          {quarter, 1, {.sort = Sort::edge, .i = 2, .j = 0}}};
   EXPECT_EQ(separate_all(posed), expected);
 }
 
@@ -141,8 +141,8 @@ TEST(Separate, EndsWhereItIsToldTo) {
   const auto falling = over_triangle(1, 1, 3, -1);  // touches at 3/4
   const Motion motion = scale_uniformly(falling.kind, falling.query);
   const Rational until = Rational(3, 4) - power_of_two(-300);
-  EXPECT_EQ(separate(motion, until), (std::vector<Piece>{{0, until, face_above}}));
-  EXPECT_EQ(separate(motion, 0), (std::vector<Piece>{{0, 0, face_above}}));
+  EXPECT_EQ(separate(motion, until), (std::vector<Subinterval>{{0, until, face_above}}));
+  EXPECT_EQ(separate(motion, 0), (std::vector<Subinterval>{{0, 0, face_above}}));
   EXPECT_THROW(static_cast<void>(separate(motion, Rational(3, 4))), std::logic_error);
   EXPECT_THROW(static_cast<void>(separate(motion, 1)), std::logic_error);
 }
@@ -150,39 +150,41 @@ TEST(Separate, EndsWhereItIsToldTo) {
 TEST(Separate, KeepsADistance) {
   // Down to height 1 at t=1/2.
   const auto falling = over_triangle(1, 1, 3, -1);
-  const auto pieces_until = [&](const Separation& separation, const Rational& until) {
+  const auto subintervals_until = [&](const Separation& separation, const Rational& until) {
     return separate(scale_uniformly(falling.kind, falling.query, separation), until);
   };
   for (const Norm norm : {Norm::linf, Norm::l2}) {
     const Rational before = Rational(1, 2) - power_of_two(-200);
     const Feature expected =
         norm == Norm::l2 ? face_above : Feature{.sort = Sort::positive_axis, .axis = 2};
-    EXPECT_EQ(pieces_until({1, norm}, before), (std::vector<Piece>{{0, before, expected}}));
-    EXPECT_THROW(static_cast<void>(pieces_until({1, norm}, Rational(1, 2))), std::logic_error);
+    EXPECT_EQ(subintervals_until({1, norm}, before),
+              (std::vector<Subinterval>{{0, before, expected}}));
+    EXPECT_THROW(static_cast<void>(subintervals_until({1, norm}, Rational(1, 2))),
+                 std::logic_error);
   }
 }
 
 TEST(Separate, TakesACubesEdgeWhereNothingElseSeparates) {
-  // (6,2) is 2 from the side in x = y. The triangle leans away from it: its plane is nearer, and all
-  // coordinates of the vertex are between those of the triangle.
+  // (6,2) is 2 from the side in x = y. The triangle leans away from it: its plane is nearer, and
+  // all coordinates of the vertex are between those of the triangle.
   const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 2, 6, -8};
   const auto posed = tests::vertex_face(tests::with_vertex(6, 2, -0.25, face),
                                         tests::with_vertex(6, 2, -0.5, face));
   const Motion motion = scale_uniformly(posed.kind, posed.query, {1.9, Norm::linf});
-  const auto pieces = separate(motion, 1);
-  ASSERT_EQ(pieces.size(), 1U);
-  EXPECT_EQ(pieces.front().feature.sort, Sort::cross);
+  const auto subintervals = separate(motion, 1);
+  ASSERT_EQ(subintervals.size(), 1U);
+  EXPECT_EQ(subintervals.front().feature.sort, Sort::cross);
 }
 
 TEST(Separate, BreaksWhatACheckerDoesNotReach) {
   const Integer far = Integer(1) << 1000U;
   // A depth of 100 needs no break; one of 1000 needs one on each side of the nearest time.
   EXPECT_EQ(separate(passing_point(far, 2 * far, Integer(1) << 900U), 1).size(), 1U);
-  const auto pieces = separate(passing_point(far, 2 * far, 1), 1);
-  expect_cover(pieces, 1);
-  ASSERT_EQ(pieces.size(), 3U);
-  EXPECT_LT(pieces[1].from, Rational(1, 3));
-  EXPECT_GT(pieces[1].to, Rational(1, 3));
+  const auto subintervals = separate(passing_point(far, 2 * far, 1), 1);
+  expect_cover(subintervals, 1);
+  ASSERT_EQ(subintervals.size(), 3U);
+  EXPECT_LT(subintervals[1].from, Rational(1, 3));
+  EXPECT_GT(subintervals[1].to, Rational(1, 3));
   // At a time that a bisection meets nothing is deep.
   EXPECT_EQ(separate(passing_point(far, far, 1), 1).size(), 1U);
 }
@@ -197,16 +199,16 @@ TEST(Separate, SaysSoWhereTheLimitsCannotBeKept) {
                CertificateLimitError);
 }
 
-TEST(Separate, TakesTwoPiecesOnlyWhereNoFeatureSeparatesThroughout) {
+TEST(Separate, TakesTwoSubintervalsOnlyWhereNoFeatureSeparatesThroughout) {
   tests::Random random(5);
   std::size_t several = 0;
   for (int repetition = 0; repetition < tests::trials(4000); ++repetition) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     const PosedQuery posed = tests::random_query(random, kind, tests::Family::near_contact);
     if (decide(posed.kind, posed.query).collides()) continue;
-    const auto pieces = separate_all(posed);
-    expect_cover(pieces, 1);
-    if (pieces.size() < 2) continue;
+    const auto subintervals = separate_all(posed);
+    expect_cover(subintervals, 1);
+    if (subintervals.size() < 2) continue;
     ++several;
     EXPECT_FALSE(some_direction_separates(scale_uniformly(posed.kind, posed.query))) << posed;
   }

@@ -302,8 +302,8 @@ TEST(Limit, OfALabel) {
   EXPECT_EQ(outcome(with(3, "label ")), "time_of_impact");
 }
 
-TEST(Limit, OfPieces) {
-  const auto pieces = [](std::size_t count) {
+TEST(Limit, OfSubintervals) {
+  const auto subintervals = [](std::size_t count) {
     std::string text = "separate 0 1/4 face +";
     for (std::size_t n = 1; n < count; ++n) text += "\nseparate 1/4 1/4 face +";
     Lines lines = sample();
@@ -311,8 +311,8 @@ TEST(Limit, OfPieces) {
     lines.at(12) = text;
     return outcome(joined(lines));
   };
-  EXPECT_EQ(pieces(4'096), "time_of_impact");
-  EXPECT_EQ(pieces(4'097), "4109: more than 4096 pieces");
+  EXPECT_EQ(subintervals(4'096), "time_of_impact");
+  EXPECT_EQ(subintervals(4'097), "4109: more than 4096 subintervals");
 }
 
 TEST(Limit, OfADegree) {
@@ -332,10 +332,10 @@ TEST(Limit, OfADegree) {
   EXPECT_EQ(degree(9), "13: more than 9 coefficients in a polynomial");
 }
 
-/// 96,000 bits a coefficient: some 200 such pieces are too much, though each is proved.
+/// 96,000 bits a coefficient: some 200 such subintervals are too much, though each is proved.
 TEST(Limit, OfWork) {
   const std::string vertex = "point 0x1p-16000 0x1p-16000 0x1p+16000";
-  const auto pieces = [&](std::size_t count) {
+  const auto subintervals = [&](std::size_t count) {
     Lines lines = sample();
     lines.at(3) = lines.at(7) = vertex;
     lines.at(11) = "claim no_collision";
@@ -344,8 +344,8 @@ TEST(Limit, OfWork) {
     for (std::size_t n = 1; n < count; ++n) lines.at(12) += "\nseparate 1 1 edge 0 1";
     return outcome(joined(lines));
   };
-  EXPECT_EQ(pieces(100), "no_collision");
-  EXPECT_EQ(pieces(300), "199: the proof takes too much work");
+  EXPECT_EQ(subintervals(100), "no_collision");
+  EXPECT_EQ(subintervals(300), "199: the proof takes too much work");
 }
 
 TEST(Printable, ShowsEveryByteInAscii) {

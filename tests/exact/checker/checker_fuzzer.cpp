@@ -1,10 +1,11 @@
 /// \file
 /// libFuzzer on the checker: no bytes make it crash, hang, or read or write where it must not.
 ///
-/// The fuzzer's own mutations seldom leave a certificate readable, so half of ours are of its words:
-/// replaced by words of the format or of the same certificate, lines swapped, doubled or left out.
-/// What is accepted is held against a second look: nothing is accepted without a `claim` and an `end`
-/// line each, no stream without a closing line of its number, and the counts agree with the reasons.
+/// The fuzzer's own mutations seldom leave a certificate readable, so half of ours are of its
+/// words: replaced by words of the format or of the same certificate, lines swapped, doubled or
+/// left out. What is accepted is held against a second look: nothing is accepted without a `claim`
+/// and an `end` line each, no stream without a closing line of its number, and the counts agree
+/// with the reasons.
 
 #include <algorithm>
 #include <array>

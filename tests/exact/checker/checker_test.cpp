@@ -1,6 +1,6 @@
 /// \file
-/// The checker on streams: what it counts, how it goes on after a rejection, what it does with bytes
-/// that are no certificates; the corpus of the fuzzer, and the examples of the manual.
+/// The checker on streams: what it counts, how it goes on after a rejection, what it does with
+/// bytes that are no certificates; the corpus of the fuzzer, and the examples of the manual.
 
 #include "exact/checker/checker.hpp"
 #include "tests/support/built_files.hpp"
@@ -36,21 +36,21 @@ using tests::outcome;
 const std::string header(tests::certificate_header);
 
 /// A query and the proofs of what it does, without the header: 11 to 13 lines each.
-const std::string points_of_miss =
+const std::string points_of_no_collision =
     "point 1 1 1\npoint 0 0 0\npoint 4 0 0\npoint 0 4 0\npoint 1 1 2\npoint 0 0 0\npoint 4 0 "
     "0\npoint 0 4 0\n";
-const std::string points_of_hit =
+const std::string points_of_collision =
     "point 1 1 1\npoint 0 0 0\npoint 4 0 0\npoint 0 4 0\npoint 1 1 -1\npoint 0 0 0\npoint 4 0 "
     "0\npoint 0 4 0\n";
-const std::string miss =
-    "query vertex_face\n" + points_of_miss + "claim no_collision\nseparate 0 1 face +\nend\n";
-const std::string hit = "query vertex_face\n" + points_of_hit +
-                        "claim collision\ncontact time 1/2\nat triangle 0 1 2 z\nend\n";
-const std::string impact = "query vertex_face\n" + points_of_hit +
+const std::string apart = "query vertex_face\n" + points_of_no_collision +
+                          "claim no_collision\nseparate 0 1 face +\nend\n";
+const std::string colliding = "query vertex_face\n" + points_of_collision +
+                              "claim collision\ncontact time 1/2\nat triangle 0 1 2 z\nend\n";
+const std::string impact = "query vertex_face\n" + points_of_collision +
                            "claim time_of_impact 1/4 1/2\nseparate 0 1/4 face +\ncontact time 1/2\n"
                            "at triangle 0 1 2 z\nend\n";
 const std::string lie =
-    "query vertex_face\n" + points_of_hit + "claim no_collision\nseparate 0 1 face +\nend\n";
+    "query vertex_face\n" + points_of_collision + "claim no_collision\nseparate 0 1 face +\nend\n";
 
 /// "LINE LABEL: REASON" of each rejection.
 std::vector<std::string> rejections(const Report& report) {
@@ -71,14 +71,15 @@ Report check_closed(const std::string& text, const Options& options = {}) {
 }
 
 TEST(Check, CountsByClaim) {
-  const Report report = check_closed(header + miss + hit + impact + hit + miss + miss + lie);
+  const Report report =
+      check_closed(header + apart + colliding + impact + colliding + apart + apart + lie);
   EXPECT_EQ(report.no_collision, 3U);
   EXPECT_EQ(report.collision, 2U);
   EXPECT_EQ(report.time_of_impact, 1U);
   EXPECT_EQ(report.accepted(), 6U);
   EXPECT_EQ(report.rejected, 1U);
   EXPECT_FALSE(report.all_accepted());
-  EXPECT_TRUE(check_closed(header + miss + hit).all_accepted());
+  EXPECT_TRUE(check_closed(header + apart + colliding).all_accepted());
 }
 
 TEST(Check, AcceptsAStreamWithoutCertificates) {
@@ -91,15 +92,15 @@ TEST(Check, RejectsAStreamWithoutItsClosingLine) {
   const std::string missing = " : the stream is cut: it has no closing line 'certificates ";
   EXPECT_EQ(rejections(check_text(header)), Texts{"1" + missing + "0'"});
   EXPECT_EQ(rejections(check_text(header + "\n# nothing\n")), Texts{"3" + missing + "0'"});
-  const Report cut = check_text(header + miss + hit);
+  const Report cut = check_text(header + apart + colliding);
   EXPECT_EQ(cut.accepted(), 2U);
   EXPECT_EQ(rejections(cut), Texts{"26" + missing + "2'"});
-  EXPECT_EQ(rejections(check_text(header + miss + "certificates 1")),
+  EXPECT_EQ(rejections(check_text(header + apart + "certificates 1")),
             Texts{"14 : the last line is not ended by a newline"});
 }
 
 TEST(Check, HoldsTheClosingLineToTheNumberOfCertificates) {
-  const std::string begin = header + miss;
+  const std::string begin = header + apart;
   EXPECT_TRUE(check_text(begin + "certificates 1\n\n# the end\n").all_accepted());
   for (const std::string& other :
        {"certificates 0"s, "certificates 2"s, "certificates 01"s, "certificates -1"s,
@@ -121,7 +122,7 @@ TEST(Check, HoldsTheClosingLineToTheNumberOfCertificates) {
 }
 
 TEST(Check, ReadsNothingBehindTheClosingLine) {
-  const Report report = check_text(tests::closed(header + miss) + miss + header + lie);
+  const Report report = check_text(tests::closed(header + apart) + apart + header + lie);
   EXPECT_EQ(report.accepted(), 1U);
   EXPECT_EQ(rejections(report), Texts{"15 : a line after the closing line"});
 }
@@ -134,7 +135,7 @@ TEST(Check, RejectsAStreamOfAnotherKindAsAWhole) {
         "Touchstone-certificates 2\n"s, "\xef\xbb\xbftouchstone-certificates 2\n"s,
         "# comment\n" + header, "\n" + header, "touchstone-certificates 2\0\n"s,
         std::string(70'000, 'x') + "\n"}) {
-    const Report report = check_text(std::string(first).append(miss).append(lie));
+    const Report report = check_text(std::string(first).append(apart).append(lie));
     EXPECT_EQ(report.accepted(), 0U) << first;
     EXPECT_EQ(rejections(report), Texts{"1 : the first line is not 'touchstone-certificates 2'"})
         << first;
@@ -143,10 +144,11 @@ TEST(Check, RejectsAStreamOfAnotherKindAsAWhole) {
 
 TEST(Check, GoesOnAfterARejection) {
   const std::string broken = "query vertex_face\nlabel one\npoint 1 1 x\nclaim no_collision\nend\n";
-  const std::string endless = "query vertex_face\nlabel two\n" + points_of_miss +
+  const std::string endless = "query vertex_face\nlabel two\n" + points_of_no_collision +
                               "claim no_collision\nseparate 0 1 face +\n";
-  const Report report = check_closed(header + broken + miss + endless + hit + "stray 1\nstray 2\n" +
-                                     "query\n" + miss + "query x\nquery y\n" + impact);
+  const Report report =
+      check_closed(header + broken + apart + endless + colliding + "stray 1\nstray 2\n" +
+                   "query\n" + apart + "query x\nquery y\n" + impact);
   EXPECT_EQ(report.accepted(), 4U);
   EXPECT_EQ(rejections(report),
             (Texts{"4 one: not a number: 'x'", "31 two: expected 'end', found 'query'",
@@ -157,7 +159,7 @@ TEST(Check, GoesOnAfterARejection) {
 
 TEST(Check, FindsALieAmongTruths) {
   std::string text = header;
-  for (int n = 0; n < 50; ++n) text += miss;
+  for (int n = 0; n < 50; ++n) text += apart;
   text += lie;
   for (int n = 0; n < 50; ++n) text += impact;
   const Report report = check_closed(text);
@@ -168,10 +170,10 @@ TEST(Check, FindsALieAmongTruths) {
 /// A proof of one query is none of the next.
 TEST(Check, ForgetsTheCertificateBefore) {
   const std::string without_proof =
-      "query vertex_face\n" + points_of_miss + "claim no_collision\nend\n";
-  EXPECT_EQ(rejections(check_closed(header + miss + without_proof)),
-            Texts{"23 : there is no piece"});
-  const std::string labelled = "query vertex_face\nlabel first\n" + miss.substr(18);
+      "query vertex_face\n" + points_of_no_collision + "claim no_collision\nend\n";
+  EXPECT_EQ(rejections(check_closed(header + apart + without_proof)),
+            Texts{"23 : there is no subinterval"});
+  const std::string labelled = "query vertex_face\nlabel first\n" + apart.substr(18);
   EXPECT_EQ(rejections(check_closed(header + labelled + lie)),
             Texts{"25 : a polynomial is not positive at a point"});
 }
@@ -197,7 +199,7 @@ TEST(Check, ShowsLabelsSafely) {
 }
 
 TEST(Check, RejectsTheEndingsOfOtherSystems) {
-  std::string text = header + miss, carriage = text;
+  std::string text = header + apart, carriage = text;
   for (std::size_t at = 0; (at = carriage.find('\n', at)) != std::string::npos; at += 2)
     carriage.insert(at, "\r");
   EXPECT_FALSE(check_closed(carriage).all_accepted());
@@ -207,7 +209,7 @@ TEST(Check, RejectsTheEndingsOfOtherSystems) {
 }
 
 TEST(Check, WantsTheLastLineEnded) {
-  const std::string text = header + miss;
+  const std::string text = header + apart;
   EXPECT_EQ(rejections(check_text(text.substr(0, text.size() - 1))),
             (Texts{"13 : the last line is not ended by a newline",
                    "13 : the stream is cut: it has no closing line 'certificates 1'"}));
@@ -215,11 +217,12 @@ TEST(Check, WantsTheLastLineEnded) {
 
 /// Cut anywhere, a stream is not accepted, and proves at most what was complete.
 TEST(Check, AcceptsNoCutStream) {
-  const std::string text = tests::closed(header + miss + hit);
+  const std::string text = tests::closed(header + apart + colliding);
   for (std::size_t length = 0; length < text.size(); ++length) {
     const Report report = check_text(text.substr(0, length));
-    const std::uint64_t complete = (length >= header.size() + miss.size() ? 1U : 0U) +
-                                   (length >= header.size() + miss.size() + hit.size() ? 1U : 0U);
+    const std::uint64_t complete =
+        (length >= header.size() + apart.size() ? 1U : 0U) +
+        (length >= header.size() + apart.size() + colliding.size() ? 1U : 0U);
     EXPECT_EQ(report.accepted(), complete) << length;
     EXPECT_FALSE(report.all_accepted()) << length;
   }
@@ -229,18 +232,18 @@ TEST(Check, AcceptsNoCutStream) {
 /// Any byte in the place of any byte: where it is accepted, nothing but a label or the way of
 /// writing changed, or the claim is still true. The query: v moves from (1,1,1) to (1,1,2).
 TEST(Check, SurvivesEveryByte) {
-  const std::string text = tests::closed(header + miss);
+  const std::string text = tests::closed(header + apart);
   for (std::size_t at = 0; at < text.size(); ++at) {
     for (int byte = 0; byte < 256; ++byte) {
       std::string altered = text;
       altered[at] = static_cast<char>(byte);
       const Report report = check_text(altered);
       ASSERT_LE(report.accepted(), 1U);
-      // The piece, the claim and the frame admit no change that is still accepted.
+      // The subinterval, the claim and the frame admit no change that is still accepted.
       const bool is_point = text.compare(text.rfind('\n', at) + 1, 5, "point") == 0;
       if (altered != text && !is_point) {
         ASSERT_FALSE(report.all_accepted()) << altered;
-        ASSERT_EQ(report.accepted(), at < header.size() + miss.size() ? 0U : 1U) << altered;
+        ASSERT_EQ(report.accepted(), at < header.size() + apart.size() ? 0U : 1U) << altered;
       }
     }
   }
@@ -254,7 +257,7 @@ TEST(Check, DoesNotDependOnTheLocale) {
   };
   const std::locale before =
       std::locale::global(std::locale(std::locale::classic(), new Punctuation));
-  const Report report = check_closed(header + miss + hit + impact + lie);
+  const Report report = check_closed(header + apart + colliding + impact + lie);
   std::locale::global(before);
   EXPECT_EQ(report.accepted(), 3U);
   EXPECT_EQ(rejections(report), Texts{"51 : a polynomial is not positive at a point"});
@@ -296,7 +299,7 @@ class Failing final : public std::streambuf {
   }
 
  private:
-  std::string text_ = header + miss;
+  std::string text_ = header + apart;
   int calls_ = 0;
 };
 
@@ -340,7 +343,8 @@ TEST(Corpus, HasTheOutcomeThatItShould) {
   EXPECT_EQ(found, expected.size());
 }
 
-/// The blocks of the manual that hold certificates: all are accepted, and every claim is among them.
+/// The blocks of the manual that hold certificates: all are accepted, and every claim is among
+/// them.
 TEST(Manual, HasExamplesThatAreAccepted) {
   const std::string manual = read(root / "exact/CERTIFICATES.md"), fence = "```\n";
   Report sum;

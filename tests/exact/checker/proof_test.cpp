@@ -56,8 +56,8 @@ std::string crossing(std::string_view start, std::string_view end) {
   return edge_edge({a0, a1, "0 -1 0", "0 1 0"}, {b0, b1, "0 -1 0", "0 1 0"});
 }
 
-/// The triangle (0,0,0), (2,2t,0), (0,0,1) and the vertex (t,1/2,1/4): det = ±(2t²−1), so the toi is
-/// √½ with (u,v) = (√½/2, 1/4).
+/// The triangle (0,0,0), (2,2t,0), (0,0,1) and the vertex (t,1/2,1/4): det = ±(2t²−1), so the toi
+/// is √½ with (u,v) = (√½/2, 1/4).
 std::string turning() {
   return vertex_face({"0 1/2 1/4", "0 0 0", "2 0 0", "0 0 1"},
                      {"1 1/2 1/4", "0 0 0", "2 2 0", "0 0 1"});
@@ -66,8 +66,8 @@ std::string turning() {
 /// The same vertex and triangle as turning(), in the plane z=0 for all time: every det is 0.
 std::string flat() { return over_triangle("1 -1 0", "1 1 0"); }
 
-std::string no_collision(std::string_view pieces) {
-  return "claim no_collision\n" + std::string(pieces) + "\nend\n";
+std::string no_collision(std::string_view subintervals) {
+  return "claim no_collision\n" + std::string(subintervals) + "\nend\n";
 }
 std::string collision(std::string_view contact, std::string_view place) {
   return "claim collision\ncontact " + std::string(contact) + "\nat " + std::string(place) +
@@ -154,8 +154,8 @@ TEST(Separation, MustHoldForEveryCorner) {
 
 TEST(Separation, IsStrict) {
   // In contact by a hair, at t=1 only: every feature has a value 0.
-  const std::string touching = over_triangle("1 1 1", "1 1 0");
-  EXPECT_EQ(outcome(touching + no_collision("separate 0 1 face +")),
+  const std::string colliding = over_triangle("1 1 1", "1 1 0");
+  EXPECT_EQ(outcome(colliding + no_collision("separate 0 1 face +")),
             "12: a polynomial is not positive at a point");
   EXPECT_EQ(outcome(over_triangle("1 1 0", "1 1 1") + no_collision("separate 0 1 face +")),
             "12: a polynomial is not positive at a point");
@@ -175,7 +175,8 @@ TEST(Separation, IsSeenByHalves) {
             "12: a polynomial is not seen to be positive within 128 bisections");
 }
 
-/// Each has (1−2t)² + h² as its value, times a constant: halved as a form of degree 3 and of degree 4.
+/// Each has (1−2t)² + h² as its value, times a constant: halved as a form of degree 3 and of
+/// degree 4.
 TEST(Separation, IsSeenByHalvesWhateverTheDegree) {
   const auto turning_face = [](const std::string& h) {
     return vertex_face({"0 0 1", "0 0 0", "1 " + h + " 0", "-" + h + " 1 0"},
@@ -195,8 +196,8 @@ TEST(Separation, IsSeenByHalvesWhateverTheDegree) {
   EXPECT_EQ(outcome(passing_edge("0")), "12: a polynomial is not positive at a point");
 }
 
-/// After 128 halvings 1/3 is at one or two thirds of an interval of width 2^−128, on which the middle
-/// coefficient of (1−3t)² + h² is h² − 2·4^−128: h = 2^−127 is enough, h = 2^−128 is not.
+/// After 128 halvings 1/3 is at one or two thirds of an interval of width 2^−128, on which the
+/// middle coefficient of (1−3t)² + h² is h² − 2·4^−128: h = 2^−127 is enough, h = 2^−128 is not.
 TEST(Separation, HasALimitOfBisections) {
   const auto passing = [](int power) {
     const std::string h = "0x1p-" + std::to_string(power);
@@ -209,7 +210,7 @@ TEST(Separation, HasALimitOfBisections) {
             "12: a polynomial is not seen to be positive within 128 bisections");
 }
 
-TEST(Pieces, CoverTheWholeTime) {
+TEST(Subintervals, CoverTheWholeTime) {
   // The vertex passes over the triangle's edge f0 f1: first the edge is nearest, then the face.
   const std::string over = over_triangle("1 -1 1", "1 1 1");
   EXPECT_EQ(outcome(over + no_collision("separate 0 1/2 edge 0 1\nseparate 1/2 1 face +")),
@@ -219,7 +220,7 @@ TEST(Pieces, CoverTheWholeTime) {
   EXPECT_EQ(outcome(over + no_collision("separate 0 1/2 face +\nseparate 1/2 1/2 edge 0 1\n"
                                         "separate 1/2 1 face +")),
             "no_collision");
-  const std::string begin = ": the piece does not begin where it should";
+  const std::string begin = ": the subinterval does not begin where it should";
   EXPECT_EQ(outcome(over + no_collision("separate 1/4 1 face +")), "12" + begin);
   EXPECT_EQ(outcome(over + no_collision("separate -1 1 face +")), "12" + begin);
   EXPECT_EQ(outcome(over + no_collision("separate 0 1/2 face +\nseparate 3/4 1 face +")),
@@ -229,15 +230,15 @@ TEST(Pieces, CoverTheWholeTime) {
   EXPECT_EQ(outcome(over + no_collision("separate 1/2 1 face +\nseparate 0 1/2 face +")),
             "12" + begin);
   EXPECT_EQ(outcome(over + no_collision("separate 0 1 face +\nseparate 1 1/2 face +")),
-            "13: the piece ends before it begins");
+            "13: the subinterval ends before it begins");
   EXPECT_EQ(outcome(over + no_collision("separate 0 1/2 face +")),
-            "12: the last piece does not end where it should");
+            "12: the last subinterval does not end where it should");
   EXPECT_EQ(outcome(over + no_collision("separate 0 2 face +")),
-            "12: the last piece does not end where it should");
-  EXPECT_EQ(outcome(over + "claim no_collision\nend\n"), "11: there is no piece");
+            "12: the last subinterval does not end where it should");
+  EXPECT_EQ(outcome(over + "claim no_collision\nend\n"), "11: there is no subinterval");
 }
 
-TEST(Pieces, EachIsProved) {
+TEST(Subintervals, EachIsProved) {
   // Through the triangle between 1/4 and 3/4 only.
   const std::string through = over_triangle("1 1 1", "1 1 -1");
   EXPECT_EQ(outcome(through + no_collision("separate 0 1/4 face +\nseparate 1/4 3/4 face +\n"
@@ -250,7 +251,7 @@ TEST(Pieces, EachIsProved) {
             "13: a polynomial is not positive at a point");
 }
 
-TEST(Pieces, MayBeSinglePoints) {
+TEST(Subintervals, MayBeSinglePoints) {
   const std::string above = over_triangle("1 1 1", "1 1 2");
   EXPECT_EQ(outcome(above +
                     no_collision("separate 0 0 face +\nseparate 0 1 face +\nseparate 1 1 face +")),
@@ -442,10 +443,10 @@ TEST(Contact, IsInTheTimeOfTheQuery) {
 
 // ---- Time of impact -----------------------------------------------------------------------------
 
-std::string time_of_impact(std::string_view bounds, std::string_view pieces,
+std::string time_of_impact(std::string_view bounds, std::string_view subintervals,
                            std::string_view contact, std::string_view place) {
-  return "claim time_of_impact " + std::string(bounds) + "\n" + std::string(pieces) + "contact " +
-         std::string(contact) + "\nat " + std::string(place) + "\nend\n";
+  return "claim time_of_impact " + std::string(bounds) + "\n" + std::string(subintervals) +
+         "contact " + std::string(contact) + "\nat " + std::string(place) + "\nend\n";
 }
 
 TEST(TimeOfImpact, IsEnclosed) {
@@ -481,7 +482,8 @@ TEST(TimeOfImpact, MayBeZero) {
             "time_of_impact");
   EXPECT_EQ(outcome(on + time_of_impact("0 0", "separate 0 0 face +\n", "time 0", place)),
             "12: expected 'contact', found 'separate'");
-  EXPECT_EQ(outcome(on + time_of_impact("0 1/2", "", "time 0", place)), "11: there is no piece");
+  EXPECT_EQ(outcome(on + time_of_impact("0 1/2", "", "time 0", place)),
+            "11: there is no subinterval");
   EXPECT_EQ(outcome(on + time_of_impact("0 1/2", "separate 0 0 face +\n", "time 0", place)),
             "12: a polynomial is not positive at a point");
 }
@@ -514,7 +516,7 @@ TEST(TimeOfImpact, NeedsBothProofs) {
             outside);
   EXPECT_EQ(
       outcome(through + time_of_impact("3/8 3/4", "separate 0 1/4 face +\n", "time 1/2", place)),
-      "12: the last piece does not end where it should");
+      "12: the last subinterval does not end where it should");
   EXPECT_EQ(
       outcome(through + time_of_impact("1/4 3/4", "separate 0 1/2 face +\n", "time 1/2", place))
           .substr(0, 3),
@@ -784,7 +786,7 @@ TEST(Near, DistanceZeroIsContact) {
   }
 }
 
-TEST(Near, ATimeOfImpactNeedsThePiecesAtTheDistance) {
+TEST(Near, ATimeOfImpactNeedsTheSubintervalsAtTheDistance) {
   const std::string falling = over_triangle("1 1 3", "1 1 -1") + separation("1", "l2");
   EXPECT_EQ(
       outcome(falling + time_of_impact("1/4 1/2", "separate 0 1/4 face +\n", "time 1/2", "face")),
@@ -816,13 +818,13 @@ class RandomCertificate {
       if (n % 3 == 2) result += "\n";
     }
     const int claim = below(4);
-    if (claim == 0) return result + "claim no_collision\n" + pieces(8) + "end\n";
+    if (claim == 0) return result + "claim no_collision\n" + subintervals(8) + "end\n";
     if (claim == 1) return result + "claim collision\n" + contact(0, 8) + "end\n";
     bounds_ = {below(4), 0};
     bounds_[1] = bounds_[0] + 1 + below(8 - bounds_[0]);
     if (below(8) == 0) bounds_ = {0, 0};
     result += "claim time_of_impact " + eighths(bounds_[0]) + " " + eighths(bounds_[1]) + "\n";
-    if (bounds_[1] > 0) result += pieces(bounds_[0]);
+    if (bounds_[1] > 0) result += subintervals(bounds_[0]);
     return result + contact(bounds_[0], bounds_[1]) + "end\n";
   }
 
@@ -843,7 +845,7 @@ class RandomCertificate {
     }
   }
 
-  std::string pieces(int end) {
+  std::string subintervals(int end) {
     std::string result;
     for (int from = 0; from < end || result.empty();) {
       const int to = below(2) == 0 ? end : from + below(end - from + 1);
@@ -929,7 +931,7 @@ int compare(exact::AlgebraicNumber toi, int n) {
 
 /// Is an accepted claim true?
 bool is_true(const std::string& claim, const RandomCertificate& certificate) {
-  const exact::Verdict verdict = exact::decide(certificate.kind(), certificate.points());
+  const exact::Decision verdict = exact::decide(certificate.kind(), certificate.points());
   if (claim == "no_collision") return !verdict.collides();
   if (!verdict.collides() || claim == "collision") return verdict.collides();
   const auto [lower, upper] = certificate.bounds();

@@ -90,8 +90,9 @@ const std::vector<Falsehood>& falsehoods() {
       {"3 0 -1 0 1", "3 0 0 0 0", apart_not},
       {"separate 0 1 face +", "separate 0 1 face -", "a polynomial is not positive at a point"},
       {"separate 0 1 face +", "separate 0 1/2 face +",
-       "the last piece does not end where it should"},
-      {"separate 0 1 face +", "separate 1/2 1 face +", "the piece does not begin where it should"},
+       "the last subinterval does not end where it should"},
+      {"separate 0 1 face +", "separate 1/2 1 face +",
+       "the subinterval does not begin where it should"},
       // A vertex that moves elsewhere, so that it is where no box of the honest one was.
       {"1 1 2 1 1 0x1.8p+0", "1 1 2 1 1 0", apart_not},
       {"1 1 2 1 1 0x1.8p+0", "1 1 0 1 1 0x1.8p+0", apart_not},
@@ -142,7 +143,8 @@ TEST(Step, RefusesEveryFalsehoodWithItsReason) {
   }
 }
 
-/// A vertex that falls along the x axis, from 1, to the side of a face that touches the plane x = 0 from below.
+/// A vertex that falls along the x axis, from 1, to the side of a face that touches the plane x = 0
+/// from below.
 std::string of_falling_vertex(std::string_view x_at_end, std::string_view argument) {
   return stream("step falling\nvertices 4\n0 -1 0 0 -1 0\n0 1 0 0 1 0\n-1 0 1 -1 0 1\n1 0 0 " +
                 std::string(x_at_end) +

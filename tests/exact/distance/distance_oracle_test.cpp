@@ -119,8 +119,8 @@ TEST(DistanceOracle, AnIrrationalTime) {
 }
 
 TEST(DistanceOracle, ACubesEdgeAgainstASide) {
-  // The triangle's side lies in x = y, z = 0 and the cube about the vertex meets it by an edge: where
-  // the vertex is at (1 + s, 1 − s, 0), at distance s in linf and √2 s in l2.
+  // The triangle's side lies in x = y, z = 0 and the cube about the vertex meets it by an edge:
+  // where the vertex is at (1 + s, 1 − s, 0), at distance s in linf and √2 s in l2.
   const std::array<double, 9> face{0, 0, 0, 8, 8, 0, 4, 4, -8};
   const PosedQuery posed =
       vertex_face(tests::with_vertex(5, -3, 0, face), tests::with_vertex(1, 1, 0, face));
@@ -179,10 +179,10 @@ TEST(DistanceOracle, FlushedSubnormalsChangeNothing) {
   const PosedQuery posed = over_triangle(1, 1, 3 * u, 2 * u);
   const unsigned control = _mm_getcsr();
   _mm_setcsr(control | flush_to_zero | denormals_are_zero);
-  std::vector<bool> hits;
+  std::vector<bool> collisions;
   for (const Norm norm : both_norms) {
-    hits.push_back(decide(posed.kind, posed.query, {u, norm}).collides());
-    hits.push_back(decide(posed.kind, posed.query, {2 * Limits::min(), norm}).collides());
+    collisions.push_back(decide(posed.kind, posed.query, {u, norm}).collides());
+    collisions.push_back(decide(posed.kind, posed.query, {2 * Limits::min(), norm}).collides());
   }
   bool is_refused = false;
   try {
@@ -191,7 +191,7 @@ TEST(DistanceOracle, FlushedSubnormalsChangeNothing) {
     is_refused = true;
   }
   _mm_setcsr(control);
-  EXPECT_EQ(hits, (std::vector<bool>{false, true, false, true}));
+  EXPECT_EQ(collisions, (std::vector<bool>{false, true, false, true}));
   EXPECT_TRUE(is_refused);
   expect_toi(posed, 2 * u, Norm::l2, 1);
 }
@@ -225,7 +225,7 @@ TEST(DistanceOracle, TheSearchAtDistanceZeroAgreesWithTheContactOracle) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     const PosedQuery posed =
         tests::random_query(random, kind, tests::all_families.at(static_cast<std::size_t>(i % 4)));
-    const Verdict plain = decide(kind, posed.query);
+    const Decision plain = decide(kind, posed.query);
     for (const Norm norm : both_norms) {
       expect_same(decide_distance(scale_uniformly(kind, posed.query, {0.0, norm})).toi, plain.toi,
                   posed);
@@ -261,7 +261,7 @@ double small_distance(Random& random) {
 TEST(DistanceOracle, AgreesWithTheEvaluationOfAllCandidates) {
   Random random(12);
   const int count = soak() ? 30000 : 150;
-  int later = 0, misses = 0;
+  int later = 0, no_collisions = 0;
   for (int i = 0; i < count; ++i) {
     const PosedQuery posed = small_query(random);
     const double distance = small_distance(random);
@@ -272,11 +272,11 @@ TEST(DistanceOracle, AgreesWithTheEvaluationOfAllCandidates) {
       expect_same(decide_distance(motion).toi, expected, posed);
       if (HasFailure()) FAIL() << to_string(norm) << ' ' << distance;
       later += expected && *expected > Rational(0) ? 1 : 0;
-      misses += expected ? 0 : 1;
+      no_collisions += expected ? 0 : 1;
     }
   }
   EXPECT_GT(later, count / 8);
-  EXPECT_GT(misses, count / 8);
+  EXPECT_GT(no_collisions, count / 8);
 }
 
 TEST(DistanceOracle, FindsTheContactsOfAGrid) {

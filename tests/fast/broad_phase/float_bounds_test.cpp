@@ -45,8 +45,8 @@ Eigen::MatrixX3d places(int count, const Coordinate& coordinate) {
   return result;
 }
 
-/// Holds the bounds of any two places on any axis against their coordinates: do they overlap where these are within
-/// the distance, and nowhere else for sure?
+/// Holds the bounds of any two places on any axis against their coordinates: do they overlap where
+/// these are within the distance, and nowhere else for sure?
 void expect_ordered_as_coordinates(const Eigen::MatrixX3d& start, const Eigen::MatrixX3d& end,
                                    double distance) {
   const FloatBounds bounds(MovingVertices(start, end), 1.0, distance);
@@ -138,7 +138,8 @@ std::vector<VertexBounds> bounds_of(const MovingVertices& vertices, double end, 
   return result;
 }
 
-/// Are bounds at both ends of [0, time] apart only if the exact places there are, by more than the distance?
+/// Are bounds at both ends of [0, time] apart only if the exact places there are, by more than the
+/// distance?
 bool are_around_places(tests::MakeBounds& make, const Eigen::MatrixX3d& start,
                        const Eigen::MatrixX3d& end, double time, double distance) {
   const std::vector<VertexBounds> bounds = make(MovingVertices(start, end), time, distance);
@@ -188,8 +189,8 @@ std::string first_fault(tests::MakeBounds& make) {
       return "coordinates of all sizes at " + std::to_string(time);
     }
   }
-  // Places near zero of vertices that come from far away: there, floats are nearer to each other than
-  // the rounding errors of places are large. And vertices that rest there.
+  // Places near zero of vertices that come from far away: there, floats are nearer to each other
+  // than the rounding errors of places are large. And vertices that rest there.
   for (const double time : {0.5, 0x1p-3, 0x1p-20}) {
     Eigen::MatrixX3d start = places(24, [&] { return random.uniform(-1, 1); });
     Eigen::MatrixX3d end = start * (1.0 - 1.0 / time);
@@ -248,7 +249,8 @@ TEST(FloatBounds, AreExactForFloats) {
 }
 
 TEST(FloatBounds, TellCoordinatesOfAllSizesApart) {
-  // A few vertices of other sizes do not take digits from the rest: of 24 or, out of the window, 18.
+  // A few vertices of other sizes do not take digits from the rest: of 24 or, out of the
+  // window, 18.
   for (const double size : {0x1p-1000, 0x1p-500, 1.0, 0x1p500, 0x1p1000}) {
     for (const double other : {0x1p-1030, 0x1p-700, 1.0, 0x1p700, 0x1p1020}) {
       Eigen::MatrixX3d start(300, 3);

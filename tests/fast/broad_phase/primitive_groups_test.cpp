@@ -85,8 +85,8 @@ TEST(PrimitiveGroups, HoldEveryPrimitiveOnce) {
 }
 
 TEST(PrimitiveGroups, AreSixteenNeighboursEach) {
-  // Points on a line, in any order: a group is sixteen in a row, and groups are in order. So are points
-  // whose distances grow without end: what counts is the rank.
+  // Points on a line, in any order: a group is sixteen in a row, and groups are in order. So are
+  // points whose distances grow without end: what counts is the rank.
   for (const int count : {16, 100, 256, 300, 5000}) {
     for (const bool is_exponential : {false, true}) {
       Random random(7);

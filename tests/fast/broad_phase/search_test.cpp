@@ -42,7 +42,8 @@ struct Scene {
   std::vector<std::int32_t> vertices;
 };
 
-/// Triangles of a size in a cube; their coordinates are multiples of `grain`, so that boxes often touch.
+/// Triangles of a size in a cube; their coordinates are multiples of `grain`, so that boxes often
+/// touch.
 Scene random_scene(Random& random, int faces, double size, double grain, double jitter = 0.0) {
   Scene scene{.start = Eigen::MatrixX3d(3 * faces, 3),
               .end = Eigen::MatrixX3d(3 * faces, 3),
@@ -116,8 +117,8 @@ bool exceeds(double x, double y, double distance) {
   return difference > distance || (difference == distance && error > 0.0);
 }
 
-/// Are two primitives apart by more than d, on some axis, at both ends the same way round (two instants), or all
-/// the time (one)? Exact.
+/// Are two primitives apart by more than d, on some axis, at both ends the same way round (two
+/// instants), or all the time (one)? Exact.
 template <std::size_t instants>
 bool are_apart(const Scene& scene, const Primitive& a, const Primitive& b, double distance) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {

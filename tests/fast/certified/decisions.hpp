@@ -41,7 +41,7 @@ template <class Number>
 /// Is it the query's first contact, `step` spacings of doubles at most around?
 inline void expect_truth(const PosedQuery& posed, const std::optional<fast::ExactImpact>& impact,
                          std::uint64_t step) {
-  const exact::Verdict truth = exact::decide(posed.kind, posed.query);
+  const exact::Decision truth = exact::decide(posed.kind, posed.query);
   ASSERT_EQ(impact.has_value(), truth.collides()) << posed;
   if (!impact) return;
   const exact::AlgebraicNumber& toi = *truth.toi;

@@ -66,11 +66,11 @@ std::vector<std::uint32_t> numbers(const KernelOutput::List<std::uint32_t>& list
   return result;
 }
 
-std::vector<KernelHit> hits(const KernelOutput& output) {
-  std::vector<KernelHit> result(
-      output.hits.items.begin(),
-      output.hits.items.begin() + static_cast<std::ptrdiff_t>(output.hits.count));
-  std::ranges::sort(result, {}, &KernelHit::index);
+std::vector<KernelImpact> collisions(const KernelOutput& output) {
+  std::vector<KernelImpact> result(
+      output.impacts.items.begin(),
+      output.impacts.items.begin() + static_cast<std::ptrdiff_t>(output.impacts.count));
+  std::ranges::sort(result, {}, &KernelImpact::index);
   return result;
 }
 
@@ -79,7 +79,7 @@ void expect_same(const KernelOutput& a, const KernelOutput& b) {
   EXPECT_EQ(numbers(a.one_sided), numbers(b.one_sided));
   EXPECT_EQ(numbers(a.rejected), numbers(b.rejected));
   EXPECT_EQ(numbers(a.undecided), numbers(b.undecided));
-  const std::vector<KernelHit> of_a = hits(a), of_b = hits(b);
+  const std::vector<KernelImpact> of_a = collisions(a), of_b = collisions(b);
   ASSERT_EQ(of_a.size(), of_b.size());
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     EXPECT_EQ(of_a[i].index, of_b[i].index);
@@ -131,7 +131,7 @@ TEST(CertifiedKernels, TakeNoQueries) {
   for (const CertifiedKernel* const kernel : all_kernels()) {
     kernel->decide({.kind = Kind::edge_edge}, *output);
     EXPECT_EQ(output->separated_in_direction.count + output->one_sided.count +
-                  output->rejected.count + output->hits.count + output->undecided.count,
+                  output->rejected.count + output->impacts.count + output->undecided.count,
               0U);
   }
 }
@@ -145,7 +145,7 @@ TEST(CertifiedKernels, ReadNothingBehindTheLastQuery) {
     const auto output = std::make_unique<KernelOutput>();
     for (const CertifiedKernel* const kernel : all_kernels()) {
       kernel->decide({.kind = Kind::edge_edge, .count = count, .queries = queries.data()}, *output);
-      EXPECT_LE(output->hits.count, count);
+      EXPECT_LE(output->impacts.count, count);
     }
   }
 }
@@ -170,7 +170,7 @@ std::vector<std::string> families_that_find(const CertifiedKernel& kernel) {
       if (!verify::generate::supports(family, kind)) continue;
       for (std::uint64_t i = 0; i < count && !wrong; ++i) {
         const verify::generate::KnownQuery known = verify::generate::make_query(family, kind, 5, i);
-        wrong = is_wrong(known, certified(kind, known.query, {.kernel = &kernel}));
+        wrong = is_wrong(known, fast::solve(kind, known.query, {.kernel = &kernel}));
       }
     }
     if (wrong) found.emplace_back(family.name);
@@ -217,7 +217,8 @@ int distances_that_find(const CertifiedKernel& kernel) {
         const CertifiedOptions options{.separation = {.distance = distance, .norm = norm},
                                        .kernel = &kernel};
         const Query query = query_near(random, kind, distance, i);
-        is_found = tests::fault(kind, query, certified(kind, query, options), options).has_value();
+        is_found =
+            tests::fault(kind, query, fast::solve(kind, query, options), options).has_value();
       }
     }
     found += is_found ? 1 : 0;

@@ -62,7 +62,8 @@ Case random_case(Random& random) {
 
 bool is_released(const BoxKernel& kernel) { return &kernel == &released_box_kernel(); }
 
-/// F at corner number `corner` (binary digits t, u, v), from the expressions that the kernel claims.
+/// F at corner number `corner` (binary digits t, u, v), from the expressions that the kernel
+/// claims.
 template <class Scalar>
 Scalar expression(const BoxKernel& kernel, const BoxProblem& problem, const Box& box,
                   std::size_t axis, std::size_t corner) {

@@ -62,10 +62,10 @@ TEST(Accd, KeepsTheSeparation) {
                        options);
     };
     // 0.25 is reached at t=3/4.
-    const fast::Answer hit = comes_down(1, 0);
-    EXPECT_EQ(hit.verdict, fast::Verdict::yes);
-    EXPECT_LT(hit.toi_lower, 0.75);
-    EXPECT_GT(hit.toi_lower, 0.66);
+    const fast::Answer collision = comes_down(1, 0);
+    EXPECT_EQ(collision.verdict, fast::Verdict::yes);
+    EXPECT_LT(collision.toi_lower, 0.75);
+    EXPECT_GT(collision.toi_lower, 0.66);
     EXPECT_EQ(comes_down(1, 0.5).verdict, fast::Verdict::no);
     const fast::Answer at_start = comes_down(0.25, 1);
     EXPECT_EQ(at_start.verdict, fast::Verdict::yes);
@@ -98,9 +98,9 @@ TEST(Accd, StopsAtMaxChecks) {
 TEST(Accd, AgreesWithTheTruthElsewhere) {
   const Score random = tests::score_on_random(*method, {.max_checks = 10000}, 500);
   EXPECT_EQ(random.errors + random.undecided, 0);
-  EXPECT_LT(random.false_negatives, random.hits / 100);
+  EXPECT_LT(random.false_negatives, random.collisions / 100);
   EXPECT_GT(random.false_positives, 0);
-  EXPECT_LT(random.false_positives, random.misses / 4);
+  EXPECT_LT(random.false_positives, random.no_collisions / 4);
 }
 
 }  // namespace

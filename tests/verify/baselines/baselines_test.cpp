@@ -1,6 +1,7 @@
 /// \file
-/// The published methods side by side: what each answers to the printed queries and to plain ones, which options it heeds, and
-/// how many of the public queries it misses and makes up. (Each one's known defects: the file of its name.)
+/// The published methods side by side: what each answers to the printed queries and to plain ones,
+/// which options it heeds, and how many of the public queries it misses and makes up. (Each one's
+/// known defects: the file of its name.)
 
 #include <gtest/gtest.h>
 
@@ -145,7 +146,7 @@ class Baselines : public testing::TestWithParam<const Baseline*> {
       return of_kind;
     };
     const tests::Score faces = score(Kind::vertex_face), edges = score(Kind::edge_edge);
-    if (faces.hits == 0) GTEST_SKIP() << "public data missing";
+    if (faces.collisions == 0) GTEST_SKIP() << "public data missing";
     const std::array found{faces.false_negatives, faces.false_positives, edges.false_negatives,
                            edges.false_positives};
     EXPECT_EQ(found, (std::array{wrong.missed_faces, wrong.invented_faces, wrong.missed_edges,
@@ -164,24 +165,24 @@ TEST_P(Baselines, AnswerThePrintedQueriesAsTheyWereSeenTo) {
 }
 
 TEST_P(Baselines, TellHitsFromWideMisses) {
-  for (const PosedQuery& hit : {over_triangle(1, 1, 1, -3), over_edge(1, 2, 1, -3)}) {
-    const fast::Answer answer = answer_to(*method, hit);
-    EXPECT_EQ(answer.verdict, yes) << hit;
+  for (const PosedQuery& collision : {over_triangle(1, 1, 1, -3), over_edge(1, 2, 1, -3)}) {
+    const fast::Answer answer = answer_to(*method, collision);
+    EXPECT_EQ(answer.verdict, yes) << collision;
     EXPECT_TRUE(std::isnan(answer.toi_lower) || std::abs(answer.toi_lower - 0.25) < 0.03)
-        << hit << ' ' << answer.toi_lower;
-    PosedQuery bad = hit;
+        << collision << ' ' << answer.toi_lower;
+    PosedQuery bad = collision;
     bad.query.coordinates[7] = fast::Answer::none;
     EXPECT_EQ(verdict(bad), Verdict::error);
   }
-  for (const PosedQuery& miss : {over_triangle(1, 1, 3, 1), over_edge(5, 2, 1, -1)}) {
-    EXPECT_EQ(verdict(miss), no) << miss;
+  for (const PosedQuery& no_collision : {over_triangle(1, 1, 3, 1), over_edge(5, 2, 1, -1)}) {
+    EXPECT_EQ(verdict(no_collision), no) << no_collision;
   }
 }
 
 TEST_P(Baselines, HeedTheOptionsThatTheyKnow) {
-  const PosedQuery hit = over_triangle(1, 1, 1, -1), near = over_triangle(1, 1, 2, 1);
-  EXPECT_EQ(verdict(hit, {.t_max = 0.75}), yes);
-  EXPECT_EQ(verdict(hit, {.t_max = 0.25}), baseline.counts_up_to_t_max ? no : yes);
+  const PosedQuery collision = over_triangle(1, 1, 1, -1), near = over_triangle(1, 1, 2, 1);
+  EXPECT_EQ(verdict(collision, {.t_max = 0.75}), yes);
+  EXPECT_EQ(verdict(collision, {.t_max = 0.25}), baseline.counts_up_to_t_max ? no : yes);
   const bool knows = method->info().measures_in(Norm::l2);
   EXPECT_EQ(verdict(near, {.separation = {.distance = 1.5, .norm = Norm::l2}}), knows ? yes : no);
 }
@@ -196,9 +197,9 @@ TEST_P(Baselines, KeepTheirPromise) {
   if (baseline.promise == Promise::none) GTEST_SKIP() << "it promises nothing";
   for (const tests::Score& score : {tests::score_on_families(*method, short_search, 4),
                                     tests::score_on_random(*method, short_search, 60)}) {
-    EXPECT_GT(score.hits, 0);
+    EXPECT_GT(score.collisions, 0);
     EXPECT_EQ(score.false_negatives + score.late + score.errors, 0);
-    EXPECT_GT(score.denied, score.misses / 4);
+    EXPECT_GT(score.denied, score.no_collisions / 4);
   }
 }
 

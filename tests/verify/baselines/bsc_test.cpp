@@ -1,6 +1,6 @@
 /// \file
-/// BSC is right where there is no inflection and no common plane, and wrong where its header says so
-/// and in that way.
+/// BSC is right where there is no inflection and no common plane, and wrong where its header says
+/// so and in that way.
 
 #include "verify/baselines/bsc.hpp"
 
@@ -47,12 +47,12 @@ TEST(Bsc, IsRightInGeneralPositionButForInflections) {
       const auto posed = random_query(random, kind, tests::Family::full_significands);
       (throws(posed) ? with : without).count(tests::truly_collides(posed), says_yes(bsc(), posed));
     }
-    EXPECT_GT(without.hits, tests::trials(40));
+    EXPECT_GT(without.collisions, tests::trials(40));
     EXPECT_EQ(without.false_negatives, 0);
     EXPECT_EQ(without.false_positives, 0);
-    EXPECT_GT(with.misses, tests::trials(500));
+    EXPECT_GT(with.no_collisions, tests::trials(500));
     EXPECT_EQ(with.false_negatives, 0);
-    EXPECT_EQ(with.false_positives, with.misses);
+    EXPECT_EQ(with.false_positives, with.no_collisions);
   }
 }
 
@@ -69,16 +69,16 @@ TEST(Bsc, ThrowsForAboutHalfOfAllHits) {
 
 TEST(Bsc, MissesEveryContactInACommonPlane) {
   Random random(3);
-  int hits = 0;
+  int collisions = 0;
   for (int i = 0; i < tests::trials(500); ++i) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       PosedQuery posed{kind, tests::full_significand_query(random)};
       tests::flatten(posed.query, 1);
-      hits += tests::truly_collides(posed) ? 1 : 0;
+      collisions += tests::truly_collides(posed) ? 1 : 0;
       EXPECT_FALSE(says_yes(bsc(), posed));
     }
   }
-  EXPECT_GT(hits, tests::trials(200));
+  EXPECT_GT(collisions, tests::trials(200));
   const PosedQuery crossing = tests::over_edge(1, 2, 0, 0);  // at rest
   EXPECT_TRUE(tests::truly_collides(crossing));
   EXPECT_FALSE(says_yes(bsc(), crossing));

@@ -19,22 +19,23 @@ using tests::Score;
 
 const std::unique_ptr<fast::Method> method = baselines::fprf_method();
 constexpr fast::MethodOptions wide{.separation = {.distance = 1e-3, .norm = Norm::l2}};
-constexpr int hits = 2000;
+constexpr int collisions = 2000;
 
 TEST(Fprf, MissesDeformingTrianglesWhateverItsSeparation) {
   const int missed =
-      missed_centre_hits(*method, Kind::vertex_face, Motion::independent, wide, hits);
-  EXPECT_NEAR(missed, 0.288 * hits, 0.04 * hits);
-  EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Motion::translation, wide, hits), 0);
-  EXPECT_EQ(missed_centre_hits(*method, Kind::edge_edge, Motion::independent, wide, hits), 0);
-  EXPECT_EQ(missed_centre_hits(*method, Kind::edge_edge, Motion::translation, wide, hits), 0);
+      missed_centre_hits(*method, Kind::vertex_face, Motion::independent, wide, collisions);
+  EXPECT_NEAR(missed, 0.288 * collisions, 0.04 * collisions);
+  EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Motion::translation, wide, collisions),
+            0);
+  EXPECT_EQ(missed_centre_hits(*method, Kind::edge_edge, Motion::independent, wide, collisions), 0);
+  EXPECT_EQ(missed_centre_hits(*method, Kind::edge_edge, Motion::translation, wide, collisions), 0);
 }
 
 TEST(Fprf, MissesByChanceWithoutASeparation) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const int missed = missed_centre_hits(*method, kind, Motion::translation, {}, hits);
-    EXPECT_GT(missed, hits / 20) << to_string(kind);
-    EXPECT_LT(missed, hits) << to_string(kind);
+    const int missed = missed_centre_hits(*method, kind, Motion::translation, {}, collisions);
+    EXPECT_GT(missed, collisions / 20) << to_string(kind);
+    EXPECT_LT(missed, collisions) << to_string(kind);
   }
 }
 
@@ -77,7 +78,8 @@ TEST(Fprf, AgreesWithTheTruthElsewhere) {
   EXPECT_NEAR(edge.toi_lower, 0.25, 1e-7);
   const Score score = tests::score_on_random(*method, {}, 500);
   EXPECT_GT(score.false_negatives, 0);
-  EXPECT_LT(score.false_negatives + score.false_positives, (score.hits + score.misses) / 4);
+  EXPECT_LT(score.false_negatives + score.false_positives,
+            (score.collisions + score.no_collisions) / 4);
   EXPECT_EQ(score.errors + score.undecided, 0);
 }
 

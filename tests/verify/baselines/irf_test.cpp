@@ -31,8 +31,8 @@ TEST(Irf, GivesNoTimes) {
 }
 
 TEST(Irf, TakesNearMissesForCollisionsWithinItsToleranceOnly) {
-  // Past the side u + v = 1 of the face; and past an edge, along the diagonal, an end of another that
-  // stops short of it.
+  // Past the side u + v = 1 of the face; and past an edge, along the diagonal, an end of another
+  // that stops short of it.
   const auto near_edges = [](double gap) {
     return tests::edge_edge({0, 0, 0, 4, 4, 0, 2.6, 0, 1, 1.3 + gap, 1.3 - gap, 1},
                             {0, 0, 0, 4, 4, 0, 2.6, 0, -1, 1.3 + gap, 1.3 - gap, -1});

@@ -19,7 +19,7 @@ using tests::over_triangle;
 using tests::Score;
 
 const std::unique_ptr<fast::Method> method = baselines::msrf_method();
-constexpr int hits = 4000;
+constexpr int collisions = 4000;
 
 constexpr fast::MethodOptions within(double h) {
   return {.separation = {.distance = h, .norm = Norm::l2}};
@@ -42,8 +42,8 @@ TEST(Msrf, AnswersThePrintedQueriesAsItWasSeenTo) {
 TEST(Msrf, MissesTheMoreTheSmallerItsSeparation) {
   const auto share = [](Kind kind, double h) {
     return static_cast<double>(
-               missed_centre_hits(*method, kind, Motion::independent, within(h), hits)) /
-           hits;
+               missed_centre_hits(*method, kind, Motion::independent, within(h), collisions)) /
+           collisions;
   };
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     EXPECT_GT(share(kind, 1e-100), 0.995) << to_string(kind);
@@ -53,9 +53,9 @@ TEST(Msrf, MissesTheMoreTheSmallerItsSeparation) {
 }
 
 TEST(Msrf, HasASeparationWhereNoneIsAskedFor) {
-  EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Motion::independent, {}, hits),
+  EXPECT_EQ(missed_centre_hits(*method, Kind::vertex_face, Motion::independent, {}, collisions),
             missed_centre_hits(*method, Kind::vertex_face, Motion::independent,
-                               within(msrf_default_separation), hits));
+                               within(msrf_default_separation), collisions));
 }
 
 TEST(Msrf, ReachesTheRootOfItsSeparation) {
@@ -124,7 +124,8 @@ TEST(Msrf, AgreesWithTheTruthElsewhere) {
   EXPECT_EQ(answer_to(*method, {Kind::vertex_face, Query{}}).verdict, fast::Verdict::no);
   const Score score = tests::score_on_random(*method, {}, 500);
   EXPECT_GT(score.false_negatives, 0);
-  EXPECT_LT(score.false_negatives + score.false_positives, (score.hits + score.misses) / 4);
+  EXPECT_LT(score.false_negatives + score.false_positives,
+            (score.collisions + score.no_collisions) / 4);
   EXPECT_EQ(score.errors + score.undecided, 0);
 }
 

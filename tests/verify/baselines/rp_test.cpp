@@ -1,6 +1,6 @@
 /// \file
-/// RP is right where the number of roots is odd or 0, and wrong where its header says so and in that
-/// way.
+/// RP is right where the number of roots is odd or 0, and wrong where its header says so and in
+/// that way.
 
 #include "verify/baselines/rp.hpp"
 
@@ -114,11 +114,12 @@ TEST(Rp, TakesACrossingOfATinyCapForContactThere) {
 }
 
 TEST(Rp, CallsWhatIsOutOfItsRangeACollision) {
-  const PosedQuery miss = tests::edge_edge({0, 0, 0, 4, 0, 0, 5, -1, 0, 5, 1, 1e308},
-                                           {0, 0, 0, 4, 0, 0, 5, -1, 0, -5, 1, -1.7e308});
-  EXPECT_THROW(static_cast<void>(rp_collides(miss.kind, miss.query)), std::overflow_error);
+  const PosedQuery no_collision = tests::edge_edge({0, 0, 0, 4, 0, 0, 5, -1, 0, 5, 1, 1e308},
+                                                   {0, 0, 0, 4, 0, 0, 5, -1, 0, -5, 1, -1.7e308});
+  EXPECT_THROW(static_cast<void>(rp_collides(no_collision.kind, no_collision.query)),
+               std::overflow_error);
   EXPECT_EQ(tests::one_and_a_little(), 1.0);
-  EXPECT_TRUE(says_yes(rp(), miss));
+  EXPECT_TRUE(says_yes(rp(), no_collision));
 }
 
 }  // namespace

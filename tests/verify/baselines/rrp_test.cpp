@@ -1,6 +1,6 @@
 /// \file
-/// RRP is right where the number of roots is odd or 0 and nothing is degenerate, and wrong where its
-/// header says so and in that way.
+/// RRP is right where the number of roots is odd or 0 and nothing is degenerate, and wrong where
+/// its header says so and in that way.
 
 #include "verify/baselines/rrp.hpp"
 

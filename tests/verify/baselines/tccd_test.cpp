@@ -32,7 +32,7 @@ TEST(Tccd, IsRightInGeneralPosition) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     const auto score =
         score_on(tccd(), kind, tests::Family::full_significands, 1, tests::trials(4000));
-    EXPECT_GT(score.hits, tests::trials(200));
+    EXPECT_GT(score.collisions, tests::trials(200));
     EXPECT_EQ(score.false_negatives, 0);
     EXPECT_EQ(score.false_positives, 0);
   }
@@ -41,10 +41,10 @@ TEST(Tccd, IsRightInGeneralPosition) {
 TEST(Tccd, FindsContactsOnBoundaries) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
     const auto score = score_on(tccd(), kind, tests::Family::near_contact, 1, tests::trials(4000));
-    EXPECT_GT(score.hits, tests::trials(2000));
+    EXPECT_GT(score.collisions, tests::trials(2000));
     EXPECT_EQ(score.false_negatives, 0);
     // Misses by a hair are not told from hits.
-    EXPECT_GT(score.false_positives, score.misses / 2);
+    EXPECT_GT(score.false_positives, score.no_collisions / 2);
   }
 }
 
@@ -89,24 +89,24 @@ TEST(Tccd, MissesNoneThatFallsOntoTheTriangle) {
   Random random(4);
   for (int i = 0; i < tests::trials(3000); ++i) {
     const double x = random.uniform(0.05, 0.9), y = random.uniform(0.05, 0.95 - x);
-    const PosedQuery hit = falling_vertex(random, x, y, random.uniform(0.02, 0.98));
-    if (!tests::truly_collides(hit)) continue;
-    EXPECT_TRUE(says_yes(tccd(), hit)) << hit;
+    const PosedQuery collision = falling_vertex(random, x, y, random.uniform(0.02, 0.98));
+    if (!tests::truly_collides(collision)) continue;
+    EXPECT_TRUE(says_yes(tccd(), collision)) << collision;
   }
 }
 
 TEST(Tccd, CallsAllMotionInAPlaneACollision) {
   Random random(5);
-  int misses = 0;
+  int no_collisions = 0;
   for (int i = 0; i < tests::trials(500); ++i) {
     for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
       PosedQuery posed{kind, tests::full_significand_query(random)};
       tests::flatten(posed.query, 1);
       EXPECT_TRUE(says_yes(tccd(), posed));
-      misses += tests::truly_collides(posed) ? 0 : 1;
+      no_collisions += tests::truly_collides(posed) ? 0 : 1;
     }
   }
-  EXPECT_GT(misses, tests::trials(200));
+  EXPECT_GT(no_collisions, tests::trials(200));
 }
 
 bool has_inflection(const PosedQuery& posed) {
@@ -120,12 +120,12 @@ TEST(Tccd, MissesByUnderflowBesideAnInflection) {
   // The same hits at every scale: exact scalings of queries that are found at scale 1.
   Random random(6);
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    std::vector<PosedQuery> hits(tests::trials(2000U));
-    std::ranges::generate(hits, [&] { return tests::random_hit(random, kind); });
+    std::vector<PosedQuery> collisions(tests::trials(2000U));
+    std::ranges::generate(collisions, [&] { return tests::random_hit(random, kind); });
     const auto missed_at = [&](int exponent) {
       std::vector<PosedQuery> missed;
-      for (const PosedQuery& hit : hits) {
-        if (!says_yes(tccd(), scaled(hit, exponent))) missed.push_back(hit);
+      for (const PosedQuery& collision : collisions) {
+        if (!says_yes(tccd(), scaled(collision, exponent))) missed.push_back(collision);
       }
       return missed;
     };

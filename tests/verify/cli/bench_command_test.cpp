@@ -137,7 +137,7 @@ TEST_F(Bench, APluginThatCrashesCostsAnAnswer) {
   EXPECT_EQ(json().at("groups")[0].at("methods").size(), 2U);
 }
 
-TEST_F(Bench, TheBuiltInWorkloadIsPatchesAndTheHardSet) {
+TEST_F(Bench, TheBuiltInWorkloadIsPatchesAndTheBuiltInSet) {
   ASSERT_EQ(run("--count 2 --judge 100 --kind edge-edge --repetitions 1 --seconds 0.001 --method "
                 "tight_inclusion --json " +
                 quoted("json")),
@@ -153,7 +153,7 @@ TEST_F(Bench, TheBuiltInWorkloadIsPatchesAndTheHardSet) {
   EXPECT_EQ(groups[0].at("methods")[1].at("name"), "certified_queries");
   EXPECT_EQ(groups[0].at("methods")[2].at("name"), "certified_pairs");
   EXPECT_EQ(groups[0].at("methods")[2].at("queries"), groups[0].at("queries"));
-  EXPECT_EQ(groups[1].at("name"), "hard set");
+  EXPECT_EQ(groups[1].at("name"), "built-in set");
   EXPECT_TRUE(json().at("step").is_null());
 }
 

@@ -7,7 +7,8 @@
 
 #include "tests/support/tool_test.hpp"
 
-// The script that authors of solvers run in their CI (examples/ci/), as they run it, but with little to do.
+// The script that authors of solvers run in their CI (examples/ci/), as they run it, but with
+// little to do.
 
 namespace touchstone::verify::cli::ci_example_test {
 namespace {

@@ -1,6 +1,6 @@
 /// \file
-/// libFuzzer on the command line: no words make the parsing of it crash, hang, or throw anything but
-/// what ends in an exit status; and what the shared options accept is what they promise.
+/// libFuzzer on the command line: no words make the parsing of it crash, hang, or throw anything
+/// but what ends in an exit status; and what the shared options accept is what they promise.
 ///
 /// The words are the lines of the input. The commands themselves are not run.
 

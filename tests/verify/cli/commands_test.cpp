@@ -534,21 +534,21 @@ const std::string answers_header = "file,index,kind,verdict,toi_lower,toi_upper,
 
 /// A vertex-face file of a hit at t=1/4, and a miss that the boxes do not tell from a hit.
 std::string hit_and_miss() {
-  std::string miss = falling_vertex("0", "-3");
-  for (std::size_t at = miss.find("1,1,1,1,"); at != std::string::npos;
-       at = miss.find("1,1,1,1,")) {
-    miss.replace(at, 8, "3,1,3,1,");
+  std::string no_collision = falling_vertex("0", "-3");
+  for (std::size_t at = no_collision.find("1,1,1,1,"); at != std::string::npos;
+       at = no_collision.find("1,1,1,1,")) {
+    no_collision.replace(at, 8, "3,1,3,1,");
   }
-  return falling_vertex("1") + miss;
+  return falling_vertex("1") + no_collision;
 }
 
 TEST_F(Tool, RecordedAnswersAreJudgedInEveryColumn) {
   const std::string file = write("queries_vf.csv", hit_and_miss());
   struct Case {
-    std::string hit, miss, column;
+    std::string collision, no_collision, column;
     int status;
   };
-  for (const auto& [hit, miss, column, status] :
+  for (const auto& [collision, no_collision, column, status] :
        {Case{"yes,0.25,0.25,0", "no,,,", "", 0}, Case{"yes,,,", "no,,,", "", 0},
         Case{"no,,,", "no,,,", "false_negatives", 1},
         Case{"yes,0,1,", "yes,0,1,", "false_positives", 0},
@@ -556,19 +556,20 @@ TEST_F(Tool, RecordedAnswersAreJudgedInEveryColumn) {
         Case{"yes,0,0.24999999999999997,", "no,,,", "early_toi_upper", 1},
         Case{"undecided,,,", "no,,,", "undecided", 0}, Case{"error,,,", "no,,,", "errors", 1}}) {
     std::string rows = answers_header;
-    rows.append(file).append(",0,vertex-face,").append(hit).append("\n");
-    rows.append(file).append(",1,vertex-face,").append(miss).append("\n");
+    rows.append(file).append(",0,vertex-face,").append(collision).append("\n");
+    rows.append(file).append(",1,vertex-face,").append(no_collision).append("\n");
     const std::string answers = write("answers.csv", rows);
     const Outcome certify =
         run({"certify", file, "--results", answers, "--json", path("result.json")});
-    EXPECT_EQ(certify.status, status) << hit << miss << certify.err << certify.out;
+    EXPECT_EQ(certify.status, status) << collision << no_collision << certify.err << certify.out;
     ASSERT_EQ(json("result.json").at("methods").size(), 1U);
     const nlohmann::json method = json("result.json").at("methods")[0];
     EXPECT_EQ(method.at("name"), answers);
     EXPECT_EQ(method.at("queries"), 2);
     for (const char* field : {"false_negatives", "false_positives", "late_toi", "early_toi_upper",
                               "undecided", "errors"}) {
-      EXPECT_EQ(method.at(field), field == column ? 1 : 0) << field << ": " << hit << miss;
+      EXPECT_EQ(method.at(field), field == column ? 1 : 0)
+          << field << ": " << collision << no_collision;
     }
   }
 }
@@ -609,8 +610,8 @@ TEST_F(Tool, AnswersMustNotBeOutputs) {
   EXPECT_EQ(read_file(answers), answers_header);
 }
 
-/// A query that tells the plugin what to do: the first coordinate does, and puts the vertex beside the
-/// triangle.
+/// A query that tells the plugin what to do: the first coordinate does, and puts the vertex beside
+/// the triangle.
 std::string misbehave(tests::Misbehaviour what) {
   return falling_vertex("0").replace(0, 1, std::to_string(static_cast<int>(what)));
 }

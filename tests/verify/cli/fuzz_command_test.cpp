@@ -16,8 +16,8 @@
 
 #include "tests/support/tool_test.hpp"
 
-// `touchstone fuzz` as users meet it: by running the tool. The plugin is the example, which compares
-// swept boxes and is conservative, but nothing near exact.
+// `touchstone fuzz` as users meet it: by running the tool. The plugin is the example, which
+// compares swept boxes and is conservative, but nothing near exact.
 
 namespace touchstone::verify::cli::fuzz_command_test {
 namespace {

@@ -73,7 +73,7 @@ TEST_F(ProveCommand, ProvesADatasetForTheChecker) {
   EXPECT_EQ(json["certificates"], 2);
   EXPECT_EQ(json["no_collision"], 1);
   EXPECT_EQ(json["time_of_impact"], 1);
-  EXPECT_EQ(json["pieces"]["1"], 2);
+  EXPECT_EQ(json["subintervals"]["1"], 2);
   EXPECT_EQ(json["file_bytes"], text.size());
   EXPECT_EQ(json["interrupted"], false);
 }
@@ -167,7 +167,7 @@ TEST_F(ProveCommand, CertifyWritesTheSame) {
   EXPECT_EQ(run({"prove", data, "--out", path("a")}), 0);
   EXPECT_EQ(run({"certify", data, "--prove", path("b")}), 0) << err();
   EXPECT_EQ(read_file(path("a")), read_file(path("b")));
-  EXPECT_TRUE(contains(out(), "mislabelled"));
+  EXPECT_TRUE(contains(out(), "wrong labels"));
   EXPECT_TRUE(contains(out(), "total                       2\n"));
   EXPECT_EQ(run({"certify", data, "--prove", path("c.zst")}), 0);
   EXPECT_EQ(decompress(read_file(path("c.zst"))), read_file(path("a")));

@@ -137,7 +137,7 @@ TEST_F(Report, WithoutAPathTheQueriesAreTheBuiltInOnes) {
     EXPECT_EQ(m.at("false_positives"), 0);
     EXPECT_LE(m.at("asked"), 50);
   }
-  EXPECT_EQ(groups, (std::set<std::string>{"hard set edge-edge", "hard set vertex-face",
+  EXPECT_EQ(groups, (std::set<std::string>{"built-in set edge-edge", "built-in set vertex-face",
                                            "patches edge-edge", "patches vertex-face"}));
   EXPECT_EQ(result.at("stability").size(), 10U * 11U * 2U);
 }

@@ -108,24 +108,25 @@ TEST_F(SeparationOptions, TheTruthIsAboutThemInTheirNorm) {
 TEST_F(SeparationOptions, PlantedWrongAnswersAreCaught) {
   const std::string file = write("a_vf.csv", falls() + stays_away());
   struct Case {
-    std::string hit, miss, column;
+    std::string collision, no_collision, column;
     int status;
   };
-  for (const auto& [hit, miss, column, status] :
+  for (const auto& [collision, no_collision, column, status] :
        {Case{"yes,0.5,0.5,0", "no,,,", "", 0}, Case{"no,,,", "no,,,", "false_negatives", 1},
         Case{"yes,0.5,0.5,", "yes,0.5,0.5,", "false_positives", 1},
         Case{"yes,0.5000000000000001,1,", "no,,,", "late_toi", 1},
         Case{"yes,0,0.49999999999999994,", "no,,,", "early_toi_upper", 1}}) {
     std::string rows = answers_header;
-    rows.append(path("a_vf.csv")).append(",0,vertex-face,").append(hit).append("\n");
-    rows.append(path("a_vf.csv")).append(",1,vertex-face,").append(miss).append("\n");
+    rows.append(path("a_vf.csv")).append(",0,vertex-face,").append(collision).append("\n");
+    rows.append(path("a_vf.csv")).append(",1,vertex-face,").append(no_collision).append("\n");
     const std::string answers = write("answers.csv", rows);
     EXPECT_EQ(run("certify " + file + half + " --exact --results " + answers + to_json()), status)
-        << hit << miss << read("out");
+        << collision << no_collision << read("out");
     const nlohmann::json method = json().at("methods")[0];
     for (const char* field :
          {"false_negatives", "false_positives", "late_toi", "early_toi_upper", "errors"}) {
-      EXPECT_EQ(method.at(field), field == column ? 1 : 0) << field << ": " << hit << miss;
+      EXPECT_EQ(method.at(field), field == column ? 1 : 0)
+          << field << ": " << collision << no_collision;
     }
   }
 }

@@ -71,7 +71,8 @@ TEST_F(StepCommand, FindsWhatTouchesAndWhen) {
   EXPECT_EQ(row, "step,frame0,frame1,kind,first,second,toi_lower,toi_upper,u,v");
   std::vector<std::string> found;
   while (std::getline(rows, row)) found.push_back(row);
-  // The three vertices fall through the face; the edge between two of them ends on the floor's edge.
+  // The three vertices fall through the face; the edge between two of them ends on the floor's
+  // edge.
   ASSERT_GE(found.size(), 3U);
   EXPECT_TRUE(found[0].starts_with("0,0.obj,1.obj,vertex-face,3,0,0.2")) << found[0];
   EXPECT_TRUE(found[0].ends_with(",0.25,0.25")) << found[0];
@@ -125,9 +126,9 @@ TEST_F(StepCommand, JudgesTheStepThatIsTaken) {
   EXPECT_EQ(free["alpha"], 0.2);
   EXPECT_EQ(free["steps"][0]["free"], true);
   EXPECT_EQ(free["steps"][0]["free_alpha"], std::nextafter(0.25, 0.0));
-  const Json touching = result({before, after, "--alpha", "0.25"}, 1);
-  expect_toi(touching["steps"][0], 1.0);
-  EXPECT_EQ(touching["steps"][0]["free_alpha"], std::nextafter(0.25, 0.0));
+  const Json colliding = result({before, after, "--alpha", "0.25"}, 1);
+  expect_toi(colliding["steps"][0], 1.0);
+  EXPECT_EQ(colliding["steps"][0]["free_alpha"], std::nextafter(0.25, 0.0));
   EXPECT_EQ(step({before, after, "--alpha", "1.5"}).status, 2);
 }
 
@@ -287,7 +288,8 @@ TEST_F(StepCommand, ProvesAtASeparationAndBetweenGroups) {
   EXPECT_EQ(step({before, after, "--prove", proof, "--csv", proof}).status, 2);
 }
 
-// The published labels settle the whole step: every pair that they do not call colliding does not collide.
+// The published labels settle the whole step: every pair that they do not call colliding does not
+// collide.
 TEST_F(StepCommand, FindsExactlyThePublishedCollisions) {
   const std::filesystem::path data = tests::simulation_folder();
   if (data.empty()) GTEST_SKIP() << "public data are missing";

@@ -19,8 +19,8 @@
 
 #include "tests/support/tool_test.hpp"
 
-// What the tool does when its user or its reader has gone, or its input never comes, and what names from
-// outside look like on a terminal (verify/io/terminal.hpp, verify/io/printable.hpp).
+// What the tool does when its user or its reader has gone, or its input never comes, and what names
+// from outside look like on a terminal (verify/io/terminal.hpp, verify/io/printable.hpp).
 
 namespace touchstone::verify::cli::terminal_test {
 namespace {

@@ -130,7 +130,8 @@ TEST_F(ViewCommand, AFindingOfTheFuzzerComesWithItsAnswer) {
   EXPECT_EQ(of_fuzz[0].at("answers").at(1).at("solver"), "certified");
 }
 
-/// Falling, falling and at rest below, falling: all but the second touch. The label of the last is wrong.
+/// Falling, falling and at rest below, falling: all but the second touch. The label of the last is
+/// wrong.
 std::string labelled_rows() {
   std::string text;
   for (const auto& [end, label] : {std::pair("-2", "1"), {"2", "0"}, {"-3", "0"}}) {

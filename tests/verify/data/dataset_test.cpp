@@ -211,7 +211,7 @@ TEST(OpenDataset, OpeningErrorsThrowEvenIfItKeepsGoing) {
                   .ends_with("pass --kind vertex-face or --kind edge-edge"));
 }
 
-/// The public benchmark data, which the project does not contain.
+/// The public data, which the project does not contain.
 class PublicData : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -1,10 +1,11 @@
 /// \file
-/// libFuzzer on everything that reads foreign bytes: no file makes a reader crash, hang, read or write
-/// where it must not, or throw anything but the errors it announces. What it accepts must be what it
-/// promises: finite coordinates, indices in range, and text that reads back as the same numbers.
+/// libFuzzer on everything that reads foreign bytes: no file makes a reader crash, hang, read or
+/// write where it must not, or throw anything but the errors it announces. What it accepts must be
+/// what it promises: finite coordinates, indices in range, and text that reads back as the same
+/// numbers.
 ///
-/// Which reader is fuzzed stands in the environment: TOUCHSTONE_READER is one of the names below, each
-/// with its corpus in corpus/NAME. The bytes lie in a file that exists in memory only.
+/// Which reader is fuzzed stands in the environment: TOUCHSTONE_READER is one of the names below,
+/// each with its corpus in corpus/NAME. The bytes lie in a file that exists in memory only.
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -22,8 +22,8 @@ Rational error_at(double t, double start, double end) {
   return Rational(computed) - (Rational(start) * (1 - Rational(t)) + Rational(end) * Rational(t));
 }
 
-/// How far a's points at that time are computed to be too far from b's on that axis, at the least, in
-/// units of u x.
+/// How far a's points at that time are computed to be too far from b's on that axis, at the least,
+/// in units of u x.
 double worst_case(const Query& query, double t, std::size_t axis) {
   std::array<Rational, moving_points> errors;
   double greatest = 0.0;
@@ -42,7 +42,7 @@ TEST(Aligned, RoundingsAddUpAtAContact) {
   const int count = tests::trials(200);
   for (int i = 0; i < count; ++i) {
     const Query query = aligned_contact(random);
-    const exact::Verdict verdict = exact::decide(Kind::edge_edge, query);
+    const exact::Decision verdict = exact::decide(Kind::edge_edge, query);
     if (!verdict.collides()) continue;
     ++collisions;
     const double toi = verdict.toi->enclosure().lower;

@@ -34,7 +34,7 @@ void for_each_query(Maker make, int count, const Use& use) {
 TEST(Contact, OnAGridIsContactAlways) {
   std::set<double> tois;
   for_each_query(grid_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
-    const exact::Verdict verdict = exact::decide(kind, query);
+    const exact::Decision verdict = exact::decide(kind, query);
     ASSERT_TRUE(verdict.collides());
     tois.insert(verdict.toi->enclosure().lower);
   });
@@ -45,7 +45,7 @@ TEST(Contact, OnAGridIsContactAlways) {
 TEST(Contact, OfCentresIsAtAnEnd) {
   int at_start = 0, at_end = 0;
   for_each_query(central_contact, tests::trials(400), [&](Kind kind, const Query& query) {
-    const exact::Verdict verdict = exact::decide(kind, query);
+    const exact::Decision verdict = exact::decide(kind, query);
     ASSERT_TRUE(verdict.collides());
     const double toi = verdict.toi->enclosure().lower;
     ASSERT_TRUE(toi == 0.0 || toi == 1.0) << toi;
@@ -58,7 +58,7 @@ TEST(Contact, OfCentresIsAtAnEnd) {
 TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
   int full = 0, inside = 0, at_one = 0;
   for_each_query(level_contact, tests::trials(2000), [&](Kind kind, const Query& query) {
-    const exact::Verdict verdict = exact::decide(kind, query);
+    const exact::Decision verdict = exact::decide(kind, query);
     ASSERT_TRUE(verdict.collides());
     full += generate::uses_full_significands(query) ? 1 : 0;
     const double toi = verdict.toi->enclosure().lower;
@@ -72,18 +72,18 @@ TEST(Contact, AtOneLevelIsContactAlwaysWithFullSignificands) {
 
 /// A rounding decides, so both verdicts abound.
 TEST(Contact, RoundedIsAHitOrAMissByAHair) {
-  int hits = 0;
+  int collisions = 0;
   for_each_query(rounded_contact, tests::trials(800), [&](Kind kind, const Query& query) {
     const bool collides = exact::decide(kind, query).collides();
-    hits += collides ? 1 : 0;
+    collisions += collides ? 1 : 0;
     if (collides) return;
     double greatest = 0.0;
     for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
     const Separation near{.distance = 1e-13 * greatest, .norm = Norm::l2};
     EXPECT_TRUE(exact::decide(kind, query, near).collides());
   });
-  EXPECT_GT(hits, tests::trials(200));
-  EXPECT_LT(hits, tests::trials(760));
+  EXPECT_GT(collisions, tests::trials(200));
+  EXPECT_LT(collisions, tests::trials(760));
 }
 
 TEST(Contact, ApartIsAboutAtTheDistance) {
@@ -91,32 +91,32 @@ TEST(Contact, ApartIsAboutAtTheDistance) {
     for (const double distance : {1e-3, 0x1p-200, 1e300}) {
       const Separation separation{.distance = distance, .norm = norm};
       Random random(2);
-      int hits = 0, near = 0;
+      int collisions = 0, near = 0;
       const int count = tests::trials(400);
       for (int i = 0; i < count; ++i) {
         const Kind kind = both_kinds.at(static_cast<std::size_t>(i % 2));
         const Query query = contact_apart(kind, separation, random);
         for (const double x : query.coordinates) ASSERT_TRUE(std::isfinite(x));
-        hits += exact::decide(kind, query, separation).collides() ? 1 : 0;
+        collisions += exact::decide(kind, query, separation).collides() ? 1 : 0;
         near += exact::decide(kind, query, {.distance = 1.01 * distance, .norm = norm}).collides();
       }
-      EXPECT_GT(hits, count / 2);
-      EXPECT_GT(near, hits);
+      EXPECT_GT(collisions, count / 2);
+      EXPECT_GT(near, collisions);
     }
   }
 }
 
 TEST(Contact, SlidingComesNearAndHitsNowAndThen) {
-  int hits = 0, near = 0;
+  int collisions = 0, near = 0;
   for_each_query(sliding, tests::trials(400), [&](Kind kind, const Query& query) {
     double greatest = 0.0;
     for (const double x : query.coordinates) greatest = std::max(greatest, std::abs(x));
-    hits += exact::decide(kind, query).collides() ? 1 : 0;
+    collisions += exact::decide(kind, query).collides() ? 1 : 0;
     near +=
         exact::decide(kind, query, {.distance = greatest * 0x1p-9, .norm = Norm::l2}).collides();
   });
-  EXPECT_GT(hits, tests::trials(16));
-  EXPECT_GT(near, hits + tests::trials(80));
+  EXPECT_GT(collisions, tests::trials(16));
+  EXPECT_GT(near, collisions + tests::trials(80));
 }
 
 }  // namespace

@@ -34,8 +34,7 @@ std::optional<judge::Fault> fault(const tests::PosedQuery& posed, const Answer& 
   const judge::Question question{posed.kind, posed.query, separation};
   const judge::GroundTruth truth =
       judge::truth_of(0, exact::decide(posed.kind, posed.query, separation));
-  const CertifiedResult judged =
-      fast::certified(posed.kind, posed.query, {.separation = separation});
+  const CertifiedResult judged = fast::solve(posed.kind, posed.query, {.separation = separation});
   const auto diagnosis = diagnose(question, truth, answer, standard);
   EXPECT_FALSE(diagnosis && is_beyond_doubt(question, judged, answer, standard));
   if (!diagnosis) return std::nullopt;
@@ -125,8 +124,8 @@ TEST(Diagnose, JudgesAtTheSeparation) {
 TEST(Diagnose, FindsMostRightAnswersRightAtAGlance) {
   const auto glance = [](const tests::PosedQuery& posed, const Answer& answer,
                          const judge::Standard& standard) {
-    return is_beyond_doubt({posed.kind, posed.query}, fast::certified(posed.kind, posed.query),
-                           answer, standard);
+    return is_beyond_doubt({posed.kind, posed.query}, fast::solve(posed.kind, posed.query), answer,
+                           standard);
   };
   EXPECT_TRUE(glance(at_third, yes(0.333, 0.334), {.promise = Promise::exact}));
   EXPECT_TRUE(glance(at_third, {.verdict = Verdict::undecided}, {}));

@@ -37,7 +37,7 @@ using tests::FunctionMethod;
 using namespace std::chrono_literals;
 
 /// The right answer, quickly.
-Answer honest(Kind kind, const Query& query) { return answer_of(fast::certified(kind, query)); }
+Answer honest(Kind kind, const Query& query) { return answer_of(fast::solve(kind, query)); }
 
 constexpr std::uint64_t enough = 20'000;
 
@@ -320,7 +320,8 @@ TEST(Fuzz, KeepsAFewOfEachClassAndCountsAll) {
   EXPECT_EQ(queries, result.queries);
 }
 
-/// A bound that is too small for small coordinates is one cause, whatever generator, kind and stage show it.
+/// A bound that is too small for small coordinates is one cause, whatever generator, kind and stage
+/// show it.
 TEST(Fuzz, PutsFindingsOfOneCauseInOneGroup) {
   const auto blind = [](Kind kind, const Query& query) {
     if (size_exponent(query) < -3) return Answer{.verdict = Verdict::no};
@@ -441,7 +442,8 @@ TEST(Fuzz, JudgesWhatIsAnsweredWhenTheTimeIsOver) {
   EXPECT_TRUE(left_some);
 }
 
-/// A solver that hangs takes the whole time: what it answered before is judged, and the hang is found.
+/// A solver that hangs takes the whole time: what it answered before is judged, and the hang is
+/// found.
 TEST(Fuzz, ReportsAHangThatTakesTheRestOfTheTime) {
   tests::SharedCounter hung;
   const FunctionMethod method(

@@ -29,7 +29,7 @@ using fast::Verdict;
 using tests::FunctionMethod;
 using namespace std::chrono_literals;
 
-Answer honest(Kind kind, const Query& query) { return answer_of(fast::certified(kind, query)); }
+Answer honest(Kind kind, const Query& query) { return answer_of(fast::solve(kind, query)); }
 
 Answer sometimes_wrong(Kind kind, const Query& query) {
   Answer answer = honest(kind, query);
@@ -107,7 +107,7 @@ void expect_consistent(const Finding& finding, const FailingCase& failing,
   const Answer answer = function(finding.kind, failing.query);
   EXPECT_EQ(failing.answer.verdict, answer.verdict);
   EXPECT_EQ(failing.answer.toi_lower, answer.toi_lower);
-  const exact::Verdict truth = exact::decide(finding.kind, failing.query, finding.separation);
+  const exact::Decision truth = exact::decide(finding.kind, failing.query, finding.separation);
   EXPECT_EQ(failing.collides, truth.collides());
   EXPECT_EQ(failing.truth, judge::to_text(judge::truth_of(0, truth)));
   EXPECT_NE(failing.detail.find(fmt::format("{}", answer.toi_lower)), std::string::npos)

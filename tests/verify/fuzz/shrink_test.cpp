@@ -165,7 +165,7 @@ TEST(Shrink, comes_back_from_the_ends_of_the_range) {
 bool is_missed_in_float(Kind kind, const Query& query) {
   Query rounded = query;
   for (double& x : rounded.coordinates) x = static_cast<double>(static_cast<float>(x));
-  return fast::certified(kind, rounded).verdict == fast::Verdict::no &&
+  return fast::solve(kind, rounded).verdict == fast::Verdict::no &&
          exact::decide(kind, query).collides();
 }
 
@@ -188,9 +188,10 @@ TEST(Shrink, makes_findings_of_a_method_short) {
 }
 
 TEST(Shrink, leaves_little_of_a_missed_start) {
-  // A fault of all solvers that look for a sign to change: who touches from the beginning is missed.
+  // A fault of all solvers that look for a sign to change: who touches from the beginning is
+  // missed.
   const auto is_missed = [](const Query& query) {
-    const exact::Verdict truth = exact::decide(Kind::vertex_face, query);
+    const exact::Decision truth = exact::decide(Kind::vertex_face, query);
     return truth.collides() && truth.toi->enclosure().upper == 0.0;
   };
   Query query = tests::over_triangle(1, 1, 0, -2).query;
@@ -203,7 +204,7 @@ TEST(Shrink, leaves_little_of_a_missed_start) {
 
 TEST(Shrink, finds_small_integers_for_a_time_of_impact) {
   const auto is_late = [](const Query& query) {
-    const exact::Verdict truth = exact::decide(Kind::vertex_face, query);
+    const exact::Decision truth = exact::decide(Kind::vertex_face, query);
     return truth.collides() && truth.toi->enclosure().lower > 0.6;
   };
   Random random(11);

@@ -23,7 +23,7 @@ Finding finding_of(Kind kind, const Query& query) {
   Finding finding;
   finding.kind = kind;
   finding.method = "function";
-  const exact::Verdict truth = exact::decide(kind, query);
+  const exact::Decision truth = exact::decide(kind, query);
   finding.simplest.query = query;
   finding.simplest.collides = truth.collides();
   if (truth.collides()) finding.simplest.toi = truth.toi->enclosure();
@@ -40,7 +40,7 @@ ScaleRange range_of_misses(int from, int to, const FuzzOptions& options = {}) {
       [from, to](Kind kind, const Query& query) {
         const int size = size_exponent(query);
         if (size >= from && size <= to) return Answer{.verdict = Verdict::no};
-        return answer_of(fast::certified(kind, query));
+        return answer_of(fast::solve(kind, query));
       },
       Promise::none);
   return scale_range(method, options, {}, finding_of(Kind::vertex_face, falling));
@@ -83,7 +83,7 @@ TEST(ScaleRange, is_not_known_of_hangs_and_separations) {
 
 TEST(ScaleRange, is_not_known_when_the_time_is_over) {
   const FunctionMethod method(
-      [](Kind kind, const Query& query) { return answer_of(fast::certified(kind, query)); });
+      [](Kind kind, const Query& query) { return answer_of(fast::solve(kind, query)); });
   const ScaleRange range =
       scale_range(method, {}, base::Deadline(0.0), finding_of(Kind::vertex_face, falling));
   EXPECT_FALSE(range.end_below || range.end_above);

@@ -17,8 +17,8 @@ int main() {
   };
   const auto p = [&x](int i) { return Eigen::Vector3d(x[i][0], x[i][1], x[i][2]); };
   double toi = 0;
-  const bool hit = ipc::AdditiveCCD(1000).edge_edge_ccd(
+  const bool collides = ipc::AdditiveCCD(1000).edge_edge_ccd(
       p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7), toi, 0, 1);
-  std::printf("%s, toi %.17g; truth: collision at 0.5\n", hit ? "yes" : "no", toi);
-  return !hit ? 1 : 0;
+  std::printf("%s, toi %.17g; truth: collision at 0.5\n", collides ? "yes" : "no", toi);
+  return !collides ? 1 : 0;
 }

@@ -10,8 +10,8 @@
 #include "tests/support/tool_test.hpp"
 #include "tests/verify/data/dataset_fixture.hpp"
 
-// The golden files are compiled here as they would be by others: standalone_plugin.cpp as a program, the other two
-// against declarations of the public interfaces (public/).
+// The golden files are compiled here as they would be by others: standalone_plugin.cpp as a
+// program, the other two against declarations of the public interfaces (public/).
 
 namespace touchstone::verify::fuzz::standalone_test {
 namespace {

@@ -17,8 +17,8 @@ int main() {
   };
   const auto p = [&x](int i) { return ticcd::Vector3(x[i][0], x[i][1], x[i][2]); };
   ticcd::Scalar toi = 0, tolerance = 0;
-  const bool hit = ticcd::edgeEdgeCCD(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7),
+  const bool collides = ticcd::edgeEdgeCCD(p(0), p(1), p(2), p(3), p(4), p(5), p(6), p(7),
                               ticcd::Array3(-1, -1, -1), 0, toi, 1e-06, 1, 1000, tolerance);
-  std::printf("%s, toi %.17g; truth: collision at 0.5\n", hit ? "yes" : "no", toi);
-  return !hit ? 1 : 0;
+  std::printf("%s, toi %.17g; truth: collision at 0.5\n", collides ? "yes" : "no", toi);
+  return !collides ? 1 : 0;
 }

@@ -318,12 +318,12 @@ TEST(Families, DrawTheSameBitsEverywhere) {
 TEST(Families, HaveThePromisedVerdicts) {
   for_each_family([&](const Family& family, Kind kind) {
     for (std::uint64_t parity = 0; parity < 2; ++parity) {
-      std::size_t hits = 0, misses = 0;
+      std::size_t colliding = 0, apart = 0;
       for (std::uint64_t index = parity; index < 200; index += 2) {
-        ++(make_query(family, kind, seed, index).collides ? hits : misses);
+        ++(make_query(family, kind, seed, index).collides ? colliding : apart);
       }
-      EXPECT_EQ(hits > 0, family.verdicts != Verdicts::misses) << family.name;
-      EXPECT_EQ(misses > 0, family.verdicts != Verdicts::collisions) << family.name;
+      EXPECT_EQ(colliding > 0, family.verdicts != Verdicts::no_collisions) << family.name;
+      EXPECT_EQ(apart > 0, family.verdicts != Verdicts::collisions) << family.name;
     }
   });
 }

@@ -49,7 +49,7 @@ void for_each_query(const Function& function) {
 
 TEST(SeparationFamilies, TheOracleAgreesWithTheConstruction) {
   for_each_query([](Kind kind, const Separation& separation, const KnownQuery& known) {
-    const exact::Verdict verdict = exact::decide(kind, known.query, separation);
+    const exact::Decision verdict = exact::decide(kind, known.query, separation);
     ASSERT_EQ(verdict.collides(), known.collides);
     if (known.toi) {
       ASSERT_TRUE(*verdict.toi == *known.toi);
@@ -63,7 +63,7 @@ TEST(SeparationFamilies, TheOracleSeesAnyOtherDistance) {
   for_each_query([&](Kind kind, const Separation& separation, const KnownQuery& known) {
     const Separation less{.distance = std::nextafter(separation.distance, 0.0),
                           .norm = separation.norm};
-    const exact::Verdict verdict = exact::decide(kind, known.query, less);
+    const exact::Decision verdict = exact::decide(kind, known.query, less);
     ASSERT_LE(verdict.collides(), known.collides);
     if (known.toi && *known.toi > 0 && verdict.collides()) {
       ASSERT_TRUE(*verdict.toi > *known.toi);

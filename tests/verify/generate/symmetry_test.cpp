@@ -101,8 +101,8 @@ TEST(Symmetry, KeepsPrimitivesTogether) {
 
 void expect_same_truth(Kind kind, const Query& query, const Separation& separation,
                        const Symmetry& symmetry) {
-  const exact::Verdict truth = exact::decide(kind, query, separation);
-  const exact::Verdict of_image = exact::decide(kind, image(symmetry, query).value(), separation);
+  const exact::Decision truth = exact::decide(kind, query, separation);
+  const exact::Decision of_image = exact::decide(kind, image(symmetry, query).value(), separation);
   ASSERT_EQ(truth.collides(), of_image.collides()) << to_text(symmetry);
   if (!truth.collides() || symmetry.reversed) return;
   const exact::DoubleInterval toi = truth.toi->enclosure(), image_toi = of_image.toi->enclosure();

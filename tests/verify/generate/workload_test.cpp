@@ -119,7 +119,7 @@ TEST(Workload, EndContactsTouchAtOne) {
         ASSERT_EQ(group.queries().size(), 50U);
         double greatest = 0.0;
         for (const Query& query : group.queries()) {
-          const exact::Verdict truth = exact::decide(kind, query);
+          const exact::Decision truth = exact::decide(kind, query);
           ASSERT_TRUE(truth.collides());
           for (const double x : query.coordinates) {
             greatest = std::max(greatest, std::abs(x));
@@ -135,9 +135,9 @@ TEST(Workload, EndContactsTouchAtOne) {
   }
 }
 
-TEST(Workload, TheHardSetIsThatOfTheFamilies) {
+TEST(Workload, TheBuiltInSetIsThatOfTheFamilies) {
   for (const Kind kind : {Kind::vertex_face, Kind::edge_edge}) {
-    const data::QueryGroup group = hard_set(kind, 7, 3);
+    const data::QueryGroup group = built_in_set(kind, 7, 3);
     EXPECT_EQ(group.kind(), kind);
     std::size_t position = 0;
     for (const Family& family : families()) {

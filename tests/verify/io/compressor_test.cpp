@@ -44,12 +44,12 @@ TEST(Compressor, GivesBackWhatItTook) {
 /// All that a stream stands for, in small rooms and pieces of so many bytes.
 std::string read_back(std::string_view bytes, std::size_t piece, bool& is_complete) {
   Decompressor decompressor;
-  std::string text, room(977, '\0');
+  std::string text, buffer(977, '\0');
   while (!bytes.empty() || !decompressor.is_complete()) {
     std::string_view some = bytes.substr(0, piece);
     const std::size_t before = some.size();
-    const std::size_t count = decompressor.decompress(some, room);
-    text += room.substr(0, count);
+    const std::size_t count = decompressor.decompress(some, buffer);
+    text += buffer.substr(0, count);
     bytes.remove_prefix(before - some.size());
     if (bytes.empty() && count == 0) break;
   }

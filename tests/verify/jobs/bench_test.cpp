@@ -172,12 +172,12 @@ TEST(Bench, JudgesASampleOfManyQueries) {
   field.add(always_no, Promise::conservative, "no");
   const BenchResult result = field.run(falling_vertices(1000), options);
   const auto sample = spread_sample(1000, 50);
-  const auto hits = static_cast<std::size_t>(std::ranges::count_if(sample, collides));
-  ASSERT_GT(hits, 0U);
+  const auto colliding = static_cast<std::size_t>(std::ranges::count_if(sample, collides));
+  ASSERT_GT(colliding, 0U);
   EXPECT_EQ(result.judged, 50U);
-  EXPECT_EQ(result.collisions, hits);
+  EXPECT_EQ(result.collisions, colliding);
   EXPECT_EQ(result.solvers[0].judgement.queries, 50U);
-  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_negative), hits);
+  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_negative), colliding);
 }
 
 TEST(Bench, JudgesWhatAnySolverCallsACollisionToo) {
@@ -188,8 +188,8 @@ TEST(Bench, JudgesWhatAnySolverCallsACollisionToo) {
   field.add(tests::true_answer, Promise::exact, "truth");
   const BenchResult result = field.run(falling_vertices(1000), options);
   const auto sample = spread_sample(1000, 150);
-  const auto hits = static_cast<std::size_t>(std::ranges::count_if(sample, collides));
-  EXPECT_EQ(result.judged, 150 - hits + 100);
+  const auto colliding = static_cast<std::size_t>(std::ranges::count_if(sample, collides));
+  EXPECT_EQ(result.judged, 150 - colliding + 100);
   EXPECT_EQ(result.collisions, 100U);
   EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_negative), 100U);
   EXPECT_EQ(all_faults(result.solvers[1].judgement), 0U);
@@ -319,9 +319,9 @@ TEST(Bench, SlowSolversAreTimedOnASpreadSample) {
   for (std::size_t i = 0; i < timed; ++i) {
     ASSERT_EQ(slow.latest[i], group.queries()[sample[i]]) << i;
   }
-  const auto hits = static_cast<std::uint64_t>(std::ranges::count_if(sample, collides));
+  const auto colliding = static_cast<std::uint64_t>(std::ranges::count_if(sample, collides));
   EXPECT_EQ(result.solvers[0].judgement.queries, timed) << "it answered no others";
-  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_positive), timed - hits);
+  EXPECT_EQ(result.solvers[0].judgement.count(judge::Fault::false_positive), timed - colliding);
   EXPECT_FALSE(result.solvers[0].singles);
 }
 

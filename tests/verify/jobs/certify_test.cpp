@@ -36,11 +36,11 @@ Query falling_vertex(double above, double below) {
 std::vector<data::RecordedQuery> true_records(std::uint64_t count) {
   std::vector<data::RecordedQuery> records;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const bool hit = i % 3 != 0;
-    records.push_back({.query = hit ? falling_vertex(1, 3) : falling_vertex(1, -0.5),
+    const bool collision = i % 3 != 0;
+    records.push_back({.query = collision ? falling_vertex(1, 3) : falling_vertex(1, -0.5),
                        .index = i,
-                       .collides = hit,
-                       .toi = hit ? std::optional(Rational(1, 4)) : std::nullopt});
+                       .collides = collision,
+                       .toi = collision ? std::optional(Rational(1, 4)) : std::nullopt});
   }
   return records;
 }
@@ -566,7 +566,7 @@ INSTANTIATE_TEST_SUITE_P(Families, BuiltInSet,
                                              generate::families().end()),
                          family_name);
 
-/// The public benchmark data, or nothing where they are missing.
+/// The public data, or nothing where they are missing.
 std::vector<CertifyResult> certify_public(const std::string& folder) {
   const std::filesystem::path root = tests::public_data_folder();
   if (root.empty()) return {};

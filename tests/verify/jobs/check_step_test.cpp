@@ -49,12 +49,12 @@ struct Frames {
 std::vector<fast::IndexPair> touching_pairs(const mesh::MovingMesh& mesh, Kind kind) {
   const auto pairs = mesh::find_candidates(mesh, kind);
   const auto queries = mesh::queries_of(mesh, mesh::candidates_of(mesh, kind, pairs));
-  std::vector<fast::IndexPair> touching;
+  std::vector<fast::IndexPair> colliding;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (exact::decide(kind, queries[i]).collides()) touching.push_back(pairs[i]);
+    if (exact::decide(kind, queries[i]).collides()) colliding.push_back(pairs[i]);
   }
-  std::ranges::sort(touching);
-  return touching;
+  std::ranges::sort(colliding);
+  return colliding;
 }
 
 std::vector<fast::IndexPair> pairs_of(const std::vector<fast::StepCollision>& collisions,

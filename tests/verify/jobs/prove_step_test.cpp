@@ -73,7 +73,7 @@ std::optional<exact::AlgebraicNumber> earliest(const Scene& scene,
   std::optional<exact::AlgebraicNumber> first;
   const tests::AllPairs all(scene);
   for (const tests::NumberedPair& pair : all.pairs()) {
-    const exact::Verdict verdict =
+    const exact::Decision verdict =
         exact::decide(fast::Step::kind_of(pair.first), all.query(pair), options.separation);
     if (verdict.toi && *verdict.toi <= exact::Rational(options.t_max) &&
         (!first || *verdict.toi < *first)) {

@@ -59,7 +59,7 @@ TEST(Prove, WritesEveryCertificateInOrderWhateverTheThreads) {
     EXPECT_EQ(counts.no_collision, 6000U);
     EXPECT_EQ(counts.time_of_impact, 3000U);
     EXPECT_EQ(counts.collision, 0U);
-    EXPECT_EQ(counts.pieces, (std::map<std::size_t, std::uint64_t>{{0, 1000}, {1, 8000}}));
+    EXPECT_EQ(counts.subintervals, (std::map<std::size_t, std::uint64_t>{{0, 1000}, {1, 8000}}));
     EXPECT_EQ(counts.bytes + exact::certificates_header().size(), result.text.size());
     EXPECT_GT(counts.nanoseconds, 0.0);
     EXPECT_GT(result.proof.oracle_nanoseconds, 0.0);
@@ -144,11 +144,11 @@ TEST(Prove, CertifyMakesTheSameCertificates) {
 }
 
 TEST(ProofCounts, AddUpAndAreReported) {
-  ProofCounts sum{.no_collision = 1, .pieces = {{1, 1}}, .bytes = 100, .nanoseconds = 1000.0};
+  ProofCounts sum{.no_collision = 1, .subintervals = {{1, 1}}, .bytes = 100, .nanoseconds = 1000.0};
   sum += ProofCounts{.no_collision = 1,
                      .collision = 2,
                      .time_of_impact = 4,
-                     .pieces = {{1, 1}, {3, 6}},
+                     .subintervals = {{1, 1}, {3, 6}},
                      .bytes = 700,
                      .nanoseconds = 7000.0,
                      .beyond_limits = {"x:1: no certificate"}};
@@ -160,7 +160,7 @@ TEST(ProofCounts, AddUpAndAreReported) {
             "time of impact              4\n"
             "total                       8\n"
             "\n"
-            "pieces           certificates\n"
+            "subintervals     certificates\n"
             "1                           2\n"
             "3                           6\n"
             "\n"
@@ -169,7 +169,7 @@ TEST(ProofCounts, AddUpAndAreReported) {
                                    {"no_collision", 2},
                                    {"collision", 2},
                                    {"time_of_impact", 4},
-                                   {"pieces", {{"1", 2}, {"3", 6}}},
+                                   {"subintervals", {{"1", 2}, {"3", 6}}},
                                    {"bytes", 800},
                                    {"bytes_per_certificate", 100.0},
                                    {"us_per_certificate", 1.0},

@@ -72,11 +72,12 @@ TEST(SpreadSample, LeavesNoPartOfTheQueriesOut) {
 TEST(SpreadSample, FallsIntoStepWithNoPeriod) {
   // The built-in set has queries of one sort at the odd places, and families of 1000 in a row.
   for (const std::size_t period : {2U, 4U, 8U, 10U, 1000U}) {
-    std::vector<int> hits(period);
+    std::vector<int> collisions(period);
     const Positions sample = spread_sample(31'000, 8000);
-    for (const std::size_t position : sample) ++hits[position % period];
+    for (const std::size_t position : sample) ++collisions[position % period];
     const double expected = 8000.0 / static_cast<double>(period);
-    for (const int hit : hits) EXPECT_NEAR(hit, expected, 0.5 * expected + 2.0) << period;
+    for (const int collision : collisions)
+      EXPECT_NEAR(collision, expected, 0.5 * expected + 2.0) << period;
   }
 }
 

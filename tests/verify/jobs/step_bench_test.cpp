@@ -29,7 +29,7 @@ Expected expected(const mesh::MovingMesh& mesh, Kind kind) {
   const auto pairs = mesh::find_candidates(mesh, kind);
   Expected all{.candidates = pairs.size()};
   for (const Query& query : mesh::queries_of(mesh, mesh::candidates_of(mesh, kind, pairs))) {
-    const exact::Verdict verdict = exact::decide(kind, query);
+    const exact::Decision verdict = exact::decide(kind, query);
     if (!verdict.collides()) continue;
     ++all.collisions;
     const auto [lower, upper] = verdict.toi->enclosure();

@@ -87,8 +87,8 @@ TEST(ClaimedDistance, TightInclusionKeepsItOnWhatItCannotTellFromContact) {
         if (!generate::supports(family, kind)) continue;
         for (std::uint64_t index = 0; index < 4; ++index) {
           const Query query = generate::make_query(family, kind, 7, index, separation).query;
-          const auto result =
-              fast::tight_inclusion(kind, query, {.max_checks = 1000, .min_separation = distance});
+          const auto result = fast::tight_inclusion(
+              kind, query, {.max_checks = 1000, .separation = {.distance = distance}});
           if (result.verdict != Verdict::yes) continue;
           const Separation claimed = claimed_distance(
               ErrorModel::derived, kind, query,

@@ -54,14 +54,14 @@ TEST(GroundTruthCache, AreAboutTheSeparation) {
   const data::QueryGroup group = falling();
   GroundTruthCache truths(group);
   const Positions all{0, 1, 2, 3};
-  const auto hits = [&](const Separation& separation) {
+  const auto collisions = [&](const Separation& separation) {
     std::size_t count = 0;
     for (const GroundTruth& truth : truths.of(separation, all)) count += truth.collides ? 1U : 0U;
     return count;
   };
-  EXPECT_EQ(hits({}), 2U);
-  EXPECT_EQ(hits({.distance = 0.25, .norm = Norm::l2}), 3U);
-  EXPECT_EQ(hits({.distance = 0.5, .norm = Norm::linf}), 4U);
+  EXPECT_EQ(collisions({}), 2U);
+  EXPECT_EQ(collisions({.distance = 0.25, .norm = Norm::l2}), 3U);
+  EXPECT_EQ(collisions({.distance = 0.5, .norm = Norm::linf}), 4U);
 }
 
 TEST(GroundTruthCache, OnceStoppedNoMoreAreDecided) {

@@ -24,9 +24,9 @@ using Faults = std::vector<Fault>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-const GroundTruth miss{.index = 7, .collides = false, .toi = std::nullopt};
+const GroundTruth no_collision{.index = 7, .collides = false, .toi = std::nullopt};
 
-GroundTruth hit(double lower, double upper) {
+GroundTruth collision(double lower, double upper) {
   return {.index = 8, .collides = true, .toi = exact::DoubleInterval{lower, upper}};
 }
 
@@ -38,14 +38,14 @@ Answer yes(double lower, double upper, double tolerance = Answer::none) {
 }
 
 TEST(JudgeVerdict, NamesEveryFault) {
-  const GroundTruth half = hit(0.5, 0.5);
+  const GroundTruth half = collision(0.5, 0.5);
   EXPECT_EQ(judge_verdict(half, {.verdict = Verdict::yes}), Faults{});
-  EXPECT_EQ(judge_verdict(miss, {.verdict = Verdict::no}), Faults{});
+  EXPECT_EQ(judge_verdict(no_collision, {.verdict = Verdict::no}), Faults{});
   EXPECT_EQ(judge_verdict(half, {.verdict = Verdict::no}), Faults{Fault::false_negative});
-  EXPECT_EQ(judge_verdict(miss, {.verdict = Verdict::yes}), Faults{Fault::false_positive});
+  EXPECT_EQ(judge_verdict(no_collision, {.verdict = Verdict::yes}), Faults{Fault::false_positive});
   EXPECT_EQ(judge_verdict(half, yes(above(0.5), below(0.5))),
             (Faults{Fault::late_toi, Fault::early_toi_upper}));
-  for (const GroundTruth& truth : {half, miss}) {
+  for (const GroundTruth& truth : {half, no_collision}) {
     EXPECT_EQ(judge_verdict(truth, {.verdict = Verdict::error}), Faults{Fault::no_verdict});
     for (const Answer& answer :
          {yes(infinity, 1.0), yes(-infinity, 1.0), yes(0.0, infinity), yes(0.0, 1.0, -1.0)}) {
@@ -57,17 +57,19 @@ TEST(JudgeVerdict, NamesEveryFault) {
 TEST(JudgeVerdict, UndecidedAndHangAreAConservativeYes) {
   const Failure hang{.kind = Fault::hang};
   const Answer undecided{.verdict = Verdict::undecided};
-  EXPECT_EQ(judge_verdict(hit(0.5, 0.5), undecided), Faults{Fault::undecided});
-  EXPECT_EQ(judge_verdict(hit(0.5, 0.5), undecided, &hang), Faults{Fault::hang});
-  EXPECT_EQ(judge_verdict(miss, undecided), (Faults{Fault::undecided, Fault::false_positive}));
-  EXPECT_EQ(judge_verdict(miss, undecided, &hang), (Faults{Fault::hang, Fault::false_positive}));
+  EXPECT_EQ(judge_verdict(collision(0.5, 0.5), undecided), Faults{Fault::undecided});
+  EXPECT_EQ(judge_verdict(collision(0.5, 0.5), undecided, &hang), Faults{Fault::hang});
+  EXPECT_EQ(judge_verdict(no_collision, undecided),
+            (Faults{Fault::undecided, Fault::false_positive}));
+  EXPECT_EQ(judge_verdict(no_collision, undecided, &hang),
+            (Faults{Fault::hang, Fault::false_positive}));
   const Failure crash{.kind = Fault::crash};
-  EXPECT_EQ(judge_verdict(miss, {.verdict = Verdict::error}, &crash), Faults{Fault::crash});
+  EXPECT_EQ(judge_verdict(no_collision, {.verdict = Verdict::error}, &crash), Faults{Fault::crash});
 }
 
 TEST(JudgeVerdict, ATimeIsLateByTheLastBit) {
   // The exact time is strictly between neighbouring doubles, or one.
-  const GroundTruth between = hit(0.1, above(0.1)), quarter = hit(0.25, 0.25);
+  const GroundTruth between = collision(0.1, above(0.1)), quarter = collision(0.25, 0.25);
   EXPECT_EQ(judge_verdict(between, yes(0.1, above(0.1))), Faults{});
   EXPECT_EQ(judge_verdict(between, yes(above(0.1), above(0.1))), Faults{Fault::late_toi});
   EXPECT_EQ(judge_verdict(between, yes(0.1, 0.1)), Faults{Fault::early_toi_upper});
@@ -80,10 +82,10 @@ TEST(JudgeVerdict, ATimeIsLateByTheLastBit) {
 TEST(JudgeVerdict, TimesOfOtherVerdictsAndOfMissesAreNotJudged) {
   for (const Verdict verdict : {Verdict::no, Verdict::undecided, Verdict::error}) {
     const Answer answer{.verdict = verdict, .toi_lower = 1.0, .toi_upper = 0.0};
-    EXPECT_EQ(judge_verdict(hit(0.25, 0.25), answer),
-              judge_verdict(hit(0.25, 0.25), {.verdict = verdict}));
+    EXPECT_EQ(judge_verdict(collision(0.25, 0.25), answer),
+              judge_verdict(collision(0.25, 0.25), {.verdict = verdict}));
   }
-  EXPECT_EQ(judge_verdict(miss, yes(1.0, 0.0)), Faults{Fault::false_positive});
+  EXPECT_EQ(judge_verdict(no_collision, yes(1.0, 0.0)), Faults{Fault::false_positive});
 }
 
 /// The comparisons with the enclosure against those with the algebraic number itself.
@@ -93,7 +95,7 @@ TEST(JudgeVerdict, AgreesWithExactComparison) {
   for (std::size_t i = 0; i < 2000; ++i) {
     const Kind kind = random.coin() ? Kind::vertex_face : Kind::edge_edge;
     const Query query = tests::random_query(random, kind, tests::all_families[i % 4]).query;
-    const exact::Verdict verdict = exact::decide(kind, query);
+    const exact::Decision verdict = exact::decide(kind, query);
     if (!verdict.collides()) continue;
     const exact::AlgebraicNumber& toi = *verdict.toi;
     const exact::DoubleInterval enclosure = toi.enclosure();
@@ -115,7 +117,7 @@ TEST(Judge, HoldsAYesToItsTolerance) {
   const tests::PosedQuery never = tests::over_triangle(1, 1, 2, 1);
   const auto faults = [&](const Answer& answer, const Separation& separation = {},
                           const Failure* failure = nullptr) {
-    return judge({never.kind, never.query, separation}, miss, answer, {}, failure);
+    return judge({never.kind, never.query, separation}, no_collision, answer, {}, failure);
   };
   const Faults only{Fault::false_positive}, beyond{Fault::false_positive, Fault::beyond_tolerance};
   // Seen at a glance, or by the oracle alone.
@@ -131,9 +133,9 @@ TEST(Judge, HoldsAYesToItsTolerance) {
             (Faults{Fault::undecided, Fault::false_positive}));
   const Failure crash{.kind = Fault::crash};
   EXPECT_EQ(faults(yes(1.0, 1.0, 0.0), {}, &crash), Faults{Fault::crash});
-  EXPECT_EQ(
-      judge({never.kind, never.query, {.distance = 2.0}}, hit(0.0, 0.0), yes(0.0, 0.0, 0.0), {}),
-      Faults{})
+  EXPECT_EQ(judge({never.kind, never.query, {.distance = 2.0}}, collision(0.0, 0.0),
+                  yes(0.0, 0.0, 0.0), {}),
+            Faults{})
       << "a collision is near enough";
 }
 

@@ -20,9 +20,9 @@ using tests::add;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-const GroundTruth miss{.index = 7, .collides = false, .toi = std::nullopt};
+const GroundTruth no_collision{.index = 7, .collides = false, .toi = std::nullopt};
 
-GroundTruth hit(double lower, double upper) {
+GroundTruth collision(double lower, double upper) {
   return {.index = 8, .collides = true, .toi = exact::DoubleInterval{lower, upper}};
 }
 
@@ -34,13 +34,13 @@ Judgement judged(const GroundTruth& truth, const Answer& answer) {
 
 TEST(Judgement, CountsAndListsFaults) {
   Judgement judgement;
-  add(judgement, hit(0.5, 0.5), {.verdict = Verdict::no});
-  add(judgement, miss, {.verdict = Verdict::yes});
-  add(judgement, miss, {.verdict = Verdict::undecided});
-  add(judgement, hit(0.5, 0.5), {.verdict = Verdict::undecided});
-  add(judgement, miss, {.verdict = Verdict::error});
+  add(judgement, collision(0.5, 0.5), {.verdict = Verdict::no});
+  add(judgement, no_collision, {.verdict = Verdict::yes});
+  add(judgement, no_collision, {.verdict = Verdict::undecided});
+  add(judgement, collision(0.5, 0.5), {.verdict = Verdict::undecided});
+  add(judgement, no_collision, {.verdict = Verdict::error});
   // Late by less than a spacing of doubles: the printed end of the enclosure is not the time.
-  add(judgement, hit(0.3333333333333333, 0.33333333333333337),
+  add(judgement, collision(0.3333333333333333, 0.33333333333333337),
       {.verdict = Verdict::yes, .toi_lower = 0.33333333333333337});
   EXPECT_EQ(judgement.queries, 6U);
   EXPECT_EQ(judgement.count(Fault::false_negative), 1U);
@@ -61,7 +61,7 @@ TEST(Judgement, CountsAndListsFaults) {
 
 TEST(Judgement, CountsFailuresByTheirKind) {
   Judgement judgement;
-  const GroundTruth truth = hit(0.25, 0.25);
+  const GroundTruth truth = collision(0.25, 0.25);
   for (const Fault kind : all_failures) {
     const Failure failure{.kind = kind, .number = 3};
     add(judgement, truth, {.verdict = verdict_of(kind)}, &failure);
@@ -84,7 +84,7 @@ TEST(Judgement, CountsFailuresByTheirKind) {
 
 TEST(Judgement, ToiErrorIsTheDistanceNeverUnderstated) {
   const auto error = [](double lower, double upper, double toi_lower) {
-    return judged(hit(lower, upper), {.verdict = Verdict::yes, .toi_lower = toi_lower})
+    return judged(collision(lower, upper), {.verdict = Verdict::yes, .toi_lower = toi_lower})
         .toi_errors.max();
   };
   EXPECT_EQ(error(0.5, 0.5, 0.125), 0.375);
@@ -140,9 +140,9 @@ TEST(ToiErrors, AddUp) {
 }
 
 TEST(Judgement, AddsUpInOrder) {
-  Judgement sum = judged(hit(0.5, 0.5), {.verdict = Verdict::no, .checks = 3});
+  Judgement sum = judged(collision(0.5, 0.5), {.verdict = Verdict::no, .checks = 3});
   sum.nanoseconds = 10;
-  Judgement next = judged(miss, {.verdict = Verdict::undecided, .checks = 4});
+  Judgement next = judged(no_collision, {.verdict = Verdict::undecided, .checks = 4});
   next.nanoseconds = 30;
   next.add_missing(11);
   next.add_missing(12);
@@ -162,15 +162,15 @@ TEST(Judgement, KeepsSoManyWrongAnswersOfAFaultAndCountsAll) {
   Judgement sum;
   for (int block = 0; block < 3; ++block) {
     Judgement next;
-    for (int i = 0; i < 700; ++i) add(next, hit(0.5, 0.5), {.verdict = Verdict::no});
-    for (int i = 0; i < 10; ++i) add(next, miss, {.verdict = Verdict::yes});
+    for (int i = 0; i < 700; ++i) add(next, collision(0.5, 0.5), {.verdict = Verdict::no});
+    for (int i = 0; i < 10; ++i) add(next, no_collision, {.verdict = Verdict::yes});
     sum += next;
   }
   EXPECT_EQ(sum.count(Fault::false_negative), 2100U);
   EXPECT_EQ(sum.count(Fault::false_positive), 30U);
   EXPECT_EQ(sum.wrong_answers.size(), Judgement::most_kept + 30);
   Judgement alone;
-  for (int i = 0; i < 1500; ++i) add(alone, hit(0.5, 0.5), {.verdict = Verdict::no});
+  for (int i = 0; i < 1500; ++i) add(alone, collision(0.5, 0.5), {.verdict = Verdict::no});
   EXPECT_EQ(alone.count(Fault::false_negative), 1500U);
   EXPECT_EQ(alone.wrong_answers.size(), Judgement::most_kept);
 }
@@ -188,13 +188,13 @@ TEST(Judgement, CrashesAtNoQueryAreErrorsThatBreakEveryPromise) {
 }
 
 TEST(Keeps, OnlyExactnessForbidsFalsePositives) {
-  const Judgement false_positive = judged(miss, {.verdict = Verdict::yes});
+  const Judgement false_positive = judged(no_collision, {.verdict = Verdict::yes});
   EXPECT_FALSE(keeps(false_positive, Promise::exact));
   EXPECT_TRUE(keeps(false_positive, Promise::conservative));
   for (const Promise promise : {Promise::none, Promise::conservative, Promise::exact}) {
-    EXPECT_FALSE(keeps(judged(hit(0.5, 0.5), {.verdict = Verdict::no}), promise));
-    EXPECT_FALSE(keeps(judged(miss, {.verdict = Verdict::error}), promise));
-    EXPECT_TRUE(keeps(judged(hit(0.5, 0.5), {.verdict = Verdict::undecided}), promise));
+    EXPECT_FALSE(keeps(judged(collision(0.5, 0.5), {.verdict = Verdict::no}), promise));
+    EXPECT_FALSE(keeps(judged(no_collision, {.verdict = Verdict::error}), promise));
+    EXPECT_TRUE(keeps(judged(collision(0.5, 0.5), {.verdict = Verdict::undecided}), promise));
     EXPECT_TRUE(keeps(Judgement{}, promise));
   }
 }

@@ -59,11 +59,11 @@ TEST(MovingMesh, CandidatesBecomeTheirQueries) {
 TEST(MovingMesh, ASeparationAddsWhatComesThatNear) {
   const MovingMesh mesh = three_triangles();
   // The third triangle is 86 away along x.
-  EXPECT_EQ(find_candidates(mesh, Kind::vertex_face, 1, 85.0).size(),
+  EXPECT_EQ(find_candidates(mesh, Kind::vertex_face, 1, {.distance = 85.0}).size(),
             find_candidates(mesh, Kind::vertex_face, 1).size() + 3)
       << "the falling triangle gets the vertices at rest";
-  EXPECT_GT(find_candidates(mesh, Kind::vertex_face, 1, 86.0).size(),
-            find_candidates(mesh, Kind::vertex_face, 1, 85.0).size());
+  EXPECT_GT(find_candidates(mesh, Kind::vertex_face, 1, {.distance = 86.0}).size(),
+            find_candidates(mesh, Kind::vertex_face, 1, {.distance = 85.0}).size());
 }
 
 TEST(MovingMesh, CandidatesOfEdgesAreOfItsEdges) {

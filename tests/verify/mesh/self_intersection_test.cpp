@@ -117,9 +117,10 @@ TEST(Piercings, CountThePairsAskedForInOrder) {
   EXPECT_TRUE(find_piercings(vertices, edges, {}).empty());
 }
 
-/// A segment that moves from the start to the end of time sweeps nothing new: an edge and a face meet iff an end of the
-/// edge is in the face, the edge meets an edge of the face, or it goes through the inside. On a grid of few points all
-/// cases occur; the oracle tells the first two of resting primitives, Cramer's rule in integers the last.
+/// A segment that moves from the start to the end of time sweeps nothing new: an edge and a face
+/// meet iff an end of the edge is in the face, the edge meets an edge of the face, or it goes
+/// through the inside. On a grid of few points all cases occur; the oracle tells the first two of
+/// resting primitives, Cramer's rule in integers the last.
 TEST(Piercings, AreThoseOfTheOracleOnAGrid) {
   tests::Random random(18);
   const auto coordinate = [&] { return static_cast<double>(random.between(0, 2)); };

@@ -131,7 +131,8 @@ using fast::Verdict;
 constexpr judge::GroundTruth miss{.index = 3, .collides = false, .toi = std::nullopt};
 const judge::GroundTruth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
 
-/// A source where `careful` is right and `hasty` is wrong in each way, and one where both are right.
+/// A source where `careful` is right and `hasty` is wrong in each way, and one where both are
+/// right.
 std::vector<jobs::CertifyResult> judged_results(Promise promise_of_hasty) {
   jobs::MethodResult careful{
       .name = "careful", .promise = Promise::exact, .timed = true, .judgement = {}};

@@ -97,12 +97,12 @@ TEST(Figures, WhoGivesNoTimeIsNotAmongTheErrorsOfTimes) {
 TEST(Figures, HistogramsAreSharesOfHitsAndMisses) {
   const std::vector<Figure> figures = figures_of(tests::small_report());
   const FigurePanel& panel = figure(figures, "running_times").panels.at(0);
-  const FigureSeries& hits = series(panel, "msrf", "hits");
+  const FigureSeries& hits = series(panel, "msrf", "collisions");
   ASSERT_EQ(hits.points.size(), 2U);
   EXPECT_DOUBLE_EQ(hits.points[0].x, 10.0);
   EXPECT_EQ(hits.points[0].y, 0.75);
   EXPECT_EQ(hits.points[1].y, 0.25);
-  EXPECT_EQ(series(panel, "msrf", "misses").points.at(0).y, 1.0);
+  EXPECT_EQ(series(panel, "msrf", "no_collisions").points.at(0).y, 1.0);
 }
 
 TEST(Figures, CurvesStandOverTheirParameter) {

@@ -16,8 +16,8 @@ using fast::Verdict;
 constexpr judge::GroundTruth miss{.index = 3, .collides = false, .toi = std::nullopt};
 const judge::GroundTruth hit{.index = 4, .collides = true, .toi = exact::DoubleInterval{0.5, 0.5}};
 
-/// 22 false negatives, a false positive, an undecided answer, a late time of impact and an early one, and
-/// an error.
+/// 22 false negatives, a false positive, an undecided answer, a late time of impact and an early
+/// one, and an error.
 judge::Judgement wrong_in_each_way() {
   judge::Judgement judgement;
   for (int i = 0; i < 22; ++i) tests::add(judgement, hit, {.verdict = Verdict::no});

@@ -88,8 +88,8 @@ TEST(Measure, CountsExactlyTheFaultsThatAMethodHas) {
     EXPECT_EQ(measurement.group_queries, 200U);
     EXPECT_EQ(measurement.asked, 200U);
     EXPECT_EQ(measurement.collisions, 20U);
-    EXPECT_EQ(measurement.hit_times.count(), 20U);
-    EXPECT_EQ(measurement.miss_times.count(), 180U);
+    EXPECT_EQ(measurement.collision_times.count(), 20U);
+    EXPECT_EQ(measurement.no_collision_times.count(), 180U);
     EXPECT_EQ(measurement.repetitions, 5U);
     EXPECT_GT(measurement.nanoseconds, 0.0);
     EXPECT_GT(measurement.certified_nanoseconds, 0.0);
@@ -220,7 +220,7 @@ TEST(Measure, SettingsOfAMethodMayShareTheSmallestSample) {
   EXPECT_LE(all[0].asked, 64U);
   EXPECT_EQ(all[1].asked, all[0].asked);
   EXPECT_EQ(all[1].collisions, all[0].collisions);
-  EXPECT_EQ(all[1].hit_times.count() + all[1].miss_times.count(), all[0].asked);
+  EXPECT_EQ(all[1].collision_times.count() + all[1].no_collision_times.count(), all[0].asked);
   EXPECT_EQ(all[2].asked, 1000U);
 }
 

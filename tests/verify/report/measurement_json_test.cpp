@@ -37,8 +37,8 @@ Measurement with_all_fields() {
   m.certified_nanoseconds = 1.0 / 3.0;
   m.toi_error = Spread{.count = 38, .median = 1e-300, .max = 0.7};
   m.stages = {{"axis", 99}, {"exact", 1}};
-  m.hit_times.bins = {{-1, 2}, {40, 38}};
-  m.miss_times.bins = {{8, 60}};
+  m.collision_times.bins = {{-1, 2}, {40, 38}};
+  m.no_collision_times.bins = {{8, 60}};
   return m;
 }
 
@@ -87,7 +87,7 @@ TEST(MeasurementJson, ComesBackWithoutLoss) {
   EXPECT_EQ(m.toi_error, (Spread{.count = 38, .median = 1e-300, .max = 0.7}));
   EXPECT_FALSE(m.achieved_tolerance.has_value());
   EXPECT_EQ(m.stages, with_all_fields().stages);
-  EXPECT_EQ(m.hit_times, with_all_fields().hit_times);
+  EXPECT_EQ(m.collision_times, with_all_fields().collision_times);
   EXPECT_TRUE(std::isnan(read.all[1].nanoseconds));
   EXPECT_EQ(read.stability, example().stability);
   EXPECT_EQ(to_json(read), written) << "every field that is written is read";
@@ -100,7 +100,7 @@ TEST(MeasurementJson, WritesTheDocumentedFields) {
   EXPECT_EQ(json.at("kind"), "edge-edge");
   EXPECT_EQ(json.at("separation").at("norm"), "l2");
   EXPECT_EQ(json.at("false_negatives"), 2);
-  EXPECT_EQ(json.at("hit_times"), nlohmann::json::parse("[[-1, 2], [40, 38]]"));
+  EXPECT_EQ(json.at("collision_times"), nlohmann::json::parse("[[-1, 2], [40, 38]]"));
   EXPECT_EQ(json.at("stages"), nlohmann::json::parse(R"([["axis", 99], ["exact", 1]])"));
 }
 

@@ -1,6 +1,6 @@
 /// \file
-/// The page of a report in a real browser: headless Chromium loads it from a file, runs its script and
-/// hands back what became of it.
+/// The page of a report in a real browser: headless Chromium loads it from a file, runs its script
+/// and hands back what became of it.
 
 #include <gtest/gtest.h>
 
@@ -194,8 +194,8 @@ TEST_F(Browser, DrawsNumbersAtTheEndsOfTheRange) {
 
 // ---- The map of stability -----------------------------------------------------------------------
 
-/// A level for each number, as the error of the time of impact, as time in nanoseconds, and as checks;
-/// each second one has a false negative.
+/// A level for each number, as the error of the time of impact, as time in nanoseconds, and as
+/// checks; each second one has a false negative.
 stability::StabilityResult map_of(const std::vector<double>& numbers) {
   stability::StabilityResult result;
   result.count = 1;

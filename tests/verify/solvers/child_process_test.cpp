@@ -11,8 +11,8 @@
 #include <string>
 #include <thread>
 
-// A program of its own: it makes processes, which copy no threads. What a child may take is tested in
-// solver_process_test.cpp, where somebody takes it.
+// A program of its own: it makes processes, which copy no threads. What a child may take is tested
+// in solver_process_test.cpp, where somebody takes it.
 
 namespace touchstone::verify::solvers::child_process_test {
 namespace {

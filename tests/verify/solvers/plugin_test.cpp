@@ -141,15 +141,15 @@ TEST(BoxOverlap, RefusesNaN) {
 TEST(BoxOverlap, IsConservative) {
   const auto method = load_plugin(box_overlap);
   tests::Random random(20);
-  std::size_t misses = 0;
+  std::size_t no_collisions = 0;
   for (int i = 0; i < 2000; ++i) {
     const Kind kind = i % 2 == 0 ? Kind::vertex_face : Kind::edge_edge;
     const Query query = tests::integer_query(random, 2);
     if (ask(*method, kind, query).verdict == Verdict::yes) continue;
-    ++misses;
+    ++no_collisions;
     EXPECT_FALSE(exact::decide(kind, query).collides()) << PosedQuery{kind, query};
   }
-  EXPECT_GT(misses, 20U);
+  EXPECT_GT(no_collisions, 20U);
 }
 
 // ---- Loading ------------------------------------------------------------------------------------

@@ -46,9 +46,9 @@ TEST(Registry, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
 }
 
 TEST(Registry, EveryMethodTellsAHitFromAWideMiss) {
-  const tests::PosedQuery hit = tests::over_triangle(1, 1, 1, -3);
-  const tests::PosedQuery miss = tests::over_triangle(1, 1, 3, 1);
-  const std::vector<Query> queries{hit.query, miss.query};
+  const tests::PosedQuery collision = tests::over_triangle(1, 1, 1, -3);
+  const tests::PosedQuery no_collision = tests::over_triangle(1, 1, 3, 1);
+  const std::vector<Query> queries{collision.query, no_collision.query};
   for (const auto& method : methods()) {
     std::vector<fast::Answer> answers(2);
     method->solve(Kind::vertex_face, queries, answers, {});

@@ -247,7 +247,8 @@ void expect_failures(const Outcome& outcome, const judge::Failure& failure,
 void expect_all_answered(const Outcome& outcome) { expect_failures(outcome, {}, {}); }
 
 constexpr double long_limit = 60.0;
-/// What a hang costs. Queries that do not hang take microseconds, and may wait for a processor five times as long.
+/// What a hang costs. Queries that do not hang take microseconds, and may wait for a processor five
+/// times as long.
 constexpr double hang_limit = 0.5;
 const judge::Failure killed{.kind = judge::Fault::crash, .number = SIGKILL};
 
@@ -629,8 +630,8 @@ TEST(SolverProcess, NeitherWaitsForGrandchildrenNorLeavesThem) {
 }
 
 TEST(SolverProcess, ThereMayBeOneInEachThread) {
-  // The sanitizers' allocator, unlike the system's, is not made ready for a fork() beside other threads: the child may
-  // wait for a lock that nobody holds there.
+  // The sanitizers' allocator, unlike the system's, is not made ready for a fork() beside other
+  // threads: the child may wait for a lock that nobody holds there.
   constexpr std::size_t count = tests::sanitizer_divisor > 1 ? 1 : 4;
   std::atomic<unsigned> right = 0;
   {

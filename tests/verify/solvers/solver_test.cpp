@@ -355,7 +355,7 @@ TEST(Solver, StagesAreCountedInTheirOrder) {
   fast::solve(vf, queries, results, {.max_threads = 1});
   std::vector<StageCount> expected;
   for (const std::string_view stage : {"axis", "direction", "determinant", "bisection", "exact"}) {
-    const auto is_it = [&](const auto& result) { return fast::name(result.stage) == stage; };
+    const auto is_it = [&](const auto& result) { return fast::to_string(result.stage) == stage; };
     expected.push_back({stage, static_cast<std::uint64_t>(std::ranges::count_if(results, is_it))});
   }
   EXPECT_EQ(count_stages(certified, answers), expected);
@@ -379,14 +379,14 @@ TEST(Solver, PairsAreAnsweredAsTheirQueriesAre) {
     const SolveRequest request{.kind = kind, .queries = queries};
     EXPECT_TRUE(with_queries->solve(request, expected).time.has_value());
     EXPECT_TRUE(with_pairs->solve(request, answers).time.has_value());
-    std::size_t hits = 0;
+    std::size_t collisions = 0;
     for (std::size_t i = 0; i < queries.size(); ++i) {
       ASSERT_EQ(answers[i].verdict, expected[i].verdict) << i;
       ASSERT_EQ(answers[i].verdict, tests::true_answer(kind, queries[i]).verdict) << i;
-      hits += answers[i].verdict == Verdict::yes ? 1U : 0U;
+      collisions += answers[i].verdict == Verdict::yes ? 1U : 0U;
     }
-    EXPECT_GT(hits, 0U);
-    EXPECT_LT(hits, queries.size());
+    EXPECT_GT(collisions, 0U);
+    EXPECT_LT(collisions, queries.size());
     EXPECT_THROW(
         static_cast<void>(with_pairs->solve({.kind = kind, .queries = std::span(queries).first(1)},
                                             std::span(answers).first(1))),

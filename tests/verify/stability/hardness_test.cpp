@@ -134,7 +134,8 @@ TEST(HardQueries, MissByExactlyTheDistance) {
   });
 }
 
-/// What collides overlaps by as much: across the plane at the end, or across a side within the plane.
+/// What collides overlaps by as much: across the plane at the end, or across a side within the
+/// plane.
 TEST(HardQueries, OverlapByExactlyTheDistance) {
   for_each_query("distance", 16, [](int exponent, Kind kind, const Query& query, bool collides) {
     if (!collides) return;
@@ -227,13 +228,13 @@ TEST(HardQueries, HaveFullSignificands) {
 // ---- Scenes of decimals -------------------------------------------------------------------------
 
 bool is_at_an_end(Kind kind, const Query& query) {
-  const exact::Verdict truth = exact::decide(kind, query);
+  const exact::Decision truth = exact::decide(kind, query);
   const auto [lower, upper] = truth.toi->enclosure();
   return upper == 0.0 || lower == 1.0;
 }
 
-/// Contacts are exactly at t=0 or t=1, whatever the level: or earlier than at t=1, since all of a motion
-/// may touch.
+/// Contacts are exactly at t=0 or t=1, whatever the level: or earlier than at t=1, since all of a
+/// motion may touch.
 TEST(HardQueries, OfDecimalsTouchAtTheEndsMostly) {
   for (const std::string_view name : {"everyday-scale", "digits", "frame"}) {
     int collisions = 0, at_ends = 0;
@@ -360,7 +361,7 @@ TEST(HardQueriesAboutASeparation, AreHalfCollisionsByTheOracle) {
                 {.hardness = &hardness, .level = level, .kind = kind, .separation = asked}, seed,
                 index);
             collisions += made.collides ? 1U : 0U;
-            const exact::Verdict truth =
+            const exact::Decision truth =
                 exact::decide(kind, made.query, separation_at(hardness, level, asked));
             ASSERT_EQ(truth.collides(), made.collides);
           }

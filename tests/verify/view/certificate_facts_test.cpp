@@ -25,11 +25,11 @@ std::string replaced(std::string text, const std::string& part, const std::strin
   return text.replace(text.find(part), part.size(), by);
 }
 
-TEST(CertificateFacts, ThePiecesWithTheirDirections) {
+TEST(CertificateFacts, TheSubintervalsWithTheirDirections) {
   const nlohmann::json facts = certificate_facts(over_an_edge);
   EXPECT_EQ(facts.at("claim"), "no_collision");
   EXPECT_EQ(facts.at("accepted"), true);
-  EXPECT_EQ(facts.at("pieces"),
+  EXPECT_EQ(facts.at("subintervals"),
             nlohmann::json::parse(R"([{"from": "0", "to": "1/2", "feature": "edge 0 1"},
                                       {"from": "1/2", "to": "1", "feature": "face +"}])"));
   EXPECT_EQ(facts.at("text"), over_an_edge);
@@ -39,14 +39,14 @@ TEST(CertificateFacts, AWrongProofIsShownAsRefused) {
   const nlohmann::json facts = certificate_facts(replaced(over_an_edge, "face +", "face -"));
   EXPECT_EQ(facts.at("accepted"), false);
   EXPECT_NE(facts.at("reason"), "");
-  EXPECT_EQ(facts.at("pieces").at(1).at("feature"), "face -");
+  EXPECT_EQ(facts.at("subintervals").at(1).at("feature"), "face -");
 }
 
 TEST(CertificateFacts, EveryFeatureByItsName) {
   for (const std::string feature :
        {"vertex 2", "edge 1 2", "face -", "axis x +", "axis z -", "cross y 1 2"}) {
     const nlohmann::json facts = certificate_facts(replaced(over_an_edge, "face +", feature));
-    EXPECT_EQ(facts.at("pieces").at(1).at("feature"), feature);
+    EXPECT_EQ(facts.at("subintervals").at(1).at("feature"), feature);
   }
 }
 
@@ -54,7 +54,7 @@ TEST(CertificateFacts, TheQueryBitForBit) {
   const tests::PosedQuery posed = tests::edge_edge({-1, 0.1, 1, 1, 0, 1, 0, -1, 0, 0, 1, 5e-324},
                                                    {-1, 0, -1, 1, 0, -1, 0, -1.7e308, 0, 0, 1, 0});
   const Separation separation{.distance = 0.1, .norm = Norm::l2};
-  const exact::Verdict verdict = exact::decide(posed.kind, posed.query, separation);
+  const exact::Decision verdict = exact::decide(posed.kind, posed.query, separation);
   const CertifiedQuery read = certified_query(
       exact::certificate_stream(exact::prove(posed.kind, posed.query, verdict), "a label"));
   EXPECT_EQ(read.kind, posed.kind);

@@ -23,8 +23,8 @@ PosedQuery falling_to(double height) {
 }
 
 TEST(NearestApproach, OfWhatTouchesThereIsNone) {
-  const PosedQuery touching = falling_to(-2.0);
-  EXPECT_FALSE(nearest_approach(touching.kind, touching.query));
+  const PosedQuery colliding = falling_to(-2.0);
+  EXPECT_FALSE(nearest_approach(colliding.kind, colliding.query));
 }
 
 TEST(NearestApproach, IsBetweenNeighbouringDoubles) {
@@ -38,8 +38,8 @@ TEST(NearestApproach, IsBetweenNeighbouringDoubles) {
   }
 }
 
-/// Two edges that cross in projection, one at height 3, pass one another: nearest where they are above one
-/// another, all the time.
+/// Two edges that cross in projection, one at height 3, pass one another: nearest where they are
+/// above one another, all the time.
 TEST(NearestApproach, IsTheFirstTimeOfTheLeastDistance) {
   const PosedQuery passing = tests::edge_edge({-1, 0, 3, 1, 0, 3, 0, 3, 0, 0, 5, 0},
                                               {-1, 0, 3, 1, 0, 3, 0, -5, 0, 0, -3, 0});

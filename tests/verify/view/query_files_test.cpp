@@ -105,7 +105,7 @@ TEST_F(QueryFiles, Certificates) {
   std::string text(exact::certificates_header());
   for (int i = 0; i < 3; ++i) {
     const Query query = numbered(i);
-    const exact::Verdict verdict = exact::decide(Kind::vertex_face, query);
+    const exact::Decision verdict = exact::decide(Kind::vertex_face, query);
     exact::write(text, exact::prove(Kind::vertex_face, query, verdict), "label");
   }
   write("proofs.cert", text + exact::certificates_closing_line(3));

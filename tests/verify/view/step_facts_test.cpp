@@ -12,7 +12,8 @@
 namespace touchstone::verify::view::step_facts_test {
 namespace {
 
-/// A triangle at rest, two vertices that fall through it at t = 1/4 and t = 1/2, and an edge far away.
+/// A triangle at rest, two vertices that fall through it at t = 1/4 and t = 1/2, and an edge far
+/// away.
 mesh::Mesh scene() {
   const std::vector<std::array<double, 3>> coordinates{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 2},
                                                        {1, 2, 1}, {9, 9, 9}, {9, 9, 8}};

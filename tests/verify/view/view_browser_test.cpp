@@ -1,6 +1,6 @@
 /// \file
-/// The page of a view in a real browser: a script that is added to it moves its controls and writes what
-/// they show, and what it writes is compared with exact numbers.
+/// The page of a view in a real browser: a script that is added to it moves its controls and writes
+/// what they show, and what it writes is compared with exact numbers.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -145,7 +145,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
     const look = () => ({
       verdict: find("verdict").textContent, names: text("#rows .name"), said: text("#rows .said"),
       marks: all("#rows .mark.toi, #rows .mark.approach").map((mark) => mark.style.left),
-      pieces: all("#rows .piece").map((bar) => bar.textContent + bar.title),
+      subintervals: all("#rows .subinterval").map((bar) => bar.textContent + bar.title),
       cursor: document.querySelector("#rows .cursor").style.left, now: find("now").textContent,
       readout: find("readout").textContent, drawn: [pixels("motion"), pixels("corners")],
       names_there: text("#motion .names span") });
@@ -171,7 +171,7 @@ TEST_F(ViewBrowser, ShowsContactTimeAndSolvers) {
   EXPECT_EQ(result.at(1), positions(falling().query, Rational(1, 3)));
   const nlohmann::json& second = result.at(2);
   EXPECT_EQ(second.at("verdict"), "vertex-face: no collision.");
-  EXPECT_EQ(second.at("pieces"), nlohmann::json::array({"face +separated by face +"}));
+  EXPECT_EQ(second.at("subintervals"), nlohmann::json::array({"face +separated by face +"}));
   EXPECT_EQ(second.at("said").at(3).get<std::string>().substr(0, 3), "yes");
   EXPECT_NE(second.at("said").at(3).get<std::string>().find("✗ false positive"), std::string::npos);
   EXPECT_EQ(result.at(4).get<std::string>().substr(0, 22), "Radius seen: 4.44e-16 ");
@@ -371,8 +371,8 @@ TEST_F(ViewBrowser, FitsATelephone) {
   EXPECT_EQ(result.at(3), 0) << "rows of the list cover each other";
 }
 
-/// Styles the page as it is printed: the rules for paper hold, those for screens do not. Says what is seen, what a
-/// reader of a grey copy needs, and what is cut off.
+/// Styles the page as it is printed: the rules for paper hold, those for screens do not. Says what
+/// is seen, what a reader of a grey copy needs, and what is cut off.
 constexpr std::string_view on_paper = R"(
   for (const sheet of document.styleSheets) {
     for (const { media } of sheet.cssRules) {
@@ -460,7 +460,8 @@ TEST_F(ViewBrowser, WithoutWebGlTheNumbersAreThere) {
 
 // ---- A step -------------------------------------------------------------------------------------
 
-/// A pyramid rises from y = −2 to y = 2; at rest, two points above it, each as a vertex of no element.
+/// A pyramid rises from y = −2 to y = 2; at rest, two points above it, each as a vertex of no
+/// element.
 std::string page_of_a_step(bool is_hit) {
   const double x = is_hit ? 0.0 : 9.0;
   const std::vector<std::array<double, 3>> coordinates{

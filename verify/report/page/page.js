@@ -54,8 +54,8 @@
     const low = Math.max(Math.min(Math.floor(Math.log10(d3.min(positive) || 1)), high - 1), -323);
     const bottom = hasZero ? range[0] + direction * endBand : range[0];
     const scale = d3.scaleLog().domain([Number(`1e${low}`), Number(`1e${high}`)]).range([bottom, top]);
-    const room = Math.abs(top - bottom) / (direction > 0 ? 62 : 26);
-    const step = [1, 2, 3, 5, 10, 20, 50, 100].find((one) => (high - low) / one <= room) || 200;
+    const space = Math.abs(top - bottom) / (direction > 0 ? 62 : 26);
+    const step = [1, 2, 3, 5, 10, 20, 50, 100].find((one) => (high - low) / one <= space) || 200;
     const exponents = d3.range(Math.ceil(low / step) * step, high + 1, step);
     const ticks = exponents.map((exponent) => Number(`1e${exponent}`));
     const place = (v) => (v === Infinity ? range[1] : v > 0 ? scale(v) : range[0]);
@@ -256,8 +256,8 @@
     const tallest = d3.max(allPoints(panel), (p) => p.y) || 1;
     for (const series of panel.series) {
       const line = top + half * (2 * names.indexOf(series.name) + 1);
-      const sign = series.role === "misses" ? -1 : 1;
-      const tone = series.role === "misses" ? "var(--miss)" : "var(--hit)";
+      const sign = series.role === "no_collisions" ? -1 : 1;
+      const tone = series.role === "no_collisions" ? "var(--no-collision)" : "var(--collision)";
       for (const point of series.points) {
         const from = x.place(point.x);
         const tall = (half - 2) * Math.sqrt(point.y / tallest);
@@ -431,7 +431,7 @@
   // ---- Legends ----------------------------------------------------------------------------------
 
   const legendsOfForms = {
-    ridges: [["var(--miss)", "do not collide (above)"], ["var(--hit)", "collide (below)"]],
+    ridges: [["var(--no-collision)", "do not collide (above)"], ["var(--collision)", "collide (below)"]],
     marks: [["var(--calm)", "pale and empty: every answer is right"], ["var(--bad)", "N false negatives"], ["var(--toi)", "T time of impact"],
       ["var(--error)", "E errors"], ["var(--beyond)", "B beyond its tolerance"],
       [shade("mild", 0.35), "some false positives"], [shade("mild", 1), "all misses are"],

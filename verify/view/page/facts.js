@@ -2,7 +2,7 @@
 //
 //   label, kind, coordinates, min_separation, norm, notes truth collides, text, toi, u, v approach
 //   the least distance without a collision: above, at_most, and the time certificate claim,
-//   accepted, reason, pieces, text, given answers solver, promise, recorded, verdict, failure,
+//   accepted, reason, subintervals, text, given answers solver, promise, recorded, verdict, failure,
 //   toi_lower, toi_upper, tolerance, faults, breaks_promise
 //
 // A toi and an approach are lower and upper (doubles), exact (a rational, or null) and time (a rational near
@@ -28,8 +28,8 @@ export function readFacts(facts) {
     truth: { ...truth, toi: truth.toi ? moment(truth.toi) : null,
       u: truth.u ? enclosure(truth.u) : null, v: truth.v ? enclosure(truth.v) : null },
     approach: approach && { ...moment(approach), above: double(approach.above), at_most: double(approach.at_most) },
-    certificate: certificate && { ...certificate, pieces: certificate.pieces.map((piece) =>
-      ({ from: parseRational(piece.from), to: parseRational(piece.to), feature: piece.feature })) },
+    certificate: certificate && { ...certificate, subintervals: certificate.subintervals.map((subinterval) =>
+      ({ from: parseRational(subinterval.from), to: parseRational(subinterval.to), feature: subinterval.feature })) },
     answers: facts.answers.map((answer) => ({ ...answer, toi_lower: double(answer.toi_lower),
       toi_upper: double(answer.toi_upper) })),
   };

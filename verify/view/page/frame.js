@@ -49,15 +49,15 @@ export function clipped(polygon) {
 }
 
 function clippedBy(points, axis, side) {
-  const room = (point) => limit - side * point[axis];
+  const space = (point) => limit - side * point[axis];
   const result = [];
   const isClosed = points.length > 2;
   points.forEach((point, i) => {
-    const here = room(point);
+    const here = space(point);
     if (here >= 0n) result.push(point);
     if (i + 1 === points.length && !isClosed) return;
     const next = points[(i + 1) % points.length];
-    const there = room(next);
+    const there = space(next);
     if ((here < 0n) === (there < 0n) || here === there) return;
     result.push(point.map((x, k) => x + ((next[k] - x) * here) / (here - there)));
   });

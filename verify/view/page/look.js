@@ -15,7 +15,7 @@ export const steps = 4096;
 
 /// The least ratio of the visible part to the gap, with which contact is enlarged.
 const leastZoom = 40;
-const roomForGap = 1;  // log2 of the radius over the gap
+const marginForGap = 1;  // log2 of the radius over the gap
 
 const largest = (vectors) => vectors.flat().reduce((a, b) => {
   const size = b < 0n ? -b : b;
@@ -58,11 +58,11 @@ export class Look {
     const paths = motion.start.map((point, i) => minus(motion.end[i], point));
     this.lgSpeed = largest(paths) === 0n ? null : lg(largest(paths), scale);
     this.lgEnd = Math.min(this.lgAll, this.lgCorners) - leastZoom;
-    if (near.squared.n > 0n && !this.touches()) this.lgEnd = Math.min(log2(near.squared) / 2 + roomForGap, this.lgAll);
+    if (near.squared.n > 0n && !this.collides()) this.lgEnd = Math.min(log2(near.squared) / 2 + marginForGap, this.lgAll);
   }
 
   /// True if the gap is 0 at the shown time, or negligible.
-  touches() {
+  collides() {
     const { truth, min_separation } = this.facts;
     return Boolean(truth && truth.toi && min_separation === 0);
   }
@@ -112,7 +112,7 @@ export class Look {
     if (this.isFollowing) {
       const near = this.motion.nearest(this.motion.at(this.t));
       place = { vector: near.points[0].map((x, k) => x + near.points[1][k]), d: 2n * near.d };
-      const lgGap = near.squared.n === 0n ? this.lgEnd : Math.max(log2(near.squared) / 2 + roomForGap, this.lgEnd);
+      const lgGap = near.squared.n === 0n ? this.lgEnd : Math.max(log2(near.squared) / 2 + marginForGap, this.lgEnd);
       [lgMotion, lgCorners] = [Math.min(lgGap, this.lgAll), Math.min(lgGap, this.lgCorners)];
     }
     this.frame = new Frame(place.vector, place.d, lgMotion);
@@ -129,11 +129,11 @@ export class Look {
     return { from: from.n < 0n ? zero : from, to: compare(to, one) > 0 ? one : to };
   }
 
-  /// The piece of the certificate at the time.
-  get piece() {
+  /// The subinterval of the certificate at the time.
+  get subinterval() {
     const { certificate } = this.facts;
     if (!certificate) return null;
-    return certificate.pieces.find(({ from, to }) => compare(from, this.t) <= 0 && compare(this.t, to) <= 0) || null;
+    return certificate.subintervals.find(({ from, to }) => compare(from, this.t) <= 0 && compare(this.t, to) <= 0) || null;
   }
 
   /// A time as text: a number of digits, and its distance from the time of the place.

@@ -150,8 +150,8 @@ function update(isNewFrame) {
   const state = motion.at(t);
   const near = motion.nearest(state);
   const corners = motion.corners(state);
-  const { piece } = look;
-  const direction = piece ? directionOf(piece.feature, corners) : null;
+  const { subinterval } = look;
+  const direction = subinterval ? directionOf(subinterval.feature, corners) : null;
   const isInside = near.squared.n === 0n;
   const radius = facts.min_separation > 0 ? facts.min_separation * 2 ** -cornerFrame.lgRadius : 0;
   const separation = radius > 0 ? { radius, isBall: facts.norm === "l2" } : null;
@@ -170,7 +170,7 @@ function update(isNewFrame) {
   find("scale").textContent = `Radius seen: ${scaleText(frame.lgRadius)} (corners ${scaleText(cornerFrame.lgRadius)}), ` +
     `times from ${look.timeText(window.from, 6)} to ${look.timeText(window.to, 6)}.`;
   drawTimeline(find("rows"), facts, window, t);
-  writeReadout(near, piece);
+  writeReadout(near, subinterval);
   writeTable(state);
 }
 
@@ -180,12 +180,12 @@ const scaleText = (lg) => {
   return Math.abs(whole) < 5 ? String(Number((2 ** lg).toPrecision(3))) : `${(10 ** (ten - whole)).toPrecision(3)}e${whole}`;
 };
 
-function writeReadout(near, piece) {
+function writeReadout(near, subinterval) {
   const gap = look.motion.gap(look.motion.at(look.t));
   const isTiny = gap.n > 0n && log2(gap) < look.frame.lgRadius + lgSmallest;
   const parts = [gap.n === 0n ? "Contact now" : `Distance now: ${shortText(gap, 9)}${isTiny ? " (too small to be seen here: enlarge)" : ""}`,
     `nearest at (u, v) = (${shortText(near.u, 9)}, ${shortText(near.v, 9)})`];
-  if (piece) parts.push(`separated by ${piece.feature}`);
+  if (subinterval) parts.push(`separated by ${subinterval.feature}`);
   find("readout").textContent = `${parts.join("; ")}.`;
 }
 

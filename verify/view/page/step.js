@@ -179,11 +179,11 @@ export class StepPicture {
     return new THREE.BufferAttribute(places, 3);
   }
 
-  /// \param touched the number of pairs whose time of impact has passed
-  draw(t, touched, chosen) {
+  /// \param collidedSoFar the number of pairs whose time of impact has passed
+  draw(t, collidedSoFar, chosen) {
     this.time.value = t;
-    this.past.geometry.setDrawRange(0, touched);
-    this.future.geometry.setDrawRange(touched, Infinity);
+    this.past.geometry.setDrawRange(0, collidedSoFar);
+    this.future.geometry.setDrawRange(collidedSoFar, Infinity);
     this.chosen.geometry.setDrawRange(chosen === null ? 0 : chosen, chosen === null ? 0 : 1);
     for (const { shade, color } of this.colors) shade.value.copy(styleColor(color));
     this.drawChosen(t, chosen);
@@ -307,7 +307,7 @@ export class StepPart {
   }
 
   /// The number of pairs whose time of impact has passed.
-  get touched() {
+  get collidedSoFar() {
     const { pairs } = this.step;
     let [low, high] = [0, pairs.length];
     while (low < high) {
@@ -324,14 +324,14 @@ export class StepPart {
   }
 
   update() {
-    const { touched } = this;
-    if (this.picture) this.picture.draw(this.t, touched, this.chosen);
+    const { collidedSoFar } = this;
+    if (this.picture) this.picture.draw(this.t, collidedSoFar, this.chosen);
     find("step_time").value = Math.round(this.t * steps);
     const { pairs, total } = this.step;
     const all = total > pairs.length ? `the first ${pairs.length}` : String(total);
-    find("step_now").textContent = `t = ${doubleText(this.t)}, ${touched} of ${all} have collided`;
+    find("step_now").textContent = `t = ${doubleText(this.t)}, ${collidedSoFar} of ${all} have collided`;
     for (const [i, item] of [...find("pairs").children].entries()) {
-      item.classList.toggle("past", i < touched);
+      item.classList.toggle("past", i < collidedSoFar);
       item.classList.toggle("chosen", i === this.chosen);
     }
   }

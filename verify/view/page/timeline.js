@@ -1,4 +1,4 @@
-// The line of time: the oracle's verdict, the pieces of a certificate, and the answer of each solver, all
+// The line of time: the oracle's verdict, the subintervals of a certificate, and the answer of each solver, all
 // over the window of time that the slider covers.
 
 import { compare, divide, doubleText, nearest, rational, subtract } from "./exact.js";
@@ -52,16 +52,16 @@ function oracleRow(window, facts) {
   return row("oracle", "the exact verdict", track, text);
 }
 
-const countText = (pieces) => (pieces === 1 ? "1 piece" : `${pieces} pieces`);
+const countText = (subintervals) => (subintervals === 1 ? "1 subinterval" : `${subintervals} subintervals`);
 
 function certificateRow(window, certificate, t) {
-  const pieces = certificate.pieces.map(({ from, to, feature }, i) => {
+  const subintervals = certificate.subintervals.map(({ from, to, feature }, i) => {
     const isNow = compare(from, t) <= 0 && compare(t, to) <= 0;
-    return bar(window, from, to, `piece ${i % 2 ? "odd" : ""} ${isNow ? "now" : ""}`, `separated by ${feature}`, feature);
+    return bar(window, from, to, `subinterval ${i % 2 ? "odd" : ""} ${isNow ? "now" : ""}`, `separated by ${feature}`, feature);
   });
   const state = certificate.accepted ? "accepted by the checker" : `refused by the checker: ${certificate.reason}`;
-  return row("certificate", certificate.given ? "from the file" : "of the oracle", pieces,
-    [`${certificate.claim.replace(/_/g, " ")}, ${countText(certificate.pieces.length)}, ${state}`],
+  return row("certificate", certificate.given ? "from the file" : "of the oracle", subintervals,
+    [`${certificate.claim.replace(/_/g, " ")}, ${countText(certificate.subintervals.length)}, ${state}`],
     certificate.accepted ? "" : "wrong");
 }
 

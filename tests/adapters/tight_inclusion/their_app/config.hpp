@@ -1,4 +1,5 @@
 #pragma once
 
 /// \file
-/// The configuration of Tight-Inclusion's own program with which it is compiled here: without its sample queries.
+/// The configuration of Tight-Inclusion's own program with which it is compiled here: without its
+/// sample queries.

@@ -140,8 +140,8 @@ TEST(SeparatedDecision, DistancesOfTheWholeRangeCount) {
   }
 }
 
-/// From height 1 + k 2^-52 down by about 2^1000, within 1 at about k 2^-1052: the enclosure is as narrow
-/// as documented where the time is subnormal too.
+/// From height 1 + k 2^-52 down by about 2^1000, within 1 at about k 2^-1052: the enclosure is as
+/// narrow as documented where the time is subnormal too.
 TEST(SeparatedDecision, SubnormalTimesAreEnclosedByOneSpacing) {
   for (const Kind kind : kinds) {
     for (const Norm norm : norms) {
@@ -174,7 +174,8 @@ TEST(SeparatedDecision, AtDistanceZeroItIsThePlainDecision) {
   }
 }
 
-/// A separator's first form has a root just before t=1; a later one is negative for a while before it.
+/// A separator's first form has a root just before t=1; a later one is negative for a while before
+/// it.
 PosedQuery dipping_query() {
   return tests::edge_edge({0, 3, -3, -8, 7, 9, 0, 0, 0, 1, -1, -5},
                           {0x1.8000000002316p+0, -0x1.800000000694p+0, -0x1.c000000001764p+2,
@@ -193,8 +194,9 @@ TEST(SeparatedDecision, DipsBeforeASeparatorsEndCount) {
 
 // ---- Work ---------------------------------------------------------------------------------------
 
-/// Queries in which roots are hardly apart: coordinates next to nothing among those that nearly overflow
-/// make roots that differ by parts of 2^-2000, 2^-4000 and so on. Each took some seconds or more once.
+/// Queries in which roots are hardly apart: coordinates next to nothing among those that nearly
+/// overflow make roots that differ by parts of 2^-2000, 2^-4000 and so on. Each took some seconds
+/// or more once.
 struct Slow {
   PosedQuery posed;
   Separation separation;
@@ -255,7 +257,8 @@ TEST(SeparatedDecision, RootsThatAreHardlyApartTakeFewSteps) {
 
 // ---- Planted faults -----------------------------------------------------------------------------
 
-/// How many answers about small integers, where contact is near the distance or it is tiny, are wrong.
+/// How many answers about small integers, where contact is near the distance or it is tiny, are
+/// wrong.
 int wrong_answers(tests::DecideExactly& decide_so) {
   Random random(8);
   int wrong = 0;

@@ -85,7 +85,7 @@ TEST(ExactStage, AnIrrationalTimeOfImpactIsBetweenNeighbours) {
 
 bool is_wrong(tests::DecideExactly& decide, Kind kind, const Query& query) {
   const auto impact = decide(kind, query, {}, 1e-12, 1.0);
-  const exact::Verdict truth = exact::decide(kind, query);
+  const exact::Decision truth = exact::decide(kind, query);
   if (impact.has_value() != truth.collides()) return true;
   if (!impact) return false;
   const exact::AlgebraicNumber& toi = *truth.toi;
@@ -93,8 +93,8 @@ bool is_wrong(tests::DecideExactly& decide, Kind kind, const Query& query) {
          (impact->toi_upper != 0 && toi <= Rational(impact->toi_lower));
 }
 
-/// The determinant has a root at t=1/2 or 3/4, outside the domain, and another one just before it, nearer
-/// with each of these nudges. Found by the fuzzer.
+/// The determinant has a root at t=1/2 or 3/4, outside the domain, and another one just before it,
+/// nearer with each of these nudges. Found by the fuzzer.
 std::vector<PosedQuery> neighbouring_roots() {
   const Query edges{{0.0,    0.0,    -0.875, 0.125,  -1.125, 0.0,    -1.125, -2.375,
                      -0.875, 3.4375, 5.25,   2.375,  0.125,  0.0,    0.875,  0.0,

@@ -207,7 +207,8 @@ TEST(AlgebraicInstant, ComparesRootsThatAreHardlyApart) {
 }
 
 TEST(AlgebraicInstant, NarrowsQuicklyBesideAnyTime) {
-  // (3t − 1)² 2^20000 = t: a root some 2^-10000 after 1/3, from a lower end that is just before 1/3.
+  // (3t − 1)² 2^20000 = t: a root some 2^-10000 after 1/3, from a lower end that is just before
+  // 1/3.
   const BigInteger large = BigInteger(1) << 20000;
   const Polynomial pair = polynomial(in_time(1, -6, 9)) * large - polynomial(in_time(0, 1, 0));
   const long exponent = 12000;

@@ -1,6 +1,6 @@
 /// \file
-/// The certified solver with a minimum separation, in both norms, by hand and in batches. (Against the oracle:
-/// tests/fast/deciders_test.cpp. Its kernels among each other: kernel_test.cpp.)
+/// The certified solver with a minimum separation, in both norms, by hand and in batches. (Against
+/// the oracle: tests/fast/deciders_test.cpp. Its kernels among each other: kernel_test.cpp.)
 
 #include "fast/certified/stages/conservative_advancement.hpp"
 
@@ -36,7 +36,7 @@ TEST(Separated, ContactIsAtTheDistance) {
     for (const Norm norm : norms) {
       for (const double distance : {0.5, 0.25, 0x1p-20, 0x1p-40}) {
         const CertifiedOptions options{.separation = {.distance = distance, .norm = norm}};
-        const CertifiedResult result = certified(posed.kind, posed.query, options);
+        const CertifiedResult result = fast::solve(posed.kind, posed.query, options);
         const double toi = (1.0 - distance) / 2.0;
         ASSERT_EQ(result.verdict, Verdict::yes) << distance;
         EXPECT_EQ(result.stage, Stage::bisection);
@@ -53,7 +53,7 @@ TEST(Separated, TouchingAtTheDistanceCountsAndBeyondDoesNot) {
   for (const Norm norm : norms) {
     const auto verdict = [&](double height, double distance) {
       const PosedQuery posed = over_triangle(1, 1, height, height);
-      return certified(posed.kind, posed.query, {.separation = {distance, norm}}).verdict;
+      return fast::solve(posed.kind, posed.query, {.separation = {distance, norm}}).verdict;
     };
     for (const double distance : {0.5, 1e-2, 1e-8, 1e-100}) {
       EXPECT_EQ(verdict(distance, distance), Verdict::yes);
@@ -67,7 +67,7 @@ TEST(Separated, NormsDifferBesideACorner) {
   // Beside the corner (0,0) of the triangle by 0.3 along x and 0.4 along z: 0.5 in L2, 0.4 in L∞.
   const PosedQuery posed = over_triangle(-0.3, 0.0, 0.4, 0.4);
   const auto verdict = [&](double distance, Norm norm) {
-    return certified(posed.kind, posed.query, {.separation = {distance, norm}}).verdict;
+    return fast::solve(posed.kind, posed.query, {.separation = {distance, norm}}).verdict;
   };
   EXPECT_EQ(verdict(0.45, Norm::linf), Verdict::yes);
   EXPECT_EQ(verdict(0.45, Norm::l2), Verdict::no);
@@ -93,7 +93,7 @@ TEST(Separated, EveryStageIsReached) {
     }
   }
   for (std::size_t i = 0; i < stages; ++i) {
-    EXPECT_GT(reached.at(i), 0U) << name(static_cast<Stage>(i));
+    EXPECT_GT(reached.at(i), 0U) << to_string(static_cast<Stage>(i));
   }
 }
 

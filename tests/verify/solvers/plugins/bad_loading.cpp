@@ -19,8 +19,8 @@ bool is_told(std::string_view what) {
   return told != nullptr && what == told;
 }
 
-/// Makes processes until it may not. At most so many: where that is not forbidden the test is to fail,
-/// and the machine to live.
+/// Makes processes until it may not. At most so many: where that is not forbidden the test is to
+/// fail, and the machine to live.
 void fork_without_end() {
   for (int i = 0; i < 8; ++i) {
     const pid_t child = ::fork();

@@ -1,7 +1,8 @@
 #pragma once
 
 /// \file
-/// The public spdlog, as far as the adapter calls it: the same names and signatures, to compile against.
+/// The public spdlog, as far as the adapter calls it: the same names and signatures, to compile
+/// against.
 
 #include <memory>
 #include <string>

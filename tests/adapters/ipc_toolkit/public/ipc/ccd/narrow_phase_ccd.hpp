@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The narrow phase of the public IPC Toolkit, as far as the adapter derives from it: the same names and signatures, to
-/// compile against.
+/// The narrow phase of the public IPC Toolkit, as far as the adapter derives from it: the same
+/// names and signatures, to compile against.
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 /// \file
-/// The public IPC Toolkit as far as a standalone program calls it: declarations of the same signatures, to compile
-/// against.
+/// The public IPC Toolkit as far as a standalone program calls it: declarations of the same
+/// signatures, to compile against.
 
 #include <Eigen/Core>
 

@@ -1,4 +1,4 @@
-#include "fast/distance/nearness.hpp"
+#include "fast/distance/proximity.hpp"
 
 #include <algorithm>
 
@@ -17,8 +17,9 @@ std::vector<std::uint32_t> perhaps_within(Kind kind, std::span<Query> queries,
   block.t_limit = 0.0;
   (kernel != nullptr ? kernel : certified_kernels().back())->decide(block, output);
   std::vector<std::uint32_t> result;
-  result.reserve(output.hits.count + output.undecided.count);
-  for (std::size_t i = 0; i < output.hits.count; ++i) result.push_back(output.hits.items[i].index);
+  result.reserve(output.impacts.count + output.undecided.count);
+  for (std::size_t i = 0; i < output.impacts.count; ++i)
+    result.push_back(output.impacts.items[i].index);
   for (std::size_t i = 0; i < output.undecided.count; ++i) {
     result.push_back(output.undecided.items[i]);
   }

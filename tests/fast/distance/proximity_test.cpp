@@ -1,4 +1,4 @@
-#include "fast/distance/nearness.hpp"
+#include "fast/distance/proximity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@
 #include "tests/support/random.hpp"
 #include "tests/support/trials.hpp"
 
-namespace touchstone::fast::nearness_test {
+namespace touchstone::fast::proximity_test {
 namespace {
 
 using tests::Random;
 
-TEST(Nearness, LeavesOutNoneThatIsNearAndMostThatAreNot) {
+TEST(Proximity, LeavesOutNoneThatIsNearAndMostThatAreNot) {
   Random random(2400);
   std::size_t near = 0, listed = 0, all = 0;
   for (int round = 0; round < tests::trials(20); ++round) {
@@ -52,4 +52,4 @@ TEST(Nearness, LeavesOutNoneThatIsNearAndMostThatAreNot) {
 }
 
 }  // namespace
-}  // namespace touchstone::fast::nearness_test
+}  // namespace touchstone::fast::proximity_test
