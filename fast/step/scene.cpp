@@ -199,12 +199,9 @@ bool Scene::primitives_meet(const Primitive& a, const Primitive& b) const {
 // ---- Pairs --------------------------------------------------------------------------------------
 
 IndexPair Scene::reported(PairKind kind, const IndexPair& pair) const {
-  const auto number = [this](std::size_t sort, std::int32_t inside) {
-    const auto& numbers = mesh_->numbers[sort];
-    return numbers.empty() ? inside : at(numbers, inside);
-  };
   const PairRecord& record = record_of(kind);
-  return {number(record.some, pair[0]), number(record.all, pair[1])};
+  if (record.some != Sort::points) return pair;
+  return {at(mesh_->numbers[record.some], pair[0]), at(mesh_->numbers[record.all], pair[1])};
 }
 
 Candidates Scene::candidates_of(PairKind kind, std::span<const IndexPair> pairs,
